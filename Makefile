@@ -1,0 +1,47 @@
+# The front door. Each target installs what is missing, builds, runs, and ends with one line that says where the result is.
+SHELL  := /bin/bash
+PRESET ?= release
+BUILD  := $(if $(filter release,$(PRESET)),build,build-$(PRESET))
+JOBS   ?= $(shell nproc)
+
+.PHONY: help packages configure build test test-long reports benchmark run format clean
+
+help:
+	@echo "make test                verify: build and run every test (PRESET=dev|asan|tsan for other builds)"
+	@echo "make test-long           the long tests"
+	@echo "make reports             figures, studies and the verification manual: $(BUILD)/reports/index.html"
+	@echo "make benchmark           time the kernels"
+	@echo "make run SCENE=file      run one scene (OUT=folder SET='key=value …')"
+
+packages:
+	@cmake/install_packages.sh
+
+configure: packages
+	@cmake --preset $(PRESET) > configure.log 2>&1 || { cat configure.log; rm -f configure.log; exit 1; }
+	@mv configure.log $(BUILD)/configure.log
+	@echo "configured preset $(PRESET) in $(BUILD) (log: $(BUILD)/configure.log)"
+
+build: configure
+	@cmake --build $(BUILD) --parallel $(JOBS)
+
+test: build
+	@cmake/run_tests.sh $(BUILD) $(JOBS)
+
+test-long: build
+	@cd $(BUILD) && ctest -C Long -L long --output-on-failure --parallel $(JOBS)
+
+reports: build
+	@cmake/make_reports.sh $(BUILD) $(JOBS)
+
+benchmark: build
+	@cmake/run_benchmarks.sh $(BUILD)
+
+run: build
+	@test -n "$(SCENE)" || { echo "make run: name a scene, e.g. make run SCENE=cases/wedge/scene.toml"; exit 2; }
+	@$(BUILD)/app/voussoir run $(SCENE) $(if $(OUT),--out $(OUT)) $(foreach s,$(SET),--set $(s))
+
+format:
+	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
+
+clean:
+	@rm -rf build build-*

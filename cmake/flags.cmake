@@ -1,0 +1,18 @@
+# voussoir_flags: what every target of this project is compiled with.
+# No contraction and no loop vectorisation: g++ 12 fuses multiply-adds otherwise, and the same scene must give the same bits
+# with any compiler and optimisation level.
+add_library(voussoir_flags INTERFACE)
+target_compile_features(voussoir_flags INTERFACE cxx_std_20)
+target_compile_options(voussoir_flags INTERFACE
+  -Wall -Wextra -Wshadow -Wno-psabi
+  -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize> $<$<CXX_COMPILER_ID:Clang>:-fno-vectorize -fno-slp-vectorize>)
+
+set(VOUSSOIR_SANITIZE "" CACHE STRING "sanitizers to build with, e.g. address,undefined")
+if(VOUSSOIR_SANITIZE)
+  target_compile_options(voussoir_flags INTERFACE -fsanitize=${VOUSSOIR_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  target_link_options(voussoir_flags INTERFACE -fsanitize=${VOUSSOIR_SANITIZE})
+endif()
+
+# assertions state invariants and cost little: they stay on in the Release preset
+string(REPLACE "-DNDEBUG" "" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")

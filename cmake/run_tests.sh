@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Runs every short test, then the verdict table; the last lines are CTest's summary and ours.
+set -uo pipefail
+build=$1 jobs=$2
+started=$SECONDS
+(cd "$build" && ctest --output-on-failure --parallel "$jobs" --output-log ctest.log)
+status=$?
+if [ $status -eq 0 ]; then
+  echo "make test: all tests passed in $((SECONDS - started)) s; verdicts: $build/reports/verdicts.md, log: $build/ctest.log"
+else
+  echo "make test: FAILED (see above and $build/ctest.log)"
+fi
+exit $status

@@ -1,0 +1,13 @@
+# voussoir_test(<name> LABEL <label> SOURCES <files…> LIBS <targets…>): one GoogleTest program, one CTest entry.
+function(voussoir_test name)
+  cmake_parse_arguments(arg "" "LABEL" "SOURCES;LIBS" ${ARGN})
+  if(NOT VOUSSOIR_BUILD_TESTS)
+    return()
+  endif()
+  string(REPLACE "." "_" target ${name})
+  add_executable(${target} ${arg_SOURCES})
+  target_link_libraries(${target} PRIVATE voussoir_flags ${arg_LIBS} GTest::gtest_main)
+  target_compile_definitions(${target} PRIVATE VOUSSOIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  add_test(NAME ${name} COMMAND ${target} --gtest_brief=1 WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL})
+endfunction()
