@@ -1,0 +1,57 @@
+// Contact between two convex parts (Boon 2013, chapter 3.3): do they overlap, where, in which direction, how far, how wide.
+#pragma once
+
+#include <span>
+
+#include "core/contact/contact.hpp"
+#include "core/geometry/polytope.hpp"
+#include "core/optimise/solvers.hpp"
+#include "core/settings.hpp"
+
+namespace voussoir {
+
+// Two parts as the first one sees them. Positions were subtracted before, so nothing depends on where the pair lies.
+template <int Dim>
+struct Pair {
+  const Polytope<Dim>* a = nullptr;
+  const Polytope<Dim>* b = nullptr;
+  Matrix<Dim> axes;        // frame of the first body -> world
+  Matrix<Dim> rotation;    // frame of the second body -> frame of the first
+  Vector<Dim> offset;      // centroid of the second body in the frame of the first, m
+  bool needs_area = true;  // whether the joint's law works per area
+};
+
+// work done by the kernel, summed into the state's counters
+struct KernelCounters {
+  long long lp_solves = 0, lp_pivots = 0, newton_iterations = 0, normal_fallbacks = 0, deep_overlaps = 0;
+};
+
+// Resolves each pair into the contact at the same place: status, geometry and warm start. A contact that touched before
+// starts from its old point; a new one starts cold, so its result depends on the pair alone. History is not touched.
+template <int Dim>
+void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& settings, const Solvers<Dim>& solvers,
+                  std::span<Contact<Dim>* const> contacts, KernelCounters& counters);
+
+// ---- the stages, each usable alone; all in one frame, planes of A first ---------------------------------------------
+
+// Planes of both parts in the first body's frame, seen from `origin`.
+template <int Dim>
+void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>& planes);
+
+// Direction from A to B at a point (Eqs 3.31-3.35): difference of the gradients of the parts' inner potentials
+// sum <a·x - d + r>², normalised. False when it vanishes. `fallback` tells that a face normal stood in for a zero gradient.
+template <int Dim>
+bool contact_normal(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, double radius,
+                    Vector<Dim>& normal, bool& fallback);
+
+// Overlap along the normal (Eq. 3.36) and the two faces that end it; false when the search meets no face.
+template <int Dim>
+bool overlap_along(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, const Vector<Dim>& normal,
+                   double& overlap, int& face_a, int& face_b);
+
+// Area (2-D: length) of the section of the overlap region through the point normal to n (App. D, by clipping).
+// `reach` bounds the section, m.
+template <int Dim>
+double section_area(const HalfSpaces<Dim>& planes, const Vector<Dim>& point, const Vector<Dim>& normal, double reach);
+
+}  // namespace voussoir

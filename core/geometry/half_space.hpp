@@ -1,0 +1,37 @@
+// Half-spaces a·x <= d, the only thing a block is made of (Boon 2013, Eq. 3.1).
+#pragma once
+
+#include <vector>
+
+#include "core/geometry/types.hpp"
+
+namespace voussoir {
+
+template <int Dim>
+struct HalfSpace {
+  Vector<Dim> normal;  // unit, outward
+  double offset;       // m
+};
+
+template <int Dim>
+using HalfSpaces = std::vector<HalfSpace<Dim>>;
+
+// distance of a point to the plane, negative inside
+template <int Dim>
+double signed_distance(const HalfSpace<Dim>& plane, const Vector<Dim>& point) {
+  return plane.normal.dot(point) - plane.offset;
+}
+
+// the same half-space seen from an origin moved by `shift`
+template <int Dim>
+HalfSpace<Dim> moved_origin(const HalfSpace<Dim>& plane, const Vector<Dim>& shift) {
+  return {plane.normal, plane.offset - plane.normal.dot(shift)};
+}
+
+// Upward unit normal of a joint plane from its dip (0..pi/2 below horizontal) and dip direction (clockwise from north);
+// x east, y north, z up: (sin dip sin dd, sin dip cos dd, cos dip). In 2-D (x right, y up) the section looks north:
+// dip direction pi/2 dips to the right, 3 pi/2 to the left.
+Vector<3> upward_normal_3d(double dip, double dip_direction);
+Vector<2> upward_normal_2d(double dip, double dip_direction);
+
+}  // namespace voussoir

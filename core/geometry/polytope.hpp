@@ -1,0 +1,65 @@
+// A convex part: its half-spaces and what follows from them. Vertices serve mass, bounds and drawing only; slicing and
+// contact work on the half-spaces.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/geometry/half_space.hpp"
+
+namespace voussoir {
+
+template <int Dim>
+struct MassProperties {
+  double volume = 0;                                   // m³ (2-D: m², unit thickness)
+  Vector<Dim> centroid = Vector<Dim>::Zero();          // m
+  Matrix<Dim> second_moment = Matrix<Dim>::Zero();     // ∫ x xᵀ dV about the origin, m⁵ (2-D: m⁴)
+};
+
+template <int Dim>
+struct Polytope {
+  HalfSpaces<Dim> faces;                    // body frame, none redundant
+  std::vector<int> joints;                  // for each face the joint that made it, or no_joint
+  std::vector<Vector<Dim>> vertices;        // body frame, m
+  std::vector<std::vector<int>> loops;      // vertices of each face, counter-clockwise seen from outside
+  MassProperties<Dim> mass;                 // about the body's origin, per unit density
+  double inscribed_radius = 0;              // Chebyshev radius, m: the size of the part
+  Vector<Dim> centre = Vector<Dim>::Zero(); // its centre, m
+  double radius = 0;                        // largest distance of a vertex from the body's origin, m
+  std::array<int, Dim + 1> basis{};         // faces that touch the inscribed ball: the LP's start
+};
+
+// a face that no joint made: the domain's boundary or a block given directly
+inline constexpr int no_joint = -1;
+
+// Vertices of {x : a·x <= d} (thesis App. B): intersections of Dim planes inside all the others, merged within
+// `tolerance` (m). More than Dim planes through a vertex is normal input.
+template <int Dim>
+std::vector<Vector<Dim>> find_vertices(const HalfSpaces<Dim>& faces, double tolerance);
+
+// For each face the vertices that lie on it within `tolerance`, counter-clockwise seen from outside (2-D: two ends).
+template <int Dim>
+std::vector<std::vector<int>> find_loops(const HalfSpaces<Dim>& faces, const std::vector<Vector<Dim>>& vertices,
+                                         double tolerance);
+
+// Exact integrals over the solid, summed over simplices around the mean vertex so that nothing depends on the origin.
+template <int Dim>
+MassProperties<Dim> integrate(const std::vector<Vector<Dim>>& vertices, const std::vector<std::vector<int>>& loops);
+
+// the same mass properties seen from an origin moved by `shift`
+template <int Dim>
+MassProperties<Dim> moved_origin(const MassProperties<Dim>& mass, const Vector<Dim>& shift);
+
+// area (2-D: length) of a face
+template <int Dim>
+double face_area(const Polytope<Dim>& part, int face);
+
+// the same part seen from an origin moved by `shift`
+template <int Dim>
+Polytope<Dim> moved_origin(Polytope<Dim> part, const Vector<Dim>& shift);
+
+// tensor of inertia about the origin for unit density: 2-D ∫ (x² + y²), 3-D ∫ (|x|² I - x xᵀ)
+Matrix<3> inertia_tensor(const MassProperties<3>& mass);
+double inertia_tensor(const MassProperties<2>& mass);
+
+}  // namespace voussoir

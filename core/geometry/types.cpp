@@ -1,0 +1,45 @@
+#include "core/geometry/types.hpp"
+
+#include <cmath>
+
+namespace voussoir {
+
+Matrix<2> matrix(const Rotation<2>& rotation) {
+  const double c = std::cos(rotation.angle), s = std::sin(rotation.angle);
+  Matrix<2> q;
+  q << c, -s, s, c;
+  return q;
+}
+
+Matrix<3> matrix(const Rotation<3>& rotation) { return rotation.quaternion.toRotationMatrix(); }
+
+Rotation<2> turned(const Rotation<2>& rotation, const Spin<2>& turn) { return {rotation.angle + turn[0]}; }
+
+Rotation<3> turned(const Rotation<3>& rotation, const Spin<3>& turn) {
+  const double angle = turn.norm();
+  // sin(x/2)/x by its series near zero, where the quotient is 0/0
+  const double half_sinc = angle > 1e-4 ? std::sin(0.5 * angle) / angle : 0.5 - angle * angle / 48;
+  const Eigen::Quaterniond q(std::cos(0.5 * angle), half_sinc * turn[0], half_sinc * turn[1], half_sinc * turn[2]);
+  // renormalised, or rounding alone would let the norm drift over 1e7 steps
+  return {(q * rotation.quaternion).normalized()};
+}
+
+Spin<2> rotation_vector(const Rotation<2>& rotation) { return Spin<2>(rotation.angle); }
+
+Spin<3> rotation_vector(const Rotation<3>& rotation) {
+  const Eigen::Quaterniond& q = rotation.quaternion;
+  const double sine = q.vec().norm();
+  if (sine == 0) return Spin<3>::Zero();
+  const double sign = q.w() < 0 ? -1 : 1;
+  return sign * 2 * std::atan2(sine, std::abs(q.w())) / sine * q.vec();
+}
+
+Vector<2> perpendicular(const Vector<2>& n) { return {-n[1], n[0]}; }
+
+Vector<3> perpendicular(const Vector<3>& n) {
+  int axis = 0;
+  n.cwiseAbs().minCoeff(&axis);
+  return n.cross(Vector<3>::Unit(axis)).normalized();
+}
+
+}  // namespace voussoir

@@ -1,0 +1,58 @@
+// Vectors, spins and rotations for Dim = 2 and 3. Lengths in m, angles in rad.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace voussoir {
+
+template <int Dim>
+using Vector = Eigen::Matrix<double, Dim, 1>;
+template <int Dim>
+using Matrix = Eigen::Matrix<double, Dim, Dim>;
+
+// one rotation in the plane, three in space
+template <int Dim>
+inline constexpr int spin_freedoms = Dim == 3 ? 3 : 1;
+
+// rotation vector, angular velocity, angular momentum or moment
+template <int Dim>
+using Spin = Eigen::Matrix<double, spin_freedoms<Dim>, 1>;
+
+// an orientation relative to the reference configuration
+template <int Dim>
+struct Rotation;
+template <>
+struct Rotation<2> {
+  double angle = 0;  // rad, counter-clockwise
+};
+template <>
+struct Rotation<3> {
+  Eigen::Quaterniond quaternion = Eigen::Quaterniond::Identity();
+};
+
+// velocity of a point at lever arm r of a body that spins at w: w × r
+inline Vector<2> cross(const Spin<2>& w, const Vector<2>& r) { return {-w[0] * r[1], w[0] * r[0]}; }
+inline Vector<3> cross(const Spin<3>& w, const Vector<3>& r) { return w.cross(r); }
+
+// moment of a force at lever arm r: r × f
+inline Spin<2> moment(const Vector<2>& r, const Vector<2>& f) { return Spin<2>(r[0] * f[1] - r[1] * f[0]); }
+inline Spin<3> moment(const Vector<3>& r, const Vector<3>& f) { return r.cross(f); }
+
+// the matrix that takes body axes to world axes
+Matrix<2> matrix(const Rotation<2>& rotation);
+Matrix<3> matrix(const Rotation<3>& rotation);
+
+// the rotation followed by a turn about the given rotation vector (world axes)
+Rotation<2> turned(const Rotation<2>& rotation, const Spin<2>& turn);
+Rotation<3> turned(const Rotation<3>& rotation, const Spin<3>& turn);
+
+// rotation vector of an orientation; in 3-D the short way round, length 0..pi
+Spin<2> rotation_vector(const Rotation<2>& rotation);
+Spin<3> rotation_vector(const Rotation<3>& rotation);
+
+// a unit vector perpendicular to a unit vector n; the axis least aligned with n seeds it, so it never vanishes
+Vector<2> perpendicular(const Vector<2>& n);
+Vector<3> perpendicular(const Vector<3>& n);
+
+}  // namespace voussoir

@@ -1,0 +1,37 @@
+// Linear elastic, perfectly plastic Coulomb law (Boon 2013, Eqs 4.1-4.8; decisions in method.md section 4).
+#pragma once
+
+#include "core/geometry/types.hpp"
+#include "core/law/joint_properties.hpp"
+
+namespace voussoir {
+
+// motion of the second body relative to the first at the contact, over the last step
+template <int Dim>
+struct JointKinematics {
+  Vector<Dim> normal;          // unit, from the first to the second
+  double overlap = 0;          // m
+  double area = 0;             // m²; 1 for a constant stiffness
+  double closing_speed = 0;    // m/s
+  Vector<Dim> slip;            // tangential displacement increment, m
+  double turn = 0;             // rad: spin of the two bodies about the normal, 3-D only
+};
+
+template <int Dim>
+struct JointForce {
+  Vector<Dim> force;           // N on the second body
+  double plastic_slip = 0;     // m, of this step
+};
+
+// Carries a shear force to a new contact plane: turned with the normal, then with the bodies' spin about it, its length
+// kept. (Decision: Eq. 4.4 lengthens it on every turn and misses the spin.)
+Vector<2> carried(const Vector<2>& shear, const Vector<2>& old_normal, const Vector<2>& normal, double turn);
+Vector<3> carried(const Vector<3>& shear, const Vector<3>& old_normal, const Vector<3>& normal, double turn);
+
+// Force on the second body. `shear` is its old shear force already carried to the new plane and is updated to the new
+// one. `friction` in rad; `dashpot` in N s/m adds to the normal force, which never pulls.
+template <int Dim>
+JointForce<Dim> elastic_coulomb(const JointProperties& properties, double friction, double dashpot,
+                                const JointKinematics<Dim>& kinematics, Vector<Dim>& shear);
+
+}  // namespace voussoir

@@ -1,0 +1,106 @@
+#include "core/monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace voussoir {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr std::size_t rows_kept = 400;
+const char* const axis_names[] = {"x", "y", "z"};
+
+template <int Dim>
+void append_vector(std::vector<Column>& columns, const std::string& name, const std::string& unit) {
+  for (int k = 0; k < Dim; ++k) columns.push_back({name + "_" + axis_names[k], unit});
+}
+
+// what all touching contacts of a joint carry together
+template <int Dim>
+void append_joint(std::vector<double>& values, int joint, const Model<Dim>& model, const State<Dim>& state) {
+  double normal = 0, shear = 0, area = 0, count = 0, mobilised = 0, tilt = 0, most = 0;
+  for (const Contact<Dim>& c : state.contacts) {
+    if (!c.touching() || c.joint != joint) continue;
+    const double n = c.force.dot(c.geometry.normal), s = c.history.shear_force.norm();
+    normal += n;
+    shear += s;
+    area += c.geometry.area;
+    count += 1;
+    if (n > 0) mobilised = std::max(mobilised, std::atan2(s, n) * degrees);
+    if (n <= most) continue;
+    most = n;
+    const Vector<Dim>& upward = model.joints[joint].plane.normal;
+    const double along = c.geometry.normal.dot(upward);
+    tilt = std::atan2((c.geometry.normal - along * upward).norm(), std::abs(along)) * degrees;
+  }
+  values.insert(values.end(), {normal, shear, area, count, mobilised, tilt});
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
+  std::vector<Column> columns;
+  for (const Monitor& m : monitors) {
+    switch (m.quantity) {
+      case Quantity::displacement: append_vector<Dim>(columns, m.name + "_displacement", "m"); break;
+      case Quantity::velocity: append_vector<Dim>(columns, m.name + "_velocity", "m/s"); break;
+      case Quantity::rotation:
+        if (Dim == 2)
+          columns.push_back({m.name + "_rotation", "deg"});
+        else
+          append_vector<Dim>(columns, m.name + "_rotation", "deg");
+        break;
+      case Quantity::contact_force:
+        columns.push_back({m.name + "_normal_force", "N"});
+        columns.push_back({m.name + "_shear_force", "N"});
+        columns.push_back({m.name + "_area", Dim == 2 ? "m" : "m2"});
+        columns.push_back({m.name + "_contacts", "1"});
+        columns.push_back({m.name + "_mobilised_friction", "deg"});
+        columns.push_back({m.name + "_normal_tilt", "deg"});
+        break;
+    }
+  }
+  return columns;
+}
+
+template <int Dim>
+std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const Model<Dim>& model,
+                                   const State<Dim>& state) {
+  std::vector<double> values;
+  const auto append = [&](const auto& v) { values.insert(values.end(), v.data(), v.data() + v.size()); };
+  for (const Monitor& m : monitors) {
+    switch (m.quantity) {
+      case Quantity::displacement: append(state.motions[m.subject].displacement); break;
+      case Quantity::velocity: append(state.motions[m.subject].velocity); break;
+      case Quantity::rotation: append((degrees * rotation_vector(state.motions[m.subject].rotation)).eval()); break;
+      case Quantity::contact_force: append_joint(values, m.subject, model, state); break;
+    }
+  }
+  return values;
+}
+
+bool StageRecord::due(double time) {
+  if (interval_ > 0) {
+    if (time < next_) return false;
+    next_ = (std::floor(time / interval_) + 1) * interval_;
+    return true;
+  }
+  return step_++ % spacing_ == 0;
+}
+
+void StageRecord::add(std::vector<double> row) {
+  rows_.push_back(std::move(row));
+  if (interval_ > 0 || rows_.size() < rows_kept) return;
+  for (std::size_t i = 0; 2 * i < rows_.size(); ++i) rows_[i] = std::move(rows_[2 * i]);
+  rows_.resize((rows_.size() + 1) / 2);
+  spacing_ *= 2;
+}
+
+template std::vector<Column> monitor_columns<2>(const std::vector<Monitor>&);
+template std::vector<Column> monitor_columns<3>(const std::vector<Monitor>&);
+template std::vector<double> monitor_values<2>(const std::vector<Monitor>&, const Model<2>&, const State<2>&);
+template std::vector<double> monitor_values<3>(const std::vector<Monitor>&, const Model<3>&, const State<3>&);
+
+}  // namespace voussoir

@@ -1,0 +1,45 @@
+// Quantities followed through a simulation.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/results.hpp"
+#include "core/scene/prepared.hpp"
+
+namespace voussoir {
+
+// one column of the history: a name without and with its unit
+struct Column {
+  std::string name, unit;
+  std::string header() const { return unit == "1" ? name : name + "_" + (unit == "m/s" ? "m_per_s" : unit); }
+};
+
+// Columns and present values of all monitors, in order. Displacement and velocity by component, rotation as the rotation
+// vector in degrees. Contact force of a joint: over its touching contacts the sums of normal and of shear force and of area,
+// their number, the largest mobilised friction angle, and the tilt of the contact that carries most against the joint's
+// own normal.
+template <int Dim>
+std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors);
+template <int Dim>
+std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const Model<Dim>& model,
+                                   const State<Dim>& state);
+
+// Rows of a stage. With an interval a row at each; without one it thins itself so that a stage keeps some 200 rows
+// however long it lasts: when full, every second row goes and the spacing doubles.
+class StageRecord {
+ public:
+  explicit StageRecord(double interval) : interval_(interval) {}
+
+  // whether a row is due now; call once a step
+  bool due(double time);
+  void add(std::vector<double> row);
+  std::vector<std::vector<double>> take() { return std::move(rows_); }
+
+ private:
+  double interval_, next_ = 0;
+  long long step_ = 0, spacing_ = 1;
+  std::vector<std::vector<double>> rows_;
+};
+
+}  // namespace voussoir

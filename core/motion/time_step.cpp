@@ -1,0 +1,147 @@
+#include "core/motion/time_step.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voussoir {
+namespace {
+
+template <int Dim>
+inline constexpr int freedoms = Dim + spin_freedoms<Dim>;
+template <int Dim>
+using Stiffness = Eigen::Matrix<double, freedoms<Dim>, freedoms<Dim>>;
+template <int Dim>
+using Jacobian = Eigen::Matrix<double, Dim, freedoms<Dim>>;
+
+// velocity of a point at lever arm r from the body's velocity and spin
+Jacobian<2> jacobian(const Vector<2>& r) {
+  Jacobian<2> j;
+  j << 1, 0, -r[1], 0, 1, r[0];
+  return j;
+}
+
+Jacobian<3> jacobian(const Vector<3>& r) {
+  Jacobian<3> j;
+  j << 1, 0, 0, 0, r[2], -r[1],  //
+      0, 1, 0, -r[2], 0, r[0],   //
+      0, 0, 1, r[1], -r[0], 0;
+  return j;
+}
+
+template <int Dim>
+double largest_face(const Polytope<Dim>& part) {
+  double largest = 0;
+  for (std::size_t f = 0; f < part.faces.size(); ++f)
+    largest = std::max(largest, face_area<Dim>(part, static_cast<int>(f)));
+  return largest;
+}
+
+template <int Dim>
+Matrix<Dim> contact_stiffness(const JointProperties& p, double area, const Vector<Dim>& normal) {
+  const Matrix<Dim> nn = normal * normal.transpose();
+  return (p.constant_stiffness ? 1.0 : area) *
+         (p.normal_stiffness * nn + p.shear_stiffness * (Matrix<Dim>::Identity() - nn));
+}
+
+double stiffest_joint(const std::vector<JointProperties>& properties, double area) {
+  double stiffest = 0;
+  for (const JointProperties& p : properties)
+    stiffest = std::max(stiffest, std::max(p.normal_stiffness, p.shear_stiffness) * (p.constant_stiffness ? 1 : area));
+  return stiffest;
+}
+
+// stiffest square frequency of a body: eigenvalue of M⁻¹K over its free freedoms
+template <int Dim>
+double largest_eigenvalue(const Body<Dim>& body, const Rotation<Dim>& rotation, const Stiffness<Dim>& k) {
+  Stiffness<Dim> mass = Stiffness<Dim>::Zero();
+  mass.template topLeftCorner<Dim, Dim>() = body.mass * Matrix<Dim>::Identity();
+  if constexpr (Dim == 3) {
+    const Matrix<3> axes = matrix(rotation) * body.principal_axes;
+    mass.template bottomRightCorner<3, 3>() = axes * body.inertia.asDiagonal() * axes.transpose();
+  } else {
+    mass(Dim, Dim) = body.inertia[0];
+  }
+  std::vector<int> free;
+  for (int i = 0; i < Dim; ++i)
+    if (body.free_translation[i]) free.push_back(i);
+  for (int i = 0; i < spin_freedoms<Dim>; ++i)
+    if (body.free_rotation[i]) free.push_back(Dim + i);
+  if (free.empty()) return 0;
+  const Eigen::MatrixXd stiffness = k(free, free), inertia = mass(free, free);
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, inertia, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
+
+// adds one contact to a body at lever arm r
+template <int Dim>
+void add(Stiffness<Dim>& k, double factor, const Matrix<Dim>& contact, const Vector<Dim>& r) {
+  const Jacobian<Dim> j = jacobian(r);
+  k += factor * (j.transpose() * contact * j);
+}
+
+}  // namespace
+
+template <int Dim>
+TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
+                                    State<Dim>& state) {
+  std::vector<Stiffness<Dim>> stiffness(model.bodies.size(), Stiffness<Dim>::Zero());
+  std::vector<double> impact(model.bodies.size(), 0.0);  // N/m that may act at the radius
+
+  for (Contact<Dim>& c : state.contacts) {
+    const int ia = model.parts[c.part_a].body, ib = model.parts[c.part_b].body;
+    const Body<Dim>&a = model.bodies[ia], &b = model.bodies[ib];
+    const double factor = a.fixed || b.fixed ? 1 : 2;
+    if (c.touching()) {
+      // room to grow before the next estimate
+      c.area_rated = area_margin * c.geometry.area;
+      const Matrix<Dim> k =
+          contact_stiffness<Dim>(model.properties[c.properties], c.area_rated, c.geometry.normal);
+      const Vector<Dim> between = (b.reference - a.reference) +
+                                  (state.motions[ib].displacement - state.motions[ia].displacement);
+      add<Dim>(stiffness[ia], factor, k, c.geometry.point);
+      add<Dim>(stiffness[ib], factor, k, c.geometry.point - between);
+      continue;
+    }
+    c.area_rated = std::min(largest_face(model.polytope(c.part_a)), largest_face(model.polytope(c.part_b)));
+    const double stiffest = stiffest_joint(model.properties, c.area_rated);
+    impact[ia] += factor * stiffest;
+    impact[ib] += factor * stiffest;
+  }
+
+  state.frequency.assign(model.bodies.size(), 0);
+  double largest = 0;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const Body<Dim>& body = model.bodies[i];
+    if (body.fixed) continue;
+    double eigenvalue = largest_eigenvalue<Dim>(body, state.motions[i].rotation, stiffness[i]);
+    // a body in flight may hit something with its largest face
+    if (eigenvalue == 0 && impact[i] == 0)
+      for (const Polytope<Dim>& part : body.parts)
+        impact[i] = std::max(impact[i], 2 * stiffest_joint(model.properties, largest_face(part)));
+    if (impact[i] > 0) {
+      // k (1/m + r²/I): one spring at the largest lever arm, the smallest moment of inertia
+      const bool turns = std::any_of(body.free_rotation.begin(), body.free_rotation.end(), [](bool f) { return f; });
+      eigenvalue += impact[i] * (1 / body.mass + (turns ? body.radius * body.radius / body.inertia.minCoeff() : 0));
+    }
+    state.frequency[i] = std::sqrt(eigenvalue);
+    largest = std::max(largest, eigenvalue);
+  }
+
+  TimeStepEstimate estimate;
+  const double xi = damping.viscous_ratio;
+  estimate.limit = largest > 0 ? 2 / std::sqrt(largest) * (std::sqrt(1 + xi * xi) - xi)
+                               : std::numeric_limits<double>::infinity();
+  if (settings.time.step)
+    estimate.step = *settings.time.step;
+  else if (largest > 0)
+    estimate.step = settings.time.fraction * estimate.limit;
+  return estimate;
+}
+
+template TimeStepEstimate estimate_time_step<2>(const Model<2>&, const Settings&, const DampingSettings&, State<2>&);
+template TimeStepEstimate estimate_time_step<3>(const Model<3>&, const Settings&, const DampingSettings&, State<3>&);
+
+}  // namespace voussoir

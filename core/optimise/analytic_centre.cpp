@@ -1,0 +1,140 @@
+#include "core/optimise/analytic_centre.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace voussoir {
+namespace {
+
+// below this decrement² a full Newton step cannot leave the region (it stays inside the Dikin ellipsoid)
+constexpr double full_step_decrement = 1.0 / 16;
+
+template <int Dim>
+const Vector<Dim>& largest(const std::vector<Vector<Dim>>& vectors) {
+  return *std::max_element(vectors.begin(), vectors.end(), [](const Vector<Dim>& a, const Vector<Dim>& b) {
+    return a.squaredNorm() < b.squaredNorm();
+  });
+}
+
+// Axes fitted to the scaled normals p = a/s: the first along the largest, the second along the largest remainder. In these
+// axes the Hessian Σ p pᵀ is graded, so that factorising it top down loses nothing, however thin the region is in one
+// direction (face on face) or in two (edge along edge).
+Matrix<2> graded_frame(const std::vector<Vector<2>>& scaled) {
+  const Vector<2> first = largest(scaled).normalized();
+  Matrix<2> frame;
+  frame << first.transpose(), perpendicular(first).transpose();
+  return frame;
+}
+
+Matrix<3> graded_frame(const std::vector<Vector<3>>& scaled) {
+  const Vector<3> first = largest(scaled).normalized();
+  Vector<3> remainder = Vector<3>::Zero();
+  for (const Vector<3>& p : scaled) {
+    const Vector<3> r = p - first.dot(p) * first;
+    if (r.squaredNorm() > remainder.squaredNorm()) remainder = r;
+  }
+  remainder -= first.dot(remainder) * first;
+  const Vector<3> second = remainder.squaredNorm() > 0 ? Vector<3>(remainder.normalized()) : perpendicular(first);
+  Matrix<3> frame;
+  frame << first.transpose(), second.transpose(), first.cross(second).transpose();
+  return frame;
+}
+
+// solves H y = g by LDLᵀ without pivoting; false when H is not positive definite
+template <int Dim>
+bool solve_symmetric(Matrix<Dim> h, Vector<Dim>& g) {
+  for (int k = 0; k < Dim; ++k) {
+    if (!(h(k, k) > 0)) return false;
+    for (int i = k + 1; i < Dim; ++i) {
+      const double factor = h(i, k) / h(k, k);
+      for (int j = k + 1; j <= i; ++j) h(i, j) -= factor * h(j, k);
+      g[i] -= factor * g[k];
+    }
+  }
+  for (int k = Dim - 1; k >= 0; --k) {
+    for (int i = k + 1; i < Dim; ++i) g[k] -= h(i, k) * g[i];
+    g[k] /= h(k, k);
+  }
+  return true;
+}
+
+// work arrays kept between calls: the step allocates nothing
+template <int Dim>
+struct Workspace {
+  std::vector<Vector<Dim>> scaled;  // a/s
+  std::vector<double> slacks;
+};
+
+}  // namespace
+
+template <int Dim>
+CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const CentreRequest<Dim>& request) {
+  static thread_local Workspace<Dim> work;
+  const std::size_t count = planes.size();
+  work.scaled.resize(count);
+  work.slacks.resize(count);
+
+  CentreResult<Dim> result;
+  for (std::size_t i = 0; i < count; ++i) {
+    work.slacks[i] = -signed_distance(planes[i], request.start);
+    if (!(work.slacks[i] > 0)) {
+      result.status = CentreStatus::start_not_interior;
+      return result;
+    }
+  }
+
+  Vector<Dim> moved = Vector<Dim>::Zero();
+  for (; result.iterations < request.limit; ++result.iterations) {
+    for (std::size_t i = 0; i < count; ++i) work.scaled[i] = planes[i].normal / work.slacks[i];
+    const Matrix<Dim> frame = graded_frame(work.scaled);
+
+    // gradient and Hessian of -Σ log s, and Newton's step
+    Vector<Dim> gradient = Vector<Dim>::Zero();
+    Matrix<Dim> hessian = Matrix<Dim>::Zero();
+    for (Vector<Dim>& p : work.scaled) {
+      p = frame * p;
+      gradient += p;
+      hessian += p * p.transpose();
+    }
+    Vector<Dim> step = -gradient;
+    if (!solve_symmetric<Dim>(hessian, step)) {
+      result.status = CentreStatus::singular;
+      return result;
+    }
+
+    // a full step when it is safe, else the largest whose slacks provably stay positive
+    const double decrement = -gradient.dot(step);
+    double length = 1;
+    if (decrement >= full_step_decrement) {
+      double steepest = 0;
+      for (std::size_t i = 0; i < count; ++i)
+        steepest = std::max(steepest, work.scaled[i].dot(step));
+      length = 1 / (1 + steepest);
+    }
+    double least = 1;  // smallest ratio of a new slack to its old value
+    for (std::size_t i = 0; i < count; ++i) {
+      const double ratio = 1 - length * work.scaled[i].dot(step);
+      work.slacks[i] *= ratio;
+      least = std::min(least, ratio);
+    }
+    moved += length * (frame.transpose() * step);
+
+    // a decrement that is negative or a slack that vanished looks like convergence and is not
+    if (!(decrement >= -1e-12) || !(least > 0)) {
+      result.status = CentreStatus::singular;
+      return result;
+    }
+    if (decrement <= request.tolerance * request.tolerance) {
+      ++result.iterations;
+      result.status = CentreStatus::converged;
+      result.point = request.start + moved;
+      return result;
+    }
+  }
+  return result;
+}
+
+template CentreResult<2> solve_analytic_centre<2>(const HalfSpaces<2>&, const CentreRequest<2>&);
+template CentreResult<3> solve_analytic_centre<3>(const HalfSpaces<3>&, const CentreRequest<3>&);
+
+}  // namespace voussoir

@@ -1,0 +1,167 @@
+#include "core/optimise/feasibility.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voussoir {
+namespace {
+
+// multipliers below this are zero but for rounding
+constexpr double multiplier_rounding = 1e-11;
+
+// Tight planes of the dual simplex. With C = columns (a_i, 1) of the basis, C λ = (0, …, 0, 1) and (x, -s) C = d.
+template <int Dim>
+struct Basis {
+  static constexpr int size = Dim + 1;
+  std::array<int, size> planes{};
+  Eigen::Matrix<double, size, size> inverse;
+  Eigen::Matrix<double, size, 1> offsets;
+
+  auto multipliers() const { return inverse.col(Dim); }
+};
+
+// A regular simplex of far planes that encloses everything; numbered -1, -2, … They are a legal start for any input and
+// leave the basis unless the program is unbounded.
+template <int Dim>
+HalfSpace<Dim> far_plane(int k, double distance) {
+  Vector<Dim> n;
+  if (k < Dim)
+    n = -Vector<Dim>::Unit(k);
+  else
+    n = Vector<Dim>::Constant(1 / std::sqrt(static_cast<double>(Dim)));
+  return {n, distance};
+}
+
+template <int Dim>
+double largest_offset(const HalfSpaces<Dim>& planes) {
+  double largest = 0;
+  for (const HalfSpace<Dim>& p : planes) largest = std::max(largest, std::abs(p.offset));
+  return largest;
+}
+
+template <int Dim>
+HalfSpace<Dim> basis_plane(const HalfSpaces<Dim>& planes, int index, double far) {
+  return index >= 0 ? planes[index] : far_plane<Dim>(-1 - index, far);
+}
+
+template <int Dim>
+bool factorise(Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far) {
+  Eigen::Matrix<double, Dim + 1, Dim + 1> columns;
+  for (int k = 0; k <= Dim; ++k) {
+    const HalfSpace<Dim> p = basis_plane(planes, basis.planes[k], far);
+    columns.template block<Dim, 1>(0, k) = p.normal;
+    columns(Dim, k) = 1;
+    basis.offsets[k] = p.offset;
+  }
+  const double determinant = columns.determinant();
+  if (!(std::abs(determinant) > 1e-14)) return false;
+  basis.inverse = columns.inverse();
+  return true;
+}
+
+template <int Dim>
+Basis<Dim> start_basis(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request, double far) {
+  Basis<Dim> basis;
+  if (request.start) {
+    basis.planes = *request.start;
+    if (factorise(basis, planes, far) && basis.multipliers().minCoeff() >= -multiplier_rounding) return basis;
+  }
+  for (int k = 0; k <= Dim; ++k) basis.planes[k] = -1 - k;
+  factorise(basis, planes, far);
+  return basis;
+}
+
+// the tight plane that leaves when the plane (column) enters: the first to lose its multiplier
+template <int Dim>
+int leaving(const Basis<Dim>& basis, const Eigen::Matrix<double, Dim + 1, 1>& mu) {
+  int leave = -1;
+  double best = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= Dim; ++k) {
+    if (mu[k] <= multiplier_rounding) continue;
+    const double ratio = std::max(basis.multipliers()[k], 0.0) / mu[k];
+    // of equal ratios the far planes go first, then the largest pivot
+    if (ratio < best || (ratio == best && mu[k] > mu[leave])) {
+      best = ratio;
+      leave = k;
+    }
+  }
+  return leave;
+}
+
+template <int Dim>
+void pivot(Basis<Dim>& basis, int leave, int enter, double offset, const Eigen::Matrix<double, Dim + 1, 1>& mu) {
+  basis.inverse.row(leave) /= mu[leave];
+  for (int k = 0; k <= Dim; ++k)
+    if (k != leave) basis.inverse.row(k) -= mu[k] * basis.inverse.row(leave);
+  basis.planes[leave] = enter;
+  basis.offsets[leave] = offset;
+}
+
+}  // namespace
+
+template <int Dim>
+FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request) {
+  const int count = static_cast<int>(planes.size());
+  const double far = 1e3 * (largest_offset(planes) + std::numeric_limits<double>::min());
+  const int limit = 10 * (count + Dim + 1) + 50;
+  const int bland_after = limit / 2;
+
+  Basis<Dim> basis = start_basis(planes, request, far);
+  FeasibilityResult<Dim> result;
+  bool exact = true;  // the inverse was just computed, not updated
+  for (; result.pivots < limit; ++result.pivots) {
+    const Eigen::Matrix<double, Dim + 1, 1> solution = basis.inverse.transpose() * basis.offsets;
+    result.point = solution.template head<Dim>();
+    result.value = -solution[Dim];
+
+    // every basis is dual feasible, so its value is a lower bound
+    if (result.value > request.stop_above) {
+      result.status = FeasibilityStatus::separated_early;
+      break;
+    }
+
+    // the most violated plane enters; after many pivots the first violated one, which cannot cycle
+    int enter = -1;
+    double worst = request.tolerance;
+    for (int i = 0; i < count; ++i) {
+      const double violation = planes[i].normal.dot(result.point) - planes[i].offset - result.value;
+      if (violation > worst && std::find(basis.planes.begin(), basis.planes.end(), i) == basis.planes.end()) {
+        worst = violation;
+        enter = i;
+        if (result.pivots > bland_after) break;
+      }
+    }
+    if (enter < 0) {
+      result.status = FeasibilityStatus::optimal;
+      if (exact) break;
+      // updates lose digits: the answer is taken from a fresh inverse of the final basis
+      if (!factorise(basis, planes, far)) break;
+      exact = true;
+      continue;
+    }
+
+    Eigen::Matrix<double, Dim + 1, 1> column;
+    column << planes[enter].normal, 1;
+    const Eigen::Matrix<double, Dim + 1, 1> mu = basis.inverse * column;
+    const int leave = leaving<Dim>(basis, mu);
+    if (leave < 0) break;  // impossible in exact arithmetic: sum(mu) = 1
+    pivot<Dim>(basis, leave, enter, planes[enter].offset, mu);
+    exact = false;
+  }
+
+  result.basis = basis.planes;
+  for (int k = 0; k <= Dim; ++k) {
+    result.multipliers[k] = basis.multipliers()[k];
+    if (basis.planes[k] < 0 && result.multipliers[k] > multiplier_rounding && result.status == FeasibilityStatus::optimal)
+      result.status = FeasibilityStatus::unbounded;
+  }
+  return result;
+}
+
+template FeasibilityResult<1> solve_feasibility<1>(const HalfSpaces<1>&, const FeasibilityRequest<1>&);
+template FeasibilityResult<2> solve_feasibility<2>(const HalfSpaces<2>&, const FeasibilityRequest<2>&);
+template FeasibilityResult<3> solve_feasibility<3>(const HalfSpaces<3>&, const FeasibilityRequest<3>&);
+
+}  // namespace voussoir

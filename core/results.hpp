@@ -1,0 +1,55 @@
+// What a simulation yields, free of files: values with units, the history of the monitors, counters, why it ended.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/state.hpp"
+
+namespace voussoir {
+
+// done: every stage reached its goal; incomplete: a goal was not reached (no equilibrium, no bracket);
+// failed: a numerical failure (a contact without an answer, a non-finite force)
+enum class Outcome { done, incomplete, failed };
+
+struct Value {
+  double value = 0;
+  std::string unit;                      // "deg", "m", "1" …
+  std::optional<double> error_bar;       // same unit: half width of what the method leaves open
+  std::string rule;                      // how it was found; may be empty
+};
+
+struct StageResult {
+  std::string name, kind;                // kind: settle, run, reduce
+  std::string ended;                     // why it stopped, e.g. "equilibrium", "end time", "bracket closed"
+  long long steps = 0;
+  double time = 0;                       // s simulated within the stage
+  double time_step = 0;                  // s at its end
+  double unbalanced = 0;                 // the equilibrium measure at its end
+};
+
+// column names carry their unit: time_s, wedge_displacement_x_m, friction_deg …
+struct History {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+};
+
+struct Results {
+  Outcome outcome = Outcome::done;
+  std::string message;                   // one line: why it is incomplete or failed
+  std::vector<std::pair<std::string, Value>> values;   // in the order found; names unique
+  std::vector<StageResult> stages;
+  History history;
+  Counters counters;
+  double seconds = 0;                    // wall clock
+
+  const Value* find(const std::string& name) const {
+    for (const auto& [key, value] : values)
+      if (key == name) return &value;
+    return nullptr;
+  }
+};
+
+}  // namespace voussoir

@@ -1,0 +1,138 @@
+// Every numerical choice, grouped by room: default, unit, range, what breaks when it is wrong; then the plain plans a
+// scene may state. The reader's key table (scene/keys.cpp) repeats meaning and range for users.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace voussoir {
+
+enum class LpSolver { own, glpk };
+enum class CentreSolver { own, ipopt };
+enum class ContactPoint { analytic_centre, chebyshev };
+
+struct ContactSettings {
+  LpSolver lp = LpSolver::own;
+  CentreSolver centre = CentreSolver::own;
+  ContactPoint point = ContactPoint::analytic_centre;
+
+  // two parts touch when the LP's optimum lies below -tolerance times the smaller inscribed radius; below 64 ulp the sign
+  // is rounding, far above it contacts are found late
+  double tolerance = 1e-13;
+
+  // radius r of the inner potential particle that rounds the normal at edges, times the smaller inscribed radius; must
+  // exceed the largest overlap; large values tilt the normal of face contacts near an edge
+  double potential_radius = 0.02;
+
+  // Newton stops when its decrement before the step is below this; 1e-5 leaves 1e-9 of the overlap
+  double newton_tolerance = 1e-5;
+  int newton_limit = 200;
+
+  // parts closer than this times the smallest inscribed radius are candidates; changes the cost, never the result
+  double skin = 0.1;
+};
+
+struct DampingSettings {
+  // Cundall's non-viscous damping: each force component is lessened by this share when it drives the motion; 0..<1.
+  // Reaches rest quickly, but delays failure; 0 for dynamics
+  double local = 0.7;
+
+  // ratio to critical of the dashpot in every contact's normal direction; 0..; lowers the stable time step
+  double viscous_ratio = 0;
+};
+
+struct TimeSettings {
+  // time step as a share of the limit 2/sqrt(lambda); one-sided contacts gain energy above 0.2 (0.1 without damping)
+  double fraction = 0.2;
+
+  // s; replaces the estimate, for scenes whose step no contact determines
+  std::optional<double> step;
+};
+
+struct EquilibriumSettings {
+  // at rest when for every free body (|unbalanced force| + |momentum| ω) / mean contact force stays below this during
+  // `window` steps, ω² being the body's largest stiffness over mass: at the end of a swing the force shows it, in
+  // the middle the momentum does. Too loose and a slow slide passes as rest
+  double unbalanced = 1e-6;
+  int window = 10;
+};
+
+struct Settings {
+  ContactSettings contact;
+  DampingSettings damping;
+  TimeSettings time;
+  EquilibriumSettings equilibrium;
+  int threads = 1;  // results do not depend on it
+};
+
+// ---- plans: what a scene asks for ---------------------------------------------------------------------------------
+
+// run to equilibrium
+struct SettlePlan {
+  double gravity_ramp = 0;     // s: gravity grows from 0 to full within this time
+  double time_limit = 1e9;     // s
+  long long step_limit = 1'000'000;
+};
+
+// run for a given time
+struct RunPlan {
+  double duration = 0;         // s
+  double gravity_ramp = 0;     // s
+};
+
+enum class ReductionMethod { bisection, steps, rate };
+
+// lower the friction angle of joints until the model fails (method.md section 6)
+struct ReducePlan {
+  ReductionMethod method = ReductionMethod::bisection;
+  std::vector<std::string> properties;       // joint properties to reduce; empty: all
+  double from = 0, to = 0;                   // rad: start (stable) and end of the search
+  double tolerance = 0;                      // rad, bisection: largest bracket at the end
+  double step = 0;                           // rad, steps: decrement
+  double rate = 0;                           // rad/s, rate: speed of reduction
+  double failure_displacement = 0;           // m: a body that has moved this far since the trial began has failed;
+                                             // 0: a tenth of the smallest inscribed radius
+  long long ramp_steps = 500;                // steps over which a trial lowers the friction; few: inertia breaks the path
+  long long step_limit = 1'000'000;          // for one trial
+};
+
+// a choice of bodies: all that satisfy every condition given; sides refer to a joint's upward normal
+struct Selector {
+  bool all = false;
+  std::vector<std::string> names;            // bodies or joints' sides by name
+  std::vector<std::string> above, below;     // joints
+  std::optional<std::vector<double>> inside; // m: a point in the body
+};
+
+// what changes in the model between two stages
+struct Change {
+  std::vector<Selector> fix, release, remove;
+  std::optional<double> friction;            // rad: new friction angle of every joint
+};
+
+struct StagePlan {
+  std::string name;
+  std::variant<SettlePlan, RunPlan, ReducePlan> plan;
+  Change change;                             // applied before the stage begins
+  std::optional<DampingSettings> damping;    // replaces the scene's within this stage
+};
+
+enum class Quantity { displacement, velocity, rotation, contact_force };
+
+// a quantity followed in history.csv: of a body, or the resultant over the contacts of a joint
+struct MonitorPlan {
+  std::string name;
+  Quantity quantity = Quantity::displacement;
+  Selector body;                             // displacement, velocity, rotation
+  std::string joint;                         // contact_force
+};
+
+struct OutputPlan {
+  double history_interval = 0;               // s between rows of history.csv; 0: about 200 rows a stage
+  double frame_interval = 0;                 // s between ParaView frames; 0: at the end of each stage only
+  bool frames = true;
+};
+
+}  // namespace voussoir

@@ -1,0 +1,36 @@
+// From a list of planes to a checked convex part: bounded, solid, without redundant planes.
+#pragma once
+
+#include <vector>
+
+#include "core/geometry/polytope.hpp"
+
+namespace voussoir {
+
+enum class BlockStatus {
+  ok,
+  open,         // the planes do not close a region
+  empty,        // no point satisfies all of them with room to spare
+  flat,         // vertices without volume
+  bad_plane     // a zero or non-finite normal, or a non-finite offset
+};
+
+template <int Dim>
+struct BlockResult {
+  BlockStatus status = BlockStatus::ok;
+  int plane = -1;          // the first offending plane of the input (bad_plane)
+  Polytope<Dim> part;
+};
+
+// Normals are normalised; of planes that coincide the last one, with its joint, is kept (Boon 2013, Eq. 3.8, decided as
+// in method.md section 1). `joints` names the joint of each plane, or no_joint. Coordinates as given: the caller keeps
+// the origin near the block.
+template <int Dim>
+BlockResult<Dim> make_block(const HalfSpaces<Dim>& planes, const std::vector<int>& joints);
+
+// The half-spaces of the convex hull of points. 2-D and 3-D; coplanar points share one plane. Fewer than Dim+1 points or
+// points without volume give an empty list. `hidden` counts the points that are no vertices of the hull.
+template <int Dim>
+HalfSpaces<Dim> hull_planes(const std::vector<Vector<Dim>>& points, int* hidden = nullptr);
+
+}  // namespace voussoir

@@ -1,0 +1,252 @@
+// The stages of a step: each takes what the kernels need out of Model and State and puts their answers back.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "core/contact/broad_phase.hpp"
+#include "core/contact/narrow_phase.hpp"
+#include "core/law/elastic_coulomb.hpp"
+#include "core/motion/integrate.hpp"
+#include "core/motion/time_step.hpp"
+#include "core/step.hpp"
+
+namespace voussoir {
+namespace {
+
+// the second body's centroid seen from the first's: reference positions first, so that small displacements are not lost
+template <int Dim>
+Vector<Dim> between(const Model<Dim>& model, const State<Dim>& state, int a, int b) {
+  return (model.bodies[b].reference - model.bodies[a].reference) +
+         (state.motions[b].displacement - state.motions[a].displacement);
+}
+
+template <int Dim>
+double smallest_size(const Model<Dim>& model) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Body<Dim>& b : model.bodies)
+    if (!b.fixed) smallest = std::min(smallest, b.size);
+  return std::isfinite(smallest) ? smallest : 0;
+}
+
+// how far any point of a body may have moved since the candidates were listed
+template <int Dim>
+double moved(const Body<Dim>& body, const Placement<Dim>& then, const Motion<Dim>& now) {
+  const Matrix<Dim> turn = matrix(now.rotation) - matrix(then.rotation);
+  return (now.displacement - then.displacement).norm() + body.radius * turn.norm();
+}
+
+template <int Dim>
+std::vector<Box<Dim>> boxes(const Model<Dim>& model, const State<Dim>& state, double skin) {
+  std::vector<Box<Dim>> list;
+  for (const PartId& id : model.parts) {
+    const Body<Dim>& body = model.bodies[id.body];
+    list.push_back({Vector<Dim>::Constant(std::numeric_limits<double>::infinity()),
+                    Vector<Dim>::Constant(-std::numeric_limits<double>::infinity()), id.body, body.fixed});
+    if (!body.present) continue;
+    Box<Dim>& box = list.back();
+    const Matrix<Dim> axes = matrix(state.motions[id.body].rotation);
+    for (const Vector<Dim>& v : body.parts[id.part].vertices) {
+      const Vector<Dim> x = axes * v;
+      box.low = box.low.cwiseMin(x);
+      box.high = box.high.cwiseMax(x);
+    }
+    const Vector<Dim> centroid = body.reference + state.motions[id.body].displacement;
+    box.low += centroid - Vector<Dim>::Constant(skin / 2);
+    box.high += centroid + Vector<Dim>::Constant(skin / 2);
+  }
+  return list;
+}
+
+// the joint a contact lies on: of the two faces' joints the later cut
+template <int Dim>
+int joint_of(const Model<Dim>& model, const Contact<Dim>& c) {
+  return std::max(model.polytope(c.part_a).joints[c.geometry.face_a],
+                  model.polytope(c.part_b).joints[c.geometry.face_b]);
+}
+
+double spin_about(const Vector<3>& normal, const Spin<3>& a, const Spin<3>& b) { return 0.5 * normal.dot(a + b); }
+double spin_about(const Vector<2>&, const Spin<2>&, const Spin<2>&) { return 0; }
+
+template <int Dim>
+bool needs_area(const Model<Dim>& model) {
+  return std::any_of(model.properties.begin(), model.properties.end(),
+                     [](const JointProperties& p) { return !p.constant_stiffness; });
+}
+
+template <int Dim>
+void resolve(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, Contact<Dim>& contact,
+             KernelCounters& counters) {
+  const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
+  const Matrix<Dim> axes = matrix(state.motions[a].rotation);
+  const Pair<Dim> pair{&model.polytope(contact.part_a),
+                       &model.polytope(contact.part_b),
+                       axes,
+                       axes.transpose() * matrix(state.motions[b].rotation),
+                       axes.transpose() * between(model, state, a, b),
+                       needs_area(model)};
+  Contact<Dim>* const slot = &contact;
+  narrow_phase<Dim>(std::span(&pair, 1), settings.contact, model.solvers, std::span(&slot, 1), counters);
+  if (contact.touching()) {
+    contact.joint = joint_of(model, contact);
+    contact.properties = contact.joint == no_joint ? model.default_properties : model.joints[contact.joint].properties;
+    return;
+  }
+  contact.history = {};
+  contact.force.setZero();
+  contact.warm.point_known = false;
+}
+
+void add(Counters& total, const KernelCounters& k) {
+  total.lp_solves += k.lp_solves;
+  total.lp_pivots += k.lp_pivots;
+  total.newton_iterations += k.newton_iterations;
+  total.normal_fallbacks += k.normal_fallbacks;
+  total.deep_overlaps += k.deep_overlaps;
+}
+
+}  // namespace
+
+template <int Dim>
+void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  const double skin = settings.contact.skin * smallest_size(model);
+  bool stale = state.built.size() != model.bodies.size();
+  for (std::size_t b = 0; b < model.bodies.size() && !stale; ++b)
+    stale = !model.bodies[b].fixed && moved(model.bodies[b], state.built[b], state.motions[b]) > 0.5 * skin;
+  if (!stale) return;
+
+  // standing candidates keep their record: both lists are in ascending order
+  std::vector<Contact<Dim>> renewed;
+  auto old = state.contacts.begin();
+  for (const auto& [a, b] : overlapping_pairs(boxes(model, state, skin))) {
+    while (old != state.contacts.end() && std::pair(old->part_a, old->part_b) < std::pair(a, b)) ++old;
+    if (old != state.contacts.end() && old->part_a == a && old->part_b == b) {
+      renewed.push_back(*old);
+      continue;
+    }
+    Contact<Dim> fresh;
+    fresh.part_a = a;
+    fresh.part_b = b;
+    renewed.push_back(fresh);
+  }
+  state.contacts = std::move(renewed);
+  state.built.clear();
+  for (const Motion<Dim>& m : state.motions) state.built.push_back({m.displacement, m.rotation});
+  ++state.counters.neighbour_builds;
+}
+
+template <int Dim>
+void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  const int count = static_cast<int>(state.contacts.size());
+  KernelCounters total;
+  if (settings.threads == 1) {
+    for (Contact<Dim>& c : state.contacts) resolve(model, settings, state, c, total);
+    add(state.counters, total);
+  } else {
+    Counters& counters = state.counters;
+#pragma omp parallel num_threads(settings.threads)
+    {
+      KernelCounters own;
+#pragma omp for schedule(static)
+      for (int i = 0; i < count; ++i) resolve(model, settings, state, state.contacts[i], own);
+#pragma omp critical
+      add(counters, own);
+    }
+  }
+  state.counters.contact_evaluations += count;
+  for (const Contact<Dim>& c : state.contacts)
+    if (c.status != ContactStatus::separated && !c.touching()) ++state.counters.unconverged;
+}
+
+template <int Dim>
+void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  // the slip is the one of the step that led here
+  const double dt = state.time_step;
+  for (Contact<Dim>& c : state.contacts) {
+    if (!c.touching()) continue;
+    const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
+    const JointProperties& properties = model.properties[c.properties];
+    const Vector<Dim>& n = c.geometry.normal;
+    const Spin<Dim> spin_a = angular_velocity(model.bodies[a], state.motions[a]);
+    const Spin<Dim> spin_b = angular_velocity(model.bodies[b], state.motions[b]);
+    const Vector<Dim> velocity =
+        state.motions[b].velocity + cross(spin_b, c.geometry.point - between(model, state, a, b)) -
+        state.motions[a].velocity - cross(spin_a, c.geometry.point);
+
+    JointKinematics<Dim> k;
+    k.normal = n;
+    k.overlap = c.geometry.overlap;
+    k.area = properties.constant_stiffness ? 1 : c.geometry.area;
+    k.closing_speed = -velocity.dot(n);
+    k.slip.setZero();
+
+    // a new contact has no shear yet; a standing one carries its own to the new plane
+    const bool standing = !c.history.normal.isZero(0);
+    if (standing) {
+      k.slip = (velocity + k.closing_speed * n) * dt;
+      k.turn = spin_about(n, spin_a, spin_b) * dt;
+      c.history.shear_force = carried(c.history.shear_force, c.history.normal, n, k.turn);
+    }
+
+    double dashpot = 0;
+    if (settings.damping.viscous_ratio > 0) {
+      const double inverse_mass = (model.bodies[a].fixed ? 0 : 1 / model.bodies[a].mass) +
+                                  (model.bodies[b].fixed ? 0 : 1 / model.bodies[b].mass);
+      dashpot = 2 * settings.damping.viscous_ratio * std::sqrt(properties.normal_stiffness * k.area / inverse_mass);
+    }
+    const JointForce<Dim> answer = elastic_coulomb<Dim>(properties, state.schedule.friction[c.properties], dashpot, k,
+                                                        c.history.shear_force);
+    c.force = answer.force;
+    c.history.normal = n;
+    c.history.plastic_slip += answer.plastic_slip;
+  }
+}
+
+template <int Dim>
+void sum_loads(const Model<Dim>& model, State<Dim>& state) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    state.loads[b].force = model.bodies[b].mass * state.schedule.gravity_factor * model.gravity;
+    state.loads[b].moment.setZero();
+  }
+  for (const Contact<Dim>& c : state.contacts) {
+    if (!c.touching()) continue;
+    const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
+    state.loads[a].force -= c.force;
+    state.loads[b].force += c.force;
+    state.loads[a].moment -= moment(c.geometry.point, c.force);
+    state.loads[b].moment += moment(Vector<Dim>(c.geometry.point - between(model, state, a, b)), c.force);
+  }
+}
+
+template <int Dim>
+void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  // within a stage the step only shrinks, as soon as a contact is stiffer than it was chosen for
+  const double last = state.time_step;
+  const bool outgrown = std::any_of(state.contacts.begin(), state.contacts.end(), [](const Contact<Dim>& c) {
+    return c.area_rated < 0 || (c.touching() && c.geometry.area > c.area_rated);
+  });
+  if (outgrown || state.frequency.empty()) {
+    const double step = estimate_time_step(model, settings, settings.damping, state).step;
+    state.step_allowed = state.step_allowed > 0 ? std::min(state.step_allowed, step) : step;
+    if (!(state.step_allowed > 0))
+      throw std::domain_error("no contact and no joint property determines the time step: state time.step_s in the scene");
+  }
+  state.time_step = state.step_allowed;
+
+  const StepTimes times{0.5 * (last + state.time_step), state.time_step};
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.bodies[b].fixed) advance(model.bodies[b], state.loads[b], settings.damping.local, times, state.motions[b]);
+  state.time += state.time_step;
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                     \
+  template void find_neighbours<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
+  template void find_contacts<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);   \
+  template void apply_joint_laws<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
+  template void sum_loads<Dim>(const Model<Dim>&, State<Dim>&);                        \
+  template void move_bodies<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

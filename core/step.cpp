@@ -1,0 +1,27 @@
+#include "core/step.hpp"
+
+namespace voussoir {
+
+template <int Dim>
+void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  // who may touch whom: bounding boxes with a skin, renewed only when a body has left it
+  find_neighbours(model, settings, state);
+
+  // who does: point, normal, overlap and area of each candidate pair, each in its own slot
+  find_contacts(model, settings, state);
+
+  // what the joints answer: overlap and slip to forces, histories renewed
+  apply_joint_laws(model, settings, state);
+
+  // what acts on each body: joint forces in the order of the contacts, then gravity
+  sum_loads(model, state);
+
+  // where that takes it: velocities, then positions and rotations
+  move_bodies(model, settings, state);
+  ++state.counters.steps;
+}
+
+template void step<2>(const Model<2>&, const Settings&, State<2>&);
+template void step<3>(const Model<3>&, const Settings&, State<3>&);
+
+}  // namespace voussoir
