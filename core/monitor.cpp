@@ -93,7 +93,7 @@ bool StageRecord::due(double time) {
 void StageRecord::add(std::vector<double> row) {
   rows_.push_back(std::move(row));
   if (interval_ > 0 || rows_.size() < rows_kept) return;
-  for (std::size_t i = 0; 2 * i < rows_.size(); ++i) rows_[i] = std::move(rows_[2 * i]);
+  for (std::size_t i = 1; 2 * i < rows_.size(); ++i) rows_[i] = std::move(rows_[2 * i]);
   rows_.resize((rows_.size() + 1) / 2);
   spacing_ *= 2;
 }

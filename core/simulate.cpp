@@ -8,13 +8,18 @@
 
 #include "core/monitor.hpp"
 #include "core/reduction/reduction.hpp"
-#include "core/step.hpp"
 
 namespace voussoir {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr long long steps_between_reports = 1000;
+
+// a stage that was run
+struct Executed {
+  std::string kind, ended;
+  RunReport report;
+};
 
 template <int Dim>
 struct Simulation {
@@ -101,26 +106,26 @@ struct Simulation {
     return report;
   }
 
-  std::pair<std::string, RunReport> execute(const SettlePlan& plan) {
+  Executed execute(const SettlePlan& plan) {
     RunGoal goal;
     goal.rest = true;
     goal.time_limit = state.time + plan.time_limit;
     goal.step_limit = plan.step_limit;
     const RunReport report = go(goal, {.gravity_ramp = plan.gravity_ramp, .properties = {}}, 1e300);
     judge(report, report.reason == StopReason::equilibrium);
-    return {"settle", report};
+    return {"settle", describe(report.reason), report};
   }
 
-  std::pair<std::string, RunReport> execute(const RunPlan& plan) {
+  Executed execute(const RunPlan& plan) {
     RunGoal goal;
     goal.end_time = state.time + plan.duration;
     const RunReport report = go(goal, {.gravity_ramp = plan.gravity_ramp, .properties = {}}, goal.end_time);
     judge(report, report.reason == StopReason::end_time);
-    return {"run", report};
+    return {"run", describe(report.reason), report};
   }
 
   // a reduction records the end of each trial; at constant rate, where the trial is the whole stage, all along
-  std::pair<std::string, RunReport> execute(const ReducePlan& plan) {
+  Executed execute(const ReducePlan& plan) {
     StageRecord record(scene.output.history_interval);
     const bool continuous = plan.method == ReductionMethod::rate;
     const StepHook<Dim> record_all = recorder(record, state.time, 1e300);
@@ -146,7 +151,7 @@ struct Simulation {
     } else if (results.outcome != Outcome::failed) {
       fail(Outcome::incomplete, "no bracket: " + report.message);
     }
-    return {"reduce", report.last};
+    return {"reduce", report.bracketed ? "critical friction found" : describe(report.last.reason), report.last};
   }
 
   void begin_stage(const StagePlan& plan) {
@@ -167,11 +172,11 @@ struct Simulation {
     state.schedule.started = state.time;
   }
 
-  void end_stage(const std::string& kind, const RunReport& report) {
+  void end_stage(const std::string& kind, const std::string& ended, const RunReport& report) {
     StageResult r;
     r.name = scene.stages[stage].name;
     r.kind = kind;
-    r.ended = describe(report.reason);
+    r.ended = ended;
     r.steps = state.counters.steps - steps_before;
     r.time = state.time - state.schedule.started;
     r.time_step = state.time_step;
@@ -194,8 +199,8 @@ struct Simulation {
     for (stage = 0; stage < static_cast<int>(scene.stages.size()); ++stage) {
       const StagePlan& plan = scene.stages[stage];
       begin_stage(plan);
-      const auto [kind, report] = std::visit([this](const auto& p) { return execute(p); }, plan.plan);
-      end_stage(kind, report);
+      const Executed done = std::visit([this](const auto& p) { return execute(p); }, plan.plan);
+      end_stage(done.kind, done.ended, done.report);
       if (results.outcome != Outcome::done) break;
     }
     add_final_values();

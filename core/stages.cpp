@@ -1,4 +1,5 @@
-// The stages of a step: each takes what the kernels need out of Model and State and puts their answers back.
+#include "core/stages.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +10,6 @@
 #include "core/law/elastic_coulomb.hpp"
 #include "core/motion/integrate.hpp"
 #include "core/motion/time_step.hpp"
-#include "core/step.hpp"
 
 namespace voussoir {
 namespace {

@@ -1,5 +1,7 @@
 #include "core/step.hpp"
 
+#include "core/stages.hpp"
+
 namespace voussoir {
 
 template <int Dim>

@@ -11,26 +11,4 @@ namespace voussoir {
 template <int Dim>
 void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 
-// ---- its stages (stages.cpp) ----------------------------------------------------------------------------------------
-
-// candidate pairs, listed anew when a body may have moved out of its skin
-template <int Dim>
-void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
-
-// geometry of each candidate; one that separated forgets its history
-template <int Dim>
-void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
-
-// joint forces from overlap and from the slip over the last step
-template <int Dim>
-void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
-
-// contact forces and gravity summed on each body, in the order of the contacts
-template <int Dim>
-void sum_loads(const Model<Dim>& model, State<Dim>& state);
-
-// a time step that today's contacts allow, then velocities, then positions
-template <int Dim>
-void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
-
 }  // namespace voussoir

@@ -179,7 +179,11 @@ Polytope<Dim> moved_origin(Polytope<Dim> part, const Vector<Dim>& shift) {
 }
 
 Matrix<3> inertia_tensor(const MassProperties<3>& mass) {
-  return mass.second_moment.trace() * Matrix<3>::Identity() - mass.second_moment;
+  // not trace - diagonal: a needle's smallest moment would drown in its largest
+  const Matrix<3>& m = mass.second_moment;
+  Matrix<3> tensor = -m;
+  tensor.diagonal() << m(1, 1) + m(2, 2), m(0, 0) + m(2, 2), m(0, 0) + m(1, 1);
+  return tensor;
 }
 
 double inertia_tensor(const MassProperties<2>& mass) { return mass.second_moment.trace(); }

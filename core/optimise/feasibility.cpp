@@ -11,6 +11,10 @@ namespace {
 // multipliers below this are zero but for rounding
 constexpr double multiplier_rounding = 1e-11;
 
+// a plane violated by no more than this share of the coordinates holds: on rounding alone, degenerate bases would pivot
+// for ever
+constexpr double violation_rounding = 16 * std::numeric_limits<double>::epsilon();
+
 // Tight planes of the dual simplex. With C = columns (a_i, 1) of the basis, C λ = (0, …, 0, 1) and (x, -s) C = d.
 template <int Dim>
 struct Basis {
@@ -125,8 +129,10 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
     // the most violated plane enters; after many pivots the first violated one, which cannot cycle
     int enter = -1;
     double worst = request.tolerance;
+    const double reach = result.point.cwiseAbs().maxCoeff() + std::abs(result.value);
     for (int i = 0; i < count; ++i) {
-      const double violation = planes[i].normal.dot(result.point) - planes[i].offset - result.value;
+      const double rounding = violation_rounding * (std::abs(planes[i].offset) + reach);
+      const double violation = planes[i].normal.dot(result.point) - planes[i].offset - result.value - rounding;
       if (violation > worst && std::find(basis.planes.begin(), basis.planes.end(), i) == basis.planes.end()) {
         worst = violation;
         enter = i;

@@ -1,0 +1,198 @@
+// Sliding wedge: the scene's critical friction angle against the closed form and against the elastic-plastic path.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_real_distribution.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "cases/case_tools.hpp"
+#include "reference/wedge/wedge.hpp"
+#include "reference/wedge/wedge_path.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using verification::CaseReport;
+using verification::Check;
+using verification::Kind;
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+// joints and slope face as scene.toml states them
+constexpr double face_dip = 70, face_dip_direction = 182, face_height = 1;
+
+reference::Wedge wedge(double dip_a, double direction_a, double dip_b, double direction_b) {
+  reference::Wedge w;
+  w.a.dip = dip_a / degrees;
+  w.a.dip_direction = direction_a / degrees;
+  w.b.dip = dip_b / degrees;
+  w.b.dip_direction = direction_b / degrees;
+  return w;
+}
+
+const reference::Wedge thesis_wedge = wedge(40, 130, 60, 220);
+
+Check angle_check(const std::string& quantity, Kind kind, const std::string& source, double expected_deg,
+                  double tolerance_deg, const std::string& because) {
+  return {quantity, "deg", kind, source, expected_deg, {tolerance_deg, 0}, because};
+}
+
+// The closed form: rotations restrained, ks = kn/10.
+TEST(Wedge, BisectionFindsTheClosedForm) {
+  CaseReport report("wedge", {"critical friction"});
+  const double expected = *reference::critical_friction(thesis_wedge) * degrees;
+  const SceneRun scene = run("scene.toml");
+  report.reference("critical_friction", expected, "deg");
+  report.record(angle_check("critical friction", Kind::exact, "Hoek & Bray (1974), equal to Boon (2013) section 4.8",
+                            expected, 0.05,
+                            "bracket 0.005, elastic settlement lowers the angle by 0.002 at ks = kn/10, overlap of 0.1 % "
+                            "of the height turns no plane; the rest is room for the sliver contact below the edge"),
+                value(scene, "critical_friction"), cost(scene));
+}
+
+// A block on elastic joints holds a little longer, the more so the stiffer its joints are in shear.
+TEST(Wedge, StiffShearFollowsTheElasticPlasticPath) {
+  CaseReport report("wedge");
+  const reference::WedgeFaces faces =
+      reference::wedge_faces(thesis_wedge, face_dip / degrees, face_dip_direction / degrees, face_height);
+  std::vector<double> ratios{0.1, 0.2, 0.5, 1, 1.5, 2}, found, path;
+  for (const double ratio : ratios) {
+    reference::ElasticPlasticWedge block;
+    block.wedge = thesis_wedge;
+    block.area_a = faces.area_a;
+    block.area_b = faces.area_b;
+    block.shear_stiffness = ratio;
+    path.push_back(reference::elastic_plastic_path(block).critical_friction * degrees);
+    const SceneRun scene = run("scene.toml", {fmt::format("joint_properties.rock.shear_stiffness={}", ratio * 10e6)});
+    found.push_back(value(scene, "critical_friction"));
+    report.record(angle_check(fmt::format("critical friction, ks/kn = {}", ratio), Kind::exact,
+                              "elastic-plastic block with three translations on two faces", path.back(), 0.05,
+                              "bracket 0.005, path steps 0.0003; slip that inertia adds while friction falls loosens the "
+                              "locked shear, by up to 0.03 when it falls at once"),
+                  found.back(), cost(scene));
+  }
+  write_csv("wedge", "stiffness.csv", {"ks_over_kn", "computed_deg", "path_deg"}, {ratios, found, path});
+}
+
+// Friction lowered step by step, as in the thesis: displacement grows without bound at the critical angle.
+TEST(Wedge, StepwiseReduction) {
+  CaseReport report("wedge");
+  const double expected = *reference::critical_friction(thesis_wedge) * degrees;
+  const SceneRun scene = run("steps.toml");
+  report.record(angle_check("critical friction, stepwise", Kind::exact, "Hoek & Bray (1974)", expected, 0.05,
+                            "half a step of 0.05, and the bias of elastic settlement (0.002 at ks = kn/10)"),
+                value(scene, "critical_friction"), cost(scene));
+  std::vector<double> friction = column(scene, "friction_deg", 2), slip;
+  const std::vector<double> x = column(scene, "wedge_displacement_x_m", 2), y = column(scene, "wedge_displacement_y_m", 2),
+                            z = column(scene, "wedge_displacement_z_m", 2);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    slip.push_back(1e3 * std::hypot(x[i] - x[0], y[i] - y[0], z[i] - z[0]));
+  write_csv("wedge", "steps.csv", {"friction_deg", "displacement_mm"}, {friction, slip});
+  write_csv("wedge", "closed_form.csv", {"critical_deg"}, {{expected}});
+}
+
+// The thesis' own stiffness, ks = kn, and its published angle.
+TEST(Wedge, EqualStiffness) {
+  CaseReport report("wedge");
+  const SceneRun scene = run("equal_stiffness.toml");
+  report.record({"critical friction, ks = kn", "deg", Kind::published, "Boon (2013) section 4.8: 33.23; Itasca: 33.19", 33.23,
+                 {0.15, 0}, "their steps and the areas of their faces are not published; Itasca and the thesis differ by "
+                            "0.04, the two ends of the area range by 0.12"},
+                value(scene, "critical_friction"), cost(scene));
+}
+
+// The closed form knows no moments, so a wedge that may turn has no target.
+TEST(Wedge, FreeRotationIsReported) {
+  CaseReport report("wedge");
+  const SceneRun scene = run("free_rotation.toml");
+  const std::string note = "one contact point for each pair, so a face carries no moment: no target (cases.md)";
+  const double turn = std::hypot(value(scene, "wedge_rotation_x"), value(scene, "wedge_rotation_y"),
+                                 value(scene, "wedge_rotation_z"));
+  report.report("critical friction, free rotation", "deg", value(scene, "critical_friction"), note, cost(scene));
+  report.report("rotation at the last stable angle", "deg", turn, note);
+  report.report("tilt of the contact normal on A", "deg", value(scene, "A_normal_tilt"), note);
+  report.report("tilt of the contact normal on B", "deg", value(scene, "B_normal_tilt"), note);
+}
+
+// Where the wedge lies and which way it faces cannot matter.
+TEST(Wedge, TurnedAndMoved) {
+  CaseReport report("wedge");
+  const double here = value(run("scene.toml"), "critical_friction");
+  for (const double turn : {37.0, 211.0}) {
+    const std::vector<std::string> sets{
+        fmt::format("joints.A.dip_direction={}", std::fmod(130 + turn, 360)),
+        fmt::format("joints.B.dip_direction={}", std::fmod(220 + turn, 360)),
+        fmt::format("domain.planes.slope face.dip_direction={}", std::fmod(face_dip_direction + turn, 360))};
+    const SceneRun scene = run("scene.toml", sets);
+    report.record(angle_check(fmt::format("critical friction, turned by {:.0f}", turn), Kind::exact, "identity: rotation",
+                              here, 0.01, "one bracket: rounding may tip a trial at the edge of stability"),
+                  value(scene, "critical_friction"), cost(scene));
+  }
+  const std::string shift_point = "[1000000, -2000000, 2999999]";
+  const std::vector<std::string> sets{"joints.A.point=" + shift_point, "joints.B.point=" + shift_point,
+                                      "domain.planes.slope face.point=" + shift_point,
+                                      "domain.box.min=[999996, -2000004, 2999996]",
+                                      "domain.box.max=[1000004, -1999996, 3000000]"};
+  const SceneRun scene = run("scene.toml", sets);
+  report.record(angle_check("critical friction, moved by 1e6 m", Kind::exact, "identity: translation", here, 0.01,
+                            "one bracket: coordinates are taken from the domain's centre"),
+                value(scene, "critical_friction"), cost(scene));
+}
+
+std::vector<std::string> overrides(const reference::Wedge& w) {
+  const reference::WedgeSolution solution = reference::solve_wedge(w);
+  // a face that dips steeply along the line lets the line daylight
+  const double dip = std::min(85.0, solution.line_plunge * degrees + 30);
+  return {fmt::format("joints.A.dip={:.17g}", w.a.dip * degrees),
+          fmt::format("joints.A.dip_direction={:.17g}", w.a.dip_direction * degrees),
+          fmt::format("joints.B.dip={:.17g}", w.b.dip * degrees),
+          fmt::format("joints.B.dip_direction={:.17g}", w.b.dip_direction * degrees),
+          fmt::format("domain.planes.slope face.dip={:.17g}", dip),
+          fmt::format("domain.planes.slope face.dip_direction={:.17g}", solution.line_trend * degrees)};
+}
+
+// Ten wedges drawn at random, half of them sliding on one plane; borderline ones are reported.
+TEST(Wedge, RandomWedges) {
+  CaseReport report("wedge");
+  boost::random::mt19937_64 random(20131);
+  boost::random::uniform_real_distribution<double> dip(20, 80), direction(0, 360);
+  int both = 0, single = 0, borderline = 0;
+  std::vector<double> expected_deg, found_deg;
+  while (both < 5 || single < 5 || borderline < 3) {
+    const reference::Wedge w = wedge(dip(random), direction(random), dip(random), direction(random));
+    const std::optional<double> critical = reference::critical_friction(w);
+    if (!critical) continue;
+    const reference::WedgeSolution solution = reference::solve_wedge(w);
+    const reference::WedgeClass kind = reference::classify_wedge(w);
+    const bool on_both = solution.mode == reference::WedgeMode::both_planes;
+    int& count = !kind.non_degenerate ? borderline : on_both ? both : single;
+    const int wanted = !kind.non_degenerate ? 3 : 5;
+    // a flat line would leave the model's domain
+    if (count >= wanted || solution.line_plunge * degrees < 15) continue;
+    ++count;
+
+    const SceneRun scene = run("scene.toml", overrides(w));
+    const std::string name = fmt::format("{} wedge {}: {:.0f}/{:03.0f}, {:.0f}/{:03.0f}",
+                                         !kind.non_degenerate ? "borderline" : on_both ? "two-plane" : "one-plane", count,
+                                         w.a.dip * degrees, w.a.dip_direction * degrees, w.b.dip * degrees,
+                                         w.b.dip_direction * degrees);
+    if (!kind.non_degenerate) {
+      report.report(name, "deg", value(scene, "critical_friction"),
+                    fmt::format("closed form {:.3f}; {}", *critical * degrees, kind.reason), cost(scene));
+      continue;
+    }
+    expected_deg.push_back(*critical * degrees);
+    found_deg.push_back(value(scene, "critical_friction"));
+    report.record(angle_check(name, Kind::exact, "Hoek & Bray (1974); " + reference::describe(solution.mode),
+                              *critical * degrees, 0.1,
+                              "bracket 0.005; away from the border between modes the loading path moves the angle by less "
+                              "than 0.1 (elastic-plastic path)"),
+                  value(scene, "critical_friction"), cost(scene));
+  }
+  write_csv("wedge", "random.csv", {"closed_form_deg", "computed_deg"}, {expected_deg, found_deg});
+}
+
+}  // namespace
+}  // namespace voussoir::cases

@@ -1,0 +1,61 @@
+# voussoir_case(<name> SOURCES <files…> [LIBS <targets…>] [FIGURES <x.gp> …])
+#   program case_<name>, CTest entry case.<name> (label case), and per figure report.<x> (label report), which draws
+#   <build>/reports/figures/<x>.svg from the files that the case's test left in <build>/cases/<name>.
+#   Files are looked for beside the calling CMakeLists.txt, then in its folder <name>.
+# voussoir_case_not_modelled(<name> …)
+#   a case that is listed in the verdict table as not yet modelled.
+# The lists end in the global properties VOUSSOIR_CASES and VOUSSOIR_CASES_NOT_MODELLED, so that the summary asks for
+# what should have run, not for what happens to be there.
+
+function(voussoir_case name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBS;FIGURES" ${ARGN})
+  if(arg_UNPARSED_ARGUMENTS OR NOT arg_SOURCES)
+    message(FATAL_ERROR "voussoir_case(${name}): give SOURCES, LIBS, FIGURES and nothing else: ${arg_UNPARSED_ARGUMENTS}")
+  endif()
+  if(NOT VOUSSOIR_BUILD_TESTS)
+    return()
+  endif()
+  _voussoir_case_files(sources ${name} ${arg_SOURCES})
+  _voussoir_case_files(figures ${name} ${arg_FIGURES})
+
+  add_executable(case_${name} ${sources})
+  target_link_libraries(case_${name} PRIVATE
+    voussoir_flags voussoir_verification voussoir::core voussoir_reference ${arg_LIBS} GTest::gtest_main)
+  target_compile_definitions(case_${name} PRIVATE
+    VOUSSOIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VOUSSOIR_CASE_DIR="${PROJECT_SOURCE_DIR}/cases/${name}")
+
+  # the whole program is one entry: its rows replace those of earlier runs
+  set(output ${PROJECT_BINARY_DIR}/cases/${name})
+  file(MAKE_DIRECTORY ${output})
+  add_test(NAME case.${name} COMMAND case_${name} --gtest_brief=1 WORKING_DIRECTORY ${output})
+  set(environment VOUSSOIR_VERDICTS=${PROJECT_BINARY_DIR}/verdicts VOUSSOIR_CASE_OUTPUT=${PROJECT_BINARY_DIR}/cases
+                  VOUSSOIR_FRESH=1)
+  set_tests_properties(case.${name} PROPERTIES LABELS case FIXTURES_SETUP case_${name} ENVIRONMENT "${environment}")
+
+  # a figure is drawn only from a run that passed; without gnuplot it is a named skip
+  foreach(figure ${figures})
+    get_filename_component(stem ${figure} NAME_WE)
+    add_test(NAME report.${stem} WORKING_DIRECTORY ${output}
+      COMMAND ${PROJECT_SOURCE_DIR}/reports/draw.sh ${figure} ${PROJECT_BINARY_DIR}/reports/figures/${stem}.svg)
+    set_tests_properties(report.${stem} PROPERTIES LABELS report FIXTURES_REQUIRED case_${name} SKIP_RETURN_CODE 77)
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY VOUSSOIR_CASES ${name})
+endfunction()
+
+function(voussoir_case_not_modelled)
+  set_property(GLOBAL APPEND PROPERTY VOUSSOIR_CASES_NOT_MODELLED ${ARGN})
+endfunction()
+
+function(_voussoir_case_files result name)
+  set(found)
+  foreach(file ${ARGN})
+    if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+      list(APPEND found ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+    elseif(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/${file})
+      list(APPEND found ${CMAKE_CURRENT_SOURCE_DIR}/${name}/${file})
+    else()
+      message(FATAL_ERROR "voussoir_case(${name}): there is no ${file}")
+    endif()
+  endforeach()
+  set(${result} ${found} PARENT_SCOPE)
+endfunction()

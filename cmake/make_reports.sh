@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# make_reports.sh BUILD JOBS: runs the cases, draws the figures, runs the studies that have changed, builds the manual.
+# Everything is done even after a failure, so that the manual shows it; the status is then not zero.
+set -uo pipefail
+build=$(cd "$1" && pwd) jobs=$2 shown=$1
+source=$(cd "$(dirname "$0")/.." && pwd)
+program=$build/app/voussoir
+reports=$build/reports
+failures=()
+
+echo "cases and figures"
+mkdir -p "$reports"
+rm -f "$reports/verdicts.txt"
+if ! (cd "$build" && ctest -L "case|report" --parallel "$jobs" --output-on-failure --no-tests=error \
+                           --output-log reports.log); then
+  failures+=("cases or figures (log: $shown/reports.log)")
+fi
+
+# what a study's result depends on: its plan, the scenes beside it, and the program
+study_key() {
+  cat "$1"/*.toml "$program" | sha256sum | cut -d ' ' -f 1
+}
+
+shopt -s nullglob
+for plan in "$source"/cases/*/study.toml; do
+  folder=$(dirname "$plan")
+  name=$(basename "$folder")
+  out=$reports/studies/$name
+  log=reports/studies/$name.log
+  mkdir -p "$reports/studies"
+  if [ ! -x "$program" ]; then
+    failures+=("study of $name (the program voussoir is not built)")
+    continue
+  fi
+  key=$(study_key "$folder")
+  if [ -s "$out/study.csv" ] && [ "$(cat "$out/key" 2>/dev/null)" = "$key" ]; then
+    echo "study of $name: unchanged"
+  else
+    echo "study of $name: running"
+    rm -rf "${out:?}"
+    (cd "$source" && "$program" study "cases/$name/study.toml" --out "$out") >"$build/$log" 2>&1
+    status=$?
+    # status 1 says that some settings failed: that is a finding of the study, which its report lists
+    if [ $status -gt 1 ] || [ ! -s "$out/study.csv" ]; then
+      tail -n 5 "$build/$log"
+      failures+=("study of $name (log: $shown/$log)")
+      continue
+    fi
+    echo "$key" >"$out/key"
+  fi
+  rm -f "$out/study.md"
+  "$build/reports/voussoir_study_report" --study "$out/study.csv" --reference "$build/cases/$name/reference.json" \
+      --out "$out" --style "$source/reports" || failures+=("report on the study of $name")
+done
+
+echo "manual"
+rm -f "$reports/scene_keys.md"
+if [ -x "$program" ] && ! "$program" docs >"$reports/scene_keys.md"; then
+  rm -f "$reports/scene_keys.md"
+  failures+=("scene keys (voussoir docs)")
+fi
+"$build/reports/voussoir_manual" --source "$source" --build "$build" || failures+=("manual")
+
+for failure in "${failures[@]}"; do
+  echo "FAILED: $failure"
+done
+verdicts=$(cat "$reports/verdicts.txt" 2>/dev/null || echo "no verdicts")
+if [ ${#failures[@]} -eq 0 ]; then
+  echo "make reports: $verdicts; manual: $shown/reports/index.html"
+else
+  echo "make reports: FAILED (${#failures[@]} above); $verdicts; manual: $shown/reports/index.html"
+  exit 1
+fi

@@ -1,0 +1,83 @@
+#include "reference/small/small.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace voussoir::reference {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw std::invalid_argument(message);
+}
+
+void check(const Incline& incline, double time) {
+  require(incline.angle >= 0 && incline.angle <= pi / 2, "incline: angle must lie in 0..pi/2 radians");
+  require(incline.friction_angle >= 0 && incline.friction_angle < pi / 2,
+          "incline: friction angle must lie in 0..pi/2 radians, pi/2 excluded");
+  require(incline.gravity > 0 && std::isfinite(incline.gravity), "incline: gravity must be positive");
+  require(incline.initial_velocity >= 0 && std::isfinite(incline.initial_velocity),
+          "incline: initial velocity must be finite and down the plane");
+  require(time >= 0 && std::isfinite(time), "incline: time must be finite and not negative");
+}
+
+struct Slide {
+  double acceleration = 0, moving_time = 0;
+};
+
+Slide slide_of(const Incline& incline, double time) {
+  check(incline, time);
+  const double acceleration =
+      incline.gravity * (std::sin(incline.angle) - std::cos(incline.angle) * std::tan(incline.friction_angle));
+  if (acceleration >= 0) return {incline.initial_velocity > 0 || acceleration > 0 ? acceleration : 0, time};
+  return {acceleration, std::min(time, -incline.initial_velocity / acceleration)};
+}
+
+void check(const Column& column) {
+  require(column.blocks >= 1, "column: at least one block");
+  require(column.mass > 0 && std::isfinite(column.mass), "column: mass must be positive");
+  require(column.stiffness > 0 && std::isfinite(column.stiffness), "column: stiffness must be positive");
+  require(std::isfinite(column.gravity), "column: gravity must be finite");
+}
+
+}  // namespace
+
+double incline_critical_friction(const Incline& incline) {
+  check(incline, 0);
+  return incline.angle;
+}
+
+double incline_distance(const Incline& incline, double time) {
+  const auto [acceleration, moving] = slide_of(incline, time);
+  return incline.initial_velocity * moving + acceleration * moving * moving / 2;
+}
+
+double incline_velocity(const Incline& incline, double time) {
+  const auto [acceleration, moving] = slide_of(incline, time);
+  return moving < time ? 0 : incline.initial_velocity + acceleration * moving;
+}
+
+std::vector<double> column_overlaps(const Column& column) {
+  check(column);
+  std::vector<double> overlaps;
+  for (int joint = 0; joint < column.blocks; ++joint)
+    overlaps.push_back((column.blocks - joint) * column.mass * column.gravity / column.stiffness);
+  return overlaps;
+}
+
+double column_frequency(const Column& column, int mode) {
+  check(column);
+  require(mode >= 1 && mode <= column.blocks, "column: mode must lie in 1..blocks");
+  return 2 * std::sqrt(column.stiffness / column.mass) * std::sin((2 * mode - 1) * pi / (2 * (2 * column.blocks + 1)));
+}
+
+std::array<double, 3> box_inertia(double mass, const std::array<double, 3>& edges) {
+  require(mass > 0 && edges[0] > 0 && edges[1] > 0 && edges[2] > 0, "box: mass and edges must be positive");
+  const double x = edges[0] * edges[0], y = edges[1] * edges[1], z = edges[2] * edges[2];
+  return {mass * (y + z) / 12, mass * (z + x) / 12, mass * (x + y) / 12};
+}
+
+}  // namespace voussoir::reference

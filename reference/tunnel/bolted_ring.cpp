@@ -1,0 +1,125 @@
+#include "reference/tunnel/bolted_ring.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_sf_log.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "reference/ode.hpp"
+
+namespace voussoir::reference {
+namespace {
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw std::invalid_argument("bolted ring: " + message);
+}
+
+void check(const BoltedRing& ring, double distance) {
+  require(ring.radius > 0 && std::isfinite(ring.radius), "radius must be positive");
+  require(ring.shear_modulus > 0 && std::isfinite(ring.shear_modulus), "shear modulus must be positive, in Pa");
+  require(ring.poisson_ratio >= 0 && ring.poisson_ratio < 0.5, "Poisson's ratio must lie in 0..0.5, 0.5 excluded");
+  require(std::isfinite(ring.in_situ_pressure), "in-situ pressure must be finite, in Pa");
+  require(ring.bolt_stiffness >= 0 && ring.mean_joint_spacing >= 0 && ring.bolt_length >= 0,
+          "bolt stiffness, mean joint spacing and bolt length must not be negative; use 0 for no bolts");
+  require(ring.tangential_spacing > 0 && ring.longitudinal_spacing > 0,
+          "bolt spacings must be positive; in a plane model the longitudinal one is 1 m");
+  require(distance >= ring.radius && std::isfinite(distance), "distance must be at least the radius");
+}
+
+// Displacement over radius, and its slope by rho.
+struct Displacement {
+  double value = 0, slope = 0;
+};
+
+// Of (rho/b^2) ln(1+b/rho) - 1/b = h(b/rho)/rho with h(x) = (ln(1+x) - x)/x^2: no cancellation for weak bolts.
+Displacement second_solution(double rho, double b) {
+  const double x = b / rho;
+  double h = -0.5;
+  if (x > 0) {
+    gsl_sf_result log_less;  // ln(1+x) - x
+    gsl_set_error_handler_off();
+    if (gsl_sf_log_1plusx_mx_e(x, &log_less) != GSL_SUCCESS)
+      throw std::runtime_error("bolted ring: logarithm failed; check the bolt stiffness");
+    // below 1e-100 the square would underflow, and h is its limit to the last digit
+    if (x > 1e-100) h = log_less.val / (x * x);
+  }
+  return {h / rho, (h + 1 / (1 + x)) / (rho * rho)};
+}
+
+// Radial and hoop stress increments of the rock over 2G, tension positive.
+double radial_increment(Displacement u, double rho, double nu) {
+  return ((1 - nu) * u.slope + nu * u.value / rho) / (1 - 2 * nu);
+}
+double hoop_increment(Displacement u, double rho, double nu) {
+  return ((1 - nu) * u.value / rho + nu * u.slope) / (1 - 2 * nu);
+}
+
+BoltedRingState state_of(const BoltedRing& ring, Displacement u, double rho, bool bolted) {
+  const double beta = bolted ? bolt_relative_stiffness(ring) : 0, nu = ring.poisson_ratio;
+  const double two_g = 2 * ring.shear_modulus;
+  BoltedRingState state;
+  state.convergence = -u.value * ring.radius;
+  state.bolt_force = bolted ? ring.bolt_stiffness * ring.mean_joint_spacing * u.slope : 0;
+  state.radial_stress = ring.in_situ_pressure - two_g * (radial_increment(u, rho, nu) + beta * u.slope / rho);
+  state.hoop_stress = ring.in_situ_pressure - two_g * hoop_increment(u, rho, nu);
+  return state;
+}
+
+}  // namespace
+
+double bolt_relative_stiffness(const BoltedRing& ring) {
+  return ring.bolt_stiffness * ring.mean_joint_spacing /
+         (ring.tangential_spacing * ring.longitudinal_spacing * 2 * ring.shear_modulus);
+}
+
+BoltedRingState bolted_ring_at(const BoltedRing& ring, double distance) {
+  check(ring, distance);
+  const double nu = ring.poisson_ratio, beta = bolt_relative_stiffness(ring), b = beta * (1 - 2 * nu) / (1 - nu);
+  const double end = 1 + ring.bolt_length / ring.radius;
+  const Displacement first_wall{1, 1}, first_end{end, 1}, outer_end{1 / end, -1 / (end * end)};
+  const Displacement second_wall = second_solution(1, b), second_end = second_solution(end, b);
+
+  // rows: stress at the wall, displacement and stress at the end; columns: C1, C2, C3
+  auto total = [&](Displacement u, double rho) { return radial_increment(u, rho, nu) + beta * u.slope / rho; };
+  Eigen::Matrix3d rows;
+  rows << total(first_wall, 1), total(second_wall, 1), 0,   //
+      first_end.value, second_end.value, -outer_end.value,  //
+      total(first_end, end), total(second_end, end), -radial_increment(outer_end, end, nu);
+  const Eigen::Vector3d right(ring.in_situ_pressure / (2 * ring.shear_modulus), 0, 0);
+  const Eigen::Vector3d c = rows.fullPivLu().solve(right);
+
+  const double rho = distance / ring.radius;
+  if (rho > end) return state_of(ring, {c(2) / rho, -c(2) / (rho * rho)}, rho, false);
+  const Displacement second = second_solution(rho, b);
+  return state_of(ring, {c(0) * rho + c(1) * second.value, c(0) + c(1) * second.slope}, rho, true);
+}
+
+BoltedRingState bolted_ring_at_by_ode(const BoltedRing& ring, double distance) {
+  check(ring, distance);
+  const double nu = ring.poisson_ratio, beta = bolt_relative_stiffness(ring), b = beta * (1 - 2 * nu) / (1 - nu);
+  const double end = 1 + ring.bolt_length / ring.radius, rho = distance / ring.radius;
+
+  // With C3 = -1 beyond, the rock's radial increment there is 1/end^2; continuity gives the slope just inside.
+  const double value = -1 / end;
+  const double slope = (1 / (end * end) - nu * value / (end * (1 - 2 * nu))) / ((1 - nu) / (1 - 2 * nu) + beta / end);
+  const OdeRight right = [b](double x, const double* y, double* dy) {
+    dy[0] = y[1];
+    dy[1] = (y[0] - x * y[1]) / (x * (x + b));
+  };
+  auto inside = [&](double x) {
+    const auto y = integrate_ode(right, {value, slope}, end, x);
+    return Displacement{y[0], y[1]};
+  };
+
+  // The problem is linear: scale so that the wall is free.
+  const Displacement wall = inside(1);
+  const double scale =
+      ring.in_situ_pressure / (2 * ring.shear_modulus) / (radial_increment(wall, 1, nu) + beta * wall.slope);
+  const Displacement u = rho > end ? Displacement{-1 / rho, 1 / (rho * rho)} : inside(rho);
+  return state_of(ring, {scale * u.value, scale * u.slope}, rho, rho <= end);
+}
+
+}  // namespace voussoir::reference

@@ -1,0 +1,23 @@
+#pragma once
+// The page of one case: what its folder tells, the checks of the last run, its figures, its scenes and its study.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "verification/verdicts.hpp"
+
+namespace voussoir::reports {
+
+struct Folders {
+  std::filesystem::path source;  // the repository
+  std::filesystem::path build;   // where verdicts, figures and studies were written
+};
+
+// What could not be shown is named on the page, and in `missing`, one sentence each.
+std::string case_page(const Folders& folders, const verification::Verdicts& verdicts,
+                      const verification::CaseStatus& status, std::vector<std::string>& missing);
+
+// The title of the case's README.md, or its name.
+std::string case_title(const Folders& folders, const std::string& case_name);
+
+}  // namespace voussoir::reports

@@ -1,0 +1,39 @@
+#pragma once
+// Small pieces of HTML: escaped text, rendered markdown, inlined figures.
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace voussoir::reports {
+
+// & < > and quotes as entities, for text and attributes.
+std::string escape(std::string_view text);
+
+// Letters, digits and dashes: what an anchor may be called.
+std::string slug(std::string_view text);
+
+// GitHub's markdown with tables as HTML; raw HTML in the text is dropped. Headings move down by `heading_shift` levels.
+// `leave_out_title` drops a heading of the first level at the very start, for a page that has its own.
+std::string markdown_to_html(const std::string& markdown, int heading_shift = 0, bool leave_out_title = false);
+
+// The heading of the first level at the start of a markdown text, as plain text; nothing when there is none.
+std::optional<std::string> markdown_title(const std::string& markdown);
+
+// Passes the target of every image and link of an HTML text to a function. For an image the function may return HTML
+// that replaces the whole element, for a link a new target; nothing leaves an image or link with that target out.
+struct LinkRules {
+  std::function<std::optional<std::string>(const std::string& target, const std::string& caption)> image;
+  std::function<std::optional<std::string>(const std::string& target)> link;
+};
+std::string apply_links(const std::string& html, const LinkRules& rules);
+
+// The <svg> element of a gnuplot file, its ids made unique by `prefix`, so that many stand in one page.
+// Throws std::runtime_error when the file holds no such element.
+std::string inline_svg(const std::filesystem::path& path, const std::string& prefix);
+
+// <figure> with an optional caption (HTML).
+std::string figure(const std::string& content, const std::string& caption);
+
+}  // namespace voussoir::reports

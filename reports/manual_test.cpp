@@ -1,0 +1,91 @@
+// unit.manual: the pieces of the manual, and a page made from a hand-made case folder.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "reports/case_page.hpp"
+#include "reports/html.hpp"
+#include "reports/verdict_tables.hpp"
+
+namespace voussoir::reports {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace verification;
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const std::string svg =
+    "<?xml version=\"1.0\"?>\n<svg xmlns:xlink='x'><defs><circle id='gpDot'/></defs><use xlink:href='#gpDot'/></svg>\n";
+
+TEST(Html, EscapesAndNames) {
+  EXPECT_EQ(escape("a<b & \"c\""), "a&lt;b &amp; &quot;c&quot;");
+  EXPECT_EQ(slug("Not yet modelled"), "not-yet-modelled");
+  EXPECT_EQ(slug("scene.toml"), "scene-toml");
+}
+
+TEST(Html, RendersTablesShiftsHeadingsAndDropsRawHtml) {
+  const std::string text = "# Title\n\n## Problem\n\n| a | b |\n|---|--:|\n| 1 | 2 |\n\n<script>alert(1)</script>\n";
+  const std::string html = markdown_to_html(text, 1, true);
+  EXPECT_FALSE(holds(html, "Title"));
+  EXPECT_TRUE(holds(html, "<h3>Problem</h3>"));
+  EXPECT_TRUE(holds(html, "<td align=\"right\">2</td>"));
+  EXPECT_FALSE(holds(html, "<script>"));
+  EXPECT_EQ(markdown_title(text), "Title");
+  EXPECT_EQ(markdown_title("no title"), std::nullopt);
+}
+
+TEST(Html, MakesIdsOfAFigureUnique) {
+  const fs::path path = fs::path(testing::TempDir()) / "voussoir_figure.svg";
+  write_atomically(path, svg);
+  const std::string text = inline_svg(path, "wedge");
+  EXPECT_TRUE(text.starts_with("<svg"));
+  EXPECT_TRUE(holds(text, "id='wedge-gpDot'"));
+  EXPECT_TRUE(holds(text, "href='#wedge-gpDot'"));
+  write_atomically(path, "");
+  EXPECT_THROW(inline_svg(path, "wedge"), std::runtime_error);
+}
+
+TEST(CasePage, ShowsWhatThereIsAndNamesWhatIsNot) {
+  const fs::path root = fs::path(testing::TempDir()) / "voussoir_page_test";
+  fs::remove_all(root);
+  const Folders folders{root, root / "build"};
+  write_atomically(root / "cases/wedge/README.md",
+                   "# Sliding wedge\n\n## Result\n\n![It slides.](wedge.svg)\n\nSee [the scene](scene.toml), "
+                   "[slump](../slump/README.md) and [the code](wedge_test.cpp).\n");
+  write_atomically(root / "cases/wedge/scene.toml", "a = 1 # < 2\n");
+  write_atomically(root / "cases/wedge/wedge.gp", "");
+  write_atomically(root / "cases/wedge/other.gp", "");
+  write_atomically(root / "build/reports/figures/wedge.svg", svg);
+
+  Verdicts verdicts;
+  verdicts.cases = {{"wedge", CaseState::run}};
+  verdicts.rows = {
+      {"wedge", {"angle", "deg", Kind::exact, "Author 1999", 30.0, {0.1, 0.0}, "two < three"}, 31.0, {}, "abc"}};
+  std::vector<std::string> missing;
+  const std::string page = case_page(folders, verdicts, verdicts.cases[0], missing);
+
+  EXPECT_TRUE(holds(page, "<h2>Sliding wedge</h2>"));
+  EXPECT_TRUE(holds(page, "wedge-wedge-gpDot"));
+  EXPECT_TRUE(holds(page, "<figcaption>It slides.</figcaption>"));
+  EXPECT_TRUE(holds(page, "href=\"#wedge-scene-toml\""));
+  EXPECT_TRUE(holds(page, "href=\"#slump\""));
+  EXPECT_FALSE(holds(page, "href=\"wedge_test.cpp\""));
+  EXPECT_TRUE(holds(page, "because two &lt; three"));
+  EXPECT_TRUE(holds(page, badge("FAILED")));
+  EXPECT_TRUE(holds(page, "a = 1 # &lt; 2"));
+  EXPECT_TRUE(holds(page, "The figure other was not drawn."));
+  EXPECT_EQ(missing.size(), 1u);
+
+  missing.clear();
+  EXPECT_TRUE(holds(case_page(folders, verdicts, {"slump", CaseState::not_run}, missing), badge("not run")));
+  EXPECT_EQ(missing.size(), 2u);  // no README.md, no check
+  missing.clear();
+  EXPECT_TRUE(holds(case_page(folders, verdicts, {"tunnel", CaseState::not_modelled}, missing), "not yet modelled"));
+}
+
+}  // namespace
+}  // namespace voussoir::reports

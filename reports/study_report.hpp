@@ -1,0 +1,76 @@
+#pragma once
+// Joins what a study computed with the reference numbers of the case's test: error against cost, and what to recommend.
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voussoir::reports {
+
+// Smallest error that is drawn and listed, in place of anything closer: a logarithm needs a number above zero, and a
+// thousandth of the finest level below is as good as exact when settings are chosen.
+constexpr double relative_error_floor = 1e-6;
+
+// The accuracies a recommendation is given for.
+constexpr double accuracy_levels[] = {0.05, 0.01, 0.001};
+
+// One line of study.csv: one setting of one knob, one quantity.
+struct StudyRow {
+  std::string sweep, key, value, unit;
+  std::string quantity, result_unit;
+  std::optional<double> result;  // unset when the setting failed
+  double error_bar = 0.0;        // of the result, in its unit: half the bracket of a bisection, …
+  std::string status;            // "ok", or the name of the failure
+  long long contact_evaluations = 0;
+  long long steps = 0;
+  double seconds = 0.0;
+};
+
+struct Reference {
+  double value = 0.0;
+  std::string unit;
+};
+
+struct StudyPoint {
+  StudyRow row;
+  double relative_error = 0.0;        // not below relative_error_floor
+  double relative_error_upper = 0.0;  // error plus error bar: what is safely reached
+  bool pareto = false;                // no other setting is both as cheap and as accurate
+};
+
+struct Recommendation {
+  std::string quantity;
+  double level = 0.0;
+  std::optional<StudyPoint> cheapest;  // unset when no setting reaches the level
+};
+
+struct Study {
+  std::vector<std::string> quantities;  // those with a reference, in order of appearance
+  std::vector<StudyPoint> points;
+  std::vector<StudyRow> failed;
+  std::vector<std::string> unjudged;  // why a quantity has no error: one sentence each
+  std::vector<Recommendation> recommendations;
+};
+
+// Throws std::runtime_error, naming the column or the line, for anything else than the columns of `voussoir study`.
+std::vector<StudyRow> read_study(std::string_view csv);
+
+// {"critical_friction": {"value": 33.357, "unit": "deg"}, …}
+std::map<std::string, Reference> read_references(const nlohmann::json& text);
+
+// Throws std::runtime_error when a unit differs between study and reference, or when no quantity can be judged.
+Study judge_study(const std::vector<StudyRow>& rows, const std::map<std::string, Reference>& references);
+
+std::string study_points_csv(const Study& study);          // for gnuplot
+std::string study_markdown(const Study& study);            // for the manual
+nlohmann::json study_recommendations(const Study& study);  // for programs: key and value per quantity and level
+
+// Sweeps that have points for the quantity, in order of appearance.
+std::vector<std::string> sweeps_of(const Study& study, std::string_view quantity);
+
+// study_<quantity>.svg, with letters, digits and underscores only.
+std::string study_figure_name(std::string_view quantity);
+
+}  // namespace voussoir::reports

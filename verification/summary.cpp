@@ -1,0 +1,63 @@
+// voussoir_summary: gathers the rows of all cases into the verdict table and fails when anything is not as it should
+// be.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cctype>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "verification/verdicts.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace voussoir::verification;
+
+std::string commit_in(const fs::path& file) {
+  if (file.empty() || !fs::exists(file)) return "unknown";
+  std::string commit = read_text(file);
+  while (!commit.empty() && std::isspace(static_cast<unsigned char>(commit.back())))
+    commit.pop_back();
+  return commit.empty() ? "unknown" : commit;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Gathers the verdict rows of all cases into one table."};
+  std::vector<std::string> cases, not_modelled;
+  fs::path rows, out, commit_file;
+  app.add_option("--cases", cases, "the cases that must have run")->delimiter(',')->required();
+  app.add_option("--not-modelled", not_modelled, "cases that are listed but not modelled yet")->delimiter(',');
+  app.add_option("--rows", rows, "folder with <case>.json")->required();
+  app.add_option("--out", out, "folder for verdicts.md, verdicts.csv and verdicts.json")->required();
+  app.add_option("--commit-file", commit_file, "file that holds the commit's name");
+  CLI11_PARSE(app, argc, argv);
+
+  try {
+    const Verdicts verdicts = collect(rows, cases, not_modelled, commit_in(commit_file));
+    write_atomically(out / "verdicts.md", verdict_markdown(verdicts));
+    write_atomically(out / "verdicts.csv", verdict_csv(verdicts));
+    write_atomically(out / "verdicts.json", verdict_json(verdicts).dump(1) + "\n");
+    write_atomically(out / "verdicts.txt", one_line(verdicts) + "\n");
+
+    // name what is wrong before the last line counts it
+    for (const Row& row : verdicts.rows)
+      if (!passed(row))
+        fmt::print("FAILED {}: {} = {} {}, expected {} within {}\n", row.case_name, row.check.quantity,
+                   show(row.computed), row.check.unit, show_expected(row.check),
+                   show(width(row.check.expected, row.check.tolerance)));
+    for (const Failure& failure : verdicts.failures)
+      fmt::print("FAILED {}: {}\n", failure.case_name, failure.message);
+    for (const CaseStatus& status : verdicts.cases)
+      if (status.state == CaseState::not_run) fmt::print("NOT RUN {}\n", status.name);
+    fmt::print("{}: {}\n", one_line(verdicts), (out / "verdicts.md").string());
+    return all_good(verdicts) ? 0 : 1;
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "voussoir_summary: {}\n", problem.what());
+    return 2;
+  }
+}

@@ -1,0 +1,75 @@
+#pragma once
+// All verdicts of one build: what the summary prints and the manual shows.
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "verification/verdict_file.hpp"
+
+namespace voussoir::verification {
+
+enum class CaseState { run, not_run, not_modelled };
+
+struct CaseStatus {
+  std::string name;
+  CaseState state = CaseState::not_run;
+};
+
+// Something that failed without a row of its own: an unreadable file, an exception, rows of a case nobody listed.
+struct Failure {
+  std::string case_name;
+  std::string message;
+};
+
+struct Verdicts {
+  std::string commit;
+  std::vector<CaseStatus> cases;  // in the order of the list
+  std::vector<Row> rows;          // by case in the same order
+  std::vector<Failure> failures;
+};
+
+struct Counts {
+  int passed = 0;
+  int failed = 0;  // rows and failures without a row
+  int reported = 0;
+  int not_run = 0;
+};
+
+// The lists come from CMake, never from the files that happen to be there; a file outside both lists is a failure.
+Verdicts collect(const std::filesystem::path& folder, const std::vector<std::string>& cases,
+                 const std::vector<std::string>& not_modelled, const std::string& commit);
+
+Counts count(const Verdicts& verdicts);
+
+// False when anything failed, a case did not run, or nothing was checked at all.
+bool all_good(const Verdicts& verdicts);
+
+// "12 checks passed, 0 failed, 1 case not run"
+std::string one_line(const Verdicts& verdicts);
+
+std::string verdict_markdown(const Verdicts& verdicts);
+std::string verdict_csv(const Verdicts& verdicts);
+nlohmann::json verdict_json(const Verdicts& verdicts);
+
+// Reads back what verdict_json wrote; throws std::runtime_error when it is not that.
+Verdicts verdicts_from_json(const nlohmann::json& text);
+
+// The tables, in this order: verification is never mixed with validation.
+struct VerdictGroup {
+  std::string title;
+  std::string explanation;
+  std::vector<Kind> kinds;
+};
+const std::vector<VerdictGroup>& verdict_groups();
+bool belongs_to(const Row& row, const VerdictGroup& group);
+
+std::string_view name_of(CaseState state);  // "run", "not run", "not yet modelled"
+
+// Six significant digits, "nan" and "inf" as words.
+std::string show(double value);
+
+// "33.4", for a one-sided check "≤ 33.4".
+std::string show_expected(const Check& check);
+
+}  // namespace voussoir::verification
