@@ -15,6 +15,9 @@ constexpr double multiplier_rounding = 1e-11;
 // for ever
 constexpr double violation_rounding = 16 * std::numeric_limits<double>::epsilon();
 
+// a multiplier below this is negative: its basis bounds nothing
+constexpr double negative_multiplier = -8 * std::numeric_limits<double>::epsilon();
+
 // Tight planes of the dual simplex. With C = columns (a_i, 1) of the basis, C λ = (0, …, 0, 1) and (x, -s) C = d.
 template <int Dim>
 struct Basis {
@@ -162,6 +165,14 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
     result.multipliers[k] = basis.multipliers()[k];
     if (basis.planes[k] < 0 && result.multipliers[k] > multiplier_rounding && result.status == FeasibilityStatus::optimal)
       result.status = FeasibilityStatus::unbounded;
+  }
+
+  // A degenerate start (two opposite faces carry all) can end with multipliers that are negative by more than rounding,
+  // which would shift the value by as much: then the far planes start anew.
+  if (request.start && *std::min_element(result.multipliers.begin(), result.multipliers.end()) < negative_multiplier) {
+    const int spent = result.pivots;
+    result = solve_feasibility<Dim>(planes, {nullptr, request.stop_above, request.tolerance});
+    result.pivots += spent;
   }
   return result;
 }

@@ -1,0 +1,318 @@
+// The program as its users meet it: arguments in, files, messages and exit codes out.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/run_scene.hpp"
+
+namespace voussoir {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path scenes = fs::path(VOUSSOIR_SOURCE_DIR) / "app/testing";
+
+std::string read(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+struct Ended {
+  int code = -1;
+  std::string out, err;
+};
+
+// every test works in an empty folder of its own
+class Program : public ::testing::Test {
+ protected:
+  Program() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~Program() override { fs::remove_all(folder_); }
+
+  Ended run(const std::string& arguments) const {
+    const std::string command =
+        fmt::format("cd '{}' && '{}' {} >../{}.out 2>../{}.err </dev/null", folder_.string(), VOUSSOIR_PROGRAM,
+                    arguments, folder_.filename().string(), folder_.filename().string());
+    const int status = std::system(command.c_str());
+    Ended ended{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder_.string() + ".out"),
+                read(folder_.string() + ".err")};
+    fs::remove(folder_.string() + ".out");
+    fs::remove(folder_.string() + ".err");
+    return ended;
+  }
+  nlohmann::json results(const std::string& where) const {
+    return nlohmann::json::parse(read(folder_ / where / "results.json"));
+  }
+  double settlement(const std::string& where) const {
+    return results(where)["values"]["top_displacement_z"]["value"].get<double>();
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  bool folder_is_empty() const { return fs::is_empty(folder_); }
+
+  const std::string cubes_ = "'" + (scenes / "two_cubes.toml").string() + "' ";
+  const std::string squares_ = "'" + (scenes / "two_squares.toml").string() + "' ";
+  const fs::path folder_ = fs::temp_directory_path() / fmt::format("voussoir_cli_{}", ::getpid());
+};
+
+void expect_one_line(const Ended& ended, int code, const std::string& part) {
+  EXPECT_EQ(ended.code, code) << ended.err;
+  EXPECT_EQ(lines_of(ended.err).size(), 1u) << ended.err;
+  EXPECT_NE(ended.err.find(part), std::string::npos) << ended.err;
+}
+
+// ---- run ----------------------------------------------------------------------------------------------------------
+
+TEST_F(Program, RunWritesResultsThatOpen) {
+  const Ended ended = run("run " + cubes_);
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.err, "") << "no progress where nobody watches";
+  EXPECT_NE(ended.out.find("done"), std::string::npos);
+  EXPECT_NE(ended.out.find("results: results/two_cubes"), std::string::npos) << ended.out;
+
+  const std::string where = "results/two_cubes";
+  for (const char* name : {"results.json", "history.csv", "scene.toml", "blocks.pvd", "contacts.pvd",
+                           "frames/blocks_0000.vtp", "frames/contacts_0000.vtp"})
+    EXPECT_TRUE(fs::exists(folder_ / where / name)) << name;
+  EXPECT_EQ(results(where)["status"], "done");
+  // weight over stiffness: 20 kN / 100 MN/m
+  EXPECT_NEAR(settlement(where), -2e-4, 1e-8);
+  EXPECT_EQ(lines_of(read(folder_ / where / "history.csv")).front(),
+            "time_s,stage,friction_deg,top_displacement_x_m,top_displacement_y_m,top_displacement_z_m");
+}
+
+TEST_F(Program, TheEffectiveSceneRunsAgain) {
+  ASSERT_EQ(run("run " + cubes_ + "--out first --set joint_properties.rock.normal_stiffness=2e8").code, 0);
+  EXPECT_NEAR(settlement("first"), -1e-4, 1e-8);
+  ASSERT_EQ(run("run first/scene.toml --out second").code, 0);
+  EXPECT_EQ(results("first")["input_hash"], results("second")["input_hash"]);
+  EXPECT_EQ(settlement("first"), settlement("second"));
+}
+
+TEST_F(Program, ScenesInThePlaneRunToo) {
+  EXPECT_EQ(run("run " + squares_ + "--out out").code, 0);
+  EXPECT_EQ(results("out")["dimension"], 2);
+}
+
+TEST_F(Program, ThreadsDoNotChangeTheResults) {
+  ASSERT_EQ(run("run " + cubes_ + "--out one --threads 1").code, 0);
+  ASSERT_EQ(run("run " + cubes_ + "--out two --threads 2").code, 0);
+  nlohmann::json one = results("one"), two = results("two");
+  one.erase("timing");
+  two.erase("timing");
+  EXPECT_EQ(one, two);
+  EXPECT_EQ(read(folder_ / "one/history.csv"), read(folder_ / "two/history.csv"));
+}
+
+TEST_F(Program, ResultsAreNotOverwrittenUnasked) {
+  ASSERT_EQ(run("run " + cubes_ + "--out out").code, 0);
+  const std::string before = read(folder_ / "out/results.json");
+  expect_one_line(run("run " + cubes_ + "--out out --set stage.settle.step_limit=5"), 2, "--overwrite");
+  EXPECT_EQ(read(folder_ / "out/results.json"), before);
+
+  // frames of a longer run must not survive in a shorter one's folder
+  write("out/frames/blocks_0007.vtp", "old");
+  write("out/notes.txt", "mine");
+  EXPECT_EQ(run("run " + cubes_ + "--out out --overwrite").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out/frames/blocks_0007.vtp"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/notes.txt"));
+}
+
+TEST_F(Program, BadInputWritesNothing) {
+  expect_one_line(run("run nowhere.toml --out out"), 2, "nowhere.toml");
+  expect_one_line(run("run " + cubes_ + "--out out --set densty=1"), 2, "density");
+  expect_one_line(run("run " + cubes_ + "--out out --set density=-1"), 2, "density");
+  expect_one_line(run("run " + cubes_ + "--out out --set joints.bad.dip=1"), 2, "bed");
+  EXPECT_TRUE(folder_is_empty());
+}
+
+TEST_F(Program, AGoalNotReachedIsOne) {
+  const Ended ended = run("run " + cubes_ + "--out out --set stage.settle.step_limit=5");
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  EXPECT_EQ(results("out")["status"], "incomplete");
+  EXPECT_NE(results("out")["message"], "");
+  EXPECT_NE(ended.out.find("incomplete"), std::string::npos);
+}
+
+TEST_F(Program, ANumericalFailureIsFour) {
+  const Ended ended = run("run " + cubes_ + "--out out --set contact.newton_limit=1");
+  EXPECT_EQ(ended.code, 4) << ended.err;
+  EXPECT_EQ(results("out")["status"], "failed");
+  EXPECT_GT(results("out")["counters"]["unconverged"], 0);
+}
+
+TEST_F(Program, AnUnwritableFolderIsFive) {
+  write("file", "");
+  expect_one_line(run("run " + cubes_ + "--out file/out"), 5, "cannot write 'file/out'");
+  expect_one_line(run("slice " + cubes_ + "--out file"), 5, "cannot write 'file'");
+}
+
+TEST_F(Program, QuietSaysNothing) {
+  const Ended ended = run("run " + cubes_ + "--out out --quiet");
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(ended.out + ended.err, "");
+  expect_one_line(run("run " + cubes_ + "--out short --quiet --set stage.settle.step_limit=5"), 1, "incomplete");
+}
+
+TEST_F(Program, OutsideSolversAgreeOrSayThatTheyAreMissing) {
+  ASSERT_EQ(run("run " + cubes_ + "--out own").code, 0);
+  const std::pair<std::string, std::string> choices[] = {{"glpk", "contact.lp=glpk"},
+                                                         {"ipopt", "contact.centre=ipopt"}};
+  for (const auto& [name, built_in] : features()) {
+    for (const auto& [solver, setting] : choices) {
+      if (solver != name) continue;
+      const Ended ended = run("run " + cubes_ + "--out " + name + " --set " + setting);
+      if (built_in) {
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        EXPECT_NEAR(settlement(name), settlement("own"), 1e-9);
+      } else {
+        expect_one_line(ended, 2, "is not built in");
+      }
+    }
+  }
+}
+
+// ---- check, slice, docs, the command line -------------------------------------------------------------------------
+
+TEST_F(Program, CheckTellsWhatIsActive) {
+  const Ended ended = run("check " + cubes_);
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  for (const char* part : {"2: 1 free, 1 fixed", "bed: dip/dip direction 0/0, 2 faces", "local 0.7", "not active",
+                           "about 0.0002 m", "no warnings"})
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+  EXPECT_TRUE(folder_is_empty());
+
+  const Ended soft = run("check " + cubes_ + "--set joint_properties.rock.normal_stiffness=1e6");
+  EXPECT_EQ(soft.code, 0);
+  EXPECT_NE(soft.out.find("warning: blocks sink by"), std::string::npos) << soft.out;
+  expect_one_line(run("check " + cubes_ + "--set gravity=down"), 2, "gravity");
+}
+
+TEST_F(Program, SliceListsTheBlocks) {
+  EXPECT_EQ(run("slice " + cubes_ + "--out out").code, 0);
+  const std::vector<std::string> rows = lines_of(read(folder_ / "out/blocks.csv"));
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0], "body,name,volume_m3,faces,inscribed_radius_m,fixed,x_m,y_m,z_m");
+  EXPECT_EQ(rows[1].substr(0, 5), "0,,1,");
+  EXPECT_TRUE(fs::exists(folder_ / "out/blocks.vtp"));
+}
+
+TEST_F(Program, DocsNameTheKeys) {
+  const Ended ended = run("docs");
+  EXPECT_EQ(ended.code, 0);
+  for (const char* key : {"joint_properties", "normal_stiffness", "dip_direction"})
+    EXPECT_NE(ended.out.find(key), std::string::npos) << key;
+}
+
+TEST_F(Program, VersionTellsWhatIsBuiltIn) {
+  const Ended ended = run("--version");
+  EXPECT_EQ(ended.code, 0);
+  for (const auto& [name, built_in] : features())
+    EXPECT_NE(ended.out.find(fmt::format("{:<7} {}", name, built_in ? "yes" : "no")), std::string::npos) << ended.out;
+}
+
+TEST_F(Program, WrongArgumentsAreBadInput) {
+  EXPECT_EQ(run("").code, 2);
+  EXPECT_EQ(run("fly").code, 2);
+  EXPECT_EQ(run("run " + cubes_ + "--threads 0").code, 2);
+  EXPECT_EQ(run("run " + cubes_ + "--no-such-option").code, 2);
+  EXPECT_EQ(run("run --help").code, 0);
+  EXPECT_TRUE(folder_is_empty());
+}
+
+// ---- study --------------------------------------------------------------------------------------------------------
+
+const char* const plan = R"(
+scene = "scene.toml"
+quantity = "top_displacement_z"
+[[sweep]]
+name = "stiffness"
+key = "joint_properties.rock.normal_stiffness"
+values = [1e8, 2e8]
+unit = "Pa/m"
+extrapolate = { power = 1 }
+)";
+
+TEST_F(Program, AStudyHasARowForEverySetting) {
+  write("scene.toml", read(scenes / "two_cubes.toml"));
+  write("study.toml", plan);
+  const Ended ended = run("study study.toml --out out");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  const std::vector<std::string> rows = lines_of(read(folder_ / "out/study.csv"));
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0],
+            "sweep,key,value,unit,quantity,result,error_bar,result_unit,status,contact_evaluations,steps,seconds");
+  EXPECT_EQ(
+      rows[1].find("stiffness,joint_properties.rock.normal_stiffness,100000000,Pa/m,top_displacement_z,-0.0001999"), 0u)
+      << rows[1];
+  EXPECT_NE(rows[2].find(",m,ok,"), std::string::npos);
+
+  // through (1, -2) and (2, -1): -3 at zero
+  EXPECT_NE(rows[3].find("extrapolated 100000000->200000000,Pa/m,top_displacement_z,-0.000"), std::string::npos)
+      << rows[3];
+  std::istringstream cells(rows[3]);
+  std::string cell;
+  for (int k = 0; k < 6; ++k)
+    std::getline(cells, cell, ',');
+  EXPECT_NEAR(std::stod(cell), -3e-4, 1e-8);
+}
+
+TEST_F(Program, AFailedSettingIsARowToo) {
+  write("scene.toml", read(scenes / "two_cubes.toml"));
+  write("study.toml", R"(
+scene = "scene.toml"
+quantity = "top_displacement_z"
+[[sweep]]
+name = "patience"
+key = "stage.settle.step_limit"
+values = [5, 100000]
+set = ["damping.local=0.6"]
+)");
+  EXPECT_EQ(run("study study.toml --out out --quiet").code, 1);
+  const std::vector<std::string> rows = lines_of(read(folder_ / "out/study.csv"));
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_NE(rows[1].find("top_displacement_z,,,,"), std::string::npos) << rows[1];
+  EXPECT_NE(rows[1].find("incomplete: stage settle"), std::string::npos) << rows[1];
+  EXPECT_NE(rows[2].find(",ok,"), std::string::npos) << rows[2];
+}
+
+TEST_F(Program, AStudyIsReadStrictly) {
+  write("scene.toml", read(scenes / "two_cubes.toml"));
+  const std::pair<std::string, std::string> edits[] = {
+      {"unit", "units"},
+      {"values = [1e8, 2e8]", "values = 3"},
+      {"power = 1", "power = 0"},
+      {"[[sweep]]", "[sweep]"},
+      {"\"joint_properties.rock.normal_stiffness\"", "\"joint_properties.rock.stiffness\""},
+      {"values = [1e8, 2e8]", "values = [1e8, -2e8]"},
+      {"\"scene.toml\"", "\"no.toml\""}};
+  for (const auto& [from, to] : edits) {
+    std::string text = plan;
+    text.replace(text.find(from), from.size(), to);
+    write("study.toml", text);
+    const Ended ended = run("study study.toml --out out");
+    expect_one_line(ended, 2, "");
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << to;
+  }
+  write("study.toml", "scene = \"scene.toml\"\nquantity = \"x\"\nswep = []\n");
+  expect_one_line(run("study study.toml --out out"), 2, "study.toml:3: swep = []: no such key; did you mean 'sweep'?");
+}
+
+}  // namespace
+}  // namespace voussoir

@@ -1,0 +1,242 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/commands/commands.hpp"
+#include "app/commands/plausibility.hpp"
+#include "app/run_scene.hpp"
+
+namespace voussoir {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+// one labelled line; the label only where the block of lines begins
+void line(const char* label, const std::string& text) {
+  fmt::print("  {:<12}{}\n", label, text);
+}
+
+template <int Dim>
+std::string vector_text(const Vector<Dim>& v) {
+  std::string text;
+  for (int k = 0; k < Dim; ++k)
+    text += fmt::format("{}{:g}", k ? ", " : "", v[k] + 0.0);
+  return "(" + text + ")";
+}
+
+std::string orientation(const Vector<2>& normal) {
+  return fmt::format("dip {:g} to the {}", std::acos(std::min(1.0, normal[1])) * degrees,
+                     normal[0] < 0 ? "left" : "right");
+}
+
+std::string orientation(const Vector<3>& normal) {
+  const double direction = std::atan2(normal[0], normal[1]) * degrees;
+  return fmt::format("dip/dip direction {:.4g}/{:.4g}", std::acos(std::min(1.0, normal[2])) * degrees,
+                     direction < 0 ? direction + 360 : direction);
+}
+
+template <int Dim>
+void print_blocks(const Model<Dim>& model) {
+  int fixed = 0, restrained = 0, parts = 0;
+  double smallest = 1e300, largest = 0, volume = 0, mass = 0;
+  for (const Body<Dim>& body : model.bodies) {
+    fixed += body.fixed;
+    const auto held = [](bool free) { return !free; };
+    restrained += !body.fixed && (std::any_of(body.free_translation.begin(), body.free_translation.end(), held) ||
+                                  std::any_of(body.free_rotation.begin(), body.free_rotation.end(), held));
+    parts += static_cast<int>(body.parts.size());
+    smallest = std::min(smallest, body.size);
+    largest = std::max(largest, body.size);
+    for (const Polytope<Dim>& part : body.parts)
+      volume += part.mass.volume;
+    if (!body.fixed) mass += body.mass;
+  }
+  const int count = static_cast<int>(model.bodies.size());
+  line("blocks", fmt::format("{}: {} free{}, {} fixed", count, count - fixed,
+                             restrained ? fmt::format(" ({} of them restrained)", restrained) : "", fixed));
+  if (parts != count) line("", fmt::format("of {} convex parts", parts));
+  line("", fmt::format("inscribed radius {:.4g} to {:.4g} m; {} {:.6g} {}; free mass {:.6g} {}", smallest, largest,
+                       Dim == 3 ? "volume" : "area", volume, Dim == 3 ? "m³" : "m²", mass, Dim == 3 ? "kg" : "kg/m"));
+  std::string names;
+  for (const Body<Dim>& body : model.bodies)
+    if (!body.name.empty()) names += (names.empty() ? "" : ", ") + body.name;
+  if (!names.empty()) line("", "named: " + names);
+}
+
+template <int Dim>
+void print_joints(const Model<Dim>& model) {
+  const char* label = "joints";
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    int faces = 0;
+    for (const Body<Dim>& body : model.bodies)
+      for (const Polytope<Dim>& part : body.parts)
+        faces += static_cast<int>(std::count(part.joints.begin(), part.joints.end(), static_cast<int>(j)));
+    const Joint<Dim>& joint = model.joints[j];
+    line(label, fmt::format("{}: {}, {} faces, properties {}", joint.name, orientation(joint.plane.normal), faces,
+                            model.properties[joint.properties].name));
+    label = "";
+  }
+  label = "properties";
+  for (const JointProperties& p : model.properties) {
+    line(label, fmt::format("{}: normal {:g}, shear {:g} {}, friction {:g} deg", p.name, p.normal_stiffness,
+                            p.shear_stiffness, p.constant_stiffness ? "N/m" : "Pa/m", p.friction * degrees));
+    label = "";
+  }
+}
+
+std::string damping_text(const DampingSettings& damping) {
+  std::string text;
+  if (damping.local > 0) text = fmt::format("local {:g}", damping.local);
+  if (damping.viscous_ratio > 0) text += fmt::format("{}viscous {:g}", text.empty() ? "" : ", ", damping.viscous_ratio);
+  return text.empty() ? "none" : text;
+}
+
+struct PlanText {
+  std::string operator()(const SettlePlan& plan) const { return "settle until at rest" + ramp(plan.gravity_ramp); }
+  std::string operator()(const RunPlan& plan) const {
+    return fmt::format("run for {:g} s", plan.duration) + ramp(plan.gravity_ramp);
+  }
+  std::string operator()(const ReducePlan& plan) const {
+    std::string of = "all joint properties";
+    if (!plan.properties.empty()) of = fmt::format("{}", fmt::join(plan.properties, ", "));
+    const std::string failure = plan.failure_displacement > 0 ? fmt::format("{:g} m", plan.failure_displacement)
+                                                              : std::string("a tenth of the smallest inscribed radius");
+    return fmt::format("reduce the friction of {} from {:g} to {:g} deg {}; failed after {}", of, plan.from * degrees,
+                       plan.to * degrees, how(plan), failure);
+  }
+  static std::string ramp(double seconds) {
+    return seconds > 0 ? fmt::format(", gravity put on within {:g} s", seconds) : "";
+  }
+  static std::string how(const ReducePlan& plan) {
+    switch (plan.method) {
+      case ReductionMethod::bisection:
+        return fmt::format("by bisection to {:g} deg", plan.tolerance * degrees);
+      case ReductionMethod::steps:
+        return fmt::format("in steps of {:g} deg", plan.step * degrees);
+      case ReductionMethod::rate:
+        return fmt::format("at {:g} deg/s", plan.rate * degrees);
+    }
+    return "";
+  }
+};
+
+std::string change_text(const Change& change) {
+  std::string text;
+  if (!change.fix.empty()) text += "; fixes blocks";
+  if (!change.release.empty()) text += "; releases blocks";
+  if (!change.remove.empty()) text += "; removes blocks";
+  if (change.friction) text += fmt::format("; friction {:g} deg", *change.friction * degrees);
+  return text;
+}
+
+void print_stages(const std::vector<StagePlan>& stages) {
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    const StagePlan& stage = stages[k];
+    std::string text = fmt::format("{} {}: {}", k + 1, stage.name, std::visit(PlanText{}, stage.plan));
+    text += change_text(stage.change);
+    if (stage.damping) text += "; damping " + damping_text(*stage.damping);
+    line(k == 0 ? "stages" : "", text);
+  }
+}
+
+const char* quantity_name(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::displacement:
+      return "displacement";
+    case Quantity::velocity:
+      return "velocity";
+    case Quantity::rotation:
+      return "rotation";
+    case Quantity::contact_force:
+      return "contact force";
+  }
+  return "";
+}
+
+template <int Dim>
+void print_monitors(const Prepared<Dim>& prepared) {
+  const char* label = "monitors";
+  for (const Monitor& monitor : prepared.monitors) {
+    const bool of_joint = monitor.quantity == Quantity::contact_force;
+    std::string subject =
+        of_joint ? "joint " + prepared.model.joints[monitor.subject].name : fmt::format("block {}", monitor.subject);
+    line(label, fmt::format("{}: {} of {}", monitor.name, quantity_name(monitor.quantity), subject));
+    label = "";
+  }
+}
+
+// what a reader might look for in vain
+template <int Dim>
+std::string inactive(const Prepared<Dim>& prepared) {
+  std::vector<std::string> list;
+  const Model<Dim>& model = prepared.model;
+  const auto uses = [&](auto test) {
+    return test(prepared.settings.damping) || std::any_of(prepared.stages.begin(), prepared.stages.end(),
+                                                          [&](const auto& s) { return s.damping && test(*s.damping); });
+  };
+  if (model.gravity.norm() == 0) list.push_back("gravity");
+  if (!uses([](const DampingSettings& d) { return d.local > 0; })) list.push_back("local damping");
+  if (!uses([](const DampingSettings& d) { return d.viscous_ratio > 0; })) list.push_back("viscous damping");
+  if (model.joints.empty()) list.push_back("joints");
+  if (prepared.monitors.empty()) list.push_back("monitors");
+  if (!prepared.output.frames) list.push_back("ParaView frames");
+  if (std::none_of(prepared.stages.begin(), prepared.stages.end(),
+                   [](const StagePlan& s) { return std::holds_alternative<ReducePlan>(s.plan); }))
+    list.push_back("strength reduction");
+  const bool moving = std::any_of(prepared.state.motions.begin(), prepared.state.motions.end(),
+                                  [](const auto& m) { return m.velocity.norm() > 0 || m.angular_momentum.norm() > 0; });
+  if (!moving) list.push_back("initial velocities");
+  return fmt::format("{}", fmt::join(list, ", "));
+}
+
+template <int Dim>
+void print_active(const Prepared<Dim>& prepared) {
+  const Settings& settings = prepared.settings;
+  print_blocks(prepared.model);
+  print_joints(prepared.model);
+  line("gravity", vector_text<Dim>(prepared.model.gravity) + " m/s²");
+  line("damping", damping_text(settings.damping));
+  line("solvers",
+       fmt::format("linear program {}, contact point {}", settings.contact.lp == LpSolver::own ? "own" : "GLPK",
+                   settings.contact.point == ContactPoint::chebyshev ? "Chebyshev"
+                   : settings.contact.centre == CentreSolver::own    ? "analytic centre (own)"
+                                                                     : "analytic centre (Ipopt)"));
+  print_stages(prepared.stages);
+  print_monitors(prepared);
+  line("not active", inactive(prepared));
+}
+
+void print_derived(const Plausibility& plausibility) {
+  fmt::print("derived\n");
+  line("contacts",
+       fmt::format("{} pairs near each other, {} of them touch", plausibility.candidates, plausibility.touching));
+  if (plausibility.overlap > 0)
+    line("overlap", fmt::format("about {:.2g} m under a block's own weight, {:.1g} of its inscribed radius",
+                                plausibility.overlap, plausibility.overlap_share));
+  if (std::isfinite(plausibility.step_limit))
+    line("time step", fmt::format("stable below {:.3g} s", plausibility.step_limit));
+  for (const StageForecast& stage : plausibility.stages) {
+    const std::string step = stage.time_step > 0 ? fmt::format("steps of {:.3g} s", stage.time_step)
+                                                 : "no contact and no time.step_s: no time step yet";
+    const std::string count = stage.steps > 0 ? fmt::format(", about {:.1g} of them", stage.steps) : "";
+    line("", fmt::format("{}: {}{}", stage.name, step, count));
+  }
+}
+
+}  // namespace
+
+ExitCode check_command(const SceneArguments& arguments) {
+  const LoadedScene scene = load_scene(arguments.scene, arguments.overrides);
+  fmt::print("{} ({}-D)\n", scene.title.empty() ? arguments.scene.filename().string() : scene.title, scene.dimension);
+  std::visit([](const auto& prepared) { print_active(prepared); }, scene.prepared);
+  const Plausibility plausibility = std::visit([](const auto& prepared) { return assess(prepared); }, scene.prepared);
+  print_derived(plausibility);
+  for (const std::string& warning : plausibility.warnings)
+    fmt::print("warning: {}\n", warning);
+  fmt::print("{}\n", plausibility.warnings.empty() ? "no warnings" : "the scene can run; see the warnings");
+  return ExitCode::done;
+}
+
+}  // namespace voussoir

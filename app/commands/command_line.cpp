@@ -1,0 +1,124 @@
+#include "app/commands/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "app/bad_input.hpp"
+#include "app/commands/commands.hpp"
+#include "app/run_scene.hpp"
+#include "core/output/output_error.hpp"
+#include "core/output/version.hpp"
+#include "core/scene/scene_error.hpp"
+
+namespace voussoir {
+namespace {
+
+using Action = std::function<ExitCode()>;
+
+std::string version_text() {
+  std::string text = fmt::format("voussoir {} ({})\nbuilt by {}\n", version(), commit(), compiler());
+  for (const auto& [name, built_in] : features())
+    text += fmt::format("{:<7} {}\n", name, built_in ? "yes" : "no");
+  text.pop_back();
+  return text;
+}
+
+void add_scene(CLI::App* command, SceneArguments& arguments) {
+  command->add_option("scene", arguments.scene, "scene file (TOML)")->required();
+  command
+      ->add_option("--set", arguments.overrides,
+                   "key=value: replaces a value of the scene; tables of a list by their name, e.g. joints.A.dip=65")
+      ->allow_extra_args(false);
+}
+
+void add_threads(CLI::App* command, int& threads) {
+  command->add_option("--threads", threads, "number of threads; the results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+}
+
+void add_run(CLI::App& program, RunArguments& arguments, Action& action) {
+  CLI::App* command = program.add_subcommand("run", "run a scene and write its results");
+  add_scene(command, arguments.scene);
+  command->add_option("--out", arguments.out, "folder of the results (default: results/<scene>)");
+  add_threads(command, arguments.threads);
+  command->add_flag("--overwrite", arguments.overwrite, "replace the results that the folder holds");
+  command->add_flag("--quiet", arguments.quiet, "no progress and no summary");
+  command->callback([&] { action = [&] { return run_command(arguments); }; });
+}
+
+void add_check(CLI::App& program, SceneArguments& arguments, Action& action) {
+  CLI::App* command = program.add_subcommand("check", "say what a scene activates and what looks wrong");
+  add_scene(command, arguments);
+  command->callback([&] { action = [&] { return check_command(arguments); }; });
+}
+
+void add_slice(CLI::App& program, SliceArguments& arguments, Action& action) {
+  CLI::App* command = program.add_subcommand("slice", "cut the blocks and write them, without running");
+  add_scene(command, arguments.scene);
+  command->add_option("--out", arguments.out, "folder of blocks.vtp and blocks.csv")->required();
+  command->callback([&] { action = [&] { return slice_command(arguments); }; });
+}
+
+void add_study(CLI::App& program, StudyArguments& arguments, Action& action) {
+  CLI::App* command = program.add_subcommand("study", "run a scene with one setting changed at a time");
+  command->add_option("plan", arguments.plan, "study.toml")->required();
+  command->add_option("--out", arguments.out, "folder of study.csv")->required();
+  add_threads(command, arguments.threads);
+  command->add_flag("--quiet", arguments.quiet, "no progress");
+  command->callback([&] { action = [&] { return study_command(arguments); }; });
+}
+
+// every failure is one line that says what to do, and a code that a script can ask for
+int guarded(const Action& action) {
+  try {
+    return static_cast<int>(action());
+  } catch (const SceneError& error) {
+    fmt::print(stderr, "voussoir: {}\n", error.what());
+    return static_cast<int>(ExitCode::bad_input);
+  } catch (const BadInput& error) {
+    fmt::print(stderr, "voussoir: {}\n", error.what());
+    return static_cast<int>(ExitCode::bad_input);
+  } catch (const OutputError& error) {
+    fmt::print(stderr, "voussoir: {}\n", error.what());
+    return static_cast<int>(ExitCode::output);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "voussoir: unexpected error, please report it: {}\n", error.what());
+    return static_cast<int>(ExitCode::numerical);
+  }
+}
+
+}  // namespace
+
+int command_line(int argument_count, char** arguments) {
+  CLI::App program("Distinct element models of jointed rock, verified.", "voussoir");
+  program.set_version_flag("--version", version_text);
+  program.require_subcommand(1);
+  program.footer(
+      "Exit codes: 0 done, 1 a goal was not reached, 2 bad input, 4 numerical failure, 5 a result could not be "
+      "written.");
+
+  Action action;
+  RunArguments run;
+  SceneArguments check;
+  SliceArguments slice;
+  StudyArguments study;
+  add_run(program, run, action);
+  add_check(program, check, action);
+  add_slice(program, slice, action);
+  add_study(program, study, action);
+  CLI::App* docs = program.add_subcommand("docs", "every key a scene may hold, as Markdown");
+  docs->callback([&] { action = docs_command; });
+
+  try {
+    program.parse(argument_count, arguments);
+  } catch (const CLI::ParseError& error) {
+    // help and version are no errors; anything else is bad input, whatever number the parser has for it
+    const int code = program.exit(error);
+    return code == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+  }
+  return guarded(action);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,222 @@
+#include "app/commands/plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/motion/time_step.hpp"
+#include "core/stages.hpp"
+
+namespace voussoir {
+namespace {
+
+// thresholds of warnings: where experience says "look again", not where anything breaks
+constexpr double large_overlap_share = 0.01;   // of the inscribed radius: blocks visibly sink into each other
+constexpr double large_fraction_damped = 0.2;  // of the stable time step
+constexpr double large_fraction_undamped = 0.1;
+constexpr double many_steps = 1e7;
+constexpr double settlement_margin = 10;  // failure displacement over elastic settlement
+constexpr double wide_size_ratio = 100;   // largest over smallest inscribed radius
+
+template <int Dim>
+bool moves(const Body<Dim>& body) {
+  return body.present && !body.fixed;
+}
+
+// Overlap at which the joints under a body carry its weight: u such that sum k A (n·g)² u = W over its faces that look
+// down. 0 without gravity or without such a face.
+template <int Dim>
+double own_weight_overlap(const Model<Dim>& model, const Body<Dim>& body) {
+  const double g = model.gravity.norm();
+  if (g == 0) return 0;
+  double stiffness = 0;
+  for (const Polytope<Dim>& part : body.parts)
+    for (std::size_t f = 0; f < part.faces.size(); ++f) {
+      const double slope = part.faces[f].normal.dot(model.gravity) / g;
+      if (slope <= 0) continue;
+      const int joint = part.joints[f];
+      const int properties = joint == no_joint ? model.default_properties : model.joints[joint].properties;
+      if (properties < 0 || properties >= static_cast<int>(model.properties.size())) continue;
+      const JointProperties& p = model.properties[properties];
+      const double area = p.constant_stiffness ? 1 : face_area<Dim>(part, static_cast<int>(f));
+      stiffness += p.normal_stiffness * area * slope * slope;
+    }
+  return stiffness > 0 ? body.mass * g / stiffness : 0;
+}
+
+// Time in which a block that bounces on its joint comes down to the share `rest` of its first swing. Local damping
+// (share α) drives every swing inwards with 1-α and outwards with 1+α of the force, the dashpot takes ξω of the
+// amplitude per time.
+double settling_time(double overlap, double g, const DampingSettings& damping, double rest) {
+  const double frequency = std::sqrt(g / overlap), in = std::sqrt(1 - damping.local),
+               out = std::sqrt(1 + damping.local);
+  const double half_swing = 0.5 * std::numbers::pi * (1 / in + 1 / out) / frequency;
+  const double decay = std::log(out / in) / half_swing + damping.viscous_ratio * frequency;
+  return decay > 0 ? -std::log(rest) / decay : 0;
+}
+
+struct Forecaster {
+  double settling;  // s
+  double g;         // m/s²
+  double smallest;  // m: inscribed radius of a free block
+
+  double operator()(const SettlePlan& plan) const { return std::min(plan.gravity_ramp + settling, plan.time_limit); }
+  double operator()(const RunPlan& plan) const { return plan.duration; }
+  double operator()(const ReducePlan& plan) const {
+    const double range = std::abs(plan.from - plan.to);
+    switch (plan.method) {
+      case ReductionMethod::bisection:
+        return (2 + std::ceil(std::log2(std::max(1.0, range / plan.tolerance)))) * trial(plan);
+      case ReductionMethod::steps:
+        return std::ceil(range / plan.step) * settling + trial(plan);
+      case ReductionMethod::rate:
+        return range / plan.rate;
+    }
+    return 0;
+  }
+  // a trial ends at rest, or when a body has slid away at a tenth of gravity
+  double trial(const ReducePlan& plan) const {
+    const double way = plan.failure_displacement > 0 ? plan.failure_displacement : 0.1 * smallest;
+    const double sliding = g > 0 ? std::sqrt(2 * way / (0.1 * g)) : 0;
+    return std::max(settling, sliding);
+  }
+};
+
+template <int Dim>
+void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, State<Dim>& state, Plausibility& result) {
+  const double g = model.gravity.norm();
+  double smallest = 0;
+  for (const Body<Dim>& body : model.bodies)
+    if (moves(body)) smallest = smallest == 0 ? body.size : std::min(smallest, body.size);
+  for (const StagePlan& stage : prepared.stages) {
+    const DampingSettings damping = stage.damping.value_or(prepared.settings.damping);
+    const TimeStepEstimate estimate = estimate_time_step<Dim>(model, prepared.settings, damping, state);
+    if (&stage == &prepared.stages.front()) result.step_limit = estimate.limit;
+    StageForecast forecast{stage.name, estimate.step, 0};
+    double settling = 0;
+    if (g > 0 && result.overlap > 0)
+      settling = settling_time(result.overlap, g, damping, prepared.settings.equilibrium.unbalanced);
+    if (estimate.step > 0) forecast.steps = std::visit(Forecaster{settling, g, smallest}, stage.plan) / estimate.step;
+    result.stages.push_back(forecast);
+  }
+}
+
+template <int Dim>
+void find_overlaps(const Prepared<Dim>& prepared, const Model<Dim>& model, Plausibility& result) {
+  for (const Body<Dim>& body : model.bodies) {
+    if (!moves(body)) continue;
+    const double overlap = own_weight_overlap(model, body);
+    result.overlap = std::max(result.overlap, overlap);
+    result.overlap_share = std::max(result.overlap_share, overlap / body.size);
+  }
+  const double radius = prepared.settings.contact.potential_radius;
+  if (result.overlap_share > radius)
+    result.warnings.push_back(
+        fmt::format("blocks sink by {:.2g} of their inscribed radius under their own weight, more than "
+                    "contact.potential_radius = {:.2g}: raise normal_stiffness, or potential_radius",
+                    result.overlap_share, radius));
+  else if (result.overlap_share > large_overlap_share)
+    result.warnings.push_back(
+        fmt::format("blocks sink by {:.2g} of their inscribed radius under their own weight: raise normal_stiffness",
+                    result.overlap_share));
+}
+
+template <int Dim>
+void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
+                  Plausibility& result) {
+  std::vector<bool> has_neighbour(model.bodies.size(), false);
+  for (const Contact<Dim>& contact : state.contacts)
+    for (const int part : {contact.part_a, contact.part_b})
+      has_neighbour[model.parts[part].body] = true;
+
+  double smallest = 1e300, largest = 0;
+  bool anything_moves = model.gravity.norm() > 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body<Dim>& body = model.bodies[b];
+    if (!moves(body)) continue;
+    smallest = std::min(smallest, body.size);
+    largest = std::max(largest, body.size);
+    const Motion<Dim>& motion = prepared.state.motions[b];
+    anything_moves |= motion.velocity.norm() > 0 || motion.angular_momentum.norm() > 0;
+    if (model.gravity.norm() > 0 && !has_neighbour[b])
+      result.warnings.push_back(fmt::format("block {} has no neighbour: it begins by falling",
+                                            body.name.empty() ? std::to_string(b) : body.name));
+  }
+  if (!anything_moves && state.contacts.empty())
+    result.warnings.push_back("no gravity, no velocity and no contact: nothing will move");
+  if (largest > wide_size_ratio * smallest)
+    result.warnings.push_back(
+        fmt::format("inscribed radii of free blocks range from {:.2g} to {:.2g} m: the smallest sets the time step; "
+                    "consider slicing.smallest_inscribed_radius",
+                    smallest, largest));
+}
+
+template <int Dim>
+void judge_properties(const Model<Dim>& model, Plausibility& result) {
+  for (const JointProperties& p : model.properties) {
+    if (p.shear_stiffness > p.normal_stiffness)
+      result.warnings.push_back(fmt::format(
+          "joint_properties.{}: shear_stiffness exceeds normal_stiffness, which is unusual for rock joints", p.name));
+    if (p.friction == 0)
+      result.warnings.push_back(
+          fmt::format("joint_properties.{}: friction_deg = 0: the joint resists no slip", p.name));
+  }
+}
+
+void judge_stage(const StagePlan& stage, const DampingSettings& damping, const TimeSettings& time, double overlap,
+                 Plausibility& result) {
+  const std::string where = "stage." + stage.name;
+  const bool undamped = damping.local == 0 && damping.viscous_ratio == 0;
+  const double fraction = undamped ? large_fraction_undamped : large_fraction_damped;
+  if (!time.step && time.fraction > fraction)
+    result.warnings.push_back(
+        fmt::format("{}: time.fraction = {} is above {}{}: contacts that open and close gain energy", where,
+                    time.fraction, fraction, undamped ? ", the most without damping" : ""));
+  const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
+  if (seeks_rest && undamped)
+    result.warnings.push_back(where + " waits for rest but nothing damps: give it damping.local = 0.7");
+  if (const auto* plan = std::get_if<ReducePlan>(&stage.plan);
+      plan && plan->failure_displacement > 0 && plan->failure_displacement < settlement_margin * overlap)
+    result.warnings.push_back(fmt::format(
+        "{}: failure_displacement = {:.2g} m is less than {} times the elastic settlement of about {:.2g} m: "
+        "settling may pass as failure",
+        where, plan->failure_displacement, settlement_margin, overlap));
+}
+
+}  // namespace
+
+template <int Dim>
+Plausibility assess(const Prepared<Dim>& prepared) {
+  // as the first stage begins
+  Model<Dim> model = prepared.model;
+  if (!prepared.stages.empty()) model = apply(std::move(model), prepared.stages.front().change);
+  State<Dim> state = prepared.state;
+  Plausibility result;
+  find_neighbours(model, prepared.settings, state);
+  find_contacts(model, prepared.settings, state);
+  result.candidates = static_cast<int>(state.contacts.size());
+  result.touching = static_cast<int>(std::count_if(state.contacts.begin(), state.contacts.end(),
+                                                   [](const Contact<Dim>& contact) { return contact.touching(); }));
+
+  // numbers
+  find_overlaps(prepared, model, result);
+  forecast_stages(prepared, model, state, result);
+
+  // warnings
+  judge_bodies(prepared, model, state, result);
+  judge_properties(model, result);
+  for (const StagePlan& stage : prepared.stages)
+    judge_stage(stage, stage.damping.value_or(prepared.settings.damping), prepared.settings.time, result.overlap,
+                result);
+  for (const StageForecast& stage : result.stages)
+    if (stage.steps > many_steps)
+      result.warnings.push_back(fmt::format("stage.{} needs about {:.0e} steps", stage.name, stage.steps));
+  return result;
+}
+
+template Plausibility assess<2>(const Prepared<2>&);
+template Plausibility assess<3>(const Prepared<3>&);
+
+}  // namespace voussoir

@@ -1,0 +1,31 @@
+// What follows from a scene's numbers before anything is run: time step, overlap under own weight, steps to expect, and
+// what looks wrong. Estimates for people, within a factor of a few.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene/prepared.hpp"
+
+namespace voussoir {
+
+struct StageForecast {
+  std::string name;
+  double time_step = 0;  // s; 0 when no contact determines it
+  double steps = 0;      // 0 when nothing tells
+};
+
+struct Plausibility {
+  int candidates = 0;        // pairs of parts near each other at the start
+  int touching = 0;          // of them
+  double step_limit = 0;     // s: stability limit; infinite when no contact is near
+  double overlap = 0;        // m: largest over the free bodies, each carrying its own weight; 0 without gravity
+  double overlap_share = 0;  // the same over the body's smallest inscribed radius
+  std::vector<StageForecast> stages;
+  std::vector<std::string> warnings;  // one line each, with the repair
+};
+
+template <int Dim>
+Plausibility assess(const Prepared<Dim>& prepared);
+
+}  // namespace voussoir

@@ -1,0 +1,135 @@
+#include "app/commands/study_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+
+#include "core/scene/node.hpp"
+#include "core/scene/toml_text.hpp"
+
+namespace voussoir {
+namespace {
+
+namespace fs = std::filesystem;
+
+Node read_tree(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (fs::is_directory(path) || !stream)
+    throw SceneError(fmt::format("{}: cannot be read: is there such a file?", path.string()));
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  return parse_toml(text, std::make_shared<const std::string>(path.string()));
+}
+
+void refuse_unknown_keys(const Subject& table, const std::vector<std::string>& known) {
+  for (const Member& member : table.node->members)
+    if (std::find(known.begin(), known.end(), member.key) == known.end())
+      refuse(member.value, key_path(table.path, member.key), "no such key; " + suggestion(member.key, known));
+}
+
+const std::string& text_of(const Subject& table, const char* key, const std::string& rule) {
+  const Node* node = table.node->find(key);
+  if (!node || node->kind != Node::Kind::text || node->text.empty()) refuse(table, key, rule);
+  return node->text;
+}
+
+// as --set takes it; a text in quotes, so that it is never read as a number
+std::string override_text(const Node& value, const std::string& path) {
+  switch (value.kind) {
+    case Node::Kind::boolean:
+      return value.boolean ? "true" : "false";
+    case Node::Kind::integer:
+      return fmt::format("{:.0f}", value.number);
+    case Node::Kind::number:
+      if (!std::isfinite(value.number)) refuse(value, path, "must be a finite number");
+      return fmt::format("{}", value.number);
+    case Node::Kind::text:
+      if (value.text.find_first_of("\"\\\n") != std::string::npos)
+        refuse(value, path, "must not hold quotes, backslashes or line breaks");
+      return '"' + value.text + '"';
+    default:
+      refuse(value, path, "must be a number, a text, true or false");
+  }
+}
+
+void read_values(const Subject& table, Sweep& sweep) {
+  const Node* list = table.node->find("values");
+  if (!list || list->kind != Node::Kind::list || list->items.empty())
+    refuse(table, "values", "must be a list of at least one value, e.g. values = [1.0, 0.1, 0.01]");
+  for (std::size_t k = 0; k < list->items.size(); ++k) {
+    const Node& item = list->items[k];
+    sweep.values.push_back(override_text(item, fmt::format("{}.{}", key_path(table.path, "values"), k + 1)));
+    sweep.numbers.push_back(item.is_number() ? std::optional(item.number) : std::nullopt);
+  }
+}
+
+void read_extrapolation(const Subject& table, Sweep& sweep) {
+  const Node* node = table.node->find("extrapolate");
+  if (!node) return;
+  if (node->kind != Node::Kind::table)
+    refuse(table, "extrapolate", "must be a table, e.g. extrapolate = { power = 0.6666667 }");
+  const Subject extrapolate{node, key_path(table.path, "extrapolate")};
+  refuse_unknown_keys(extrapolate, {"power"});
+  const Node* power = node->find("power");
+  if (!power || !power->is_number() || !(power->number > 0 && power->number <= 10))
+    refuse(extrapolate, "power", "must be a number above 0, at most 10");
+  sweep.power = power->number;
+
+  const bool fit = sweep.numbers.size() > 1 &&
+                   std::all_of(sweep.numbers.begin(), sweep.numbers.end(), [](const auto& v) { return v && *v > 0; });
+  if (!fit) refuse(table, "values", "must be at least two numbers above 0 to be extrapolated to 0");
+  for (std::size_t k = 1; k < sweep.numbers.size(); ++k)
+    if (*sweep.numbers[k] == *sweep.numbers[k - 1])
+      refuse(table, "values", "must differ from one to the next to be extrapolated");
+}
+
+void read_overrides(const Subject& table, Sweep& sweep) {
+  const Node* list = table.node->find("set");
+  if (!list) return;
+  const std::string rule = "must be a list of texts \"key=value\"";
+  if (list->kind != Node::Kind::list) refuse(table, "set", rule);
+  for (const Node& item : list->items) {
+    if (item.kind != Node::Kind::text) refuse(item, key_path(table.path, "set"), rule);
+    sweep.overrides.push_back(item.text);
+  }
+}
+
+Sweep read_sweep(const Subject& table, const std::string& scene, const fs::path& folder) {
+  refuse_unknown_keys(table, {"name", "key", "values", "unit", "scene", "set", "extrapolate"});
+  Sweep sweep;
+  sweep.name = text_of(table, "name", "must be a text: the sweep's name in the table and the figure");
+  sweep.key = text_of(table, "key", "must be a key of the scene as after --set, e.g. \"time.fraction\"");
+  if (table.node->find("unit")) sweep.unit = text_of(table, "unit", "must be a text, e.g. \"deg\"");
+  sweep.scene = folder / scene;
+  if (table.node->find("scene"))
+    sweep.scene = folder / text_of(table, "scene", "must be a scene's file name, relative to the study");
+  read_values(table, sweep);
+  read_overrides(table, sweep);
+  read_extrapolation(table, sweep);
+  return sweep;
+}
+
+}  // namespace
+
+StudyPlan read_study_plan(const fs::path& path) {
+  const Node tree = read_tree(path);
+  const Subject top{&tree, ""};
+  refuse_unknown_keys(top, {"scene", "quantity", "sweep"});
+  const std::string scene = text_of(top, "scene", "must be a scene's file name, relative to the study");
+  StudyPlan plan;
+  plan.quantity = text_of(top, "quantity", "must name a value of results.json, e.g. \"critical_friction\"");
+
+  const Node* sweeps = tree.find("sweep");
+  if (!sweeps || sweeps->kind != Node::Kind::list || sweeps->items.empty())
+    refuse(top, "sweep", "must be at least one table; begin it with [[sweep]]");
+  for (std::size_t k = 0; k < sweeps->items.size(); ++k) {
+    const Node& item = sweeps->items[k];
+    if (item.kind != Node::Kind::table) refuse(item, "sweep", "must be a table; begin it with [[sweep]]");
+    plan.sweeps.push_back(read_sweep({&item, item_path("sweep", item, k)}, scene, path.parent_path()));
+  }
+  return plan;
+}
+
+}  // namespace voussoir

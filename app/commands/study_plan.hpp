@@ -1,0 +1,31 @@
+// study.toml: which settings of which scene a study changes, one at a time.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voussoir {
+
+// one key, several values
+struct Sweep {
+  std::string name;
+  std::string key;                             // as after --set
+  std::vector<std::string> values;             // as after --set key=
+  std::vector<std::optional<double>> numbers;  // the same where they are numbers
+  std::string unit;                            // of the values; may be empty
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;  // key=value, for every run of this sweep
+  std::optional<double> power;         // fit result against value^power and extrapolate to value 0
+};
+
+struct StudyPlan {
+  std::string quantity;  // a name in the values of results.json
+  std::vector<Sweep> sweeps;
+};
+
+// Paths in the plan are relative to it. Strict: whatever it does not know is a SceneError with line and repair.
+StudyPlan read_study_plan(const std::filesystem::path& path);
+
+}  // namespace voussoir

@@ -1,0 +1,97 @@
+#include "app/run_scene.hpp"
+
+#include "app/bad_input.hpp"
+#include "app/effective_scene.hpp"
+#include "core/output/fingerprint.hpp"
+#include "core/output/version.hpp"
+#include "core/scene/scene.hpp"
+#ifdef VOUSSOIR_HAS_GLPK
+#include "core/optimise/glpk.hpp"
+#endif
+#ifdef VOUSSOIR_HAS_IPOPT
+#include "core/optimise/ipopt.hpp"
+#endif
+
+namespace voussoir {
+namespace {
+
+template <int Dim>
+void use_glpk([[maybe_unused]] Solvers<Dim>& solvers) {
+#ifdef VOUSSOIR_HAS_GLPK
+  solvers.feasibility = &solve_feasibility_glpk<Dim>;
+#else
+  throw BadInput(
+      "contact.lp = \"glpk\": GLPK is not built in; configure with -DVOUSSOIR_WITH_GLPK=ON, or write lp = \"own\"");
+#endif
+}
+
+template <int Dim>
+void use_ipopt([[maybe_unused]] Solvers<Dim>& solvers) {
+#ifdef VOUSSOIR_HAS_IPOPT
+  solvers.centre = &solve_analytic_centre_ipopt<Dim>;
+#else
+  throw BadInput(
+      "contact.centre = \"ipopt\": Ipopt is not built in; configure with -DVOUSSOIR_WITH_IPOPT=ON, or write centre = "
+      "\"own\"");
+#endif
+}
+
+template <int Dim>
+Prepared<Dim> prepare_to_run(const Scene& scene, int threads) {
+  Prepared<Dim> prepared = prepare<Dim>(scene);
+  if (prepared.settings.contact.lp == LpSolver::glpk) use_glpk(prepared.model.solvers);
+  if (prepared.settings.contact.centre == CentreSolver::ipopt) use_ipopt(prepared.model.solvers);
+  prepared.settings.threads = threads;
+  return prepared;
+}
+
+Results simulate_any(const Prepared<2>& prepared, const SceneWatcher& watcher) {
+  return simulate<2>(prepared, {watcher.progress, watcher.frame_2d});
+}
+
+Results simulate_any(const Prepared<3>& prepared, const SceneWatcher& watcher) {
+  return simulate<3>(prepared, {watcher.progress, watcher.frame_3d});
+}
+
+}  // namespace
+
+LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides, int threads) {
+  const Scene scene = read_scene(path, overrides);
+  LoadedScene loaded;
+  loaded.dimension = scene.dimension;
+  loaded.text = toml_text(*scene.tree);
+  loaded.hash = fingerprint(canonical_text(scene));
+  if (scene.dimension == 2)
+    loaded.prepared = prepare_to_run<2>(scene, threads);
+  else
+    loaded.prepared = prepare_to_run<3>(scene, threads);
+  loaded.title = std::visit([](const auto& prepared) { return prepared.title; }, loaded.prepared);
+  return loaded;
+}
+
+Results simulate_scene(const LoadedScene& scene, const SceneWatcher& watcher) {
+  return std::visit([&](const auto& prepared) { return simulate_any(prepared, watcher); }, scene.prepared);
+}
+
+SceneRun run_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides, int threads,
+                   const SceneWatcher& watcher) {
+  LoadedScene scene = load_scene(path, overrides, threads);
+  Results results = simulate_scene(scene, watcher);
+  return {std::move(scene), std::move(results)};
+}
+
+std::vector<std::pair<std::string, bool>> features() {
+#ifdef VOUSSOIR_HAS_GLPK
+  const bool glpk = true;
+#else
+  const bool glpk = false;
+#endif
+#ifdef VOUSSOIR_HAS_IPOPT
+  const bool ipopt = true;
+#else
+  const bool ipopt = false;
+#endif
+  return {{"glpk", glpk}, {"ipopt", ipopt}, {"openmp", has_openmp()}};
+}
+
+}  // namespace voussoir

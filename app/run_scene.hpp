@@ -1,0 +1,52 @@
+// From a scene file to results in memory: what `voussoir run` does, without files. Cases call it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/scene/prepared.hpp"
+#include "core/simulate.hpp"
+
+namespace voussoir {
+
+using AnyPrepared = std::variant<Prepared<2>, Prepared<3>>;
+
+struct LoadedScene {
+  std::string title;
+  int dimension = 3;
+  std::string text;  // the effective scene: the file with its overrides, as TOML
+  std::string hash;  // fingerprint of its canonical form, which layout and comments do not change
+  AnyPrepared prepared;
+};
+
+// Reads, cuts, chooses the solvers. Overrides as after --set: "joints.A.dip=65". Throws SceneError, or BadInput when a
+// solver is asked for that is not built in.
+LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
+                       int threads = 1);
+
+// callbacks; each may be empty
+struct SceneWatcher {
+  std::function<void(const ProgressReport&)> progress;
+  std::function<void(const Model<2>&, const State<2>&, double time)> frame_2d;
+  std::function<void(const Model<3>&, const State<3>&, double time)> frame_3d;
+};
+
+Results simulate_scene(const LoadedScene& scene, const SceneWatcher& watcher = {});
+
+struct SceneRun {
+  LoadedScene scene;  // as it was before the first step
+  Results results;
+};
+
+// load_scene, then simulate_scene
+SceneRun run_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {}, int threads = 1,
+                   const SceneWatcher& watcher = {});
+
+// what is built in besides the core: glpk, ipopt, openmp
+std::vector<std::pair<std::string, bool>> features();
+
+}  // namespace voussoir

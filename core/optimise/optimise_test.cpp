@@ -1,0 +1,301 @@
+// The two convex programs against enumeration of all bases and against Newton in long double.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "core/optimise/analytic_centre.hpp"
+#include "core/optimise/feasibility.hpp"
+#include "core/testing/oracles.hpp"
+#include "core/testing/shapes.hpp"
+
+namespace voussoir {
+namespace {
+
+using shapes::Random;
+
+// the LP's value carries a few ulp of the coordinates (of order one here), more when the basis is badly conditioned
+constexpr double lp_tolerance = 1e-12;
+
+// multipliers satisfy their equations within the same rounding
+constexpr double certificate_tolerance = 1e-12;
+
+// a decrement of 1e-5 before the last Newton step leaves its square, with room for the constant
+constexpr double centre_tolerance = 1e-8;
+
+template <int Dim>
+void expect_certificate(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& r) {
+  Vector<Dim> direction = Vector<Dim>::Zero();
+  double sum = 0, value = 0;
+  for (int k = 0; k <= Dim; ++k) {
+    ASSERT_GE(r.basis[k], 0);
+    EXPECT_GE(r.multipliers[k], -certificate_tolerance);
+    direction += r.multipliers[k] * planes[r.basis[k]].normal;
+    sum += r.multipliers[k];
+    value -= r.multipliers[k] * planes[r.basis[k]].offset;
+  }
+  EXPECT_LT(direction.norm(), certificate_tolerance);
+  EXPECT_NEAR(sum, 1, certificate_tolerance);
+  EXPECT_NEAR(value, r.value, lp_tolerance);
+  for (const HalfSpace<Dim>& p : planes) EXPECT_LE(signed_distance<Dim>(p, r.point), r.value + lp_tolerance);
+}
+
+// two random parts a distance apart: they overlap, nearly touch or are separate
+template <int Dim>
+HalfSpaces<Dim> random_pair(Random& random, int extra) {
+  HalfSpaces<Dim> planes = shapes::random_planes<Dim>(random, extra, 0.5);
+  const Vector<Dim> shift = shapes::uniform(random, 0.8, 1.7) * shapes::direction<Dim>(random);
+  for (const HalfSpace<Dim>& p : shapes::placed<Dim>(shapes::random_planes<Dim>(random, extra, 0.5),
+                                                     matrix(shapes::orientation<Dim>(random)), shift))
+    planes.push_back(p);
+  return planes;
+}
+
+// ---- feasibility ----------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void expect_best_of_all_bases(std::uint64_t seed, int trials) {
+  Random random(seed);
+  int separate = 0;
+  for (int i = 0; i < trials; ++i) {
+    const HalfSpaces<Dim> planes = random_pair<Dim>(random, shapes::integer(random, 0, 3));
+    const FeasibilityResult<Dim> r = solve_feasibility<Dim>(planes, {});
+    ASSERT_EQ(r.status, FeasibilityStatus::optimal);
+    EXPECT_NEAR(r.value, static_cast<double>(oracle::feasibility<Dim>(planes)), lp_tolerance);
+    expect_certificate<Dim>(planes, r);
+    separate += r.value > 0;
+  }
+  // both answers must have been asked for
+  EXPECT_GT(separate, trials / 10);
+  EXPECT_LT(separate, trials - trials / 10);
+}
+
+TEST(Feasibility, IsTheBestOfAllBases3D) { expect_best_of_all_bases<3>(11, 100); }
+TEST(Feasibility, IsTheBestOfAllBases2D) { expect_best_of_all_bases<2>(12, 300); }
+
+TEST(Feasibility, OnALineIsAnInterval) {
+  const HalfSpaces<1> planes{{Vector<1>(1), 5}, {Vector<1>(-1), -2}, {Vector<1>(1), 7}, {Vector<1>(-1), 3}};
+  const FeasibilityResult<1> r = solve_feasibility<1>(planes, {});
+  ASSERT_EQ(r.status, FeasibilityStatus::optimal);
+  EXPECT_NEAR(r.value, -1.5, lp_tolerance);
+  EXPECT_NEAR(r.point[0], 3.5, lp_tolerance);
+}
+
+TEST(Feasibility, TouchingIsZeroAndGapsAreHalved) {
+  for (const double gap : {0.0, 1e-12, 1e-6, 0.5, 100.0, -1e-12, -0.25}) {
+    HalfSpaces<3> planes = shapes::cube<3>(1);
+    for (const HalfSpace<3>& p : shapes::box<3>({1 + gap, -1, -1}, {3 + gap, 1, 1})) planes.push_back(p);
+    const FeasibilityResult<3> r = solve_feasibility<3>(planes, {});
+    ASSERT_EQ(r.status, FeasibilityStatus::optimal);
+    EXPECT_NEAR(r.value, gap / 2, 4e-16 * (1 + std::abs(gap)));
+  }
+}
+
+TEST(Feasibility, DegenerateInputEnds) {
+  // 400 planes tangent to one ball: every basis that encloses the centre is optimal
+  Random random(13);
+  HalfSpaces<3> ball;
+  HalfSpaces<2> disc;
+  for (int i = 0; i < 400; ++i) {
+    ball.push_back({shapes::direction<3>(random), 1});
+    disc.push_back({shapes::direction<2>(random), 1});
+  }
+  EXPECT_NEAR(solve_feasibility<3>(ball, {}).value, -1, lp_tolerance);
+  EXPECT_NEAR(solve_feasibility<2>(disc, {}).value, -1, lp_tolerance);
+
+  // every plane four times, and all planes of four cubes that meet at a point
+  HalfSpaces<3> repeated, corner;
+  for (int i = 0; i < 4; ++i) {
+    for (const HalfSpace<3>& p : shapes::cube<3>(1)) repeated.push_back(p);
+    const Vector<3> low(i & 1 ? 0 : -1, i & 2 ? 0 : -1, 0);
+    for (const HalfSpace<3>& p : shapes::box<3>(low, low + Vector<3>::Ones())) corner.push_back(p);
+  }
+  for (const auto& [planes, value] : {std::pair{repeated, -1.0}, {corner, 0.0}}) {
+    const FeasibilityResult<3> r = solve_feasibility<3>(planes, {});
+    ASSERT_EQ(r.status, FeasibilityStatus::optimal);
+    EXPECT_NEAR(r.value, value, lp_tolerance);
+    expect_certificate<3>(planes, r);
+  }
+}
+
+TEST(Feasibility, OpenRegionsAreUnbounded) {
+  EXPECT_EQ(solve_feasibility<3>({{Vector<3>(0, 0, 1), 1}}, {}).status, FeasibilityStatus::unbounded);
+  EXPECT_EQ(solve_feasibility<2>({{Vector<2>(1, 0), 1}, {Vector<2>(0, 1), 1}}, {}).status, FeasibilityStatus::unbounded);
+  HalfSpaces<3> wedge = shapes::cube<3>(1);
+  wedge.erase(wedge.begin());
+  wedge[0] = {Vector<3>(0.6, 0.8, 0), 1};  // two faces gone, one tilted
+  EXPECT_EQ(solve_feasibility<3>({wedge[0], wedge[1], wedge[3]}, {}).status, FeasibilityStatus::unbounded);
+}
+
+TEST(Feasibility, AZeroNormalOnlyBoundsTheValue) {
+  HalfSpaces<3> planes = shapes::cube<3>(1);
+  planes.push_back({Vector<3>::Zero(), 0.25});  // says -0.25 <= s
+  const FeasibilityResult<3> r = solve_feasibility<3>(planes, {});
+  ASSERT_EQ(r.status, FeasibilityStatus::optimal);
+  EXPECT_NEAR(r.value, -0.25, lp_tolerance);
+}
+
+TEST(Feasibility, StartsAnywhereAndEndsTheSame) {
+  Random random(14);
+  for (int i = 0; i < 100; ++i) {
+    HalfSpaces<3> planes = random_pair<3>(random, 6);
+    const FeasibilityResult<3> cold = solve_feasibility<3>(planes, {});
+    // the final basis of a shifted problem, a useless basis, and another order of the planes
+    HalfSpaces<3> shifted = planes;
+    for (HalfSpace<3>& p : shifted) p.offset += shapes::uniform(random, -0.05, 0.05);
+    const std::array<int, 4> warm = solve_feasibility<3>(shifted, {}).basis, useless{0, 0, 0, 0};
+    EXPECT_NEAR(solve_feasibility<3>(planes, {&warm}).value, cold.value, lp_tolerance);
+    EXPECT_NEAR(solve_feasibility<3>(planes, {&useless}).value, cold.value, lp_tolerance);
+    const FeasibilityResult<3> again = solve_feasibility<3>(planes, {&cold.basis});
+    EXPECT_EQ(again.pivots, 0);
+    shapes::shuffle(planes, random);
+    EXPECT_NEAR(solve_feasibility<3>(planes, {}).value, cold.value, lp_tolerance);
+  }
+}
+
+TEST(Feasibility, StopsEarlyOnlyOnProof) {
+  Random random(15);
+  int stopped = 0;
+  for (int i = 0; i < 100; ++i) {
+    const HalfSpaces<3> planes = random_pair<3>(random, 6);
+    const double value = solve_feasibility<3>(planes, {}).value;
+    const FeasibilityResult<3> r = solve_feasibility<3>(planes, {nullptr, 0.0, 0});
+    if (r.status == FeasibilityStatus::separated_early) {
+      ++stopped;
+      EXPECT_GT(r.value, 0);
+      EXPECT_LE(r.value, value + lp_tolerance);
+    } else {
+      EXPECT_LE(value, 0);
+    }
+  }
+  EXPECT_GT(stopped, 10);
+}
+
+TEST(Feasibility, PowersOfTwoScaleItExactly) {
+  Random random(16);
+  for (int i = 0; i < 50; ++i) {
+    const HalfSpaces<3> planes = random_pair<3>(random, 5);
+    const FeasibilityResult<3> one = solve_feasibility<3>(planes, {});
+    for (const double factor : {0x1p-10, 0x1p13}) {
+      const FeasibilityResult<3> other = solve_feasibility<3>(shapes::scaled<3>(planes, factor), {});
+      EXPECT_EQ(other.value, factor * one.value);
+      EXPECT_EQ(other.basis, one.basis);
+    }
+  }
+}
+
+// ---- analytic centre ------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void expect_simplex_centroid(Random& random) {
+  std::array<Vector<Dim>, Dim + 1> corners;
+  Vector<Dim> centroid = Vector<Dim>::Zero();
+  for (Vector<Dim>& c : corners) {
+    c = shapes::normal_vector<Dim>(random);
+    centroid += c / (Dim + 1);
+  }
+  HalfSpaces<Dim> planes;
+  for (int k = 0; k <= Dim; ++k) {
+    Matrix<Dim> edges = Matrix<Dim>::Zero();
+    for (int j = 1; j < Dim; ++j) edges.row(j) = corners[(k + 1 + j) % (Dim + 1)] - corners[(k + 1) % (Dim + 1)];
+    edges.row(0) = centroid - corners[(k + 1) % (Dim + 1)];
+    const Vector<Dim> n = -(edges.inverse() * Vector<Dim>::Unit(0)).normalized();
+    planes.push_back({n, n.dot(corners[(k + 1) % (Dim + 1)])});
+  }
+  // starts near a corner, where nearly all slacks are small
+  const Vector<Dim> start = corners[0] + 0.01 * (centroid - corners[0]);
+  const CentreResult<Dim> r = solve_analytic_centre<Dim>(planes, {start});
+  ASSERT_EQ(r.status, CentreStatus::converged);
+  EXPECT_LT((r.point - centroid).norm(), centre_tolerance);
+}
+
+TEST(AnalyticCentre, OfASimplexIsItsCentroid) {
+  Random random(17);
+  for (int i = 0; i < 200; ++i) {
+    expect_simplex_centroid<3>(random);
+    expect_simplex_centroid<2>(random);
+  }
+}
+
+TEST(AnalyticCentre, OfABoxIsItsMiddleHoweverThin) {
+  for (const double thin : {1.0, 1e-3, 1e-6, 1e-9, 1e-12}) {
+    const CentreResult<3> slab =
+        solve_analytic_centre<3>(shapes::box<3>({-1, -2, -thin}, {1, 2, thin}), {Vector<3>(0.9, 1.2, 0.99 * thin)});
+    ASSERT_EQ(slab.status, CentreStatus::converged);
+    EXPECT_LT(slab.point.head<2>().norm(), centre_tolerance);
+    EXPECT_LT(std::abs(slab.point[2]), centre_tolerance * thin);
+    const CentreResult<3> needle = solve_analytic_centre<3>(shapes::box<3>({-1, -thin, -thin}, {1, thin, thin}),
+                                                            {Vector<3>(0.9, -0.9 * thin, 0.99 * thin)});
+    ASSERT_EQ(needle.status, CentreStatus::converged);
+    EXPECT_LT(std::abs(needle.point[0]), centre_tolerance);
+    EXPECT_LT(needle.point.tail<2>().norm(), centre_tolerance * thin);
+    const CentreResult<2> strip =
+        solve_analytic_centre<2>(shapes::box<2>({-1, -thin}, {1, thin}), {Vector<2>(0.9, 0.99 * thin)});
+    ASSERT_EQ(strip.status, CentreStatus::converged);
+    EXPECT_LT(std::abs(strip.point[0]), centre_tolerance);
+    EXPECT_LT(std::abs(strip.point[1]), centre_tolerance * thin);
+  }
+}
+
+template <int Dim>
+void expect_newton_in_long_double(std::uint64_t seed, int trials) {
+  Random random(seed);
+  for (int i = 0; i < trials; ++i) {
+    const HalfSpaces<Dim> planes = shapes::random_planes<Dim>(random, shapes::integer(random, 0, 20), 1);
+    const oracle::RealVector<Dim> expected = oracle::analytic_centre<Dim>(planes, oracle::RealVector<Dim>::Zero());
+    ASSERT_LT(oracle::barrier<Dim>(planes, expected).decrement, 1e-14L);
+    // the centre does not depend on where the search starts
+    for (const double share : {0.0, 0.5, 0.999999}) {
+      Vector<Dim> start = shapes::direction<Dim>(random);
+      double reach = 1e300;
+      for (const HalfSpace<Dim>& p : planes)
+        if (p.normal.dot(start) > 0) reach = std::min(reach, p.offset / p.normal.dot(start));
+      start *= share * reach;
+      const CentreResult<Dim> r = solve_analytic_centre<Dim>(planes, {start});
+      ASSERT_EQ(r.status, CentreStatus::converged);
+      EXPECT_LT((r.point.template cast<oracle::Real>() - expected).norm(), centre_tolerance);
+    }
+  }
+}
+
+TEST(AnalyticCentre, AgreesWithNewtonInLongDouble3D) { expect_newton_in_long_double<3>(18, 40); }
+TEST(AnalyticCentre, AgreesWithNewtonInLongDouble2D) { expect_newton_in_long_double<2>(19, 100); }
+
+TEST(AnalyticCentre, RepeatedPlanesPull) {
+  // max log(1 - x) + 2 log(1 + x): x = 1/3
+  HalfSpaces<2> planes = shapes::cube<2>(1);
+  planes.push_back({Vector<2>(-1, 0), 1});
+  const CentreResult<2> r = solve_analytic_centre<2>(planes, {Vector<2>::Zero()});
+  ASSERT_EQ(r.status, CentreStatus::converged);
+  EXPECT_NEAR(r.point[0], 1.0 / 3, centre_tolerance);
+  EXPECT_NEAR(r.point[1], 0, centre_tolerance);
+}
+
+TEST(AnalyticCentre, NamesEveryFailure) {
+  const HalfSpaces<3> planes = shapes::cube<3>(1);
+  EXPECT_EQ(solve_analytic_centre<3>(planes, {Vector<3>(1, 0, 0)}).status, CentreStatus::start_not_interior);
+  EXPECT_EQ(solve_analytic_centre<3>(planes, {Vector<3>(2, 0, 0)}).status, CentreStatus::start_not_interior);
+  EXPECT_EQ(solve_analytic_centre<3>(planes, {Vector<3>(0.9, 0.9, -0.9), 1e-5, 1}).status,
+            CentreStatus::iteration_limit);
+  // a region open along z has no centre
+  HalfSpaces<3> tube(planes.begin(), planes.begin() + 4);
+  EXPECT_EQ(solve_analytic_centre<3>(tube, {Vector<3>(0.5, 0, 0)}).status, CentreStatus::singular);
+  EXPECT_NE(solve_analytic_centre<3>({planes[0], planes[2], planes[4]}, {Vector<3>::Zero()}).status,
+            CentreStatus::converged);
+}
+
+TEST(AnalyticCentre, PowersOfTwoScaleItExactly) {
+  Random random(20);
+  for (int i = 0; i < 50; ++i) {
+    const HalfSpaces<3> planes = shapes::random_planes<3>(random, 8, 1);
+    const Vector<3> start = 0.5 * shapes::direction<3>(random);
+    const CentreResult<3> one = solve_analytic_centre<3>(planes, {start});
+    for (const double factor : {0x1p-10, 0x1p13}) {
+      const CentreResult<3> other = solve_analytic_centre<3>(shapes::scaled<3>(planes, factor), {factor * start});
+      EXPECT_EQ(other.point, factor * one.point);
+      EXPECT_EQ(other.iterations, one.iterations);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace voussoir

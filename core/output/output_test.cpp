@@ -1,0 +1,346 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/output/atomic_file.hpp"
+#include "core/output/fingerprint.hpp"
+#include "core/output/history_csv.hpp"
+#include "core/output/paraview.hpp"
+#include "core/output/results_json.hpp"
+#include "core/output/version.hpp"
+#include "core/output/xml_reader_test.hpp"
+#include "core/slicing/block.hpp"
+
+namespace voussoir {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Element;
+using test::XmlReader;
+
+std::string read(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// an empty folder that goes when the test ends
+struct TemporaryFolder {
+  fs::path path = fs::temp_directory_path() / fs::path("voussoir_output_" + std::to_string(::getpid()));
+  TemporaryFolder() {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
+  ~TemporaryFolder() { fs::remove_all(path); }
+};
+
+// ---- models -------------------------------------------------------------------------------------------------------
+
+// unit cubes (squares) in a row, the first fixed, all far from the origin; the second moved and turned by 90 degrees
+template <int Dim>
+Model<Dim> row_of_blocks(int count) {
+  Model<Dim> model;
+  model.origin = Vector<Dim>::Constant(1000);
+  model.joints.push_back({"A & B", {Vector<Dim>::Unit(0), 0}, 0});
+  model.properties.push_back({"rock", 1e9, 1e8, 0.5, false});
+  for (int b = 0; b < count; ++b) {
+    HalfSpaces<Dim> planes;
+    std::vector<int> joints;
+    for (int k = 0; k < Dim; ++k)
+      for (const double sign : {1.0, -1.0}) {
+        planes.push_back({sign * Vector<Dim>::Unit(k), 0.5 + (k == 0 ? sign * b : 0)});
+        joints.push_back(k == 0 && sign > 0 ? 0 : no_joint);
+      }
+    const BlockResult<Dim> block = make_block<Dim>(planes, joints);
+    EXPECT_EQ(block.status, BlockStatus::ok);
+    model.bodies.push_back(make_body<Dim>({block.part}, 2000));
+    model.bodies.back().name = b == 0 ? "base" : "";
+    model.bodies.back().fixed = b == 0;
+  }
+  list_parts(model);
+  return model;
+}
+
+Spin<2> quarter_turn(const Model<2>&) {
+  return Spin<2>(M_PI / 2);
+}
+Spin<3> quarter_turn(const Model<3>&) {
+  return {0, 0, M_PI / 2};
+}
+
+template <int Dim>
+State<Dim> moved_state(const Model<Dim>& model) {
+  State<Dim> state = initial_state(model);
+  state.motions[1].displacement = 0.25 * Vector<Dim>::Unit(1);
+  state.motions[1].rotation = turned(state.motions[1].rotation, quarter_turn(model));
+  state.motions[1].velocity = 2 * Vector<Dim>::Unit(0);
+  Contact<Dim> contact;
+  contact.part_a = 0, contact.part_b = 1;
+  contact.geometry.point = 0.5 * Vector<Dim>::Unit(0);
+  contact.geometry.normal = Vector<Dim>::Unit(0);
+  contact.geometry.overlap = 1e-4;
+  contact.force = 3 * Vector<Dim>::Unit(0);
+  state.contacts = {contact, contact};
+  state.contacts[0].status = ContactStatus::touching;  // the second is only a candidate
+  return state;
+}
+
+// ---- results.json, history.csv ------------------------------------------------------------------------------------
+
+Results some_results() {
+  Results results;
+  results.outcome = Outcome::incomplete;
+  results.message = "no bracket";
+  results.values = {{"critical_friction", {33.35 + 1e-14, "deg", 0.01, "bisection"}}, {"height", {0.1, "m", {}, ""}}};
+  results.stages.push_back({"settle", "settle", "equilibrium", 100, 0.5, 1e-3, 1e-7});
+  results.counters.steps = 123'456'789'012;
+  results.seconds = 1.5;
+  return results;
+}
+
+TEST(ResultsJson, HoldsWhatTheRunFound) {
+  const Results results = some_results();
+  RunRecord record;
+  record.title = "a \"wedge\"";
+  record.input_hash = fingerprint("scene");
+  record.features = {{"glpk", true}, {"ipopt", false}};
+  const auto json = nlohmann::json::parse(results_json(results, record));
+  EXPECT_EQ(json["schema_version"], results_schema_version);
+  EXPECT_EQ(json["title"], "a \"wedge\"");
+  EXPECT_EQ(json["input_hash"], record.input_hash);
+  EXPECT_EQ(json["program"]["commit"], commit());
+  EXPECT_EQ(json["program"]["features"]["glpk"], true);
+  EXPECT_EQ(json["status"], "incomplete");
+  EXPECT_EQ(json["message"], "no bracket");
+  EXPECT_EQ(json["values"]["critical_friction"]["value"].get<double>(), 33.35 + 1e-14);
+  EXPECT_EQ(json["values"]["critical_friction"]["error_bar"], 0.01);
+  EXPECT_EQ(json["values"]["critical_friction"]["unit"], "deg");
+  EXPECT_EQ(json["values"]["critical_friction"]["rule"], "bisection");
+  EXPECT_FALSE(json["values"]["height"].contains("error_bar"));
+  EXPECT_EQ(json["stages"][0]["ended"], "equilibrium");
+  EXPECT_EQ(json["counters"]["steps"], 123'456'789'012);
+  EXPECT_EQ(json["timing"]["seconds"], 1.5);
+}
+
+TEST(ResultsJson, NamesTheNumbersItCannotHold) {
+  Results results = some_results();
+  results.values[1].second.value = std::numeric_limits<double>::quiet_NaN();
+  results.stages[0].unbalanced = std::numeric_limits<double>::infinity();
+  const auto json = nlohmann::json::parse(results_json(results, {}));
+  EXPECT_TRUE(json["values"]["height"]["value"].is_null());
+  EXPECT_TRUE(json["stages"][0]["unbalanced"].is_null());
+  EXPECT_EQ(json["message"],
+            "no bracket; height is not a finite number; stage settle.unbalanced is not a finite number");
+}
+
+TEST(HistoryCsv, NumbersReadBackExactly) {
+  History history;
+  history.columns = {"time_s", "wedge, displacement_x_m"};
+  history.rows = {{0.1, 1.0 / 3}, {1, std::nan("")}, {1e-300, -5e20}};
+  EXPECT_EQ(history_csv(history), "time_s,\"wedge, displacement_x_m\"\n0.1,0.3333333333333333\n1,\n1e-300,-5e+20\n");
+}
+
+TEST(Fingerprint, IsFnv1a) {
+  // from the authors' published test suite
+  EXPECT_EQ(fingerprint(""), "fnv1a64:cbf29ce484222325");
+  EXPECT_EQ(fingerprint("a"), "fnv1a64:af63dc4c8601ec8c");
+  EXPECT_EQ(fingerprint("foobar"), "fnv1a64:85944171f73967e8");
+}
+
+// ---- files --------------------------------------------------------------------------------------------------------
+
+TEST(WriteFile, ReplacesWholeFilesAndNamesWhatFailed) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "file";
+  write_file(file, "first");
+  write_file(file, "second");
+  EXPECT_EQ(read(file), "second");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), {}), 1) << "no temporary file is left";
+  try {
+    write_file(file / "below_a_file", "x");
+    FAIL() << "a file is no folder";
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find("below_a_file': Not a directory"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(prepare_folder(file), OutputError);
+  EXPECT_THROW(prepare_folder(file / "deeper"), OutputError);
+}
+
+// ---- ParaView -----------------------------------------------------------------------------------------------------
+
+// checks that hold for every .vtp, then gives the piece
+Element checked_piece(const std::string& text, const char* kind, const char* count) {
+  const Element root = XmlReader(text).read();
+  EXPECT_EQ(root.name, "VTKFile");
+  EXPECT_EQ(root.attributes.at("type"), "PolyData");
+  const Element piece = root.child("PolyData").child("Piece");
+  const double points = piece.number("NumberOfPoints"), cells = piece.number(count);
+  EXPECT_EQ(piece.child("Points").named("Points").numbers().size(), 3 * points);
+
+  const Element& connectivity = piece.child(kind).named("connectivity");
+  const Element& offsets = piece.child(kind).named("offsets");
+  EXPECT_EQ(connectivity.attributes.at("type"), "Int64");
+  EXPECT_EQ(offsets.attributes.at("type"), "Int64");
+  for (const double point : connectivity.numbers())
+    EXPECT_TRUE(point >= 0 && point < points);
+  const std::vector<double> ends = offsets.numbers();
+  EXPECT_EQ(ends.size(), cells);
+  for (std::size_t k = 1; k < ends.size(); ++k)
+    EXPECT_GT(ends[k], ends[k - 1]);
+  if (!ends.empty()) {
+    EXPECT_EQ(ends.back(), connectivity.numbers().size());
+  }
+  for (const Element& array : piece.child("CellData").children)
+    EXPECT_EQ(array.numbers().size(), cells * array.number("NumberOfComponents")) << array.attributes.at("Name");
+  for (const Element& array : piece.child("PointData").children)
+    EXPECT_EQ(array.numbers().size(), points * array.number("NumberOfComponents")) << array.attributes.at("Name");
+  return piece;
+}
+
+struct Polygon {
+  std::vector<Vector<3>> corners;
+  Vector<3> area = Vector<3>::Zero();  // times the normal
+  Vector<3> middle = Vector<3>::Zero();
+};
+
+std::vector<Polygon> polygons(const Element& piece) {
+  const std::vector<double> points = piece.child("Points").named("Points").numbers();
+  const std::vector<double> connectivity = piece.child("Polys").named("connectivity").numbers();
+  std::vector<Polygon> list;
+  std::size_t at = 0;
+  for (const double end : piece.child("Polys").named("offsets").numbers()) {
+    Polygon polygon;
+    for (; at < static_cast<std::size_t>(end); ++at) {
+      const std::size_t point = 3 * static_cast<std::size_t>(connectivity[at]);
+      polygon.corners.emplace_back(points[point], points[point + 1], points[point + 2]);
+      polygon.middle += polygon.corners.back();
+    }
+    polygon.middle /= static_cast<double>(polygon.corners.size());
+    for (std::size_t k = 0; k < polygon.corners.size(); ++k)
+      polygon.area += 0.5 * (polygon.corners[k] - polygon.middle)
+                                .cross(polygon.corners[(k + 1) % polygon.corners.size()] - polygon.middle);
+    list.push_back(polygon);
+  }
+  return list;
+}
+
+std::string joint_name(const Element& root) {
+  std::string name;
+  for (const double byte : root.child("PolyData").child("FieldData").named("joint_names").numbers())
+    if (byte > 0) name += static_cast<char>(byte);
+  return name;
+}
+
+TEST(Paraview, CubesAreClosedByOutwardPolygons) {
+  const Model<3> model = row_of_blocks<3>(2);
+  const std::string text = vtp(block_faces(model, moved_state(model), 0.75));
+  const Element piece = checked_piece(text, "Polys", "NumberOfPolys");
+  const std::vector<Polygon> faces = polygons(piece);
+  ASSERT_EQ(faces.size(), 12u);
+
+  // the second cube has moved by 0.25 in y; each cube's faces point away from its middle and close it
+  const Vector<3> middles[] = {{1000, 1000, 1000}, {1001, 1000.25, 1000}};
+  const std::vector<double> body = piece.child("CellData").named("body").numbers();
+  Vector<3> sum[2] = {Vector<3>::Zero(), Vector<3>::Zero()};
+  double surface[2] = {};
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const int b = static_cast<int>(body[f]);
+    EXPECT_EQ(faces[f].corners.size(), 4u);
+    EXPECT_NEAR(faces[f].area.normalized().dot(faces[f].middle - middles[b]), 0.5, 1e-12);
+    sum[b] += faces[f].area;
+    surface[b] += faces[f].area.norm();
+  }
+  for (const int b : {0, 1}) {
+    EXPECT_LT(sum[b].norm(), 1e-12);
+    EXPECT_NEAR(surface[b], 6, 1e-12);
+  }
+}
+
+TEST(Paraview, CellsSayWhatTheyBelongTo) {
+  const Model<3> model = row_of_blocks<3>(2);
+  const std::string text = vtp(block_faces(model, moved_state(model), 0.75));
+  const Element data = checked_piece(text, "Polys", "NumberOfPolys").child("CellData");
+  const Element root = XmlReader(text).read();
+  EXPECT_EQ(joint_name(root), "A & B");
+  EXPECT_EQ(root.child("PolyData").child("FieldData").named("TimeValue").numbers(), std::vector<double>{0.75});
+
+  const std::vector<double> body = data.named("body").numbers(), joint = data.named("joint").numbers(),
+                            fixed = data.named("fixed").numbers(), displacement = data.named("displacement").numbers(),
+                            velocity = data.named("velocity").numbers();
+  int made_by_joint = 0;
+  for (std::size_t f = 0; f < body.size(); ++f) {
+    EXPECT_EQ(fixed[f], body[f] == 0);
+    EXPECT_EQ(displacement[3 * f + 1], body[f] == 1 ? 0.25 : 0);
+    EXPECT_EQ(velocity[3 * f], body[f] == 1 ? 2 : 0);
+    if (joint[f] == 0)
+      ++made_by_joint;
+    else
+      EXPECT_EQ(joint[f], -1);
+  }
+  EXPECT_EQ(made_by_joint, 2);
+}
+
+TEST(Paraview, ASquareIsOnePolygonInThePlane) {
+  const Model<2> model = row_of_blocks<2>(3);
+  const Element piece = checked_piece(vtp(block_faces(model, moved_state(model), 0)), "Polys", "NumberOfPolys");
+  const std::vector<Polygon> squares = polygons(piece);
+  ASSERT_EQ(squares.size(), 3u);
+  for (const Polygon& square : squares) {
+    EXPECT_EQ(square.corners.size(), 4u);
+    EXPECT_LT((square.area - Vector<3>(0, 0, 1)).norm(), 1e-12);
+    EXPECT_EQ(square.middle[2], 0);
+  }
+  EXPECT_NEAR(squares[1].middle[1], 1000.25, 1e-12);
+}
+
+TEST(Paraview, OnlyTouchingContactsAreShown) {
+  const Model<3> model = row_of_blocks<3>(2);
+  const Element piece = checked_piece(vtp(contact_points(model, moved_state(model), 0)), "Verts", "NumberOfVerts");
+  EXPECT_EQ(piece.number("NumberOfPoints"), 1);
+  const std::vector<double> point = piece.child("Points").named("Points").numbers();
+  EXPECT_EQ(point, (std::vector<double>{1000.5, 1000, 1000}));
+  EXPECT_EQ(piece.child("PointData").named("force").numbers(), (std::vector<double>{3, 0, 0}));
+  EXPECT_EQ(piece.child("PointData").named("normal").numbers(), (std::vector<double>{1, 0, 0}));
+  EXPECT_EQ(piece.child("PointData").named("overlap").numbers(), std::vector<double>{1e-4});
+}
+
+TEST(Paraview, ExcavatedBodiesAreGone) {
+  Model<3> model = row_of_blocks<3>(3);
+  model.bodies[1].present = false;
+  const Element piece = checked_piece(vtp(block_faces(model, moved_state(model), 0)), "Polys", "NumberOfPolys");
+  EXPECT_EQ(piece.number("NumberOfPolys"), 12);
+  for (const double body : piece.child("CellData").named("body").numbers())
+    EXPECT_NE(body, 1);
+}
+
+TEST(Paraview, AFailedStateStillOpens) {
+  const Model<2> model = row_of_blocks<2>(2);
+  State<2> state = moved_state(model);
+  state.motions[1].displacement[0] = std::nan("");
+  checked_piece(vtp(block_faces(model, state, 0)), "Polys", "NumberOfPolys");
+  state.contacts.clear();
+  checked_piece(vtp(contact_points(model, state, 0)), "Verts", "NumberOfVerts");
+}
+
+TEST(Paraview, CollectionsNameFilesThatExist) {
+  const TemporaryFolder folder;
+  const Model<2> model = row_of_blocks<2>(2);
+  FrameSeries series{folder.path};
+  for (const double time : {0.0, 0.1, 0.3})
+    write_frame(series, model, moved_state(model), time);
+  for (const char* name : {"blocks.pvd", "contacts.pvd"}) {
+    const Element root = XmlReader(read(folder.path / name)).read();
+    EXPECT_EQ(root.attributes.at("type"), "Collection");
+    const std::vector<Element>& entries = root.child("Collection").children;
+    ASSERT_EQ(entries.size(), 3u);
+    EXPECT_EQ(entries[2].number("timestep"), 0.3);
+    for (const Element& entry : entries)
+      EXPECT_TRUE(fs::exists(folder.path / entry.attributes.at("file")));
+  }
+}
+
+}  // namespace
+}  // namespace voussoir

@@ -1,0 +1,155 @@
+#include "core/output/paraview.hpp"
+
+#include <fmt/format.h>
+
+#include "core/output/atomic_file.hpp"
+
+namespace voussoir {
+namespace {
+
+std::array<double, 3> in_space(const Vector<2>& v) {
+  return {v[0], v[1], 0};
+}
+std::array<double, 3> in_space(const Vector<3>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+template <int Dim>
+void append(DataArray& array, const Vector<Dim>& v) {
+  const std::array<double, 3> components = in_space(v);
+  array.values.insert(array.values.end(), components.begin(), components.end());
+}
+
+// 3-D: the faces; 2-D: one polygon, its edges chained end to start
+std::vector<std::vector<int>> polygons(const Polytope<3>& part) {
+  return part.loops;
+}
+
+std::vector<std::vector<int>> polygons(const Polytope<2>& part) {
+  std::vector<int> next(part.vertices.size(), -1);
+  for (const std::vector<int>& edge : part.loops)
+    if (edge.size() == 2) next[edge[0]] = edge[1];
+  std::vector<int> outline;
+  int vertex = 0;
+  do {
+    outline.push_back(vertex);
+    vertex = next[vertex];
+  } while (vertex > 0 && outline.size() < next.size());
+  return {outline};
+}
+
+struct BlockArrays {
+  DataArray body{"body", 1, true, {}}, part{"part", 1, true, {}}, joint{"joint", 1, true, {}},
+      fixed{"fixed", 1, true, {}}, displacement{"displacement", 3, false, {}}, velocity{"velocity", 3, false, {}};
+};
+
+template <int Dim>
+void append_part(PolyData& data, BlockArrays& arrays, const Model<Dim>& model, const State<Dim>& state, PartId id) {
+  const Body<Dim>& body = model.bodies[id.body];
+  const Polytope<Dim>& part = body.parts[id.part];
+  const Motion<Dim>& motion = state.motions[id.body];
+
+  // where the vertices are now; parts share no points, they may separate
+  const int first_point = static_cast<int>(data.points.size());
+  const Matrix<Dim> turn = matrix(motion.rotation);
+  const Vector<Dim> centroid = body.reference + motion.displacement;
+  for (const Vector<Dim>& vertex : part.vertices)
+    data.points.push_back(in_space(Vector<Dim>(model.origin + (centroid + turn * vertex))));
+
+  const std::vector<std::vector<int>> outlines = polygons(part);
+  for (std::size_t face = 0; face < outlines.size(); ++face) {
+    if (outlines[face].size() < 3) continue;  // a plane that only touches an edge or a corner
+    std::vector<int>& cell = data.cells.emplace_back(outlines[face]);
+    for (int& point : cell)
+      point += first_point;
+    arrays.body.values.push_back(id.body);
+    arrays.part.values.push_back(id.part);
+    arrays.joint.values.push_back(face < part.joints.size() ? part.joints[face] : no_joint);
+    arrays.fixed.values.push_back(body.fixed);
+    append<Dim>(arrays.displacement, motion.displacement);
+    append<Dim>(arrays.velocity, motion.velocity);
+  }
+}
+
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& list) {
+  std::vector<std::string> names;
+  for (const Named& item : list)
+    names.push_back(item.name);
+  return names;
+}
+
+}  // namespace
+
+template <int Dim>
+PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double time) {
+  PolyData data;
+  data.time = time;
+  BlockArrays arrays;
+  for (const PartId& id : model.parts)
+    if (model.bodies[id.body].present) append_part(data, arrays, model, state, id);
+
+  // in the plane a cell is a whole part: no single joint made it
+  data.cell_data = {arrays.body, arrays.part};
+  if (Dim == 3) data.cell_data.push_back(arrays.joint);
+  data.cell_data.insert(data.cell_data.end(), {arrays.fixed, arrays.displacement, arrays.velocity});
+
+  data.names = {{"body_names", names_of(model.bodies)}};
+  if (Dim == 3) data.names.emplace_back("joint_names", names_of(model.joints));
+  return data;
+}
+
+template <int Dim>
+PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double time) {
+  PolyData data;
+  data.kind = PolyData::Cells::vertices;
+  data.time = time;
+  DataArray body_a{"body_a", 1, true, {}}, body_b{"body_b", 1, true, {}}, properties{"properties", 1, true, {}},
+      normal{"normal", 3, false, {}}, force{"force", 3, false, {}}, overlap{"overlap", 1, false, {}},
+      area{"area", 1, false, {}};
+  for (const Contact<Dim>& contact : state.contacts) {
+    if (!contact.touching()) continue;
+    const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
+
+    // the contact's geometry is relative to the centroid of its first body
+    const Vector<Dim> centroid = model.bodies[a].reference + state.motions[a].displacement;
+    data.cells.push_back({static_cast<int>(data.points.size())});
+    data.points.push_back(in_space(Vector<Dim>(model.origin + (centroid + contact.geometry.point))));
+    body_a.values.push_back(a);
+    body_b.values.push_back(b);
+    properties.values.push_back(contact.properties);
+    append<Dim>(normal, contact.geometry.normal);
+    append<Dim>(force, contact.force);
+    overlap.values.push_back(contact.geometry.overlap);
+    area.values.push_back(contact.geometry.area);
+  }
+  data.point_data = {body_a, body_b, properties, normal, force, overlap, area};
+  data.names = {{"property_names", names_of(model.properties)}};
+  return data;
+}
+
+template <int Dim>
+void write_frame(FrameSeries& series, const Model<Dim>& model, const State<Dim>& state, double time) {
+  if (series.times.empty()) prepare_folder(series.folder / "frames");
+  const std::size_t frame = series.times.size();
+  write_file(series.folder / fmt::format("frames/blocks_{:04}.vtp", frame), vtp(block_faces(model, state, time)));
+  write_file(series.folder / fmt::format("frames/contacts_{:04}.vtp", frame), vtp(contact_points(model, state, time)));
+  series.times.push_back(time);
+
+  // the collections come last: they never name a file that is not there
+  for (const char* kind : {"blocks", "contacts"}) {
+    std::vector<TimedFile> files;
+    for (std::size_t k = 0; k < series.times.size(); ++k)
+      files.push_back({series.times[k], fmt::format("frames/{}_{:04}.vtp", kind, k)});
+    write_file(series.folder / fmt::format("{}.pvd", kind), pvd(files));
+  }
+}
+
+template PolyData block_faces<2>(const Model<2>&, const State<2>&, double);
+template PolyData block_faces<3>(const Model<3>&, const State<3>&, double);
+template PolyData contact_points<2>(const Model<2>&, const State<2>&, double);
+template PolyData contact_points<3>(const Model<3>&, const State<3>&, double);
+template void write_frame<2>(FrameSeries&, const Model<2>&, const State<2>&, double);
+template void write_frame<3>(FrameSeries&, const Model<3>&, const State<3>&, double);
+
+}  // namespace voussoir

@@ -1,0 +1,36 @@
+// What ParaView shows: the blocks with their exact faces, the contacts that touch, and how both change in time.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/model.hpp"
+#include "core/output/vtp.hpp"
+#include "core/state.hpp"
+
+namespace voussoir {
+
+// Every face of every part as one polygon, counter-clockwise seen from outside (2-D: every part as one polygon at z =
+// 0), where it is now, in world coordinates; excavated bodies are left out. Cell data: body, part, joint (the one that
+// made the face, -1 none; 3-D only), fixed, displacement (m, of the body's centroid), velocity (m/s). Field data:
+// body_names, joint_names.
+template <int Dim>
+PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double time);
+
+// The contacts that touch, one point each. Point data: body_a, body_b, properties, normal (from a to b), force (N, on
+// b), overlap (m), area (m²; 2-D: m; 0 where no law asked for it). Field data: property_names.
+template <int Dim>
+PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double time);
+
+// A growing series of frames in `folder`: frames/blocks_0000.vtp …, frames/contacts_0000.vtp …, blocks.pvd,
+// contacts.pvd.
+struct FrameSeries {
+  std::filesystem::path folder;
+  std::vector<double> times = {};  // s, of the frames written
+};
+
+// Adds a frame and renews the collections, so that a run that is cut short can be opened too. Throws OutputError.
+template <int Dim>
+void write_frame(FrameSeries& series, const Model<Dim>& model, const State<Dim>& state, double time);
+
+}  // namespace voussoir

@@ -1,0 +1,118 @@
+#include "core/output/results_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/output/atomic_file.hpp"
+#include "core/output/version.hpp"
+
+namespace voussoir {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// turns numbers into JSON and remembers the names of those that JSON cannot hold
+struct NumberWriter {
+  std::vector<std::string> not_finite;
+
+  Json operator()(double number, const std::string& name) {
+    if (std::isfinite(number)) return number;
+    not_finite.push_back(name);
+    return nullptr;
+  }
+};
+
+Json values_json(const Results& results, NumberWriter& number) {
+  Json values = Json::object();
+  for (const auto& [name, value] : results.values) {
+    Json& entry = values[name];
+    entry["value"] = number(value.value, name);
+    entry["unit"] = value.unit;
+    if (value.error_bar) entry["error_bar"] = number(*value.error_bar, name + ".error_bar");
+    if (!value.rule.empty()) entry["rule"] = value.rule;
+  }
+  return values;
+}
+
+Json stages_json(const Results& results, NumberWriter& number) {
+  Json stages = Json::array();
+  for (const StageResult& stage : results.stages) {
+    const std::string prefix = "stage " + stage.name + ".";
+    stages.push_back({{"name", stage.name},
+                      {"kind", stage.kind},
+                      {"ended", stage.ended},
+                      {"steps", stage.steps},
+                      {"time_s", number(stage.time, prefix + "time_s")},
+                      {"time_step_s", number(stage.time_step, prefix + "time_step_s")},
+                      {"unbalanced", number(stage.unbalanced, prefix + "unbalanced")}});
+  }
+  return stages;
+}
+
+Json counters_json(const Counters& counters) {
+  return {{"steps", counters.steps},
+          {"contact_evaluations", counters.contact_evaluations},
+          {"lp_solves", counters.lp_solves},
+          {"lp_pivots", counters.lp_pivots},
+          {"newton_iterations", counters.newton_iterations},
+          {"unconverged", counters.unconverged},
+          {"normal_fallbacks", counters.normal_fallbacks},
+          {"deep_overlaps", counters.deep_overlaps},
+          {"neighbour_builds", counters.neighbour_builds}};
+}
+
+Json program_json(const RunRecord& record) {
+  Json features = Json::object();
+  for (const auto& [name, built_in] : record.features)
+    features[name] = built_in;
+  return {{"version", version()}, {"commit", commit()}, {"compiler", compiler()}, {"features", features}};
+}
+
+std::string complete_message(const Results& results, const NumberWriter& number) {
+  std::string message = results.message;
+  for (const std::string& name : number.not_finite)
+    message += (message.empty() ? "" : "; ") + name + " is not a finite number";
+  return message;
+}
+
+}  // namespace
+
+std::string outcome_name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::done:
+      return "done";
+    case Outcome::incomplete:
+      return "incomplete";
+    case Outcome::failed:
+      return "failed";
+  }
+  return "failed";
+}
+
+std::string results_json(const Results& results, const RunRecord& record) {
+  NumberWriter number;
+  const Json values = values_json(results, number), stages = stages_json(results, number);
+
+  Json json;
+  json["schema"] = "voussoir.results";
+  json["schema_version"] = results_schema_version;
+  json["title"] = record.title;
+  json["dimension"] = record.dimension;
+  json["input_hash"] = record.input_hash;
+  json["program"] = program_json(record);
+  json["status"] = outcome_name(results.outcome);
+  json["message"] = complete_message(results, number);
+  json["values"] = values;
+  json["stages"] = stages;
+  json["counters"] = counters_json(results.counters);
+  json["timing"] = {{"seconds", std::isfinite(results.seconds) ? Json(results.seconds) : Json()},
+                    {"threads", record.threads}};
+  // a scene's title may hold bytes that are not UTF-8: replace them, a lost result would be worse
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_results_json(const std::filesystem::path& path, const Results& results, const RunRecord& record) {
+  write_file(path, results_json(results, record));
+}
+
+}  // namespace voussoir

@@ -1,0 +1,35 @@
+// results.json: everything a simulation found, with units, in a form that any language reads.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/results.hpp"
+
+namespace voussoir {
+
+inline constexpr int results_schema_version = 1;
+
+// what results.json says besides the results themselves
+struct RunRecord {
+  std::string title;
+  int dimension = 3;
+  std::string input_hash;                              // fingerprint of the canonical effective scene
+  std::vector<std::pair<std::string, bool>> features;  // parts built in: glpk, ipopt, openmp
+  int threads = 1;
+};
+
+// "done", "incomplete", "failed"
+std::string outcome_name(Outcome outcome);
+
+// Numbers have the digits to be read back exactly. JSON knows no NaN: a number that is not finite becomes null and the
+// message says which. What depends on the machine (seconds, threads) stands under `timing` alone: the rest is the same
+// for the same input.
+std::string results_json(const Results& results, const RunRecord& record);
+
+// throws OutputError
+void write_results_json(const std::filesystem::path& path, const Results& results, const RunRecord& record);
+
+}  // namespace voussoir

@@ -1,0 +1,20 @@
+// Which program made a result.
+#pragma once
+
+#include <string>
+
+namespace voussoir {
+
+// the project's version, e.g. "0.1.0"
+std::string version();
+
+// the commit that was built, "-dirty" behind it when files differed from it; "unknown" outside a git checkout
+std::string commit();
+
+// e.g. "GNU 12.2.0"
+std::string compiler();
+
+// whether the core was built with threads
+bool has_openmp();
+
+}  // namespace voussoir
