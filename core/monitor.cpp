@@ -16,6 +16,18 @@ void append_vector(std::vector<Column>& columns, const std::string& name, const 
   for (int k = 0; k < Dim; ++k) columns.push_back({name + "_" + axis_names[k], unit});
 }
 
+// what all touching contacts of a body exert on it
+template <int Dim>
+Vector<Dim> contact_load(int body, const Model<Dim>& model, const State<Dim>& state) {
+  Vector<Dim> sum = Vector<Dim>::Zero();
+  for (const Contact<Dim>& c : state.contacts) {
+    if (!c.touching()) continue;
+    if (model.parts[c.part_a].body == body) sum -= c.force;
+    if (model.parts[c.part_b].body == body) sum += c.force;
+  }
+  return sum;
+}
+
 // what all touching contacts of a joint carry together
 template <int Dim>
 void append_joint(std::vector<double>& values, int joint, const Model<Dim>& model, const State<Dim>& state) {
@@ -39,6 +51,12 @@ void append_joint(std::vector<double>& values, int joint, const Model<Dim>& mode
 
 }  // namespace
 
+std::string Column::header() const {
+  if (unit == "1") return name;
+  const auto slash = unit.find('/');
+  return name + "_" + (slash == std::string::npos ? unit : unit.substr(0, slash) + "_per_" + unit.substr(slash + 1));
+}
+
 template <int Dim>
 std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
   std::vector<Column> columns;
@@ -52,6 +70,13 @@ std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
         else
           append_vector<Dim>(columns, m.name + "_rotation", "deg");
         break;
+      case Quantity::angular_velocity:
+        if (Dim == 2)
+          columns.push_back({m.name + "_angular_velocity", "rad/s"});
+        else
+          append_vector<Dim>(columns, m.name + "_angular_velocity", "rad/s");
+        break;
+      case Quantity::contact_load: append_vector<Dim>(columns, m.name + "_contact_load", "N"); break;
       case Quantity::contact_force:
         columns.push_back({m.name + "_normal_force", "N"});
         columns.push_back({m.name + "_shear_force", "N"});
@@ -75,6 +100,8 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
       case Quantity::displacement: append(state.motions[m.subject].displacement); break;
       case Quantity::velocity: append(state.motions[m.subject].velocity); break;
       case Quantity::rotation: append((degrees * rotation_vector(state.motions[m.subject].rotation)).eval()); break;
+      case Quantity::angular_velocity: append(angular_velocity(model.bodies[m.subject], state.motions[m.subject])); break;
+      case Quantity::contact_load: append(contact_load(m.subject, model, state)); break;
       case Quantity::contact_force: append_joint(values, m.subject, model, state); break;
     }
   }

@@ -12,11 +12,12 @@ namespace voussoir {
 // one column of the history: a name without and with its unit
 struct Column {
   std::string name, unit;
-  std::string header() const { return unit == "1" ? name : name + "_" + (unit == "m/s" ? "m_per_s" : unit); }
+  std::string header() const;
 };
 
-// Columns and present values of all monitors, in order. Displacement and velocity by component, rotation as the rotation
-// vector in degrees. Contact force of a joint: over its touching contacts the sums of normal and of shear force and of area,
+// Columns and present values of all monitors, in order. Displacement, velocity and angular velocity (rad/s) by
+// component of the world axes, rotation as the rotation vector in degrees. Contact load of a body: the vector sum of the
+// forces that its contacts exert on it. Contact force of a joint: over its touching contacts the sums of normal and of shear force and of area,
 // their number, the largest mobilised friction angle, and the tilt of the contact that carries most against the joint's
 // own normal.
 template <int Dim>

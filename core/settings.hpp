@@ -119,13 +119,13 @@ struct StagePlan {
   std::optional<DampingSettings> damping;    // replaces the scene's within this stage
 };
 
-enum class Quantity { displacement, velocity, rotation, contact_force };
+enum class Quantity { displacement, velocity, rotation, angular_velocity, contact_load, contact_force };
 
 // a quantity followed in history.csv: of a body, or the resultant over the contacts of a joint
 struct MonitorPlan {
   std::string name;
   Quantity quantity = Quantity::displacement;
-  Selector body;                             // displacement, velocity, rotation
+  Selector body;                             // every quantity but contact_force
   std::string joint;                         // contact_force
 };
 

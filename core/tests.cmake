@@ -8,3 +8,27 @@ voussoir_test(unit.blocks LABEL unit
 voussoir_test(unit.law_and_motion LABEL unit
   SOURCES law/law_test.cpp motion/motion_test.cpp
   LIBS voussoir_core Boost::headers)
+
+voussoir_test(unit.contact LABEL unit
+  SOURCES contact/contact_test.cpp
+  LIBS voussoir_core Boost::headers)
+
+voussoir_test(unit.scene LABEL unit
+  SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/keys_test.cpp
+  LIBS voussoir_core fmt::fmt)
+
+voussoir_test(unit.output LABEL unit SOURCES output/output_test.cpp
+  LIBS voussoir_core fmt::fmt nlohmann_json::nlohmann_json)
+
+set(outside_solvers)
+foreach(solver voussoir_glpk voussoir_ipopt)
+  if(TARGET ${solver})
+    list(APPEND outside_solvers ${solver})
+  endif()
+endforeach()
+voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_test.cpp
+  LIBS voussoir_core ${outside_solvers})
+
+voussoir_test(unit.step LABEL unit
+  SOURCES step_test.cpp
+  LIBS voussoir_core Boost::headers)

@@ -149,6 +149,10 @@ const char* quantity_name(Quantity quantity) {
       return "velocity";
     case Quantity::rotation:
       return "rotation";
+    case Quantity::angular_velocity:
+      return "angular velocity";
+    case Quantity::contact_load:
+      return "contact load";
     case Quantity::contact_force:
       return "contact force";
   }

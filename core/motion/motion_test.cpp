@@ -213,7 +213,8 @@ TEST(Rotation, AboutOneFreeAxisOnlyThatMomentCounts) {
     // turning about an axis leaves the moment of inertia about it alone
     const Vector<3> expected = 0.5 * load.moment[axis] / tensor(axis, axis) * Vector<3>::Unit(axis);
     EXPECT_LT((rotation_vector(motion.rotation) - expected).norm(), 10 * rounding);
-    EXPECT_LT((angular_velocity(body, motion) - 2 * expected).norm(), 10 * rounding);
+    // the velocity stands half a step behind
+    EXPECT_LT((angular_velocity(body, motion) - 2 * (1 - dt / 2) * expected).norm(), 10 * rounding);
   }
 }
 
@@ -269,7 +270,7 @@ Eigen::Matrix<double, Dim, freedoms<Dim>> velocity_at(const Vector<Dim>& arm) {
   return j;
 }
 
-// random bodies, some fixed, with random contacts between them
+// random bodies, some fixed, with random contacts between them; every free body has one
 template <int Dim>
 struct RandomAssembly {
   Model<Dim> model;
@@ -291,8 +292,9 @@ struct RandomAssembly {
       m.displacement = 0.01 * shapes::normal_vector<Dim>(random);
     }
     while (static_cast<int>(state.contacts.size()) < contacts) {
-      const int a = shapes::integer(random, 0, free + fixed - 1), b = shapes::integer(random, 0, free + fixed - 1);
-      if (a >= b || a >= free) continue;  // the first is free: fixed ones come last
+      const int place = static_cast<int>(state.contacts.size());
+      const int a = place < free ? place : shapes::integer(random, 0, free - 1);  // fixed ones come last
+      const int b = shapes::integer(random, a + 1, free + fixed - 1);
       Contact<Dim> c;
       c.part_a = a;
       c.part_b = b;
@@ -347,13 +349,14 @@ void expect_safe_time_step(std::uint64_t seed) {
   double lowest = 1, highest = 0;
   for (int trial = 0; trial < 100; ++trial) {
     const int free = shapes::integer(random, 1, 6), fixed = shapes::integer(random, 1, 3);
-    RandomAssembly<Dim> assembly(random, free, fixed, shapes::integer(random, 1, 15));
+    RandomAssembly<Dim> assembly(random, free, fixed, free + shapes::integer(random, 0, 10));
     const double limit = 2 / std::sqrt(assembly.largest_eigenvalue());
     const double estimate = estimate_time_step(assembly.model, {}, {}, assembly.state).limit;
     lowest = std::min(lowest, estimate / limit);
     highest = std::max(highest, estimate / limit);
   }
-  EXPECT_LE(highest, 1);
+  EXPECT_LE(highest, 1 + rounding);  // reached where stiffnesses are constant: they need no margin
+  EXPECT_GT(highest, 0.9);
   EXPECT_GE(lowest, margin_share / std::sqrt(2.0) * (1 - 1e-9));
 }
 

@@ -62,6 +62,7 @@ bool solve_symmetric(Matrix<Dim> h, Vector<Dim>& g) {
 template <int Dim>
 struct Workspace {
   std::vector<Vector<Dim>> scaled;  // a/s
+  std::vector<Vector<Dim>> turned;  // a in the graded frame
   std::vector<double> slacks;
 };
 
@@ -72,6 +73,7 @@ CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const Cen
   static thread_local Workspace<Dim> work;
   const std::size_t count = planes.size();
   work.scaled.resize(count);
+  work.turned.resize(count);
   work.slacks.resize(count);
 
   CentreResult<Dim> result;
@@ -84,15 +86,20 @@ CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const Cen
   }
 
   Vector<Dim> moved = Vector<Dim>::Zero();
+  Matrix<Dim> frame;
+  bool settled = false;  // near the centre the frame stays: a new one rounds anew, which thin regions magnify
   for (; result.iterations < request.limit; ++result.iterations) {
-    for (std::size_t i = 0; i < count; ++i) work.scaled[i] = planes[i].normal / work.slacks[i];
-    const Matrix<Dim> frame = graded_frame(work.scaled);
+    if (!settled) {
+      for (std::size_t i = 0; i < count; ++i) work.scaled[i] = planes[i].normal / work.slacks[i];
+      frame = graded_frame(work.scaled);
+      for (std::size_t i = 0; i < count; ++i) work.turned[i] = frame * planes[i].normal;
+    }
 
     // gradient and Hessian of -Σ log s, and Newton's step
     Vector<Dim> gradient = Vector<Dim>::Zero();
     Matrix<Dim> hessian = Matrix<Dim>::Zero();
-    for (Vector<Dim>& p : work.scaled) {
-      p = frame * p;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vector<Dim> p = work.scaled[i] = work.turned[i] / work.slacks[i];
       gradient += p;
       hessian += p * p.transpose();
     }
@@ -105,7 +112,8 @@ CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const Cen
     // a full step when it is safe, else the largest whose slacks provably stay positive
     const double decrement = -gradient.dot(step);
     double length = 1;
-    if (decrement >= full_step_decrement) {
+    settled = decrement < full_step_decrement;
+    if (!settled) {
       double steepest = 0;
       for (std::size_t i = 0; i < count; ++i)
         steepest = std::max(steepest, work.scaled[i].dot(step));

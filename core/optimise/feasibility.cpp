@@ -9,7 +9,7 @@ namespace voussoir {
 namespace {
 
 // multipliers below this are zero but for rounding
-constexpr double multiplier_rounding = 1e-11;
+constexpr double multiplier_rounding = 1e-13;
 
 // a plane violated by no more than this share of the coordinates holds: on rounding alone, degenerate bases would pivot
 // for ever
@@ -106,6 +106,22 @@ void pivot(Basis<Dim>& basis, int leave, int enter, double offset, const Eigen::
   basis.offsets[leave] = offset;
 }
 
+// What the multipliers prove by weak duality whatever rounding did to them: s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ, negative
+// ones left out, for all x within the reach.
+template <int Dim>
+double proven_bound(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far, double reach) {
+  Vector<Dim> residual = Vector<Dim>::Zero();
+  double sum = 0, offsets = 0;
+  for (int k = 0; k <= Dim; ++k) {
+    const double lambda = std::max(basis.multipliers()[k], 0.0);
+    const HalfSpace<Dim> p = basis_plane(planes, basis.planes[k], far);
+    residual += lambda * p.normal;
+    offsets += lambda * p.offset;
+    sum += lambda;
+  }
+  return -(offsets + residual.norm() * reach) / sum;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -123,8 +139,8 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
     result.point = solution.template head<Dim>();
     result.value = -solution[Dim];
 
-    // every basis is dual feasible, so its value is a lower bound
-    if (result.value > request.stop_above) {
+    // every basis is dual feasible, so its value is a lower bound; tiny pivots can spoil it, hence the proof
+    if (result.value > request.stop_above && proven_bound<Dim>(basis, planes, far, 0.01 * far) > request.stop_above) {
       result.status = FeasibilityStatus::separated_early;
       break;
     }

@@ -1,0 +1,578 @@
+// The contact kernel: decision, point, normal, overlap and area against separating axes, closed forms and long double.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "core/contact/broad_phase.hpp"
+#include "core/contact/narrow_phase.hpp"
+#include "core/testing/oracles.hpp"
+#include "core/testing/shapes.hpp"
+
+namespace voussoir {
+namespace {
+
+using shapes::Random;
+
+// closed forms of unit blocks: rounding of the planes (1e-16) and of the centre's Newton steps
+constexpr double exact = 1e-12;
+
+// Newton ends with 1e-9 of the overlap (ContactSettings::newton_tolerance), the cold face contact with a little more
+constexpr double point_tolerance = 1e-6;
+
+// sections through a point and a normal that both carry rounding; in long double they share neither
+constexpr double area_tolerance = 1e-6;
+
+// where a cube's corner meets a face, the normal lies between the face's and the corner's diagonal, 54.7 degrees away:
+// the cosine of half of that
+constexpr double halfway_to_a_corner = 0.887;
+
+// a gap below this share of the size is decided by rounding: ContactSettings::tolerance with room
+constexpr double undecided = 1e-11;
+
+// the same for the LP's value, which is closer to the rounding: twice the tolerance of a unit cube's half edge
+constexpr double undecided_value = 1e-13;
+
+template <int Dim>
+struct Outcome {
+  Contact<Dim> contact;
+  KernelCounters counters;
+};
+
+template <int Dim>
+Outcome<Dim> touch(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<Dim>& turn, const Vector<Dim>& offset,
+                   const ContactSettings& settings = {}, const Contact<Dim>& before = {}) {
+  Outcome<Dim> r{before, {}};
+  const Pair<Dim> pair{&a, &b, Matrix<Dim>::Identity(), turn, offset};
+  Contact<Dim>* slot = &r.contact;
+  narrow_phase<Dim>(std::span(&pair, 1), settings, {}, std::span(&slot, 1), r.counters);
+  return r;
+}
+
+template <int Dim>
+Outcome<Dim> touch(const Polytope<Dim>& a, const Polytope<Dim>& b, const Vector<Dim>& offset) {
+  return touch<Dim>(a, b, Matrix<Dim>::Identity(), offset);
+}
+
+template <int Dim>
+Polytope<Dim> unit_cube() {
+  return shapes::block<Dim>(shapes::cube<Dim>(0.5));
+}
+
+// all planes in the first body's frame, seen from its centroid
+template <int Dim>
+HalfSpaces<Dim> planes_of(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<Dim>& turn,
+                          const Vector<Dim>& offset) {
+  HalfSpaces<Dim> planes = a.faces;
+  for (const HalfSpace<Dim>& p : shapes::placed<Dim>(b.faces, turn, offset)) planes.push_back(p);
+  return planes;
+}
+
+// what every contact must satisfy: point inside, near the analytic centre, overlap positive, unit normal, right area
+template <int Dim>
+void expect_sound(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<Dim>& turn, const Vector<Dim>& offset,
+                  const ContactGeometry<Dim>& g) {
+  const HalfSpaces<Dim> planes = planes_of<Dim>(a, b, turn, offset);
+  EXPECT_NEAR(g.normal.norm(), 1, exact);
+  EXPECT_GT(g.overlap, 0);
+  EXPECT_GE(g.face_a, 0);
+  EXPECT_LT(g.face_a, static_cast<int>(a.faces.size()));
+  EXPECT_GE(g.face_b, 0);
+  EXPECT_LT(g.face_b, static_cast<int>(b.faces.size()));
+  // the planes above are rounded anew: 1e-16 of slack is the input's own uncertainty
+  const auto barrier = oracle::barrier<Dim>(planes, g.point.template cast<oracle::Real>());
+  EXPECT_TRUE(barrier.interior);
+  EXPECT_LT(static_cast<double>(barrier.decrement), point_tolerance + 1e-14 / g.overlap);
+  const double area = static_cast<double>(
+      oracle::section<Dim>(planes, g.point.template cast<oracle::Real>(), g.normal.template cast<oracle::Real>()));
+  // the ends of a wedge move by the rounding of the coordinates over its height
+  EXPECT_NEAR(g.area, area, (area_tolerance + 1e-15 / g.overlap) * area + 1e-14);
+}
+
+template <int Dim>
+Vector<Dim> lowest_corner(const Polytope<Dim>& part, const Matrix<Dim>& turn) {
+  Vector<Dim> lowest = turn * part.vertices.front();
+  for (const Vector<Dim>& v : part.vertices)
+    if ((turn * v)[Dim - 1] < lowest[Dim - 1]) lowest = turn * v;
+  return lowest;
+}
+
+// ---- the decision ---------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void expect_decision_by_separating_axes(std::uint64_t seed, int pairs) {
+  Random random(seed);
+  int touching = 0, close = 0;
+  for (int i = 0; i < pairs; ++i) {
+    const Polytope<Dim> a = shapes::centred_block<Dim>(shapes::random_planes<Dim>(random, shapes::integer(random, 0, 8), 1));
+    const Polytope<Dim> b = shapes::centred_block<Dim>(shapes::random_planes<Dim>(random, shapes::integer(random, 0, 8), 1));
+    const Matrix<Dim> turn = matrix(shapes::orientation<Dim>(random));
+    // pushed together along a direction until they nearly touch, then a step of 1e-9 to 1 either way
+    const Vector<Dim> along = shapes::direction<Dim>(random);
+    double inside = 0, outside = 6;
+    for (int k = 0; k < 40; ++k) {
+      const double middle = 0.5 * (inside + outside);
+      (oracle::separation<Dim>(a, b, turn, middle * along) > 0 ? outside : inside) = middle;
+    }
+    const double step = shapes::power_of_ten(random, -9, 0) * (i % 2 ? 1 : -1);
+    const Vector<Dim> offset = (outside + step) * along;
+    const double gap = static_cast<double>(oracle::separation<Dim>(a, b, turn, offset));
+    if (std::abs(gap) < undecided) continue;
+    const ContactStatus status = touch<Dim>(a, b, turn, offset).contact.status;
+    EXPECT_EQ(status, gap < 0 ? ContactStatus::touching : ContactStatus::separated) << "gap " << gap;
+    // the other body as the first one
+    EXPECT_EQ(touch<Dim>(b, a, turn.transpose(), -turn.transpose() * offset).contact.status, status);
+    touching += gap < 0;
+    close += std::abs(gap) < 1e-6;
+  }
+  EXPECT_GT(touching, pairs / 4);
+  EXPECT_GT(close, pairs / 10);
+}
+
+TEST(Decision, AgreesWithSeparatingAxes3D) { expect_decision_by_separating_axes<3>(61, 80); }
+TEST(Decision, AgreesWithSeparatingAxes2D) { expect_decision_by_separating_axes<2>(62, 500); }
+
+TEST(Decision, TouchingExactlyIsNoContact) {
+  const Polytope<3> cube = unit_cube<3>();
+  const Polytope<2> square = unit_cube<2>();
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z)
+        if (x != 0 || y != 0 || z != 0) {
+          EXPECT_EQ(touch<3>(cube, cube, Vector<3>(x, y, z)).contact.status, ContactStatus::separated);
+        }
+      if (x != 0 || y != 0) {
+        EXPECT_EQ(touch<2>(square, square, Vector<2>(x, y)).contact.status, ContactStatus::separated);
+      }
+    }
+  // and the smallest overlap that counts is one
+  EXPECT_EQ(touch<3>(cube, cube, Vector<3>(0, 0, 1 - 1e-12)).contact.status, ContactStatus::touching);
+  EXPECT_EQ(touch<3>(cube, cube, Vector<3>(0, 0, 1 + 1e-12)).contact.status, ContactStatus::separated);
+}
+
+// ---- closed forms ---------------------------------------------------------------------------------------------------
+
+TEST(ClosedForm, CubeOnCube) {
+  const Polytope<3> cube = unit_cube<3>();
+  for (const double overlap : {1e-2, 1e-4, 1e-6, 1e-9, 1e-11}) {
+    const Vector<3> offset(0.25, -0.5, 1 - overlap);
+    const Outcome<3> r = touch<3>(cube, cube, offset);
+    ASSERT_EQ(r.contact.status, ContactStatus::touching);
+    const ContactGeometry<3>& g = r.contact.geometry;
+    EXPECT_NEAR(g.overlap, overlap, 1e-15);
+    EXPECT_LT((g.normal - Vector<3>::UnitZ()).norm(), exact);
+    EXPECT_NEAR(g.area, 0.75 * 0.5, area_tolerance);
+    EXPECT_LT((g.point - Vector<3>(0.125, -0.25, 0.5 - overlap / 2)).norm(), point_tolerance);
+    EXPECT_NEAR(g.point[2], 0.5 - overlap / 2, point_tolerance * overlap + 1e-15);
+    EXPECT_EQ(cube.faces[g.face_a].normal, Vector<3>::UnitZ());
+    EXPECT_EQ(cube.faces[g.face_b].normal, Vector<3>(-Vector<3>::UnitZ()));
+  }
+}
+
+TEST(ClosedForm, SquareOnSquare) {
+  const Polytope<2> square = unit_cube<2>();
+  for (const double overlap : {1e-2, 1e-4, 1e-6, 1e-9, 1e-11}) {
+    const ContactGeometry<2> g = touch<2>(square, square, Vector<2>(0.25, 1 - overlap)).contact.geometry;
+    EXPECT_NEAR(g.overlap, overlap, 1e-15);
+    EXPECT_LT((g.normal - Vector<2>::UnitY()).norm(), exact);
+    EXPECT_NEAR(g.area, 0.75, area_tolerance);
+    EXPECT_LT((g.point - Vector<2>(0.125, 0.5 - overlap / 2)).norm(), point_tolerance);
+  }
+}
+
+TEST(ClosedForm, VertexOnVertexAlongTheDiagonal) {
+  const Polytope<3> cube = unit_cube<3>();
+  const Polytope<2> square = unit_cube<2>();
+  for (const double h : {1e-2, 1e-5, 1e-9}) {
+    const ContactGeometry<3> g = touch<3>(cube, cube, Vector<3>::Constant(1 - h)).contact.geometry;
+    EXPECT_LT((g.normal - Vector<3>::Constant(1 / std::sqrt(3.0))).norm(), point_tolerance);
+    EXPECT_LT((g.point - Vector<3>::Constant(0.5 - h / 2)).norm(), point_tolerance * h + 1e-15);
+    EXPECT_NEAR(g.overlap, std::sqrt(3.0) * h, point_tolerance * h);
+    // the overlap is a cube of side h, cut across its diagonal: a hexagon
+    EXPECT_NEAR(g.area, 3 * std::sqrt(3.0) / 4 * h * h, point_tolerance * h * h);
+    const ContactGeometry<2> flat = touch<2>(square, square, Vector<2>::Constant(1 - h)).contact.geometry;
+    EXPECT_LT((flat.normal - Vector<2>::Constant(1 / std::numbers::sqrt2)).norm(), point_tolerance);
+    EXPECT_NEAR(flat.overlap, std::numbers::sqrt2 * h, point_tolerance * h);
+    EXPECT_NEAR(flat.area, std::numbers::sqrt2 * h, point_tolerance * h);
+  }
+}
+
+TEST(ClosedForm, CrossedEdgesMeetAlongTheirCommonPerpendicular) {
+  // both cubes stand on an edge: the lower one's along x, the upper one's turned by an angle about z
+  const Polytope<3> cube = unit_cube<3>();
+  const double half_diagonal = std::sqrt(0.5);
+  const Matrix<3> on_edge = Eigen::AngleAxisd(std::numbers::pi / 4, Vector<3>::UnitX()).toRotationMatrix();
+  Random random(63);
+  for (const double overlap : {1e-2, 1e-5, 1e-9})
+    for (int i = 0; i < 10; ++i) {
+      const double angle = i == 0 ? std::numbers::pi / 2 : shapes::uniform(random, 0.02, std::numbers::pi - 0.02);
+      const Matrix<3> about_z = Eigen::AngleAxisd(angle, Vector<3>::UnitZ()).toRotationMatrix();
+      // the first body sees the world turned back
+      const Matrix<3> turn = on_edge.transpose() * about_z * on_edge;
+      const Vector<3> up = on_edge.transpose() * Vector<3>::UnitZ();
+      const ContactGeometry<3> g = touch<3>(cube, cube, turn, (2 * half_diagonal - overlap) * up).contact.geometry;
+      EXPECT_LT((g.normal - up).norm(), point_tolerance);
+      EXPECT_NEAR(g.overlap, overlap, point_tolerance * overlap + 1e-15);
+      EXPECT_LT((g.point - (half_diagonal - overlap / 2) * up).norm(), point_tolerance * overlap / std::sin(angle) + 1e-14);
+      // the section halfway is a rhombus of height `overlap`, since the edges' flanks slope by 45 degrees
+      EXPECT_NEAR(g.area, overlap * overlap / std::sin(angle), area_tolerance * overlap * overlap / std::sin(angle) + 1e-24);
+    }
+}
+
+TEST(ClosedForm, AVertexOnAFace) {
+  // an octahedron's corner pushed into a cube's top: a square pyramid, upside down
+  const Polytope<3> cube = shapes::block<3>(shapes::cube<3>(3));
+  const Polytope<3> octahedron = shapes::block<3>(shapes::platonic_solids(1)[2].planes);
+  for (const double depth : {1e-2, 1e-6}) {
+    const ContactGeometry<3> g =
+        touch<3>(cube, octahedron, Vector<3>(0, 0, 3 + std::sqrt(3.0) - depth)).contact.geometry;
+    EXPECT_LT((g.normal - Vector<3>::UnitZ()).norm(), point_tolerance);
+    EXPECT_NEAR(g.overlap, depth, point_tolerance * depth);
+    EXPECT_LT(g.point.head<2>().norm(), point_tolerance);
+    // four flanks against one lid and five far planes: slack s of the lid where 1/s = 4/(depth - s), s = depth/5
+    EXPECT_NEAR(g.point[2], 3 - depth / 5, 2 * depth * depth + point_tolerance * depth);
+    EXPECT_NEAR(g.area, 2 * std::pow(3 - g.point[2] - depth, 2), area_tolerance * depth * depth + 1e-15);
+  }
+}
+
+TEST(SectionArea, OfACubeAcrossItsDiagonalIsAHexagon) {
+  for (const double edge : {1e-3, 1.0, 1e4}) {
+    const HalfSpaces<3> planes = shapes::cube<3>(edge / 2);
+    EXPECT_NEAR(section_area<3>(planes, {0, 0, 0}, Vector<3>::Ones().normalized(), 10 * edge),
+                3 * std::sqrt(3.0) / 4 * edge * edge, exact * edge * edge);
+    EXPECT_NEAR(section_area<3>(planes, {0, 0, 0}, Vector<3>(1, 1, 0).normalized(), 10 * edge),
+                std::numbers::sqrt2 * edge * edge, exact * edge * edge);
+    EXPECT_NEAR(section_area<2>(shapes::cube<2>(edge / 2), {0, 0}, Vector<2>::Ones().normalized(), 10 * edge),
+                std::numbers::sqrt2 * edge, exact * edge);
+  }
+}
+
+template <int Dim>
+void expect_sections(std::uint64_t seed) {
+  Random random(seed);
+  for (int i = 0; i < 100; ++i) {
+    const HalfSpaces<Dim> planes = shapes::random_planes<Dim>(random, 8, 1);
+    const Vector<Dim> point = 0.4 * shapes::direction<Dim>(random), n = shapes::direction<Dim>(random);
+    const double expected = static_cast<double>(
+        oracle::section<Dim>(planes, point.template cast<oracle::Real>(), n.template cast<oracle::Real>()));
+    EXPECT_NEAR(section_area<Dim>(planes, point, n, 10), expected, exact);
+  }
+}
+
+TEST(SectionArea, AgreesWithLasserresRecursion) {
+  expect_sections<3>(64);
+  expect_sections<2>(65);
+}
+
+TEST(OverlapAlong, FindsTheEndsAndSaysWhenThereAreNone) {
+  HalfSpaces<3> planes = shapes::cube<3>(1);
+  for (const HalfSpace<3>& p : shapes::box<3>({-1, -1, 0.5}, {1, 1, 3})) planes.push_back(p);
+  double overlap = 0;
+  int face_a = -1, face_b = -1;
+  ASSERT_TRUE(overlap_along<3>(planes, 6, {0, 0, 0.6}, Vector<3>::UnitZ(), overlap, face_a, face_b));
+  EXPECT_NEAR(overlap, 0.5, exact);
+  EXPECT_EQ(planes[face_a].normal, Vector<3>::UnitZ());
+  EXPECT_GE(face_b, 6);
+  // along a tilted normal the ends are farther apart
+  const double c = std::cos(0.1), s = std::sin(0.1);
+  ASSERT_TRUE(overlap_along<3>(planes, 6, {0, 0, 0.6}, {s, 0, c}, overlap, face_a, face_b));
+  EXPECT_NEAR(overlap, 0.5 / c, exact);
+  planes.erase(planes.begin() + 4);  // the first part's lid
+  EXPECT_FALSE(overlap_along<3>(planes, 5, {0, 0, 0.6}, Vector<3>::UnitZ(), overlap, face_a, face_b));
+}
+
+TEST(ContactNormal, TurnsGraduallyAsAPointRoundsAnEdge) {
+  // a small cube travels over the edge of a large one; no step may turn the normal by more than a few slopes of the potential
+  const Polytope<2> large = shapes::block<2>(shapes::cube<2>(1));
+  const Polytope<2> small = shapes::block<2>(shapes::placed<2>(shapes::cube<2>(0.1), matrix(Rotation<2>{0.7}), {0, 0}));
+  Vector<2> last = Vector<2>::Zero();
+  double largest = 0;
+  const int steps = 4000;
+  for (int i = 0; i <= steps; ++i) {
+    const double angle = std::numbers::pi / 2 * i / steps;
+    // on a circle around the corner, deep enough to touch all the way
+    const Vector<2> offset = Vector<2>(1, 1) - Vector<2>(0.02, 0.02) + 0.1 * Vector<2>(std::cos(angle), std::sin(angle));
+    const Outcome<2> r = touch<2>(large, small, Matrix<2>::Identity(), offset, {.potential_radius = 2});
+    ASSERT_EQ(r.contact.status, ContactStatus::touching);
+    if (i > 0) largest = std::max(largest, (r.contact.geometry.normal - last).norm());
+    last = r.contact.geometry.normal;
+  }
+  EXPECT_LT(largest, 0.02);
+  EXPECT_GT(largest, 0);
+}
+
+// ---- symmetry -------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void expect_symmetry(std::uint64_t seed, int pairs) {
+  Random random(seed);
+  int compared = 0;
+  for (int i = 0; i < pairs; ++i) {
+    const Polytope<Dim> a = shapes::centred_block<Dim>(shapes::random_planes<Dim>(random, 5, 1));
+    const Polytope<Dim> b = shapes::centred_block<Dim>(shapes::random_planes<Dim>(random, 5, 0.5));
+    const Matrix<Dim> turn = matrix(shapes::orientation<Dim>(random));
+    const Vector<Dim> along = shapes::direction<Dim>(random);
+    double inside = 0, outside = 6;
+    for (int k = 0; k < 40; ++k) {
+      const double middle = 0.5 * (inside + outside);
+      (oracle::separation<Dim>(a, b, turn, middle * along) > 0 ? outside : inside) = middle;
+    }
+    const double depth = shapes::power_of_ten(random, -9, -2);
+    const Vector<Dim> offset = (outside - depth) * along;
+    const Outcome<Dim> ab = touch<Dim>(a, b, turn, offset);
+    ASSERT_EQ(ab.contact.status, ContactStatus::touching);
+    const ContactGeometry<Dim>& g = ab.contact.geometry;
+    expect_sound<Dim>(a, b, turn, offset, g);
+
+    // seen from the other body: same place, opposite normal
+    const ContactGeometry<Dim> h = touch<Dim>(b, a, turn.transpose(), -turn.transpose() * offset).contact.geometry;
+    const double blur = 1e-14 / depth + point_tolerance;  // rounding of the other frame, seen from an overlap this thin
+    EXPECT_LT((turn * h.normal + g.normal).norm(), blur);
+    EXPECT_NEAR(h.overlap, g.overlap, blur * g.overlap);
+    EXPECT_LT((turn * h.point + offset - g.point).norm(), blur);
+    EXPECT_NEAR(h.area, g.area, 10 * blur * (g.area + depth));
+    EXPECT_EQ(h.face_a, g.face_b);
+    EXPECT_EQ(h.face_b, g.face_a);
+
+    // powers of two change the unit, and not one bit else
+    for (const double factor : {0x1p-10, 0x1p13}) {
+      const auto scale = [&](Polytope<Dim> p) {
+        for (HalfSpace<Dim>& f : p.faces) f.offset *= factor;
+        p.radius *= factor;
+        p.inscribed_radius *= factor;
+        p.centre *= factor;
+        return p;
+      };
+      const ContactGeometry<Dim> s = touch<Dim>(scale(a), scale(b), turn, factor * offset).contact.geometry;
+      EXPECT_EQ(s.normal, g.normal);
+      EXPECT_EQ(s.point, factor * g.point);
+      EXPECT_EQ(s.overlap, factor * g.overlap);
+      EXPECT_EQ(s.area, std::pow(factor, Dim - 1) * g.area);
+    }
+    ++compared;
+  }
+  EXPECT_EQ(compared, pairs);
+}
+
+TEST(Symmetry, SwappingThePartsReversesTheNormal3D) { expect_symmetry<3>(66, 40); }
+TEST(Symmetry, SwappingThePartsReversesTheNormal2D) { expect_symmetry<2>(67, 200); }
+
+// ---- thin overlaps --------------------------------------------------------------------------------------------------
+
+template <int Dim>
+Matrix<Dim> tilt(Random& random, double angle) {
+  if constexpr (Dim == 3) {
+    const double along = shapes::uniform(random, 0, 2 * std::numbers::pi);
+    return (Eigen::AngleAxisd(angle, Vector<3>(std::cos(along), std::sin(along), 0)) *
+            Eigen::AngleAxisd(shapes::uniform(random, -3, 3), Vector<3>::UnitZ()))
+        .toRotationMatrix();
+  } else {
+    return matrix(Rotation<2>{angle * (shapes::integer(random, 0, 1) ? 1 : -1)});
+  }
+}
+
+template <int Dim>
+void expect_faces_meet(std::uint64_t seed) {
+  Random random(seed);
+  const Polytope<Dim> lower = unit_cube<Dim>();
+  for (double overlap = 0.1; overlap > 5e-13; overlap /= 10)
+    for (double angle = 1e-11; angle < 2e-3; angle *= 10)
+      for (int i = 0; i < 4; ++i) {
+        const Polytope<Dim> upper =
+            i % 2 ? unit_cube<Dim>()
+                  : shapes::block<Dim>(shapes::box<Dim>(Vector<Dim>::Constant(-0.2), Vector<Dim>::Constant(0.2)));
+        const Matrix<Dim> turn = tilt<Dim>(random, angle);
+        // the lowest corner lies `overlap` below the lower block's top
+        Vector<Dim> offset = Vector<Dim>::Constant(0.5 - overlap);
+        for (int k = 0; k < Dim - 1; ++k) offset[k] = shapes::uniform(random, -0.3, 0.3);
+        offset -= lowest_corner<Dim>(upper, turn);
+        const Outcome<Dim> r = touch<Dim>(lower, upper, turn, offset);
+        ASSERT_EQ(r.contact.status, ContactStatus::touching) << "overlap " << overlap << ", tilt " << angle;
+        expect_sound<Dim>(lower, upper, turn, offset, r.contact.geometry);
+        if (overlap <= 1e-3) {
+          EXPECT_GT(r.contact.geometry.normal[Dim - 1], halfway_to_a_corner);
+        }
+      }
+}
+
+TEST(ThinOverlap, FaceOnFaceAlwaysConverges3D) { expect_faces_meet<3>(68); }
+TEST(ThinOverlap, FaceOnFaceAlwaysConverges2D) { expect_faces_meet<2>(69); }
+
+TEST(ThinOverlap, NearlyCollinearEdgesAreJudgedAndConverge) {
+  // edges along y that overlap by 1e-11 to 1e-6 in x and in z: a sliver thin in two directions, every third one apart
+  Random random(70);
+  const Polytope<3> cube = unit_cube<3>();
+  int touching = 0;
+  for (int i = 0; i < 600; ++i) {
+    const double sliver = shapes::power_of_ten(random, -11, -6), angle = shapes::power_of_ten(random, -14, -6);
+    const Matrix<3> turn = Eigen::AngleAxisd(i % 10 ? angle : 0, shapes::direction<3>(random)).toRotationMatrix();
+    const Vector<3> offset(1 - sliver, shapes::uniform(random, -0.5, 0.5),
+                           1 - sliver * shapes::uniform(random, i % 3 ? 0.3 : -3, 3));
+    const HalfSpaces<3> planes = planes_of<3>(cube, cube, turn, offset);
+    const double value = static_cast<double>(oracle::feasibility<3>(planes));
+    if (std::abs(value) < undecided_value) continue;
+    const Outcome<3> r = touch<3>(cube, cube, turn, offset);
+    ASSERT_EQ(r.contact.status, value < 0 ? ContactStatus::touching : ContactStatus::separated)
+        << "sliver " << sliver << ", angle " << angle << ", LP " << value;
+    if (value > 0) continue;
+    ++touching;
+    const auto barrier = oracle::barrier<3>(planes, r.contact.geometry.point.cast<oracle::Real>());
+    EXPECT_TRUE(barrier.interior);
+    EXPECT_LT(static_cast<double>(barrier.decrement), point_tolerance + 1e-14 / -value);
+    EXPECT_GT(r.contact.geometry.normal[0] + r.contact.geometry.normal[2], 0.9);
+  }
+  EXPECT_GT(touching, 200);
+  EXPECT_LT(touching, 590);
+}
+
+TEST(ThinOverlap, ThinSlabsTouchAsThickOnes) {
+  const double thin = 1e-5;
+  const Polytope<3> slab = shapes::block<3>(shapes::box<3>({-1, -1, -thin}, {1, 1, thin}));
+  const ContactGeometry<3> g = touch<3>(slab, slab, Vector<3>(0.5, 0, 2 * thin * (1 - 1e-4))).contact.geometry;
+  EXPECT_NEAR(g.overlap, 2e-4 * thin, 1e-15);
+  EXPECT_NEAR(g.area, 3, area_tolerance);
+  EXPECT_LT((g.normal - Vector<3>::UnitZ()).norm(), point_tolerance);
+}
+
+// ---- containment ----------------------------------------------------------------------------------------------------
+
+TEST(Containment, IsAContactOrANamedFailure) {
+  Random random(71);
+  const Polytope<3> large = shapes::block<3>(shapes::cube<3>(1));
+  const Polytope<3> small = shapes::block<3>(shapes::platonic_solids(0.1)[2].planes);
+  int touching = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Vector<3> offset = shapes::uniform(random, 0, 0.8) * shapes::direction<3>(random);
+    const Outcome<3> r = touch<3>(large, small, matrix(shapes::orientation<3>(random)), offset);
+    ASSERT_NE(r.contact.status, ContactStatus::separated);
+    if (r.contact.status == ContactStatus::touching) {
+      ++touching;
+      EXPECT_NEAR(r.contact.geometry.normal.norm(), 1, exact);
+      EXPECT_GE(r.contact.geometry.overlap, 0.2);
+      EXPECT_GT(r.counters.normal_fallbacks + r.counters.deep_overlaps, 0);  // told, not hidden
+    } else {
+      EXPECT_EQ(r.contact.status, ContactStatus::no_normal);
+    }
+  }
+  EXPECT_GT(touching, 50);
+  // concentric and alike: no direction is better than another
+  EXPECT_EQ(touch<3>(large, large, Vector<3>(0, 0, 0)).contact.status, ContactStatus::no_normal);
+}
+
+// ---- memory ---------------------------------------------------------------------------------------------------------
+
+TEST(WarmStart, StandsForTheSameContact) {
+  Random random(72);
+  for (int i = 0; i < 60; ++i) {
+    const Polytope<3> a = unit_cube<3>(), b = shapes::centred_block<3>(shapes::random_planes<3>(random, 5, 0.5));
+    const double depth = 1e-4;
+    Matrix<3> turn = matrix(shapes::orientation<3>(random));
+    Vector<3> offset = Vector<3>(0.1, 0.1, 0.5 - depth) - lowest_corner<3>(b, turn);
+    Contact<3> standing = touch<3>(a, b, turn, offset).contact;
+    ASSERT_TRUE(standing.touching());
+    for (int step = 0; step < 20; ++step) {
+      offset += 0.02 * depth * shapes::direction<3>(random);
+      turn = matrix(turned({Eigen::Quaterniond(turn)}, Spin<3>(1e-6 * shapes::direction<3>(random))));
+      const Outcome<3> warm = touch<3>(a, b, turn, offset, {}, standing), cold = touch<3>(a, b, turn, offset);
+      ASSERT_TRUE(warm.contact.touching());
+      EXPECT_EQ(warm.counters.lp_solves, 0);
+      EXPECT_LT((warm.contact.geometry.point - cold.contact.geometry.point).norm(), point_tolerance);
+      EXPECT_LT((warm.contact.geometry.normal - cold.contact.geometry.normal).norm(), point_tolerance);
+      EXPECT_NEAR(warm.contact.geometry.overlap, cold.contact.geometry.overlap, point_tolerance * depth);
+      standing = warm.contact;
+    }
+  }
+}
+
+TEST(WarmStart, ANewContactDoesNotRememberThatItWasSeparate) {
+  Random random(73);
+  for (int i = 0; i < 60; ++i) {
+    const Polytope<3> a = unit_cube<3>(), b = shapes::centred_block<3>(shapes::random_planes<3>(random, 5, 0.5));
+    const Matrix<3> turn = matrix(shapes::orientation<3>(random));
+    const Vector<3> corner = lowest_corner<3>(b, turn);
+    const Vector<3> apart = Vector<3>(0.1, 0.1, 0.51) - corner, together = Vector<3>(0.1, 0.1, 0.499) - corner;
+    const Contact<3> separate = touch<3>(a, b, turn, apart).contact;
+    ASSERT_EQ(separate.status, ContactStatus::separated);
+    const Contact<3> met = touch<3>(a, b, turn, together, {}, separate).contact, fresh = touch<3>(a, b, turn, together).contact;
+    ASSERT_TRUE(met.touching());
+    EXPECT_EQ(met.geometry.point, fresh.geometry.point);
+    EXPECT_EQ(met.geometry.normal, fresh.geometry.normal);
+    EXPECT_EQ(met.geometry.area, fresh.geometry.area);
+  }
+}
+
+TEST(Batch, APairAloneAndInCompanyGivesTheSameBits) {
+  Random random(74);
+  const Polytope<3> a = unit_cube<3>(), b = shapes::centred_block<3>(shapes::random_planes<3>(random, 9, 0.5));
+  std::vector<Pair<3>> pairs;
+  for (int i = 0; i < 30; ++i)
+    pairs.push_back({&a, &b, matrix(shapes::orientation<3>(random)), matrix(shapes::orientation<3>(random)),
+                     shapes::uniform(random, 0.8, 1.6) * shapes::direction<3>(random)});
+  std::vector<Contact<3>> together(pairs.size());
+  std::vector<Contact<3>*> slots;
+  for (Contact<3>& c : together) slots.push_back(&c);
+  KernelCounters counters;
+  narrow_phase<3>(pairs, {}, {}, slots, counters);
+  int touching = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    Contact<3> alone;
+    Contact<3>* slot = &alone;
+    narrow_phase<3>(std::span(&pairs[i], 1), {}, {}, std::span(&slot, 1), counters);
+    EXPECT_EQ(alone.status, together[i].status);
+    EXPECT_EQ(alone.geometry.point, together[i].geometry.point);
+    EXPECT_EQ(alone.geometry.normal, together[i].geometry.normal);
+    EXPECT_EQ(alone.geometry.overlap, together[i].geometry.overlap);
+    EXPECT_EQ(alone.geometry.area, together[i].geometry.area);
+    touching += alone.touching();
+  }
+  EXPECT_GT(touching, 5);
+  EXPECT_LT(touching, 30);
+}
+
+TEST(Options, TheChebyshevPointIsTheLargestBallsCentre) {
+  const Polytope<3> cube = unit_cube<3>();
+  const ContactSettings settings{.point = ContactPoint::chebyshev};
+  const ContactGeometry<3> g = touch<3>(cube, cube, Matrix<3>::Identity(), Vector<3>(0.2, 0.3, 0.99), settings).contact.geometry;
+  // the ball is a hundredth across, and free to roll between the faces
+  EXPECT_NEAR(g.point[2], 0.495, exact);
+  for (const HalfSpace<3>& p : planes_of<3>(cube, cube, Matrix<3>::Identity(), Vector<3>(0.2, 0.3, 0.99)))
+    EXPECT_LE(signed_distance<3>(p, g.point), -0.005 + exact);
+}
+
+// ---- the broad phase ------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void expect_all_pairs(std::uint64_t seed) {
+  Random random(seed);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<Box<Dim>> boxes;
+    for (int i = 0; i < 60; ++i) {
+      Box<Dim> box;
+      // whole numbers: many boxes touch exactly, and that counts
+      for (int k = 0; k < Dim; ++k) {
+        box.low[k] = shapes::integer(random, 0, 12);
+        box.high[k] = box.low[k] + shapes::integer(random, 0, 3);
+      }
+      box.body = i / 2;
+      box.fixed = i % 5 == 0;
+      boxes.push_back(box);
+    }
+    std::vector<std::pair<int, int>> expected;
+    for (int i = 0; i < 60; ++i)
+      for (int j = i + 1; j < 60; ++j) {
+        bool meet = boxes[i].body != boxes[j].body && !(boxes[i].fixed && boxes[j].fixed);
+        for (int k = 0; k < Dim; ++k)
+          meet = meet && boxes[i].low[k] <= boxes[j].high[k] && boxes[j].low[k] <= boxes[i].high[k];
+        if (meet) expected.push_back({i, j});
+      }
+    EXPECT_GT(expected.size(), 10u);
+    EXPECT_EQ(overlapping_pairs<Dim>(boxes), expected);
+  }
+}
+
+TEST(BroadPhase, FindsAllPairsInOrder) {
+  expect_all_pairs<3>(75);
+  expect_all_pairs<2>(76);
+}
+
+}  // namespace
+}  // namespace voussoir

@@ -1,0 +1,28 @@
+// The solids of a scene: the domain and the blocks given directly, seen from an origin in their middle.
+#pragma once
+
+#include "core/model.hpp"
+#include "core/scene/scene.hpp"
+
+namespace voussoir {
+
+template <int Dim>
+Vector<Dim> to_vector(const std::vector<double>& numbers) {
+  return Eigen::Map<const Vector<Dim>>(numbers.data());
+}
+
+// the plane of a joint or of the domain's boundary, with upward normal
+template <int Dim>
+HalfSpace<Dim> to_half_space(const PlaneSpec& plane, const Vector<Dim>& origin);
+
+// Centre of everything solid, so that a scene far from the file's origin keeps all its digits.
+template <int Dim>
+Vector<Dim> find_origin(const Scene& scene);
+
+// Both throw SceneError on what is open, empty or flat.
+template <int Dim>
+Polytope<Dim> make_domain(const DomainSpec& domain, const Vector<Dim>& origin);
+template <int Dim>
+Polytope<Dim> make_solid(const BlockSpec& block, const Vector<Dim>& origin);
+
+}  // namespace voussoir

@@ -1,0 +1,54 @@
+#include "core/scene/scene.hpp"
+
+#include <charconv>
+
+namespace voussoir {
+namespace {
+
+void write(const Node& node, std::string& text) {
+  const auto number = [&](double x) {
+    char buffer[32];
+    text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, x).ptr);
+  };
+  switch (node.kind) {
+    case Node::Kind::boolean:
+      text += node.boolean ? "true" : "false";
+      break;
+    case Node::Kind::integer:
+    case Node::Kind::number:
+      number(node.number);
+      break;
+    case Node::Kind::text:  // the length first, so that no text can pass for another structure
+      number(static_cast<double>(node.text.size()));
+      text += '"' + node.text + '"';
+      break;
+    case Node::Kind::date:
+      break;
+    case Node::Kind::list:
+      text += '[';
+      for (const Node& item : node.items) {
+        write(item, text);
+        text += ",";
+      }
+      text += ']';
+      break;
+    case Node::Kind::table:
+      text += '{';
+      for (const Member& member : node.members) {
+        text += member.key + "=";
+        write(member.value, text);
+        text += "\n";
+      }
+      text += '}';
+  }
+}
+
+}  // namespace
+
+std::string canonical_text(const Scene& scene) {
+  std::string text;
+  write(*scene.tree, text);
+  return text;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,154 @@
+// The key table as a page for users.
+#include <algorithm>
+
+#include "core/scene/keys.hpp"
+#include "core/scene/scene.hpp"
+
+namespace voussoir {
+namespace {
+
+constexpr const char* introduction = R"(# Scene files
+
+A scene is one TOML file: the blocks, the joints, what happens to them and what is followed. It names only what it
+needs. Lengths are in m, all units are SI, angles are in degrees. x points east, y north, z up; in 2-D x to the right, y
+up.
+
+```toml
+title = "Block on an incline"
+dimension = 3
+gravity = [0, 0, -9.81]
+density = 2600
+
+[domain]                      # a box, cut by the joints below
+box = { min = [-2, -2, -2], max = [2, 2, 2] }
+
+[[joints]]
+name = "A"
+dip = 30
+dip_direction = 90
+point = [0, 0, 0]
+
+[[joint_properties]]
+name = "rock"
+normal_stiffness = 1e9        # Pa/m
+shear_stiffness = 1e8
+friction_deg = 40
+
+[[fix]]
+below = ["A"]
+
+[[stage]]
+name = "settle"
+kind = "settle"
+
+[[monitors]]
+name = "slider"
+above = ["A"]
+quantities = ["displacement"]
+```
+
+Every key can be changed on the command line: `--set joints.A.dip=35`, `--set gravity=[0,0,-1.62]`. Tables of a list are
+addressed by their name, or by their number from 1 where they have none (`--set fix.1.below=["B"]`). The value is
+written as in the file; a word needs no quotes. A key that the file leaves out can be set as well. So a name may hold
+any characters but '.', '=' and control characters, and is unique in its list.
+
+Blocks are chosen by selectors: by name, by the side of joints or by a point inside, never by number. A block is chosen
+when it satisfies every condition that the table states.
+)";
+
+std::string type_text(const KeyRow& row) {
+  switch (row.type) {
+    case KeyType::boolean:
+      return "true or false";
+    case KeyType::integer:
+      return "whole number";
+    case KeyType::number:
+      return "number";
+    case KeyType::text:
+      return "text";
+    case KeyType::name:
+      return "name";
+    case KeyType::vector:
+      return "2 or 3 numbers";
+    case KeyType::spin:
+      return "3 numbers; 2-D one";
+    case KeyType::axes:
+      return "true or a list of axes";
+    case KeyType::names:
+      return "list of names";
+    case KeyType::points:
+      return "list of points";
+    case KeyType::table:
+      return "table";
+    case KeyType::tables:
+      return "list of tables";
+    case KeyType::choice:
+    case KeyType::choices:
+      break;
+  }
+  std::string text = row.type == KeyType::choice ? "one of" : "list of";
+  for (const std::string_view choice : row.choices)
+    text += " `\"" + std::string(choice) + "\"`";
+  return text;
+}
+
+// ranges that only keep numbers sane would be noise
+std::string allowed_text(const KeyRow& row) {
+  const bool numeric = row.type == KeyType::number || row.type == KeyType::integer;
+  if (!numeric) return type_text(row);
+  std::string range = range_text(row);
+  for (const std::string_view verb : {"lie ", "be "})
+    if (range.starts_with(verb)) range.erase(0, verb.size());
+  return type_text(row) + ", " + range;
+}
+
+std::string default_text(const KeyRow& row) {
+  if (!row.fallback.empty()) return "`" + std::string(row.fallback) + "`";
+  return row.required ? "required" : "";
+}
+
+std::string when_text(const KeyRow& row) {
+  if (row.when.key.empty()) return "";
+  std::string values = std::string(row.when.value);
+  if (const std::size_t bar = values.find('|'); bar != std::string::npos) values.replace(bar, 1, " or ");
+  return "(" + std::string(row.when.key) + " " + values + ") ";
+}
+
+std::string row_text(const KeyRow& row) {
+  std::string meaning = when_text(row) + std::string(row.meaning);
+  if (!row.breaks.empty()) meaning += ". *" + std::string(row.breaks) + "*";
+  if (!row.example.empty()) meaning += ". Example: `" + std::string(row.example) + "`";
+  std::replace(meaning.begin(), meaning.end(), '|', '/');
+  return "| `" + std::string(row.key) + "` | " + allowed_text(row) + " | " + std::string(row.unit) + " | " +
+         default_text(row) + " | " + meaning + " |\n";
+}
+
+// where in a file the keys of a group stand: [domain], [[stage.fix]]
+std::string places_text(std::string_view group) {
+  if (group.empty()) return "The top of the file";
+  std::string places;
+  for (const KeyRow& row : key_rows()) {
+    if (std::find(row.holds.begin(), row.holds.end(), group) == row.holds.end()) continue;
+    const std::string path = key_path(std::string(row.table), row.key);
+    places += (places.empty() ? "" : ", ") + (row.type == KeyType::tables ? "`[[" + path + "]]`" : "`[" + path + "]`");
+  }
+  if (group == "selector") return "Selectors: in " + places;
+  return places;
+}
+
+}  // namespace
+
+std::string scene_documentation() {
+  std::string text = introduction;
+  std::string_view group = "none yet";
+  for (const KeyRow& row : key_rows()) {
+    if (row.table != group) {
+      group = row.table;
+      text += "\n## " + places_text(group) + "\n\n| key | value | unit | default | meaning |\n|---|---|---|---|---|\n";
+    }
+    text += row_text(row);
+  }
+  return text;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,78 @@
+// The one table of every key a scene may hold. The reader refuses what it does not allow; the documentation prints it.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/scene/node.hpp"
+
+namespace voussoir {
+
+enum class KeyType {
+  boolean,
+  integer,
+  number,
+  text,
+  name,     // a text without '.', '=' and control characters, so that --set can address it
+  choice,   // one of KeyRow::choices
+  vector,   // as many numbers as the scene has dimensions
+  spin,     // 2-D a number, 3-D three numbers
+  axes,     // true, or a list of "x", "y", "z"
+  names,    // a list of texts
+  choices,  // a list of some of KeyRow::choices
+  points,   // a list of vectors
+  table,
+  tables  // [[key]]: a list of tables
+};
+
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool above_low = false;   // low itself is refused
+  bool below_high = false;  // high itself is refused
+};
+
+// the key means something only where another key of its table has this value
+struct Condition {
+  std::string_view key, value;
+};
+
+struct KeyRow {
+  std::string_view table;  // the group of keys it belongs to; "" is the top of the file
+  std::string_view key;
+  KeyType type = KeyType::number;
+  std::string_view unit{};
+  Range range{};
+  std::string_view fallback{};  // the default as TOML; empty: none
+  std::string_view example{};   // a value as TOML
+  bool required = false;        // where its condition holds
+  Condition when{};
+  std::vector<std::string_view> choices{};
+  std::vector<std::string_view> holds{};  // table, tables: the groups of keys inside
+  std::string_view meaning{};
+  std::string_view repair{};  // what to do about a value out of range; may be empty
+  std::string_view breaks{};  // what goes wrong with a badly chosen value; may be empty
+};
+
+std::span<const KeyRow> key_rows();
+
+// groups of keys a table may hold
+using Groups = std::vector<std::string_view>;
+
+const KeyRow* find_row(const Groups& groups, std::string_view key);
+std::vector<std::string> keys_of(const Groups& groups);
+
+// "be greater than 0 and at most 1", "lie between 0 and 90 deg"
+std::string range_text(const KeyRow& row);
+
+// Holds every value of a tree against the table; throws SceneError at the first that does not fit.
+void check_keys(const Node& scene);
+
+// 2 or 3, checked
+int scene_dimension(const Node& scene);
+
+}  // namespace voussoir

@@ -1,0 +1,76 @@
+// The tree of a scene file: what the text says and where, before any meaning is read into it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/scene/scene_error.hpp"
+
+namespace voussoir {
+
+// Where a value was written. The source of an override is the file and the whole override; it has no line.
+struct Place {
+  std::shared_ptr<const std::string> source;
+  int line = 0;
+};
+
+struct Member;
+
+struct Node {
+  enum class Kind { boolean, integer, number, text, date, list, table };
+
+  Kind kind = Kind::table;
+  Place place;
+  bool boolean = false;
+  bool decimal = true;  // false: written as hexadecimal, octal or binary
+  double number = 0;    // of integers too
+  std::string text;
+  std::vector<Node> items;      // of a list
+  std::vector<Member> members;  // of a table, sorted by key
+
+  bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
+  const Node* find(std::string_view key) const;
+  Node* find(std::string_view key);
+  Node& set(std::string_view key, Node value);
+};
+
+struct Member {
+  std::string key;
+  Node value;
+};
+
+// A table of the scene and its address as `--set` would write it, e.g. joints.A; empty for the whole scene.
+struct Subject {
+  const Node* node = nullptr;
+  std::string path;
+};
+
+// joints.A for a named table, joints.2 (counted from 1) for one without a name
+std::string item_path(const std::string& list_path, const Node& item, std::size_t index);
+std::string key_path(const std::string& table_path, std::string_view key);
+
+// one line, at most about 60 characters
+std::string value_text(const Node& node);
+std::string one_line(std::string_view text, std::size_t limit);
+std::string place_text(const Place& place);
+
+// "place: path = value: rule"; a key that is absent is reported at its table's line as missing
+std::string complaint(const Node& node, const std::string& path, const std::string& rule);
+std::string complaint(const Subject& table, std::string_view key, const std::string& rule);
+
+// throws the complaint as a SceneError
+[[noreturn]] void refuse(const Node& node, const std::string& path, const std::string& rule);
+[[noreturn]] void refuse(const Subject& table, std::string_view key, const std::string& rule);
+
+// the name most like a mistyped one, or an empty text when none is near
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+// "A, B, C", shortened when long; `none` when empty
+std::string listed(const std::vector<std::string>& words, const std::string& none = "none");
+
+// "did you mean 'A'? there are A, B"
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace voussoir

@@ -1,0 +1,96 @@
+#include "core/scene/overrides.hpp"
+
+#include <charconv>
+
+#include "core/scene/keys.hpp"
+#include "core/scene/toml_text.hpp"
+
+namespace voussoir {
+namespace {
+
+std::string trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
+}
+
+std::vector<std::string> segments_of(std::string_view path) {
+  std::vector<std::string> segments;
+  while (true) {
+    const std::size_t dot = path.find('.');
+    segments.push_back(trimmed(path.substr(0, dot)));
+    if (dot == std::string_view::npos) return segments;
+    path.remove_prefix(dot + 1);
+  }
+}
+
+[[noreturn]] void fail(const Place& place, const std::string& path, const std::string& rule) {
+  throw SceneError(place_text(place) + ": " + one_line(path, 200) + ": " + rule);
+}
+
+// a table of a list, by name or else by number from 1
+Node& find_item(Node* list, const std::string& name, const std::string& path, const Place& place) {
+  if (!list || list->kind != Node::Kind::list || list->items.empty())
+    fail(place, path, "the scene has no such tables; write [[" + path + "]] in the file");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < list->items.size(); ++i) {
+    const std::string full = item_path(path, list->items[i], i);
+    names.push_back(full.substr(path.size() + 1));
+    const Node* stated = list->items[i].find("name");
+    if (stated && stated->kind == Node::Kind::text && stated->text == name) return list->items[i];
+  }
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error == std::errc{} && end == name.data() + name.size() && number >= 1 && number <= names.size())
+    return list->items[number - 1];
+  fail(place, key_path(path, name), "no table of this name; " + suggestion(name, names));
+}
+
+// The table that holds the path's last key, made where the file does not state it.
+struct Target {
+  Node* table;
+  std::string key;
+};
+
+Target find_target(Node& scene, const std::vector<std::string>& segments, const Place& place) {
+  Node* table = &scene;
+  Groups groups{""};
+  std::string path;
+  for (std::size_t i = 0;; ++i) {
+    if (table->kind != Node::Kind::table) fail(place, path, "the file states no table here; correct the file first");
+    const KeyRow* row = find_row(groups, segments[i]);
+    path = key_path(path, segments[i]);
+    if (!row) fail(place, path, "no such key; " + suggestion(segments[i], keys_of(groups)));
+    if (i + 1 == segments.size()) return {table, segments[i]};
+
+    Node* next = table->find(row->key);
+    if (row->type == KeyType::table) {
+      if (!next) {
+        Node empty;
+        empty.place = place;
+        next = &table->set(row->key, empty);
+      }
+      table = next;
+    } else if (row->type == KeyType::tables) {
+      table = &find_item(next, segments[++i], path, place);
+      path = key_path(path, segments[i]);
+      if (i + 1 == segments.size())
+        fail(place, path, "this is a table; name one of its keys: " + listed(keys_of(row->holds)));
+    } else {
+      fail(place, path, "this is a value, it has no keys; write " + path + "=…");
+    }
+    groups = row->holds;
+  }
+}
+
+}  // namespace
+
+void apply_override(Node& scene, const std::string& text, const std::string& file) {
+  const Place place{std::make_shared<const std::string>(file + ": --set " + one_line(text, 120)), 0};
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) fail(place, trimmed(text), "has no '='; write for example --set joints.A.dip=65");
+  const Target target = find_target(scene, segments_of(std::string_view(text).substr(0, equals)), place);
+  target.table->set(target.key, parse_toml_value(trimmed(std::string_view(text).substr(equals + 1)), place));
+}
+
+}  // namespace voussoir

@@ -1,0 +1,280 @@
+// A scene made ready to run, in the order of its data: properties, joints, blocks, supports, motion, stages, monitors.
+#include <algorithm>
+#include <cassert>
+
+#include "core/scene/bodies.hpp"
+#include "core/scene/scene.hpp"
+#include "core/slicing/slice.hpp"
+
+namespace voussoir {
+namespace {
+
+Subject top_of(const Scene& scene) {
+  return {scene.tree.get(), ""};
+}
+
+std::vector<std::string> property_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const PropertiesSpec& p : scene.properties)
+    names.push_back(p.properties.name);
+  return names;
+}
+
+// index of a name, or -1
+int index_of(const std::vector<std::string>& names, const std::string& name) {
+  const auto at = std::find(names.begin(), names.end(), name);
+  return at == names.end() ? -1 : static_cast<int>(at - names.begin());
+}
+
+// the properties a joint states; else the only table, or the one named default
+int properties_of(const Scene& scene, const JointSpec& joint) {
+  const std::vector<std::string> names = property_names(scene);
+  if (names.empty())
+    refuse(joint.subject, "properties",
+           "the joint has no properties because the scene states none; add [[joint_properties]] "
+           "with name, normal_stiffness, shear_stiffness and friction_deg");
+  if (joint.properties) {
+    const int index = index_of(names, *joint.properties);
+    if (index < 0)
+      refuse(joint.subject, "properties", "no joint_properties of this name; " + suggestion(*joint.properties, names));
+    return index;
+  }
+  if (names.size() == 1) return 0;
+  const int standard = index_of(names, "default");
+  if (standard < 0)
+    refuse(joint.subject, "properties",
+           "the joint has no properties and the scene states several; write for example properties = \"" +
+               one_line(names.front(), 60) + "\"; there are: " + listed(names));
+  return standard;
+}
+
+template <int Dim>
+void add_joints(const Scene& scene, Model<Dim>& model) {
+  for (const PropertiesSpec& p : scene.properties)
+    model.properties.push_back(p.properties);
+  model.default_properties = std::max(0, index_of(property_names(scene), "default"));
+  for (const JointSpec& joint : scene.joints)
+    model.joints.push_back({joint.name, to_half_space<Dim>(joint.plane, model.origin), properties_of(scene, joint)});
+}
+
+double density_of(const Scene& scene, const std::optional<double>& own) {
+  if (own) return *own;
+  if (!scene.density)
+    refuse(top_of(scene), "density",
+           "blocks need their mass; write for example density = 2600 (kg/m³) at the top of the file");
+  return *scene.density;
+}
+
+template <int Dim>
+void add_domain(const Scene& scene, Model<Dim>& model) {
+  if (!scene.domain) return;
+  const double density = density_of(scene, {});
+  std::vector<Cut<Dim>> cuts;
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    cuts.push_back({model.joints[j].plane, static_cast<int>(j)});
+  SlicingLimits limits;
+  limits.smallest_inscribed_radius = scene.smallest_inscribed_radius;
+  SlicingCounters counters;
+  for (Polytope<Dim>& part : slice<Dim>(make_domain<Dim>(*scene.domain, model.origin), cuts, limits, counters))
+    model.bodies.push_back(make_body<Dim>({std::move(part)}, density));
+}
+
+template <int Dim>
+void add_blocks(const Scene& scene, Model<Dim>& model) {
+  for (const BlockSpec& block : scene.blocks) {
+    model.bodies.push_back(make_body<Dim>({make_solid<Dim>(block, model.origin)}, density_of(scene, block.density)));
+    model.bodies.back().name = block.name;
+    model.bodies.back().fixed = block.fixed;
+  }
+}
+
+template <int Dim>
+void check_blocks(const Scene& scene, const Model<Dim>& model) {
+  if (model.bodies.empty())
+    refuse(top_of(scene), "domain", "the scene has no block; add a [domain] for joints to cut, or [[blocks]]");
+  if (model.bodies.size() > 1 && model.properties.empty())
+    refuse(top_of(scene), "joint_properties",
+           "blocks that may touch need the properties of their contacts; add "
+           "[[joint_properties]] with name, normal_stiffness, shear_stiffness and friction_deg");
+}
+
+// The bodies a selector of the scene names, its names checked first.
+template <int Dim>
+std::vector<int> chosen(const Model<Dim>& model, const SelectorSpec& spec) {
+  std::vector<std::string> joints, bodies;
+  for (const Joint<Dim>& joint : model.joints)
+    joints.push_back(joint.name);
+  for (const Body<Dim>& body : model.bodies)
+    if (!body.name.empty()) bodies.push_back(body.name);
+  const auto check = [&](const char* key, const std::vector<std::string>& words, const std::vector<std::string>& known,
+                         const char* what) {
+    for (const std::string& word : words)
+      if (index_of(known, word) < 0)
+        refuse(spec.subject, key,
+               "no " + std::string(what) + " is named '" + one_line(word, 60) + "'; " + suggestion(word, known));
+  };
+  check("above", spec.selector.above, joints, "joint");
+  check("below", spec.selector.below, joints, "joint");
+  check("bodies", spec.selector.names, bodies, "block");
+  return select<Dim>(model, spec.selector);
+}
+
+template <int Dim>
+std::vector<int> chosen_some(const Model<Dim>& model, const SelectorSpec& spec) {
+  std::vector<int> bodies = chosen<Dim>(model, spec);
+  if (bodies.empty())
+    refuse(*spec.subject.node, spec.subject.path,
+           "chooses no block (of " + std::to_string(model.bodies.size()) +
+               "); check the sides of the joints, or choose by a point inside");
+  return bodies;
+}
+
+bool releases(const Scene& scene) {
+  return std::any_of(scene.stages.begin(), scene.stages.end(),
+                     [](const StageSpec& s) { return !s.plan.change.release.empty(); });
+}
+
+template <int Dim>
+void add_supports(const Scene& scene, Model<Dim>& model) {
+  for (const SelectorSpec& fix : scene.fix)
+    for (const int b : chosen_some<Dim>(model, fix))
+      model.bodies[b].fixed = true;
+  for (const RestrainSpec& restrain : scene.restrain)
+    for (const int b : chosen_some<Dim>(model, restrain.bodies)) {
+      Body<Dim>& body = model.bodies[b];
+      for (int k = 0; k < Dim; ++k)
+        body.free_translation[k] = body.free_translation[k] && !restrain.translation[k];
+      for (int k = 0; k < spin_freedoms<Dim>; ++k)
+        body.free_rotation[k] = body.free_rotation[k] && !restrain.rotation[k];
+    }
+  const bool all_fixed =
+      std::all_of(model.bodies.begin(), model.bodies.end(), [](const Body<Dim>& body) { return body.fixed; });
+  if (!all_fixed || releases(scene)) return;
+  const std::string rule = "no block is free to move, all " + std::to_string(model.bodies.size()) + " are fixed; ";
+  if (scene.fix.empty()) refuse(scene.blocks.front().subject, "fixed", rule + "leave one block free");
+  refuse(*scene.fix.back().subject.node, scene.fix.back().subject.path,
+         rule + "choose fewer blocks, or check that the joints cut the domain");
+}
+
+// a velocity needs freedoms to move in
+template <int Dim>
+void set_motion(const Subject& subject, const MotionSpec& spec, const Body<Dim>& body, Motion<Dim>& motion) {
+  const auto check = [&](const char* key, const std::vector<double>& numbers, const auto& free) {
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      if (numbers[k] != 0 && (body.fixed || !free[k]))
+        refuse(subject, key,
+               body.fixed ? "the block is fixed and cannot move; remove the velocity or leave the block free"
+                          : "the block is restrained there; remove the velocity or the restraint");
+  };
+  if (spec.velocity) {
+    check("velocity", *spec.velocity, body.free_translation);
+    motion.velocity = to_vector<Dim>(*spec.velocity);
+  }
+  if (spec.angular_velocity) {
+    check("angular_velocity", *spec.angular_velocity, body.free_rotation);
+    const Spin<Dim> spin = Eigen::Map<const Spin<Dim>>(spec.angular_velocity->data());
+    motion.angular_momentum = angular_momentum<Dim>(body, motion.rotation, spin);
+  }
+}
+
+template <int Dim>
+State<Dim> moving_state(const Scene& scene, const Model<Dim>& model) {
+  State<Dim> state = initial_state<Dim>(model);
+  for (const BlockSpec& block : scene.blocks)
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      if (model.bodies[b].name == block.name)
+        set_motion<Dim>(block.subject, block.motion, model.bodies[b], state.motions[b]);
+  for (const InitialVelocitySpec& spec : scene.initial_velocity)
+    for (const int b : chosen_some<Dim>(model, spec.bodies))
+      set_motion<Dim>(spec.bodies.subject, spec.motion, model.bodies[b], state.motions[b]);
+  return state;
+}
+
+template <int Dim>
+std::vector<StagePlan> checked_stages(const Scene& scene, const Model<Dim>& model) {
+  std::vector<StagePlan> plans;
+  const std::vector<std::string> names = property_names(scene);
+  for (const StageSpec& stage : scene.stages) {
+    for (const SelectorSpec& change : stage.changes)
+      chosen_some<Dim>(model, change);
+    if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan.plan)) {
+      if (names.empty())
+        refuse(*stage.subject.node, stage.subject.path, "there is no friction to reduce; add [[joint_properties]]");
+      for (const std::string& name : reduce->properties)
+        if (index_of(names, name) < 0)
+          refuse(stage.subject, "joint_properties",
+                 "no joint_properties named '" + one_line(name, 60) + "'; " + suggestion(name, names));
+    }
+    plans.push_back(stage.plan);
+  }
+  return plans;
+}
+
+template <int Dim>
+int joint_of(const Model<Dim>& model, const MonitorSpec& spec) {
+  std::vector<std::string> names;
+  for (const Joint<Dim>& joint : model.joints)
+    names.push_back(joint.name);
+  const int index = index_of(names, spec.joint);
+  if (index < 0) refuse(spec.body.subject, "joint", "no joint of this name; " + suggestion(spec.joint, names));
+  for (const Body<Dim>& body : model.bodies)
+    for (const Polytope<Dim>& part : body.parts)
+      if (std::find(part.joints.begin(), part.joints.end(), index) != part.joints.end()) return index;
+  refuse(spec.body.subject, "joint",
+         "the joint cuts no block, so it has no contacts to follow; move it into the domain or "
+         "remove the monitor");
+}
+
+template <int Dim>
+std::vector<Monitor> find_monitors(const Scene& scene, const Model<Dim>& model) {
+  std::vector<Monitor> monitors;
+  for (const MonitorSpec& spec : scene.monitors) {
+    int subject = 0;
+    if (spec.joint.empty()) {
+      const std::vector<int> bodies = chosen_some<Dim>(model, spec.body);
+      if (bodies.size() != 1)
+        refuse(*spec.body.subject.node, spec.body.subject.path,
+               "chooses " + std::to_string(bodies.size()) +
+                   " blocks but must choose exactly one; add sides of more joints, or a point inside");
+      subject = bodies.front();
+    } else {
+      subject = joint_of<Dim>(model, spec);
+    }
+    for (const Quantity quantity : spec.quantities)
+      monitors.push_back({spec.name, quantity, subject});
+  }
+  return monitors;
+}
+
+}  // namespace
+
+template <int Dim>
+Prepared<Dim> prepare(const Scene& scene) {
+  assert(scene.dimension == Dim);
+  Prepared<Dim> prepared;
+  Model<Dim>& model = prepared.model;
+  prepared.title = scene.title;
+  prepared.settings = scene.settings;
+  prepared.output = scene.output;
+
+  // the solids, numbered whatever the order they were stated in
+  model.origin = find_origin<Dim>(scene);
+  if (scene.gravity) model.gravity = to_vector<Dim>(*scene.gravity);
+  add_joints<Dim>(scene, model);
+  add_domain<Dim>(scene, model);
+  add_blocks<Dim>(scene, model);
+  check_blocks<Dim>(scene, model);
+  number_bodies<Dim>(model);
+
+  // what the scene says about them by selectors
+  add_supports<Dim>(scene, model);
+  prepared.state = moving_state<Dim>(scene, model);
+  prepared.stages = checked_stages<Dim>(scene, model);
+  prepared.monitors = find_monitors<Dim>(scene, model);
+  return prepared;
+}
+
+template Prepared<2> prepare<2>(const Scene&);
+template Prepared<3> prepare<3>(const Scene&);
+
+}  // namespace voussoir

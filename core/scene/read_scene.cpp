@@ -1,0 +1,219 @@
+// From a checked tree to plain structs: units and what one table must state together.
+#include <cmath>
+#include <numbers>
+
+#include "core/scene/base_scene.hpp"
+#include "core/scene/keys.hpp"
+#include "core/scene/overrides.hpp"
+#include "core/scene/read_stages.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/scene_text.hpp"
+#include "core/scene/toml_text.hpp"
+#include "core/scene/values.hpp"
+
+namespace voussoir {
+namespace {
+
+
+void read_plane(const Subject& subject, int dimension, PlaneSpec& plane) {
+  read(subject, "point", plane.point);
+  read_degrees(subject, "dip", plane.dip);
+  const bool stated = subject.node->find("dip_direction");
+  if (!stated && plane.dip > 0)
+    refuse(subject, "dip_direction",
+           std::string("a plane that dips needs it; write for example dip_direction = ") +
+               (dimension == 2 ? "90 (to the right) or 270 (to the left)" : "130 (clockwise from north)"));
+  read_degrees(subject, "dip_direction", plane.dip_direction);
+  if (dimension == 2 && stated) {
+    const double degrees = subject.node->find("dip_direction")->number;
+    if (degrees != 90 && degrees != 270)
+      refuse(subject, "dip_direction",
+             "must be 90 (dips to the right) or 270 (to the left) because dimension = 2; choose one");
+  }
+  if (dimension == 2 && !stated) plane.dip_direction = std::numbers::pi / 2;
+}
+
+BoxSpec read_box(const Subject& subject) {
+  BoxSpec box{subject, {}, {}};
+  read(subject, "min", box.min);
+  read(subject, "max", box.max);
+  for (std::size_t k = 0; k < box.min.size(); ++k)
+    if (!(box.max[k] > box.min[k]))
+      refuse(subject, "max",
+             std::string("must exceed min along ") + "xyz"[k] + " (" + value_text(*subject.node->find("min")) +
+                 "); swap the two or move a corner");
+  return box;
+}
+
+std::optional<DomainSpec> read_domain(const Subject& scene, int dimension) {
+  const auto subject = child(scene, "domain");
+  if (!subject) return {};
+  DomainSpec domain{*subject, {}, {}};
+  if (const auto box = child(*subject, "box")) domain.box = read_box(*box);
+  for (const Subject& item : children(*subject, "planes")) {
+    DomainPlaneSpec plane{item, {}, true};
+    read_plane(item, dimension, plane.plane);
+    std::string keep;
+    read(item, "keep", keep);
+    plane.keep_below = keep == "below";
+    domain.planes.push_back(plane);
+  }
+  if (!domain.box && domain.planes.empty())
+    refuse(*subject, "box",
+           "a domain needs a box, planes or both; write for example box = { min = [-4, -4, -4], max = [4, 4, 0] }");
+  return domain;
+}
+
+std::vector<JointSpec> read_joints(const Subject& scene, int dimension) {
+  std::vector<JointSpec> joints;
+  for (const Subject& item : children(scene, "joints")) {
+    JointSpec joint{item, {}, {}, {}};
+    read(item, "name", joint.name);
+    read(item, "properties", joint.properties);
+    read_plane(item, dimension, joint.plane);
+    joints.push_back(joint);
+  }
+  return joints;
+}
+
+std::vector<PropertiesSpec> read_properties(const Subject& scene) {
+  std::vector<PropertiesSpec> all;
+  for (const Subject& item : children(scene, "joint_properties")) {
+    JointProperties p;
+    read(item, "name", p.name);
+    read(item, "normal_stiffness", p.normal_stiffness);
+    read(item, "shear_stiffness", p.shear_stiffness);
+    read_degrees(item, "friction_deg", p.friction);
+    read(item, "constant_stiffness", p.constant_stiffness);
+    all.push_back({item, p});
+  }
+  return all;
+}
+
+MotionSpec read_motion(const Subject& subject) {
+  MotionSpec motion;
+  read(subject, "velocity", motion.velocity);
+  read(subject, "angular_velocity", motion.angular_velocity);
+  return motion;
+}
+
+BlockPlaneSpec read_block_plane(const Subject& subject) {
+  BlockPlaneSpec plane{subject, {}, {}, {}};
+  read(subject, "normal", plane.normal);
+  read(subject, "offset", plane.offset);
+  read(subject, "point", plane.point);
+  double square = 0;
+  for (const double x : plane.normal)
+    square += x * x;
+  constexpr double least_square = 1e-24;  // shorter ones are a slip of the pen, and their inverse would overflow
+  if (!(square > least_square))
+    refuse(subject, "normal", "must not be zero; give the direction that points out of the block");
+  if (plane.offset && plane.point)
+    refuse(subject, "offset", "stands beside point; a plane needs only one of the two, remove one");
+  if (!plane.offset && !plane.point)
+    refuse(subject, "offset", "a plane needs an offset or a point; write for example offset = 1 or point = [0, 0, 1]");
+  return plane;
+}
+
+std::vector<BlockSpec> read_blocks(const Subject& scene) {
+  std::vector<BlockSpec> blocks;
+  for (const Subject& item : children(scene, "blocks")) {
+    BlockSpec block;
+    block.subject = item;
+    read(item, "name", block.name);
+    read(item, "vertices", block.vertices);
+    for (const Subject& plane : children(item, "planes"))
+      block.planes.push_back(read_block_plane(plane));
+    if (const auto box = child(item, "box")) block.box = read_box(*box);
+    const int shapes = !!item.node->find("vertices") + !!item.node->find("planes") + !!item.node->find("box");
+    if (shapes == 0)
+      refuse(
+          item, "vertices",
+          "a block needs its shape: one of vertices, planes or box; write for example box = { min = […], max = […] }");
+    if (shapes > 1)
+      for (const char* key : {"vertices", "planes"})
+        if (item.node->find(key))
+          refuse(item, key, "a block takes only one of vertices, planes and box; remove the others");
+    read(item, "density", block.density);
+    read(item, "fixed", block.fixed);
+    block.motion = read_motion(item);
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+void read_axes(const Subject& subject, const char* key, std::array<bool, 3>& axes) {
+  const Node* node = subject.node->find(key);
+  if (!node) return;
+  if (node->kind == Node::Kind::boolean) axes.fill(node->boolean);
+  for (const Node& axis : node->items)
+    axes[axis.text[0] - 'x'] = true;
+}
+
+std::vector<RestrainSpec> read_restrain(const Subject& scene) {
+  std::vector<RestrainSpec> all;
+  for (const Subject& item : children(scene, "restrain")) {
+    RestrainSpec spec{read_selector(item), {}, {}};
+    read_axes(item, "translation", spec.translation);
+    read_axes(item, "rotation", spec.rotation);
+    if (!item.node->find("translation") && !item.node->find("rotation"))
+      refuse(item, "rotation", "nothing is restrained; write rotation = true or for example translation = [\"x\"]");
+    all.push_back(spec);
+  }
+  return all;
+}
+
+std::vector<InitialVelocitySpec> read_initial_velocity(const Subject& scene) {
+  std::vector<InitialVelocitySpec> all;
+  for (const Subject& item : children(scene, "initial_velocity")) {
+    InitialVelocitySpec spec{read_selector(item), read_motion(item)};
+    if (!spec.motion.velocity && !spec.motion.angular_velocity)
+      refuse(item, "velocity", "an initial_velocity needs velocity, angular_velocity or both");
+    all.push_back(spec);
+  }
+  return all;
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& overrides) {
+  const auto source = std::make_shared<const std::string>(one_line(name, 1000));
+  if (text.size() > largest_scene_file) throw SceneError(*source + ": larger than 16 MB; a scene must be smaller");
+
+  // the tree: parsed, laid over its base, overridden, held against the key table
+  const auto tree =
+      std::make_shared<Node>(with_base(parse_toml(text, source), std::filesystem::path(name).parent_path()));
+  for (const std::string& text_of_override : overrides)
+    apply_override(*tree, text_of_override, *source);
+  check_keys(*tree);
+
+  // from here on every value has the right type and lies in its range
+  Scene scene;
+  scene.file = *source;
+  scene.tree = tree;
+  scene.dimension = scene_dimension(*tree);
+  const Subject top{tree.get(), ""};
+  read(top, "title", scene.title);
+  read(top, "gravity", scene.gravity);
+  read(top, "density", scene.density);
+  scene.domain = read_domain(top, scene.dimension);
+  scene.joints = read_joints(top, scene.dimension);
+  scene.properties = read_properties(top);
+  scene.blocks = read_blocks(top);
+  scene.fix = read_selectors(top, "fix");
+  scene.restrain = read_restrain(top);
+  scene.initial_velocity = read_initial_velocity(top);
+  scene.settings = read_settings(top);
+  if (const auto slicing = child(top, "slicing"))
+    read(*slicing, "smallest_inscribed_radius", scene.smallest_inscribed_radius);
+  scene.stages = read_stages(top, scene.settings.damping);
+  scene.monitors = read_monitors(top);
+  scene.output = read_output(top);
+  return scene;
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return parse_scene(file_text(file), file.string(), overrides);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,210 @@
+#include "core/scene/read_stages.hpp"
+
+#include <map>
+
+#include "core/scene/values.hpp"
+
+namespace voussoir {
+namespace {
+
+// the key table has refused every other word
+template <class Enum>
+void read_choice(const Subject& table, std::string_view key, const std::map<std::string, Enum>& words, Enum& target) {
+  if (const Node* node = table.node->find(key)) target = words.at(node->text);
+}
+
+const std::map<std::string, Quantity> quantity_words = {{"displacement", Quantity::displacement},
+                                                        {"velocity", Quantity::velocity},
+                                                        {"rotation", Quantity::rotation},
+                                                        {"angular_velocity", Quantity::angular_velocity},
+                                                        {"contact_load", Quantity::contact_load},
+                                                        {"contact_force", Quantity::contact_force}};
+
+bool chooses(const Selector& s) {
+  return s.all || !s.names.empty() || !s.above.empty() || !s.below.empty() || s.inside.has_value();
+}
+
+Selector selector_of(const Subject& table) {
+  Selector selector;
+  read(table, "all", selector.all);
+  read(table, "bodies", selector.names);
+  read(table, "above", selector.above);
+  read(table, "below", selector.below);
+  read(table, "inside", selector.inside);
+  return selector;
+}
+
+ReducePlan read_reduction(const Subject& table) {
+  ReducePlan plan;
+  read_choice(
+      table, "method",
+      {{"bisection", ReductionMethod::bisection}, {"steps", ReductionMethod::steps}, {"rate", ReductionMethod::rate}},
+      plan.method);
+  read(table, "joint_properties", plan.properties);
+  read_degrees(table, "from_deg", plan.from);
+  read_degrees(table, "to_deg", plan.to);
+  read_degrees(table, "tolerance_deg", plan.tolerance);
+  read_degrees(table, "step_deg", plan.step);
+  read_degrees(table, "rate_deg_per_s", plan.rate);
+  read(table, "failure_displacement", plan.failure_displacement);
+  read(table, "ramp_steps", plan.ramp_steps);
+  read(table, "step_limit", plan.step_limit);
+  if (!(plan.from > plan.to))
+    refuse(table, "from_deg",
+           "must be greater than to_deg (" + value_text(*table.node->find("to_deg")) +
+               "): a reduction starts at the stable, higher angle; swap the two");
+  return plan;
+}
+
+SettlePlan read_settle(const Subject& table) {
+  SettlePlan plan;
+  read(table, "gravity_ramp_s", plan.gravity_ramp);
+  read(table, "time_limit_s", plan.time_limit);
+  read(table, "step_limit", plan.step_limit);
+  if (plan.gravity_ramp >= plan.time_limit)
+    refuse(table, "gravity_ramp_s",
+           "must be less than time_limit_s (" + value_text(*table.node->find("time_limit_s")) +
+               "): rest needs full gravity; shorten the ramp or raise the limit");
+  return plan;
+}
+
+RunPlan read_run(const Subject& table) {
+  RunPlan plan;
+  read(table, "duration_s", plan.duration);
+  read(table, "gravity_ramp_s", plan.gravity_ramp);
+  return plan;
+}
+
+void read_damping(const Subject& table, DampingSettings& damping) {
+  read(table, "local", damping.local);
+  read(table, "viscous_ratio", damping.viscous_ratio);
+}
+
+void read_changes(const Subject& table, std::string_view key, std::vector<Selector>& target,
+                  std::vector<SelectorSpec>& changes) {
+  for (const SelectorSpec& spec : read_selectors(table, key)) {
+    target.push_back(spec.selector);
+    changes.push_back(spec);
+  }
+}
+
+StageSpec read_stage(const Subject& table, const DampingSettings& damping) {
+  StageSpec stage;
+  stage.subject = table;
+  read(table, "name", stage.plan.name);
+  std::string kind;
+  read(table, "kind", kind);
+  if (kind == "settle") stage.plan.plan = read_settle(table);
+  if (kind == "run") stage.plan.plan = read_run(table);
+  if (kind == "reduce") stage.plan.plan = read_reduction(table);
+  if (const auto own = child(table, "damping")) {
+    stage.plan.damping = damping;
+    read_damping(*own, *stage.plan.damping);
+  }
+  read_changes(table, "fix", stage.plan.change.fix, stage.changes);
+  read_changes(table, "release", stage.plan.change.release, stage.changes);
+  read_changes(table, "remove", stage.plan.change.remove, stage.changes);
+  if (table.node->find("friction_deg")) read_degrees(table, "friction_deg", stage.plan.change.friction.emplace());
+  return stage;
+}
+
+MonitorSpec read_monitor(const Subject& table) {
+  MonitorSpec monitor;
+  monitor.body = {table, selector_of(table)};
+  read(table, "name", monitor.name);
+  read(table, "joint", monitor.joint);
+  std::vector<std::string> words;
+  read(table, "quantities", words);
+  for (const std::string& word : words)
+    monitor.quantities.push_back(quantity_words.at(word));
+
+  const bool of_joint = table.node->find("joint");
+  for (const Quantity quantity : monitor.quantities) {
+    const bool force = quantity == Quantity::contact_force;
+    if (force && !of_joint)
+      refuse(table, "joint", "contact_force is followed on a joint; write for example joint = \"A\"");
+    if (!force && of_joint)
+      refuse(table, "quantities",
+             "a monitor of a joint follows contact_force only; follow a block in a monitor of its own");
+  }
+  if (of_joint && chooses(monitor.body.selector))
+    refuse(table, "joint", "stands beside a choice of blocks; a monitor follows either a joint or a block, remove one");
+  if (!of_joint && !chooses(monitor.body.selector))
+    refuse(table, "above",
+           "the monitor must choose one block by bodies, above, below or inside; write for example "
+           "above = [\"A\"] or inside = the coordinates of a point in the block");
+  return monitor;
+}
+
+}  // namespace
+
+SelectorSpec read_selector(const Subject& table) {
+  const SelectorSpec spec{table, selector_of(table)};
+  if (!chooses(spec.selector))
+    refuse(table, "below",
+           "no block is chosen; choose by all = true, bodies, above, below or inside, for example below = [\"A\"]");
+  return spec;
+}
+
+std::vector<SelectorSpec> read_selectors(const Subject& table, std::string_view key) {
+  std::vector<SelectorSpec> all;
+  for (const Subject& item : children(table, key))
+    all.push_back(read_selector(item));
+  return all;
+}
+
+Settings read_settings(const Subject& scene) {
+  Settings settings;
+  if (const auto table = child(scene, "contact")) {
+    ContactSettings& contact = settings.contact;
+    read_choice(*table, "lp", {{"own", LpSolver::own}, {"glpk", LpSolver::glpk}}, contact.lp);
+    read_choice(*table, "centre", {{"own", CentreSolver::own}, {"ipopt", CentreSolver::ipopt}}, contact.centre);
+    read_choice(*table, "point",
+                {{"analytic_centre", ContactPoint::analytic_centre}, {"chebyshev", ContactPoint::chebyshev}},
+                contact.point);
+    read(*table, "tolerance", contact.tolerance);
+    read(*table, "potential_radius", contact.potential_radius);
+    read(*table, "newton_tolerance", contact.newton_tolerance);
+    read(*table, "newton_limit", contact.newton_limit);
+    read(*table, "skin", contact.skin);
+  }
+  if (const auto table = child(scene, "damping")) read_damping(*table, settings.damping);
+  if (const auto table = child(scene, "time")) {
+    read(*table, "fraction", settings.time.fraction);
+    read(*table, "step_s", settings.time.step);
+  }
+  if (const auto table = child(scene, "equilibrium")) {
+    read(*table, "unbalanced", settings.equilibrium.unbalanced);
+    read(*table, "window", settings.equilibrium.window);
+  }
+  return settings;
+}
+
+std::vector<StageSpec> read_stages(const Subject& scene, const DampingSettings& damping) {
+  std::vector<StageSpec> stages;
+  for (const Subject& item : children(scene, "stage"))
+    stages.push_back(read_stage(item, damping));
+  if (stages.empty())
+    refuse(scene, "stage",
+           "nothing would happen; write for example [[stage]] with name = \"settle\" and kind = \"settle\"");
+  return stages;
+}
+
+std::vector<MonitorSpec> read_monitors(const Subject& scene) {
+  std::vector<MonitorSpec> monitors;
+  for (const Subject& item : children(scene, "monitors"))
+    monitors.push_back(read_monitor(item));
+  return monitors;
+}
+
+OutputPlan read_output(const Subject& scene) {
+  OutputPlan output;
+  if (const auto table = child(scene, "output")) {
+    read(*table, "history_interval_s", output.history_interval);
+    read(*table, "frame_interval_s", output.frame_interval);
+    read(*table, "frames", output.frames);
+  }
+  return output;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,17 @@
+// The parts of a scene that say what happens: selectors, settings, stages, monitors, output.
+#pragma once
+
+#include <vector>
+
+#include "core/scene/scene.hpp"
+
+namespace voussoir {
+
+SelectorSpec read_selector(const Subject& table);
+std::vector<SelectorSpec> read_selectors(const Subject& table, std::string_view key);
+Settings read_settings(const Subject& scene);
+std::vector<StageSpec> read_stages(const Subject& scene, const DampingSettings& damping);
+std::vector<MonitorSpec> read_monitors(const Subject& scene);
+OutputPlan read_output(const Subject& scene);
+
+}  // namespace voussoir

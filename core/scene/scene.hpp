@@ -1,0 +1,144 @@
+// What a scene file states, in SI units and radians; nothing is derived here. `prepare` makes it ready to run.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/law/joint_properties.hpp"
+#include "core/scene/node.hpp"
+#include "core/scene/prepared.hpp"
+#include "core/settings.hpp"
+
+namespace voussoir {
+
+// `subject` is where the file states a thing, so that a later error can name line, key and value. Vectors have as many
+// entries as the scene has dimensions; coordinates are the file's.
+
+struct PlaneSpec {
+  double dip = 0, dip_direction = 0;  // rad
+  std::vector<double> point;          // m
+};
+
+struct BoxSpec {
+  Subject subject;
+  std::vector<double> min, max;  // m
+};
+
+struct DomainPlaneSpec {
+  Subject subject;
+  PlaneSpec plane;
+  bool keep_below = true;
+};
+
+struct DomainSpec {
+  Subject subject;
+  std::optional<BoxSpec> box;
+  std::vector<DomainPlaneSpec> planes;
+};
+
+struct JointSpec {
+  Subject subject;
+  std::string name;
+  PlaneSpec plane;
+  std::optional<std::string> properties;
+};
+
+struct PropertiesSpec {
+  Subject subject;
+  JointProperties properties;
+};
+
+struct BlockPlaneSpec {
+  Subject subject;
+  std::vector<double> normal;                // any length
+  std::optional<double> offset;              // m, for the normal as given; or
+  std::optional<std::vector<double>> point;  // m
+};
+
+struct MotionSpec {
+  std::optional<std::vector<double>> velocity;          // m/s
+  std::optional<std::vector<double>> angular_velocity;  // rad/s; 2-D one entry
+};
+
+struct BlockSpec {
+  Subject subject;
+  std::string name;
+  std::vector<std::vector<double>> vertices;  // m; exactly one of these three is stated
+  std::vector<BlockPlaneSpec> planes;
+  std::optional<BoxSpec> box;
+  std::optional<double> density;  // kg/m³
+  MotionSpec motion;
+  bool fixed = false;
+};
+
+struct SelectorSpec {
+  Subject subject;
+  Selector selector;  // `inside` in the file's coordinates
+};
+
+struct RestrainSpec {
+  SelectorSpec bodies;
+  std::array<bool, 3> translation{}, rotation{};  // true: no movement along or about this axis
+};
+
+struct InitialVelocitySpec {
+  SelectorSpec bodies;
+  MotionSpec motion;
+};
+
+struct StageSpec {
+  Subject subject;
+  StagePlan plan;
+  std::vector<SelectorSpec> changes;  // every selector of plan.change, with its place
+};
+
+struct MonitorSpec {
+  SelectorSpec body;  // empty for contact_force
+  std::string name, joint;
+  std::vector<Quantity> quantities;
+};
+
+struct Scene {
+  std::string file, title;
+  int dimension = 3;
+  std::optional<std::vector<double>> gravity;  // m/s²
+  std::optional<double> density;               // kg/m³
+  std::optional<DomainSpec> domain;
+  std::vector<JointSpec> joints;  // in slicing order
+  std::vector<PropertiesSpec> properties;
+  std::vector<BlockSpec> blocks;
+  std::vector<SelectorSpec> fix;
+  std::vector<RestrainSpec> restrain;
+  std::vector<InitialVelocitySpec> initial_velocity;
+  Settings settings;
+  double smallest_inscribed_radius = 0;  // m
+  std::vector<StageSpec> stages;
+  std::vector<MonitorSpec> monitors;
+  OutputPlan output;
+  std::shared_ptr<const Node> tree;  // the effective file, overrides applied; subjects point into it
+};
+
+// Reads and checks a scene. Overrides are "key=value", applied in order. Throws SceneError (bad input, or a file that
+// cannot be read).
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+// the same for a text; `name` stands for the file in errors
+Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& overrides = {});
+
+// Cuts the domain, builds bodies, assigns properties, resolves selectors and monitors. Throws SceneError where the
+// scene makes no sense. Dim must be scene.dimension.
+template <int Dim>
+Prepared<Dim> prepare(const Scene& scene);
+
+// The effective scene as canonical text, to be hashed: independent of comments, layout, the order of keys, how numbers
+// are written, and of whether a value came from the file or an override. Defaults that are not stated do not appear.
+std::string canonical_text(const Scene& scene);
+
+// every key, its meaning, unit, range and default, in markdown, from the table the reader checks with
+std::string scene_documentation();
+
+}  // namespace voussoir

@@ -1,0 +1,280 @@
+// Good scenes: what is read, what is prepared, how --set changes it, what looks implausible.
+#include "core/scene/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/scene/plausibility.hpp"
+
+namespace voussoir {
+namespace {
+
+constexpr double deg = std::numbers::pi / 180;
+
+const std::string wedge = R"(title = "Sliding wedge"
+dimension = 3
+gravity = [0, 0, -9.81]
+density = 2000
+[domain]
+box = { min = [-4, -4, -4], max = [4, 4, 0] }
+[[domain.planes]]
+name = "slope face"
+dip = 70
+dip_direction = 155
+point = [1, -1, -1]
+keep = "below"
+[[joints]]
+name = "A"
+dip = 40
+dip_direction = 130
+point = [0, 0, -1]
+[[joints]]
+name = "B"
+dip = 60
+dip_direction = 220
+point = [0, 0, -1]
+[[joint_properties]]
+name = "rock"
+normal_stiffness = 10e6
+shear_stiffness = 1e6
+friction_deg = 60
+[[fix]]
+below = ["A"]
+[[fix]]
+name = "other side"
+below = ["B"]
+[[restrain]]
+above = ["A", "B"]
+rotation = true
+[damping]
+local = 0.5
+[[stage]]
+name = "settle"
+kind = "settle"
+[[stage]]
+name = "reduce"
+kind = "reduce"
+from_deg = 60
+to_deg = 5
+tolerance_deg = 0.01
+failure_displacement = 0.01
+[[monitors]]
+name = "wedge"
+quantities = ["displacement", "velocity", "rotation"]
+above = ["A", "B"]
+[[monitors]]
+name = "on A"
+joint = "A"
+quantities = ["contact_force"]
+)";
+
+Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return parse_scene(text, "scene.toml", overrides);
+}
+
+TEST(ReadScene, TakesWhatIsStatedInRadians) {
+  const Scene s = parse(wedge);
+  EXPECT_EQ(s.title, "Sliding wedge");
+  EXPECT_EQ(s.dimension, 3);
+  ASSERT_EQ(s.joints.size(), 2u);
+  EXPECT_DOUBLE_EQ(s.joints[0].plane.dip, 40 * deg);
+  EXPECT_DOUBLE_EQ(s.joints[1].plane.dip_direction, 220 * deg);
+  EXPECT_FALSE(s.joints[0].properties);
+  EXPECT_TRUE(s.domain->planes.at(0).keep_below);
+  EXPECT_EQ(s.settings.damping.local, 0.5);
+  ASSERT_EQ(s.stages.size(), 2u);
+  const auto& reduce = std::get<ReducePlan>(s.stages[1].plan.plan);
+  EXPECT_DOUBLE_EQ(reduce.from, 60 * deg);
+  EXPECT_DOUBLE_EQ(reduce.tolerance, 0.01 * deg);
+  EXPECT_EQ(reduce.method, ReductionMethod::bisection);
+  EXPECT_FALSE(s.stages[0].plan.damping);
+  EXPECT_EQ(s.monitors.at(0).quantities.size(), 3u);
+  EXPECT_EQ(s.fix.at(1).subject.path, "fix.other side");
+}
+
+TEST(ReadScene, DampingOfAStageTakesTheRestFromTheScene) {
+  const Scene s = parse(wedge, {"stage.settle.damping.viscous_ratio=0.1"});
+  EXPECT_EQ(s.stages[0].plan.damping->local, 0.5);
+  EXPECT_EQ(s.stages[0].plan.damping->viscous_ratio, 0.1);
+}
+
+TEST(Prepare, CutsTheWedgeAndResolvesSelectors) {
+  const Prepared<3> p = prepare<3>(parse(wedge));
+  ASSERT_EQ(p.model.bodies.size(), 4u);
+  EXPECT_EQ(p.state.motions.size(), 4u);
+  EXPECT_EQ(p.model.gravity, Vector<3>(0, 0, -9.81));
+  int free = -1, free_count = 0;
+  for (int b = 0; b < 4; ++b)
+    if (!p.model.bodies[b].fixed) free = b, ++free_count;
+  ASSERT_EQ(free_count, 1);
+  EXPECT_FALSE(p.model.bodies[free].free_rotation[0]);
+  EXPECT_TRUE(p.model.bodies[free].free_translation[0]);
+  ASSERT_EQ(p.monitors.size(), 4u);
+  EXPECT_EQ(p.monitors[0].subject, free);
+  EXPECT_EQ(p.monitors[3].subject, 0);
+  EXPECT_EQ(p.monitors[3].quantity, Quantity::contact_force);
+  double mass = 0;
+  for (const Body<3>& b : p.model.bodies)
+    mass += b.mass;
+  EXPECT_LT(mass, 2000 * 8 * 8 * 4.0);
+}
+
+TEST(Prepare, DoesNotDependOnWhereTheSceneLies) {
+  // 2^20 m: the coordinates of the moved scene are exact
+  std::string moved = wedge;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    for (std::size_t at; (at = moved.find(from)) != std::string::npos;)
+      moved.replace(at, from.size(), to);
+  };
+  replace("min = [-4, -4, -4], max = [4, 4, 0]", "min = [1048572, -4, -1048580], max = [1048580, 4, -1048576]");
+  replace("point = [1, -1, -1]", "point = [1048577, -1, -1048577]");
+  replace("point = [0, 0, -1]", "point = [1048576, 0, -1048577]");
+  const Prepared<3> here = prepare<3>(parse(wedge)), there = prepare<3>(parse(moved));
+  EXPECT_LT((there.model.origin - here.model.origin - Vector<3>(1048576, 0, -1048576)).norm(), 1e-9);
+  ASSERT_EQ(here.model.bodies.size(), there.model.bodies.size());
+  for (std::size_t b = 0; b < here.model.bodies.size(); ++b) {
+    EXPECT_LT((here.model.bodies[b].reference - there.model.bodies[b].reference).norm(), 1e-9);
+    EXPECT_NEAR(there.model.bodies[b].mass / here.model.bodies[b].mass, 1, 1e-9);
+    EXPECT_EQ(here.model.bodies[b].fixed, there.model.bodies[b].fixed);
+  }
+}
+
+TEST(Prepare, RunsInThePlane) {
+  const Scene s = parse(R"(dimension = 2
+gravity = [0, -9.81]
+density = 2500
+[domain]
+box = { min = [0, 0], max = [2, 2] }
+[[joints]]
+name = "A"
+dip = 45
+dip_direction = 270
+point = [1, 1]
+[[joint_properties]]
+name = "rock"
+normal_stiffness = 1e9
+shear_stiffness = 1e9
+friction_deg = 30
+[[blocks]]
+name = "top"
+vertices = [[0, 3], [1, 3], [0, 4]]
+angular_velocity = 2
+[[fix]]
+below = ["A"]
+[[restrain]]
+above = ["A"]
+bodies = ["top"]
+translation = ["x"]
+[[stage]]
+name = "run"
+kind = "run"
+duration_s = 1
+)");
+  const Prepared<2> p = prepare<2>(s);
+  ASSERT_EQ(p.model.bodies.size(), 3u);
+  // dips to the left: above it is the upper left half
+  EXPECT_LT(p.model.joints[0].plane.normal[0], 0);
+  EXPECT_GT(p.model.joints[0].plane.normal[1], 0);
+  for (std::size_t b = 0; b < 3; ++b) {
+    const Body<2>& body = p.model.bodies[b];
+    const bool top = body.name == "top";
+    EXPECT_EQ(body.fixed, body.reference[0] + p.model.origin[0] > 1);
+    EXPECT_EQ(body.free_translation[0], !top);
+    EXPECT_NEAR(angular_velocity<2>(body, p.state.motions[b])[0], top ? 2 : 0, 1e-12);
+  }
+}
+
+TEST(Select, TakesConditionsTogether) {
+  const Prepared<3> p = prepare<3>(parse(wedge));
+  Selector none;
+  EXPECT_TRUE(select<3>(p.model, none).empty());
+  Selector all;
+  all.all = true;
+  EXPECT_EQ(select<3>(p.model, all).size(), 4u);
+  Selector corner;
+  corner.above = {"A"};
+  corner.inside = {{0.0, -1.0, -0.9}};
+  EXPECT_LE(select<3>(p.model, corner).size(), 1u);
+  corner.above = {"C"};
+  EXPECT_THROW(select<3>(p.model, corner), std::out_of_range);
+}
+
+TEST(Set, ReachesTablesByNameNumberAndValuesNotInTheFile) {
+  const auto set = [](const std::string& text) { return parse(wedge, {text}); };
+  EXPECT_DOUBLE_EQ(set("joints.A.dip=65").joints[0].plane.dip, 65 * deg);
+  EXPECT_DOUBLE_EQ(set("joints.2.dip = 65").joints[1].plane.dip, 65 * deg);
+  EXPECT_DOUBLE_EQ(set("domain.planes.slope face.dip=60").domain->planes[0].plane.dip, 60 * deg);
+  EXPECT_DOUBLE_EQ(std::get<ReducePlan>(set("stage.reduce.tolerance_deg=0.1").stages[1].plan.plan).tolerance,
+                   0.1 * deg);
+  EXPECT_EQ(*set("gravity=[0,0,-5]").gravity, (std::vector<double>{0, 0, -5}));
+  EXPECT_EQ(set("domain.box.max=[5, 4, 0]").domain->box->max[0], 5);
+  EXPECT_EQ(set("contact.skin=0.3").settings.contact.skin, 0.3);
+  EXPECT_EQ(set("contact.point=chebyshev").settings.contact.point, ContactPoint::chebyshev);
+  EXPECT_EQ(set("title=two words").title, "two words");
+  EXPECT_EQ(set("title=\"a = b\"").title, "a = b");
+  EXPECT_EQ(set("fix.2.below=[\"A\"]").fix[1].selector.below, std::vector<std::string>{"A"});
+  EXPECT_EQ(set("fix.other side.all=true").fix[1].selector.all, true);
+  EXPECT_EQ(set("damping={ local = 0.1 }").settings.damping.local, 0.1);
+  EXPECT_EQ(set("output.frames=false").output.frames, false);
+  // in order: a later one sees the earlier
+  EXPECT_DOUBLE_EQ(parse(wedge, {"joints.A.name=C", "joints.C.dip=1", "joints.C.dip=2"}).joints[0].plane.dip, 2 * deg);
+}
+
+TEST(CanonicalText, ForgetsLayoutAndRemembersMeaning) {
+  const std::string base = canonical_text(parse(wedge));
+  EXPECT_EQ(canonical_text(parse("# a comment\n" + wedge)), base);
+  EXPECT_EQ(canonical_text(parse(wedge, {"joints.A.dip=40.0"})), base);
+  EXPECT_NE(canonical_text(parse(wedge, {"joints.A.dip=40.000001"})), base);
+  const std::string stated = wedge + "[time]\nfraction = 0.1\n";
+  EXPECT_EQ(canonical_text(parse(stated)), canonical_text(parse(wedge, {"time.fraction=0.1"})));
+}
+
+// the warnings of a scene, in one text
+std::string warnings(const std::vector<std::string>& overrides, double time_step = 1e-4) {
+  const Scene scene = parse(wedge, overrides);
+  std::string text;
+  for (const std::string& warning : judge_plausibility<3>(scene, prepare<3>(scene), time_step).warnings)
+    text += warning + "\n";
+  return text;
+}
+
+TEST(Plausibility, KnowsTheSignsOfWrongUnits) {
+  EXPECT_EQ(warnings({"joint_properties.rock.normal_stiffness=1e9"}), "");
+  const std::vector<std::pair<std::string, std::string>> all = {
+      {"gravity=[0,0,9.81]", "gravity = [0, 0, 9.81]: points upwards"},
+      {"gravity=[0,0,-9810]", "on earth it is 9.81"},
+      {"density=2.6", "density = 2.6"},
+      {"joint_properties.rock.friction_deg=0.6", "friction_deg = 0.6: is a very small angle"},
+      {"joint_properties.rock.shear_stiffness=1e8", "exceeds the normal stiffness"},
+      {"joint_properties.rock.shear_stiffness=10", "very soft"},
+      {"joint_properties.rock.normal_stiffness=1e14", "very stiff"},
+      {"damping.local=0", "nothing is damped"},
+      {"domain.box.min=[-4e5,-4,-4]", "were they given in mm?"}};
+  for (const auto& [text, phrase] : all)
+    EXPECT_NE(warnings({text}).find(phrase), std::string::npos) << text << "\n" << warnings({text});
+  EXPECT_NE(warnings({}, 0).find("no contact determines the time step"), std::string::npos);
+}
+
+TEST(Plausibility, EstimatesSizesOverlapAndSteps) {
+  const Scene scene = parse(wedge);
+  const ScenePlausibility p = judge_plausibility<3>(scene, prepare<3>(scene), 1e-4);
+  EXPECT_EQ(p.bodies, 4);
+  EXPECT_EQ(p.free_bodies, 1);
+  EXPECT_GT(p.overlap, 1e-5);
+  EXPECT_LT(p.overlap, 1e-1);
+  ASSERT_EQ(p.stages.size(), 2u);
+  EXPECT_EQ(p.stages[1].trials, 2 + 13);  // 55 deg halved 13 times is 0.0067 deg
+}
+
+TEST(Plausibility, TellsAJointThatCutsNothing) {
+  const Scene scene = parse(wedge + "[[joints]]\nname = \"far\"\ndip = 0\npoint = [0, 0, 50]\n");
+  const ScenePlausibility p = judge_plausibility<3>(scene, prepare<3>(scene), 1e-4);
+  ASSERT_FALSE(p.warnings.empty());
+  EXPECT_NE(p.warnings[0].find("joints.far"), std::string::npos);
+  EXPECT_NE(p.warnings[0].find("cuts no block"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace voussoir
