@@ -4,6 +4,7 @@
 #include "app/effective_scene.hpp"
 #include "core/output/fingerprint.hpp"
 #include "core/output/version.hpp"
+#include "core/scene/plausibility.hpp"
 #include "core/scene/scene.hpp"
 #ifdef VOUSSOIR_HAS_GLPK
 #include "core/optimise/glpk.hpp"
@@ -45,6 +46,13 @@ Prepared<Dim> prepare_to_run(const Scene& scene, int threads) {
   return prepared;
 }
 
+template <int Dim>
+void load_prepared(const Scene& scene, int threads, LoadedScene& loaded) {
+  Prepared<Dim> prepared = prepare_to_run<Dim>(scene, threads);
+  loaded.warnings = implausible_values<Dim>(scene, prepared);
+  loaded.prepared = std::move(prepared);
+}
+
 Results simulate_any(const Prepared<2>& prepared, const SceneWatcher& watcher) {
   return simulate<2>(prepared, {watcher.progress, watcher.frame_2d});
 }
@@ -62,9 +70,9 @@ LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std:
   loaded.text = toml_text(*scene.tree);
   loaded.hash = fingerprint(canonical_text(scene));
   if (scene.dimension == 2)
-    loaded.prepared = prepare_to_run<2>(scene, threads);
+    load_prepared<2>(scene, threads, loaded);
   else
-    loaded.prepared = prepare_to_run<3>(scene, threads);
+    load_prepared<3>(scene, threads, loaded);
   loaded.title = std::visit([](const auto& prepared) { return prepared.title; }, loaded.prepared);
   return loaded;
 }

@@ -20,6 +20,7 @@ struct LoadedScene {
   int dimension = 3;
   std::string text;  // the effective scene: the file with its overrides, as TOML
   std::string hash;  // fingerprint of its canonical form, which layout and comments do not change
+  std::vector<std::string> warnings;  // stated values that look like mistakes, one line each
   AnyPrepared prepared;
 };
 

@@ -235,7 +235,7 @@ ExitCode check_command(const SceneArguments& arguments) {
   const LoadedScene scene = load_scene(arguments.scene, arguments.overrides);
   fmt::print("{} ({}-D)\n", scene.title.empty() ? arguments.scene.filename().string() : scene.title, scene.dimension);
   std::visit([](const auto& prepared) { print_active(prepared); }, scene.prepared);
-  const Plausibility plausibility = std::visit([](const auto& prepared) { return assess(prepared); }, scene.prepared);
+  const Plausibility plausibility = assess(scene);
   print_derived(plausibility);
   for (const std::string& warning : plausibility.warnings)
     fmt::print("warning: {}\n", warning);

@@ -153,18 +153,6 @@ void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const 
                     smallest, largest));
 }
 
-template <int Dim>
-void judge_properties(const Model<Dim>& model, Plausibility& result) {
-  for (const JointProperties& p : model.properties) {
-    if (p.shear_stiffness > p.normal_stiffness)
-      result.warnings.push_back(fmt::format(
-          "joint_properties.{}: shear_stiffness exceeds normal_stiffness, which is unusual for rock joints", p.name));
-    if (p.friction == 0)
-      result.warnings.push_back(
-          fmt::format("joint_properties.{}: friction_deg = 0: the joint resists no slip", p.name));
-  }
-}
-
 void judge_stage(const StagePlan& stage, const DampingSettings& damping, const TimeSettings& time, double overlap,
                  Plausibility& result) {
   const std::string where = "stage." + stage.name;
@@ -185,10 +173,8 @@ void judge_stage(const StagePlan& stage, const DampingSettings& damping, const T
         where, plan->failure_displacement, settlement_margin, overlap));
 }
 
-}  // namespace
-
 template <int Dim>
-Plausibility assess(const Prepared<Dim>& prepared) {
+Plausibility assess_prepared(const Prepared<Dim>& prepared) {
   // as the first stage begins
   Model<Dim> model = prepared.model;
   if (!prepared.stages.empty()) model = apply(std::move(model), prepared.stages.front().change);
@@ -206,7 +192,6 @@ Plausibility assess(const Prepared<Dim>& prepared) {
 
   // warnings
   judge_bodies(prepared, model, state, result);
-  judge_properties(model, result);
   for (const StagePlan& stage : prepared.stages)
     judge_stage(stage, stage.damping.value_or(prepared.settings.damping), prepared.settings.time, result.overlap,
                 result);
@@ -216,7 +201,12 @@ Plausibility assess(const Prepared<Dim>& prepared) {
   return result;
 }
 
-template Plausibility assess<2>(const Prepared<2>&);
-template Plausibility assess<3>(const Prepared<3>&);
+}  // namespace
+
+Plausibility assess(const LoadedScene& scene) {
+  Plausibility result = std::visit([](const auto& prepared) { return assess_prepared(prepared); }, scene.prepared);
+  result.warnings.insert(result.warnings.begin(), scene.warnings.begin(), scene.warnings.end());
+  return result;
+}
 
 }  // namespace voussoir

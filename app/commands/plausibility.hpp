@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/prepared.hpp"
+#include "app/run_scene.hpp"
 
 namespace voussoir {
 
@@ -25,7 +25,7 @@ struct Plausibility {
   std::vector<std::string> warnings;  // one line each, with the repair
 };
 
-template <int Dim>
-Plausibility assess(const Prepared<Dim>& prepared);
+// The scene's own warnings come first, then those that follow from the numbers.
+Plausibility assess(const LoadedScene& scene);
 
 }  // namespace voussoir

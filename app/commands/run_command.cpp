@@ -5,6 +5,7 @@
 
 #include "app/bad_input.hpp"
 #include "app/commands/commands.hpp"
+#include "app/commands/plausibility.hpp"
 #include "app/commands/progress_line.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
@@ -43,8 +44,9 @@ void remove_old_results(const fs::path& folder) {
     if (is_our_frame(entry.path())) fs::remove(entry.path(), error);
 }
 
-RunRecord record_of(const LoadedScene& scene, int threads) {
+RunRecord record_of(const LoadedScene& scene, const std::vector<std::string>& warnings, int threads) {
   RunRecord record;
+  record.warnings = warnings;
   record.title = scene.title;
   record.dimension = scene.dimension;
   record.input_hash = scene.hash;
@@ -95,6 +97,10 @@ ExitCode exit_code(Outcome outcome) {
 ExitCode run_command(const RunArguments& arguments) {
   // nothing is written before the whole scene is known to be good
   const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides, arguments.threads);
+  const std::vector<std::string> warnings = assess(scene).warnings;
+  if (!arguments.quiet)
+    for (const std::string& warning : warnings)
+      fmt::print(stderr, "voussoir: warning: {}\n", warning);
   const fs::path folder = results_folder(arguments);
   if (!arguments.overwrite) refuse_to_overwrite(folder);
   prepare_folder(folder);
@@ -117,7 +123,7 @@ ExitCode run_command(const RunArguments& arguments) {
 
   // results.json comes last: where it is, everything is
   write_history_csv(folder / "history.csv", results.history);
-  write_results_json(folder / "results.json", results, record_of(scene, arguments.threads));
+  write_results_json(folder / "results.json", results, record_of(scene, warnings, arguments.threads));
   if (!arguments.quiet) print_summary(scene, results, folder);
   if (arguments.quiet && results.outcome != Outcome::done)
     fmt::print(stderr, "voussoir: {}: {}\n", outcome_name(results.outcome), results.message);

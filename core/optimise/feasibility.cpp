@@ -9,11 +9,14 @@ namespace voussoir {
 namespace {
 
 // multipliers below this are zero but for rounding
-constexpr double multiplier_rounding = 1e-13;
+constexpr double multiplier_rounding = 1e-11;
 
 // a plane violated by no more than this share of the coordinates holds: on rounding alone, degenerate bases would pivot
 // for ever
 constexpr double violation_rounding = 16 * std::numeric_limits<double>::epsilon();
+
+// each gains the digits that the inverse has
+constexpr int refinement_steps = 3;
 
 // a multiplier below this is negative: its basis bounds nothing
 constexpr double negative_multiplier = -8 * std::numeric_limits<double>::epsilon();
@@ -106,6 +109,20 @@ void pivot(Basis<Dim>& basis, int leave, int enter, double offset, const Eigen::
   basis.offsets[leave] = offset;
 }
 
+// The point where the tight planes meet, and -s. Refined: planes that are nearly parallel, as of two faces in contact,
+// leave few correct digits in the inverse.
+template <int Dim>
+Eigen::Matrix<double, Dim + 1, 1> meeting_point(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far) {
+  Eigen::Matrix<double, Dim + 1, 1> solution = basis.inverse.transpose() * basis.offsets, residual;
+  for (int step = 0; step < refinement_steps; ++step) {
+    for (int k = 0; k <= Dim; ++k)
+      residual[k] = basis.offsets[k] - basis_plane(planes, basis.planes[k], far).normal.dot(solution.template head<Dim>()) -
+                    solution[Dim];
+    solution += basis.inverse.transpose() * residual;
+  }
+  return solution;
+}
+
 // What the multipliers prove by weak duality whatever rounding did to them: s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ, negative
 // ones left out, for all x within the reach.
 template <int Dim>
@@ -127,7 +144,8 @@ double proven_bound(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, doub
 template <int Dim>
 FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request) {
   const int count = static_cast<int>(planes.size());
-  const double far = 1e3 * (largest_offset(planes) + std::numeric_limits<double>::min());
+  const double reach = 10 * (largest_offset(planes) + std::numeric_limits<double>::min());  // of what the planes enclose
+  const double far = 100 * reach;
   const int limit = 10 * (count + Dim + 1) + 50;
   const int bland_after = limit / 2;
 
@@ -135,12 +153,12 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
   FeasibilityResult<Dim> result;
   bool exact = true;  // the inverse was just computed, not updated
   for (; result.pivots < limit; ++result.pivots) {
-    const Eigen::Matrix<double, Dim + 1, 1> solution = basis.inverse.transpose() * basis.offsets;
+    const Eigen::Matrix<double, Dim + 1, 1> solution = meeting_point(basis, planes, far);
     result.point = solution.template head<Dim>();
     result.value = -solution[Dim];
 
     // every basis is dual feasible, so its value is a lower bound; tiny pivots can spoil it, hence the proof
-    if (result.value > request.stop_above && proven_bound<Dim>(basis, planes, far, 0.01 * far) > request.stop_above) {
+    if (result.value > request.stop_above && proven_bound<Dim>(basis, planes, far, reach) > request.stop_above) {
       result.status = FeasibilityStatus::separated_early;
       break;
     }
@@ -148,9 +166,9 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
     // the most violated plane enters; after many pivots the first violated one, which cannot cycle
     int enter = -1;
     double worst = request.tolerance;
-    const double reach = result.point.cwiseAbs().maxCoeff() + std::abs(result.value);
+    const double coordinates = std::min(result.point.cwiseAbs().maxCoeff(), reach) + std::abs(result.value);
     for (int i = 0; i < count; ++i) {
-      const double rounding = violation_rounding * (std::abs(planes[i].offset) + reach);
+      const double rounding = violation_rounding * (std::abs(planes[i].offset) + coordinates);
       const double violation = planes[i].normal.dot(result.point) - planes[i].offset - result.value - rounding;
       if (violation > worst && std::find(basis.planes.begin(), basis.planes.end(), i) == basis.planes.end()) {
         worst = violation;

@@ -99,6 +99,7 @@ std::string results_json(const Results& results, const RunRecord& record) {
   json["title"] = record.title;
   json["dimension"] = record.dimension;
   json["input_hash"] = record.input_hash;
+  json["warnings"] = record.warnings;
   json["program"] = program_json(record);
   json["status"] = outcome_name(results.outcome);
   json["message"] = complete_message(results, number);

@@ -14,9 +14,7 @@ constexpr double least_density = 500, most_density = 8000;      // kg/m³
 constexpr double least_stiffness = 1e5, most_stiffness = 1e13;  // Pa/m
 constexpr double least_block = 1e-3, most_block = 1e4;          // m
 constexpr double least_gravity = 1, most_gravity = 30;          // m/s²
-constexpr double least_overlap = 1e-7, most_overlap = 1e-3;     // of the block's size
 constexpr double most_radians = 1.6;                            // an angle below π/2 may be in radians
-constexpr double many_steps = 1e8;
 
 using Warnings = std::vector<std::string>;
 
@@ -67,53 +65,21 @@ void judge_properties(const PropertiesSpec& spec, Warnings& warnings) {
   }
 }
 
-// a body that rests with its largest face on the softest joint
 template <int Dim>
-double own_overlap(const Model<Dim>& model, const Body<Dim>& body) {
-  double area = 0;
-  for (const Polytope<Dim>& part : body.parts)
-    for (std::size_t f = 0; f < part.faces.size(); ++f)
-      area = std::max(area, face_area<Dim>(part, static_cast<int>(f)));
-  double overlap = 0;
-  for (const JointProperties& p : model.properties) {
-    const double stiffness = p.constant_stiffness ? p.normal_stiffness : p.normal_stiffness * area;
-    overlap = std::max(overlap, body.mass * model.gravity.norm() / stiffness);
-  }
-  return overlap / body.size;
-}
-
-template <int Dim>
-void measure(const Model<Dim>& model, ScenePlausibility& result) {
-  result.bodies = static_cast<int>(model.bodies.size());
+void judge_sizes(const Scene& scene, const Model<Dim>& model, Warnings& warnings) {
+  double thinnest = model.bodies.front().size, largest = 0;
   for (const Body<Dim>& body : model.bodies) {
-    result.smallest_size = result.smallest_size == 0 ? body.size : std::min(result.smallest_size, body.size);
-    result.largest_size = std::max(result.largest_size, body.radius);
-    if (body.fixed) continue;
-    ++result.free_bodies;
-    result.overlap = std::max(result.overlap, own_overlap<Dim>(model, body));
+    thinnest = std::min(thinnest, body.size);
+    largest = std::max(largest, body.radius);
   }
-}
-
-void judge_measures(const Scene& scene, const ScenePlausibility& result, Warnings& warnings) {
   const std::string file = scene.file + ": ";
-  if (2 * result.smallest_size < least_block)
+  if (2 * thinnest < least_block)
     warnings.push_back(
-        file + "the thinnest block measures " + text(2 * result.smallest_size) +
+        file + "the thinnest block measures " + text(2 * thinnest) +
         " m; coordinates are in m, were they given in km, or is it a sliver (slicing.smallest_inscribed_radius)?");
-  if (2 * result.largest_size > most_block)
-    warnings.push_back(file + "the largest block measures " + text(2 * result.largest_size) +
+  if (2 * largest > most_block)
+    warnings.push_back(file + "the largest block measures " + text(2 * largest) +
                        " m; coordinates are in m, were they given in mm?");
-  if (result.overlap > most_overlap)
-    warnings.push_back(file + "under its own weight a block sinks in by " + text(result.overlap) +
-                       " of its size (expected 1e-7 to 1e-3); raise normal_stiffness");
-  if (result.overlap > 0 && result.overlap < least_overlap)
-    warnings.push_back(file + "under its own weight a block sinks in by only " + text(result.overlap) +
-                       " of its size (expected 1e-7 to 1e-3); a lower normal_stiffness allows longer time steps");
-  if (result.overlap > scene.settings.contact.potential_radius)
-    warnings.push_back(file + "contact.potential_radius = " + text(scene.settings.contact.potential_radius) +
-                       " is less than the expected overlap " + text(result.overlap) + "; raise it or the stiffness");
-  if (result.time_step == 0)
-    warnings.push_back(file + "no contact determines the time step; write [time] step_s, or the first contact will");
 }
 
 template <int Dim>
@@ -131,70 +97,26 @@ void judge_joints(const Scene& scene, const Model<Dim>& model, Warnings& warning
                                    "slicing.smallest_inscribed_radius"));
 }
 
-StageEstimate estimate(const StagePlan& stage, double time_step) {
-  StageEstimate result{stage.name, "settle", {}, 0};
-  if (const auto* run = std::get_if<RunPlan>(&stage.plan)) {
-    result.kind = "run";
-    if (time_step > 0) result.steps = std::ceil(run->duration / time_step);
-  }
-  if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan)) {
-    result.kind = "reduce";
-    const double range = reduce->from - reduce->to;
-    switch (reduce->method) {
-      // two trials check the ends of the bracket
-      case ReductionMethod::bisection:
-        result.trials = 2 + static_cast<int>(std::max(0.0, std::ceil(std::log2(range / reduce->tolerance))));
-        break;
-      case ReductionMethod::steps:
-        result.trials = 1 + static_cast<int>(std::min(1e9, std::ceil(range / reduce->step)));
-        break;
-      case ReductionMethod::rate:
-        if (time_step > 0) result.steps = std::ceil(range / reduce->rate / time_step);
-    }
-  }
-  return result;
-}
-
-void judge_stage(const Scene& scene, const StageSpec& spec, const StageEstimate& estimate, Warnings& warnings) {
-  const DampingSettings& damping = spec.plan.damping ? *spec.plan.damping : scene.settings.damping;
-  const bool damped = damping.local > 0 || damping.viscous_ratio > 0;
-  if (!damped && !estimate.steps && estimate.kind != "run")
-    warnings.push_back(complaint(*spec.subject.node, spec.subject.path,
-                                 "waits for rest, but nothing is damped; write for example damping = { local = 0.7 }"));
-  if (estimate.steps && *estimate.steps > many_steps)
-    warnings.push_back(complaint(*spec.subject.node, spec.subject.path,
-                                 "takes about " + text(*estimate.steps) + " steps; shorten it or check the stiffness"));
-  for (const char* key : {"friction_deg", "from_deg"})
-    judge_angle(spec.subject, key, warnings);
-}
-
 }  // namespace
 
 template <int Dim>
-ScenePlausibility judge_plausibility(const Scene& scene, const Prepared<Dim>& prepared, double time_step) {
-  ScenePlausibility result;
-  result.time_step = time_step;
-  measure<Dim>(prepared.model, result);
-
-  // what the file states, in its order
-  judge_gravity(scene, result.warnings);
-  judge_density({scene.tree.get(), ""}, result.warnings);
-  judge_joints<Dim>(scene, prepared.model, result.warnings);
+std::vector<std::string> implausible_values(const Scene& scene, const Prepared<Dim>& prepared) {
+  Warnings warnings;
+  judge_gravity(scene, warnings);
+  judge_density({scene.tree.get(), ""}, warnings);
+  judge_joints<Dim>(scene, prepared.model, warnings);
   for (const PropertiesSpec& p : scene.properties)
-    judge_properties(p, result.warnings);
+    judge_properties(p, warnings);
   for (const BlockSpec& block : scene.blocks)
-    judge_density(block.subject, result.warnings);
-
-  // what follows from it
-  judge_measures(scene, result, result.warnings);
-  for (const StageSpec& stage : scene.stages) {
-    result.stages.push_back(estimate(stage.plan, time_step));
-    judge_stage(scene, stage, result.stages.back(), result.warnings);
-  }
-  return result;
+    judge_density(block.subject, warnings);
+  for (const StageSpec& stage : scene.stages)
+    for (const char* key : {"friction_deg", "from_deg"})
+      judge_angle(stage.subject, key, warnings);
+  judge_sizes<Dim>(scene, prepared.model, warnings);
+  return warnings;
 }
 
-template ScenePlausibility judge_plausibility<2>(const Scene&, const Prepared<2>&, double);
-template ScenePlausibility judge_plausibility<3>(const Scene&, const Prepared<3>&, double);
+template std::vector<std::string> implausible_values<2>(const Scene&, const Prepared<2>&);
+template std::vector<std::string> implausible_values<3>(const Scene&, const Prepared<3>&);
 
 }  // namespace voussoir

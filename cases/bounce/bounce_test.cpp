@@ -1,0 +1,166 @@
+// Bouncing cube: overlap, rebound and duration of an impact, its error against the step, energy without damping.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/case_tools.hpp"
+#include "reference/small/small.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using verification::Bound;
+using verification::CaseReport;
+using verification::Kind;
+
+// as the scenes state it
+constexpr double gap = 0.05, gravity = 9.81, mass = 2000, stiffness = 1e8, damping_ratio = 0.2;
+const double frequency = std::sqrt(stiffness / mass);
+const double drop_speed = std::sqrt(2 * gravity * gap);
+
+// first order: see README.md
+const std::string first_order =
+    "the dashpot takes the velocity of half a step before and starts up to half a step early or late";
+
+// A run seen step by step. Row i: force of the step's start, velocity of its middle, height of its end.
+struct Flight {
+  std::vector<double> time, height, velocity, force;
+  double step;
+  std::size_t touch = 0, release = 0;  // first rows with and after contact
+
+  explicit Flight(const SceneRun& run, double start)
+      : time(column(run, "time_s")),
+        height(column(run, "cube_displacement_z_m")),
+        velocity(column(run, "cube_velocity_z_m_per_s")),
+        force(column(run, "cube_contact_load_z_N")),
+        step(run.results.stages.front().time_step) {
+    for (double& h : height) h += start;
+    while (touch + 1 < force.size() && force[touch] == 0) ++touch;
+    release = touch;
+    while (release + 1 < force.size() && force[release] > 0) ++release;
+  }
+
+  double overlap() const { return -*std::min_element(height.begin() + touch, height.begin() + release); }
+  double speed() const { return velocity[release - 1]; }
+  double duration() const { return (release - touch) * step; }
+
+  // largest heights between contacts, after the first
+  std::vector<double> tops() const {
+    std::vector<double> tops;
+    for (std::size_t i = release; i + 1 < height.size(); ++i)
+      if (height[i] > height[i - 1] && height[i] >= height[i + 1] && force[i] == 0) tops.push_back(height[i]);
+    return tops;
+  }
+};
+
+// Falls 50 mm and rebounds.
+TEST(Bounce, FirstImpact) {
+  CaseReport report("bounce", {"largest overlap", "restitution", "duration of contact", "rebound height"});
+  const SceneRun run = cases::run("scene.toml");
+  const Flight flight(run, gap);
+  const reference::BounceResult expected =
+      reference::bounce({mass, stiffness, damping_ratio, drop_speed, gravity});
+  const double share = 2 * damping_ratio * frequency * flight.step;
+  const std::string source = "spring and dashpot that cannot pull, with gravity (Schwager & Poschel 2007)";
+
+  report.reference("restitution", expected.restitution, "1");
+  report.record({"largest overlap", "m", Kind::exact, source, expected.maximum_overlap, {0, share}, first_order},
+                flight.overlap(), cost(run));
+  report.record({"restitution", "1", Kind::exact, source, expected.restitution, {0, share}, first_order},
+                flight.speed() / drop_speed, cost(run));
+  report.record({"duration of contact", "s", Kind::exact, source, expected.duration, {2.5 * flight.step, 0},
+                 "counted in steps, one to either side; the late velocity shortens it by 0.3 of a step"},
+                flight.duration(), cost(run));
+  // it lets go while it still overlaps
+  const double speed = expected.restitution * drop_speed;
+  const double top = speed * speed / (2 * gravity) - expected.end_overlap;
+  report.record({"rebound height", "m", Kind::exact, source + ", then an arc", top, {0, 2.5 * share},
+                 "twice the share of the speed, on an arc that starts below the surface by a fifth of its height"},
+                flight.tops().front(), cost(run));
+}
+
+// The figure: the arcs that follow from the reference alone, bounce after bounce.
+TEST(Bounce, ArcsOfTheFigure) {
+  CaseReport report("bounce");
+  const SceneRun run = cases::run("scene.toml", {"output.history_interval_s=0.002"});
+  const Flight flight(run, gap);
+  write_csv("bounce", "height.csv", {"time_s", "height_m"}, {flight.time, flight.height});
+
+  std::vector<double> time, height;
+  double begin = 0, low = gap, speed = 0, last_touch = 0;
+  for (int arc = 0; arc < 4; ++arc) {
+    const double impact = std::sqrt(speed * speed + 2 * gravity * low), fall = (speed + impact) / gravity;
+    for (int i = 0; i <= 40; ++i) {
+      const double t = fall * i / 40;
+      time.push_back(begin + t);
+      height.push_back(low + speed * t - 0.5 * gravity * t * t);
+    }
+    const reference::BounceResult next = reference::bounce({mass, stiffness, damping_ratio, impact, gravity});
+    last_touch = begin + fall;
+    begin = last_touch + next.duration;
+    low = -next.end_overlap;
+    speed = next.restitution * impact;
+  }
+  write_csv("bounce", "arcs.csv", {"time_s", "closed_form_m"}, {time, height});
+
+  const SceneRun fine = cases::run("scene.toml");
+  const Flight steps(fine, gap);
+  double fourth = 0;
+  int touches = 0;
+  for (std::size_t i = 1; i < steps.force.size() && fourth == 0; ++i)
+    if (steps.force[i] > 0 && steps.force[i - 1] == 0 && ++touches == 4) fourth = steps.time[i];
+  const double share = 2 * damping_ratio * frequency * steps.step;
+  report.record({"time of the fourth impact", "s", Kind::exact, "arcs and impacts in turn", last_touch,
+                 {3 * share * last_touch, 0}, "an impact's share of the speed adds up over three arcs"},
+                fourth, cost(fine));
+}
+
+// The smaller the step, the closer: first order.
+TEST(Bounce, ErrorAgainstStep) {
+  CaseReport report("bounce", {"order of the error in the step", "restitution, extrapolated to no step"});
+  const double expected = reference::bounce({mass, stiffness, damping_ratio, 1, 0}).restitution;
+  std::vector<double> steps, errors, bounds, found;
+  for (const double fraction : {0.2, 0.1, 0.05, 0.025, 0.0125, 0.00625}) {
+    const SceneRun run = cases::run("impact.toml", {fmt::format("time.fraction={}", fraction)});
+    const Flight flight(run, 0);
+    found.push_back(flight.speed());
+    steps.push_back(flight.step * frequency);
+    errors.push_back(std::abs(found.back() / expected - 1));
+    bounds.push_back(2 * damping_ratio * steps.back());
+    report.record({fmt::format("restitution without gravity, {} of the stable step", fraction), "1", Kind::exact,
+                   "exp(-2 z acos(z)/sqrt(1 - z2))", expected, {0, bounds.back()}, first_order},
+                  found.back(), cost(run));
+  }
+  write_csv("bounce", "steps.csv", {"omega_dt", "error", "bound"}, {steps, errors, bounds});
+
+  const std::size_t last = errors.size() - 1;
+  report.record({"order of the error in the step", "1", Kind::limit, "leapfrog with a late dashpot", 1, {0.1, 0},
+                 "the share of second order is as large as omega dt, below 0.02 for the two smallest steps; the last force "
+                 "before release adds as much"},
+                std::log2(errors[last - 1] / errors[last]));
+  report.record({"restitution, extrapolated to no step", "1", Kind::limit, "exp(-2 z acos(z)/sqrt(1 - z2))", expected,
+                 {0, steps[last - 1] * steps[last - 1]}, "what second order leaves of the two smallest steps: (omega dt)2"},
+                2 * found[last] - found[last - 1]);
+}
+
+// Without damping the cube comes back to where it fell from, again and again.
+TEST(Bounce, UndampedKeepsItsEnergy) {
+  CaseReport report("bounce", {"energy error of the undamped bounce, largest"});
+  const SceneRun run = cases::run("scene.toml", {"damping.viscous_ratio=0", "time.fraction=0.05", "stage.bounce.duration_s=20"});
+  const Flight flight(run, gap);
+  const double half = 0.5 * frequency * flight.step;
+  double largest = 0;
+  const std::vector<double> tops = flight.tops();
+  for (const double top : tops) largest = std::max(largest, std::abs(top / gap - 1));
+  report.record({"energy error of the undamped bounce, largest", "1", Kind::limit, "conservation of energy", 0,
+                 {1.1 * half * half, 0, Bound::at_most},
+                 "leapfrog keeps the energy of a spring within (omega dt/2)2; meeting and leaving it between steps stays within "
+                 "1.1 of that, measured over 1e7 steps"},
+                largest, cost(run));
+  report.report("undamped bounces counted", "1", static_cast<double>(tops.size()), "in 20 s");
+}
+
+}  // namespace
+}  // namespace voussoir::cases

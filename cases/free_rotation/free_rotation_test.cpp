@@ -1,0 +1,106 @@
+// Free rotation of a box near its middle axis: against Jacobi's elliptic functions.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "cases/case_tools.hpp"
+#include "reference/small/small.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using verification::CaseReport;
+using verification::Kind;
+
+constexpr double radians = std::numbers::pi / 180;
+
+// as scene.toml states it
+const reference::FreeRotation box{reference::box_inertia(2000 * 3 * 2 * 1, {3, 2, 1}), {0.1, 2, 0.1}};
+constexpr double duration = 20;
+
+struct Tumble {
+  std::vector<double> time;
+  std::vector<Eigen::Vector3d> spin;                  // rad/s, axes of the box
+  double largest_error = 0, largest_momentum = 0;     // rad/s; relative
+};
+
+// the monitors give world axes; the rotation vector leads back to the axes of the box
+Tumble tumble(const SceneRun& run) {
+  const auto vectors = [&](const std::string& name, const std::string& unit) {
+    std::vector<Eigen::Vector3d> list;
+    const auto x = column(run, name + "_x_" + unit), y = column(run, name + "_y_" + unit),
+               z = column(run, name + "_z_" + unit);
+    for (std::size_t i = 0; i < x.size(); ++i) list.emplace_back(x[i], y[i], z[i]);
+    return list;
+  };
+  const auto spins = vectors("box_angular_velocity", "rad_per_s"), turns = vectors("box_rotation", "deg");
+  const Eigen::Vector3d inertia(box.inertia.data()), start(box.angular_velocity.data());
+  const Eigen::Vector3d momentum = inertia.cwiseProduct(start);
+  Tumble t;
+  t.time = column(run, "time_s");
+  for (std::size_t i = 0; i < spins.size(); ++i) {
+    const double angle = radians * turns[i].norm();
+    const Eigen::Matrix3d axes = Eigen::AngleAxisd(angle, angle > 0 ? Eigen::Vector3d(turns[i].normalized())
+                                                                    : Eigen::Vector3d::UnitX()).toRotationMatrix();
+    t.spin.push_back(axes.transpose() * spins[i]);
+    const std::array<double, 3> exact = reference::free_rotation(box, t.time[i]);
+    t.largest_error = std::max(t.largest_error, (t.spin.back() - Eigen::Vector3d(exact.data())).norm());
+    const Eigen::Vector3d now = axes * inertia.cwiseProduct(t.spin.back());
+    t.largest_momentum = std::max(t.largest_momentum, (now - momentum).norm() / momentum.norm());
+  }
+  return t;
+}
+
+// time between the first and the last fall of the middle spin through zero, over their number
+double period_of(const Tumble& t) {
+  std::vector<double> zeros;
+  for (std::size_t i = 1; i < t.time.size(); ++i) {
+    const double before = t.spin[i - 1][1], here = t.spin[i][1];
+    if (before > 0 && here <= 0) zeros.push_back(t.time[i - 1] + (t.time[i] - t.time[i - 1]) * before / (before - here));
+  }
+  return (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1);
+}
+
+TEST(FreeRotation, FollowsEuler) {
+  CaseReport report("free_rotation", {"angular velocity, largest error", "angular momentum, largest change", "period",
+                                      "order of the error in the step"});
+  const SceneRun run = cases::run("scene.toml");
+  const Tumble found = tumble(run);
+  const double period = reference::free_rotation_period(box);
+  const double turn = 2 * run.results.stages.front().time_step;  // rad in a step
+
+  report.reference("period", period, "s");
+  report.record({"angular velocity, largest error", "rad/s", Kind::exact, "Euler (1758), Jacobi's elliptic functions", 0,
+                 {2 * turn * turn / 12 * 2 * duration, 0},
+                 "README"},
+                found.largest_error, cost(run));
+  report.record({"angular momentum, largest change", "1", Kind::exact, "identity: no moment acts", 0, {1e-12, 0},
+                 "4000 steps of 5 turns, each rounded to 1e-16: a random walk of 2e-14, at worst 4e-12"},
+                found.largest_momentum, cost(run));
+  report.record({"period", "s", Kind::exact, "4 K/lambda", period, {0, turn * turn}, "README"}, period_of(found), cost(run));
+
+  // half the step: a quarter of the error
+  const SceneRun fine = cases::run("scene.toml", {"time.step_s=0.0025"});
+  const Tumble half = tumble(fine);
+  report.record({"order of the error in the step", "1", Kind::limit, "symmetric splitting: second order", 2, {0.05, 0},
+                 "the next term is of fourth order"},
+                std::log2(found.largest_error / half.largest_error), cost(fine));
+
+  std::vector<std::vector<double>> columns(7);
+  columns[0] = found.time;
+  for (std::size_t i = 0; i < found.time.size(); ++i) {
+    const std::array<double, 3> exact = reference::free_rotation(box, found.time[i]);
+    for (int k = 0; k < 3; ++k) {
+      columns[1 + k].push_back(found.spin[i][k]);
+      columns[4 + k].push_back(exact[k]);
+    }
+  }
+  write_csv("free_rotation", "spin.csv",
+            {"time_s", "x_rad_per_s", "y_rad_per_s", "z_rad_per_s", "exact_x", "exact_y", "exact_z"}, columns);
+}
+
+}  // namespace
+}  // namespace voussoir::cases
