@@ -1,14 +1,15 @@
-# voussoir_case(<name> SOURCES <files…> [LIBS <targets…>] [FIGURES <x.gp> …])
+# voussoir_case(<name> [LONG] SOURCES <files…> [LIBS <targets…>] [FIGURES <x.gp> …])
 #   program case_<name>, CTest entry case.<name> (label case), and per figure report.<x> (label report), which draws
 #   <build>/reports/figures/<x>.svg from the files that the case's test left in <build>/cases/<name>.
 #   Files are looked for beside the calling CMakeLists.txt, then in its folder <name>.
+#   With LONG, its tests named DISABLED_… are case.<name>.long (label long), which only `ctest -C Long` runs.
 # voussoir_case_not_modelled(<name> …)
 #   a case that is listed in the verdict table as not yet modelled.
 # The lists end in the global properties VOUSSOIR_CASES and VOUSSOIR_CASES_NOT_MODELLED, so that the summary asks for
 # what should have run, not for what happens to be there.
 
 function(voussoir_case name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LIBS;FIGURES" ${ARGN})
+  cmake_parse_arguments(arg "LONG" "" "SOURCES;LIBS;FIGURES" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_SOURCES)
     message(FATAL_ERROR "voussoir_case(${name}): give SOURCES, LIBS, FIGURES and nothing else: ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -31,6 +32,13 @@ function(voussoir_case name)
   set(environment VOUSSOIR_VERDICTS=${PROJECT_BINARY_DIR}/verdicts VOUSSOIR_CASE_OUTPUT=${PROJECT_BINARY_DIR}/cases
                   VOUSSOIR_FRESH=1)
   set_tests_properties(case.${name} PROPERTIES LABELS case FIXTURES_SETUP case_${name} ENVIRONMENT "${environment}")
+
+  if(arg_LONG)
+    add_test(NAME case.${name}.long CONFIGURATIONS Long WORKING_DIRECTORY ${output}
+      COMMAND case_${name} --gtest_brief=1 --gtest_also_run_disabled_tests --gtest_filter=*DISABLED_*)
+    set_tests_properties(case.${name}.long PROPERTIES LABELS long
+      ENVIRONMENT "VOUSSOIR_VERDICTS=${PROJECT_BINARY_DIR}/verdicts-long;VOUSSOIR_CASE_OUTPUT=${PROJECT_BINARY_DIR}/cases-long")
+  endif()
 
   # a figure is drawn only from a run that passed; without gnuplot it is a named skip
   foreach(figure ${figures})

@@ -118,6 +118,8 @@ const KeyRow rows[] = {
      .meaning = "the half-spaces `normal · x <= offset` that the block lies in"},
     {.table = "blocks", .key = "box", .type = table, .holds = {"box"},
      .meaning = "a box along the axes"},
+    {.table = "blocks", .key = "part_of", .type = name, .example = "\"slider\"",
+     .meaning = "another block: both are convex parts of one rigid body, which has that block's name, density and motion"},
     {.table = "blocks", .key = "density", .unit = "kg/m³", .range = positive, .example = "2500",
      .meaning = "replaces the scene's density", .repair = "rock has 2000 to 3000 kg/m³"},
     {.table = "blocks", .key = "velocity", .type = vector, .unit = "m/s", .range = sane, .example = "[0, 0, -1]",

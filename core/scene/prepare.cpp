@@ -1,5 +1,6 @@
 // A scene made ready to run, in the order of its data: properties, joints, blocks, supports, motion, stages, monitors.
 #include <algorithm>
+#include <map>
 #include <cassert>
 
 #include "core/scene/bodies.hpp"
@@ -79,10 +80,26 @@ void add_domain(const Scene& scene, Model<Dim>& model) {
     model.bodies.push_back(make_body<Dim>({std::move(part)}, density));
 }
 
+// the block whose body a further part belongs to
+const BlockSpec& owner_of(const Scene& scene, const BlockSpec& part) {
+  std::vector<std::string> owners;
+  for (const BlockSpec& block : scene.blocks) {
+    if (!block.part_of.empty()) continue;
+    if (block.name == part.part_of) return block;
+    owners.push_back(block.name);
+  }
+  refuse(part.subject, "part_of", "no body has this name; " + suggestion(part.part_of, owners));
+}
+
 template <int Dim>
 void add_blocks(const Scene& scene, Model<Dim>& model) {
+  std::map<std::string, std::vector<Polytope<Dim>>> parts;
+  for (const BlockSpec& block : scene.blocks)
+    parts[block.part_of.empty() ? block.name : owner_of(scene, block).name].push_back(
+        make_solid<Dim>(block, model.origin));
   for (const BlockSpec& block : scene.blocks) {
-    model.bodies.push_back(make_body<Dim>({make_solid<Dim>(block, model.origin)}, density_of(scene, block.density)));
+    if (!block.part_of.empty()) continue;
+    model.bodies.push_back(make_body<Dim>(std::move(parts[block.name]), density_of(scene, block.density)));
     model.bodies.back().name = block.name;
     model.bodies.back().fixed = block.fixed;
   }

@@ -134,6 +134,10 @@ std::vector<BlockSpec> read_blocks(const Subject& scene) {
       for (const char* key : {"vertices", "planes"})
         if (item.node->find(key))
           refuse(item, key, "a block takes only one of vertices, planes and box; remove the others");
+    read(item, "part_of", block.part_of);
+    if (!block.part_of.empty())
+      for (const char* key : {"density", "velocity", "angular_velocity", "fixed"})
+        if (item.node->find(key)) refuse(item, key, "belongs to the block that this one is part_of; state it there");
     read(item, "density", block.density);
     read(item, "fixed", block.fixed);
     block.motion = read_motion(item);

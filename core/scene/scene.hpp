@@ -70,6 +70,7 @@ struct BlockSpec {
   std::vector<std::vector<double>> vertices;  // m; exactly one of these three is stated
   std::vector<BlockPlaneSpec> planes;
   std::optional<BoxSpec> box;
+  std::string part_of;            // another block, of whose body this is a further part; or empty
   std::optional<double> density;  // kg/m³
   MotionSpec motion;
   bool fixed = false;

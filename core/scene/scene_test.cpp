@@ -263,6 +263,25 @@ TEST(Plausibility, TellsAJointThatCutsNothing) {
   EXPECT_NE(text.find("cuts no block"), std::string::npos);
 }
 
+// two convex parts make an L that is one body, whatever their order
+TEST(Prepare, JoinsPartsToOneBody) {
+  const std::string two_parts =
+      "dimension = 2\ndensity = 1000\n[[blocks]]\nname = \"foot\"\nbox = { min = [0, 0], max = [2, 1] }\n"
+      "[[blocks]]\nname = \"leg\"\npart_of = \"foot\"\nbox = { min = [0, 1], max = [1, 3] }\n"
+      "[time]\nstep_s = 0.1\n[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = 1\n";
+  const Prepared<2> prepared = prepare<2>(parse(two_parts));
+  ASSERT_EQ(prepared.model.bodies.size(), 1u);
+  const Body<2>& body = prepared.model.bodies[0];
+  EXPECT_EQ(body.parts.size(), 2u);
+  EXPECT_NEAR(body.mass, 4000, 1e-9);
+  const Vector<2> centroid = body.reference + prepared.model.origin;
+  EXPECT_NEAR(centroid[0], 0.75, 1e-12);
+  EXPECT_NEAR(centroid[1], 1.25, 1e-12);
+  std::string wrong = two_parts;
+  wrong.replace(wrong.find("part_of = \"foot\""), 16, "part_of = \"foto\"");
+  EXPECT_THROW(prepare<2>(parse(wrong)), SceneError);
+}
+
 // a scene over its base: tables merged, tables of a list by name, a stage of another method replaced
 TEST(BaseScene, StatesOnlyTheDifferences) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "voussoir_base_scene_test";
