@@ -1,4 +1,4 @@
-// Step, run and reduction on small models made by hand: determinism to the bit, conservation, closed forms, endings.
+// Step and run on small models made by hand: determinism to the bit, conservation, closed forms, endings.
 #include "core/step.hpp"
 
 #include <gtest/gtest.h>
@@ -8,25 +8,33 @@
 #include <limits>
 #include <numbers>
 
-#include "core/reduction/reduction.hpp"
 #include "core/run.hpp"
 #include "core/slicing/slice.hpp"
-#include "core/testing/shapes.hpp"
+#include "core/testing/models.hpp"
 
 namespace voussoir {
 namespace {
 
+using shapes::block_on_plate;
+using shapes::body_of;
+using shapes::degree;
+using shapes::density;
+using shapes::gravity;
+using shapes::index_of;
+using shapes::model_of;
 using shapes::Random;
-
-constexpr double gravity = 9.81;
-constexpr double density = 2600;
-constexpr double degree = std::numbers::pi / 180;
 
 // momentum lives in sums of forces that cancel to rounding, over some thousand steps
 constexpr double conserved = 1e-10;
 
 // equilibrium within 1e-6 of the contact forces (EquilibriumSettings), with room for sums over contacts
 constexpr double rest_tolerance = 1e-5;
+
+// the moment of yield falls between two steps, of which there are some hundred in a swing of the shear spring
+constexpr double slide_tolerance = 1e-3;
+
+// the force acts a whole step at both ends of the contact: up to 0.04² of the energy at 0.02 of the limit
+constexpr double rebound_tolerance = 2e-3;
 
 // ---- a state as bits ------------------------------------------------------------------------------------------------
 
@@ -38,7 +46,8 @@ struct Bits {
   void add(int x) { add(static_cast<long long>(x)); }
   template <class Derived>
   void add(const Eigen::MatrixBase<Derived>& m) {
-    for (int i = 0; i < m.size(); ++i) add(static_cast<double>(m.derived().coeff(i)));
+    for (int i = 0; i < m.size(); ++i)
+      add(static_cast<double>(m.derived().coeff(i)));
   }
   void add(const Rotation<2>& r) { add(r.angle); }
   void add(const Rotation<3>& r) { add(r.quaternion.coeffs()); }
@@ -73,7 +82,8 @@ void add_contact(Bits& bits, const Contact<Dim>& c) {
   bits.add(c.history.normal);
   bits.add(c.history.plastic_slip);
   bits.add(c.warm.point);
-  for (const int i : c.warm.basis) bits.add(i);
+  for (const int i : c.warm.basis)
+    bits.add(i);
   bits.add(c.force);
   bits.add(c.area_rated);
 }
@@ -82,19 +92,22 @@ template <int Dim>
 std::vector<std::uint64_t> bits_of(const State<Dim>& state) {
   Bits bits;
   add_motions(bits, state);
-  for (const Contact<Dim>& c : state.contacts) add_contact(bits, c);
+  for (const Contact<Dim>& c : state.contacts)
+    add_contact(bits, c);
   for (const Placement<Dim>& p : state.built) {
     bits.add(p.displacement);
     bits.add(p.rotation);
   }
-  for (const double f : state.frequency) bits.add(f);
-  for (const double f : state.schedule.friction) bits.add(f);
+  for (const double f : state.frequency)
+    bits.add(f);
+  for (const double f : state.schedule.friction)
+    bits.add(f);
   bits.add(state.schedule.gravity_factor);
   bits.add(state.schedule.started);
   bits.add(state.step_allowed);
   const Counters& c = state.counters;
-  for (const long long n : {c.steps, c.contact_evaluations, c.lp_solves, c.lp_pivots, c.newton_iterations, c.unconverged,
-                            c.normal_fallbacks, c.deep_overlaps, c.neighbour_builds})
+  for (const long long n : {c.steps, c.contact_evaluations, c.lp_solves, c.lp_pivots, c.newton_iterations,
+                            c.unconverged, c.normal_fallbacks, c.deep_overlaps, c.neighbour_builds})
     bits.add(n);
   return bits.words;
 }
@@ -114,38 +127,21 @@ std::vector<std::uint64_t> physics_of(const State<Dim>& state) {
 
 // ---- models ---------------------------------------------------------------------------------------------------------
 
-template <int Dim>
-Model<Dim> model_of(std::vector<Body<Dim>> bodies, double friction = 35 * degree) {
-  Model<Dim> model;
-  model.bodies = std::move(bodies);
-  number_bodies(model);
-  model.properties = {{"joint", 1e9, 5e8, friction, false}};
-  model.joints = {{"all", {Vector<Dim>::Unit(Dim - 1), 0}, 0}};  // what the cuts below remember
-  model.gravity[Dim - 1] = -gravity;
-  return model;
-}
-
-template <int Dim>
-Body<Dim> body_of(const HalfSpaces<Dim>& planes, bool fixed = false, const char* name = "") {
-  Body<Dim> body = make_body<Dim>({shapes::block<Dim>(planes)}, density);
-  body.fixed = fixed;
-  body.name = name;
-  return body;
-}
-
 // three joint sets through a box; blocks at the bottom are fixed
 std::vector<Body<3>> jointed_box() {
   std::vector<Cut<3>> cuts;
   const Vector<3> sets[] = {upward_normal_3d(70 * degree, 80 * degree), upward_normal_3d(65 * degree, 190 * degree),
                             upward_normal_3d(12 * degree, 300 * degree)};
   for (const Vector<3>& n : sets)
-    for (const double c : {-0.65, 0.05, 0.6}) cuts.push_back({{n, c}, 0});
+    for (const double c : {-0.65, 0.05, 0.6})
+      cuts.push_back({{n, c}, 0});
   SlicingCounters counters;
   std::vector<Body<3>> bodies;
   for (const Polytope<3>& part : slice<3>(shapes::block<3>(shapes::cube<3>(1)), cuts, {0.01}, counters)) {
     Body<3> body = make_body<3>({part}, density);
     double lowest = 0;
-    for (const Vector<3>& v : part.vertices) lowest = std::min(lowest, v[2]);
+    for (const Vector<3>& v : part.vertices)
+      lowest = std::min(lowest, v[2]);
     body.fixed = lowest < -0.99;
     bodies.push_back(body);
   }
@@ -153,32 +149,9 @@ std::vector<Body<3>> jointed_box() {
 }
 
 template <int Dim>
-Model<Dim> block_on_plate(double slope, double friction) {
-  const Matrix<Dim> turn = [&] {
-    if constexpr (Dim == 3)
-      return Matrix<3>(Eigen::AngleAxisd(slope, -Vector<3>::UnitY()).toRotationMatrix());
-    else
-      return matrix(Rotation<2>{slope});
-  }();
-  Vector<Dim> low = Vector<Dim>::Constant(-3), high = Vector<Dim>::Constant(3);
-  high[Dim - 1] = 0;
-  Vector<Dim> block_low = Vector<Dim>::Constant(-0.5), block_high = Vector<Dim>::Constant(0.5);
-  block_low[Dim - 1] = 0;
-  block_high[Dim - 1] = 0.5;
-  return model_of<Dim>({body_of<Dim>(shapes::placed<Dim>(shapes::box<Dim>(low, high), turn, Vector<Dim>::Zero()), true, "plate"),
-                        body_of<Dim>(shapes::placed<Dim>(shapes::box<Dim>(block_low, block_high), turn, Vector<Dim>::Zero()),
-                                     false, "block")},
-                       friction);
-}
-
-template <int Dim>
-int index_of(const Model<Dim>& model, const std::string& name) {
-  return select(model, {.names = {name}, .above = {}, .below = {}, .inside = {}}).front();
-}
-
-template <int Dim>
 void steps(const Model<Dim>& model, const Settings& settings, int count, State<Dim>& state) {
-  for (int i = 0; i < count; ++i) step(model, settings, state);
+  for (int i = 0; i < count; ++i)
+    step(model, settings, state);
 }
 
 // ---- determinism ----------------------------------------------------------------------------------------------------
@@ -192,7 +165,7 @@ TEST(Determinism, EveryThreadCountGivesTheSameBits) {
     Settings settings;
     settings.threads = threads;
     State<3> state = initial_state(model);
-    steps(model, settings, 300, state);
+    steps(model, settings, 200, state);
     if (threads == 1) {
       expected = bits_of(state);
       // something must have happened: contacts, slip, rotation
@@ -218,7 +191,7 @@ TEST(Determinism, TheSkinChangesTheCostOnly) {
   for (const double skin : {0.01, 0.5}) {
     Settings settings;
     settings.contact.skin = skin;
-    settings.time.step = 1e-5;
+    settings.time.step = 1e-5;  // s, about that of the estimate
     State<3> state = initial_state(model);
     steps(model, settings, 400, state);
     if (expected.empty()) {
@@ -263,7 +236,8 @@ void expect_no_origin() {
   std::vector<std::uint64_t> expected;
   for (const double far : {0.0, 1.0}) {
     Model<Dim> model = block_on_plate<Dim>(0, 35 * degree);
-    for (Body<Dim>& b : model.bodies) b.reference += far * shift;
+    for (Body<Dim>& b : model.bodies)
+      b.reference += far * shift;
     State<Dim> state = initial_state(model);
     steps(model, {}, 300, state);
     if (expected.empty()) expected = physics_of(state);
@@ -313,7 +287,8 @@ void expect_collision(std::uint64_t seed) {
     Vector<Dim> beside = Vector<Dim>::Constant(0.2);
     beside[0] = 1.4;
     Model<Dim> model = model_of<Dim>(
-        {body_of<Dim>(shapes::placed<Dim>(shapes::cube<Dim>(0.5), matrix(shapes::orientation<Dim>(random)), Vector<Dim>::Zero())),
+        {body_of<Dim>(shapes::placed<Dim>(shapes::cube<Dim>(0.5), matrix(shapes::orientation<Dim>(random)),
+                                          Vector<Dim>::Zero())),
          body_of<Dim>(shapes::placed<Dim>(shapes::cube<Dim>(0.4), matrix(shapes::orientation<Dim>(random)), beside))},
         trial % 2 ? 0.0 : 30 * degree);
     model.gravity.setZero();
@@ -328,22 +303,53 @@ void expect_collision(std::uint64_t seed) {
     int touched = 0;
     while (state.time < 0.3) {
       step(model, settings, state);
-      for (const Contact<Dim>& c : state.contacts) touched += c.touching();
+      for (const Contact<Dim>& c : state.contacts)
+        touched += c.touching();
     }
     const Totals<Dim> after = totals(model, state);
     EXPECT_GT(touched, 10);
     EXPECT_LT((after.momentum - before.momentum).norm(), conserved * speed);
     EXPECT_LT((after.angular - before.angular).norm(), conserved * speed);
-    // apart again: what is lost is friction's; without it nothing is, but for the step's own error
-    EXPECT_LT(after.energy, 1.01 * before.energy);
-    if (trial % 2) {
-      EXPECT_GT(after.energy, 0.99 * before.energy);
-    }
   }
 }
 
-TEST(Conservation, ACollisionKeepsMomentumAndSpin3D) { expect_collision<3>(82); }
-TEST(Conservation, ACollisionKeepsMomentumAndSpin2D) { expect_collision<2>(83); }
+TEST(Conservation, ACollisionKeepsMomentumAndSpin3D) {
+  expect_collision<3>(82);
+}
+TEST(Conservation, ACollisionKeepsMomentumAndSpin2D) {
+  expect_collision<2>(83);
+}
+
+// Face on face with a constant stiffness the force has a potential. (An oblique impact's has none: the normal turns and
+// the area grows with the overlap.)
+template <int Dim>
+void expect_rebound() {
+  for (const double speed : {1e-3, 1.0}) {
+    Vector<Dim> beside = Vector<Dim>::Zero();
+    beside[0] = 1.01;
+    Model<Dim> model =
+        model_of<Dim>({body_of<Dim>(shapes::cube<Dim>(0.5)),
+                       body_of<Dim>(shapes::placed<Dim>(shapes::cube<Dim>(0.5), Matrix<Dim>::Identity(), beside))});
+    model.gravity.setZero();
+    model.properties[0].constant_stiffness = true;
+    Settings settings;
+    settings.damping.local = 0;
+    settings.time.fraction = 0.02;
+    State<Dim> state = initial_state(model);
+    state.motions[0].velocity[0] = speed;
+    while (state.time < 0.02 / speed)
+      step(model, settings, state);
+    // equal masses exchange their velocities
+    EXPECT_NEAR(state.motions[0].velocity[0], 0, rebound_tolerance * speed);
+    EXPECT_NEAR(state.motions[1].velocity[0], speed, rebound_tolerance * speed);
+    EXPECT_LT(state.motions[1].angular_momentum.norm(), conserved * speed * model.bodies[0].mass);
+  }
+}
+
+TEST(Conservation, EqualCubesExchangeTheirVelocities) {
+  expect_rebound<3>();
+  expect_rebound<2>();
+}
 
 // ---- closed forms ---------------------------------------------------------------------------------------------------
 
@@ -393,9 +399,13 @@ void expect_slide() {
       EXPECT_LT(slid, 1e-4);  // shear settlement, swinging without damping
       continue;
     }
-    const double acceleration = gravity * (std::sin(slope) - std::tan(friction) * std::cos(slope));
-    const double expected = 0.5 * acceleration * state.time * state.time;
-    EXPECT_NEAR(slid, expected, 2e-3 * expected);  // first the shear stiffness yields: some 1e-5 m of 0.1 m
+    // the shear spring swings up to the friction, then the block slides under what friction leaves
+    const double mass = density * 0.5, drive = mass * gravity * std::sin(slope);
+    const double resistance = std::tan(friction) * mass * gravity * std::cos(slope), spring = 5e8;
+    const double slip = resistance / spring, start = std::acos(1 - resistance / drive) / std::sqrt(spring / mass);
+    const double speed = std::sqrt(2 * slip * (drive - resistance / 2) / mass), sliding = state.time - start;
+    const double expected = slip + speed * sliding + 0.5 * (drive - resistance) / mass * sliding * sliding;
+    EXPECT_NEAR(slid, expected, slide_tolerance * expected);
   }
 }
 
@@ -416,12 +426,15 @@ TEST(Run, SaysWhyItStopped) {
   EXPECT_EQ(ending({.rest = true, .time_limit = 1e-3}), StopReason::time_limit);
   EXPECT_EQ(ending({.rest = true, .step_limit = 5}), StopReason::step_limit);
   EXPECT_EQ(ending({.rest = true, .moved_away = 1e-3}), StopReason::moved_away);
-  for (const StopReason r : {StopReason::equilibrium, StopReason::end_time, StopReason::moved_away, StopReason::step_limit,
-                             StopReason::time_limit, StopReason::no_contact_answer, StopReason::not_finite})
+  for (const StopReason r :
+       {StopReason::equilibrium, StopReason::end_time, StopReason::moved_away, StopReason::step_limit,
+        StopReason::time_limit, StopReason::no_contact_answer, StopReason::not_finite})
     EXPECT_NE(describe(r), "unknown");
 }
 
-CentreResult<3> no_centre(const HalfSpaces<3>&, const CentreRequest<3>&) { return {}; }
+CentreResult<3> no_centre(const HalfSpaces<3>&, const CentreRequest<3>&) {
+  return {};
+}
 
 TEST(Run, StopsAtAContactWithoutAnAnswer) {
   Model<3> model = block_on_plate<3>(0, 35 * degree);
@@ -474,67 +487,9 @@ TEST(Model, SelectsBySideAndByPoint) {
   const int block = index_of(model, "block"), plate = index_of(model, "plate");
   EXPECT_EQ(select(model, {.names = {}, .above = {"floor"}, .below = {}, .inside = {}}), std::vector<int>{block});
   EXPECT_EQ(select(model, {.names = {}, .above = {}, .below = {"floor"}, .inside = {}}), std::vector<int>{plate});
-  EXPECT_EQ(select(model, {.names = {}, .above = {}, .below = {}, .inside = {{0.1, 0.1, 0.1}}}), std::vector<int>{block});
+  EXPECT_EQ(select(model, {.names = {}, .above = {}, .below = {}, .inside = {{0.1, 0.1, 0.1}}}),
+            std::vector<int>{block});
   EXPECT_TRUE(select(model, Selector{}).empty());
-}
-
-// ---- strength reduction ---------------------------------------------------------------------------------------------
-
-TEST(Reduction, ABlockOnASlopeFailsAtTheSlopesAngle) {
-  const double slope = 30 * degree;
-  Model<2> model = block_on_plate<2>(slope, 40 * degree);
-  for (const ReductionMethod method : {ReductionMethod::bisection, ReductionMethod::steps}) {
-    State<2> state = initial_state(model);
-    ReducePlan plan;
-    plan.method = method;
-    plan.from = 35 * degree;
-    plan.to = 27 * degree;
-    plan.tolerance = 0.1 * degree;
-    plan.step = 0.5 * degree;
-    plan.failure_displacement = 0.01;
-    const ReductionReport report = reduce<2>(model, {}, plan, state, {}, {});
-    ASSERT_TRUE(report.bracketed) << report.message;
-    EXPECT_GE(report.stable, slope - 1e-3 * degree);
-    EXPECT_LE(report.failed, slope + 1e-3 * degree);
-    EXPECT_NEAR(report.critical, slope, report.error_bar + 1e-3 * degree);
-    EXPECT_LE(report.error_bar, 0.25 * degree * (1 + 1e-12));
-    EXPECT_FALSE(report.rule.empty());
-  }
-}
-
-TEST(Reduction, AtConstantRateTheBiasIsTheOnePredicted) {
-  const double slope = 30 * degree;
-  Model<2> model = block_on_plate<2>(slope, 40 * degree);
-  State<2> state = initial_state(model);
-  ReducePlan plan;
-  plan.method = ReductionMethod::rate;
-  plan.from = 32 * degree;
-  plan.to = 10 * degree;
-  plan.rate = 2 * degree;
-  plan.failure_displacement = 0.05;
-  const ReductionReport report = reduce<2>(model, {}, plan, state, {}, {});
-  ASSERT_TRUE(report.bracketed) << report.message;
-  const double bias = std::cbrt(6 * 0.05 * std::cos(slope) * plan.rate * plan.rate / (0.3 * gravity));
-  EXPECT_NEAR(slope - report.critical, bias, 0.1 * bias);  // small angles, and the start of slip in between two steps
-}
-
-TEST(Reduction, SaysWhenTheSearchIsInTheWrongPlace) {
-  Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);
-  ReducePlan plan;
-  plan.from = 25 * degree;
-  plan.to = 20 * degree;
-  plan.tolerance = 0.1 * degree;
-  plan.failure_displacement = 0.01;
-  State<2> state = initial_state(model);
-  const ReductionReport low = reduce<2>(model, {}, plan, state, {}, {});
-  EXPECT_FALSE(low.bracketed);
-  EXPECT_NE(low.message.find("start higher"), std::string::npos) << low.message;
-  plan.from = 40 * degree;
-  plan.to = 35 * degree;
-  state = initial_state(model);
-  const ReductionReport high = reduce<2>(model, {}, plan, state, {}, {});
-  EXPECT_FALSE(high.bracketed);
-  EXPECT_NE(high.message.find("end lower"), std::string::npos) << high.message;
 }
 
 }  // namespace

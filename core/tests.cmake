@@ -10,7 +10,7 @@ voussoir_test(unit.law_and_motion LABEL unit
   LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.contact LABEL unit
-  SOURCES contact/contact_test.cpp
+  SOURCES contact/contact_test.cpp contact/broad_phase_test.cpp
   LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.scene LABEL unit
@@ -30,5 +30,5 @@ voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_t
   LIBS voussoir_core ${outside_solvers})
 
 voussoir_test(unit.step LABEL unit
-  SOURCES step_test.cpp
+  SOURCES step_test.cpp reduction/reduction_test.cpp
   LIBS voussoir_core Boost::headers)

@@ -34,7 +34,12 @@ TEST(Column, SettlesOnItsSprings) {
   std::vector<double> joint, expected_mm, found_mm;
   for (int j = 0; j < eight.blocks; ++j) {
     const double here = displacement(run, j + 1).back();
-    report.record({fmt::format("overlap of joint {}", j), "m", Kind::exact, "(8 - j) m g/k", overlaps[j], {tolerance, 0},
+    report.record({fmt::format("overlap of joint {}", j),
+                   "m",
+                   Kind::exact,
+                   "(8 - j) m g/k",
+                   overlaps[j],
+                   {tolerance, 0},
                    because},
                   below - here, cost(run));
     joint.push_back(j);
@@ -43,7 +48,12 @@ TEST(Column, SettlesOnItsSprings) {
     settlement += overlaps[j];
     below = here;
   }
-  report.record({"settlement of the top", "m", Kind::exact, "36 m g/k", settlement, {8 * tolerance, 0},
+  report.record({"settlement of the top",
+                 "m",
+                 Kind::exact,
+                 "36 m g/k",
+                 settlement,
+                 {8 * tolerance, 0},
                  "eight joints, each with its own share"},
                 -below, cost(run));
   write_csv("column", "overlaps.csv", {"joint", "overlap_mm", "closed_form_mm"}, {joint, found_mm, expected_mm});
@@ -63,8 +73,13 @@ TEST(Column, SwingsInItsFirstMode) {
     if (top[i - 1] < 0 && top[i] >= 0)
       zeros.push_back(time[i - 1] + (time[i] - time[i - 1]) * top[i - 1] / (top[i - 1] - top[i]));
   report.reference("period", period, "s");
-  report.record({"period of the first mode", "s", Kind::exact, "2 sqrt(k/m) sin(pi/34), chain of equal springs", period,
-                 {0, half * half / 4}, "leapfrog shortens it by (omega dt)2/24; half as much for zeros between rows"},
+  report.record({"period of the first mode",
+                 "s",
+                 Kind::exact,
+                 "2 sqrt(k/m) sin(pi/34), chain of equal springs",
+                 period,
+                 {0, half * half / 4},
+                 "leapfrog shortens it by (omega dt)2/24; half as much for zeros between rows"},
                 (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1), cost(run));
 
   // every cube against its place in the mode
@@ -77,7 +92,11 @@ TEST(Column, SwingsInItsFirstMode) {
     for (std::size_t k = 0; k < time.size(); ++k)
       largest = std::max(largest, std::abs(found[k] - shape * std::sin(frequency * time[k])));
   }
-  report.record({"largest distance from the first mode", "m", Kind::exact, "identity: A_i sin(omega t)", 0,
+  report.record({"largest distance from the first mode",
+                 "m",
+                 Kind::exact,
+                 "identity: A_i sin(omega t)",
+                 0,
                  {amplitude * half * half * (1 + frequency * time.back() / 6), 0},
                  "leapfrog: amplitude by (omega dt/2)2/2, phase by omega t (omega dt/2)2/6; the rest is room"},
                 largest, cost(run));

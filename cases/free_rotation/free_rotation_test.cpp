@@ -23,8 +23,8 @@ constexpr double duration = 45, steepest = 2;  // s, rad/s2: largest angular acc
 
 struct Tumble {
   std::vector<double> time;
-  std::vector<Eigen::Vector3d> spin;                  // rad/s, axes of the box
-  double largest_error = 0, largest_momentum = 0;     // rad/s; relative
+  std::vector<Eigen::Vector3d> spin;               // rad/s, axes of the box
+  double largest_error = 0, largest_momentum = 0;  // rad/s; relative
 };
 
 // the monitors give world axes; the rotation vector leads back to the axes of the box
@@ -33,7 +33,8 @@ Tumble tumble(const SceneRun& run) {
     std::vector<Eigen::Vector3d> list;
     const auto x = column(run, name + "_x_" + unit), y = column(run, name + "_y_" + unit),
                z = column(run, name + "_z_" + unit);
-    for (std::size_t i = 0; i < x.size(); ++i) list.emplace_back(x[i], y[i], z[i]);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      list.emplace_back(x[i], y[i], z[i]);
     return list;
   };
   const auto spins = vectors("box_angular_velocity", "rad_per_s"), turns = vectors("box_rotation", "deg");
@@ -43,8 +44,9 @@ Tumble tumble(const SceneRun& run) {
   t.time = column(run, "time_s");
   for (std::size_t i = 0; i < spins.size(); ++i) {
     const double angle = radians * turns[i].norm();
-    const Eigen::Matrix3d axes = Eigen::AngleAxisd(angle, angle > 0 ? Eigen::Vector3d(turns[i].normalized())
-                                                                    : Eigen::Vector3d::UnitX()).toRotationMatrix();
+    const Eigen::Matrix3d axes =
+        Eigen::AngleAxisd(angle, angle > 0 ? Eigen::Vector3d(turns[i].normalized()) : Eigen::Vector3d::UnitX())
+            .toRotationMatrix();
     t.spin.push_back(axes.transpose() * spins[i]);
     const std::array<double, 3> exact = reference::free_rotation(box, t.time[i]);
     t.largest_error = std::max(t.largest_error, (t.spin.back() - Eigen::Vector3d(exact.data())).norm());
@@ -59,7 +61,8 @@ double period_of(const Tumble& t) {
   std::vector<double> zeros;
   for (std::size_t i = 1; i < t.time.size(); ++i) {
     const double before = t.spin[i - 1][1], here = t.spin[i][1];
-    if (before > 0 && here <= 0) zeros.push_back(t.time[i - 1] + (t.time[i] - t.time[i - 1]) * before / (before - here));
+    if (before > 0 && here <= 0)
+      zeros.push_back(t.time[i - 1] + (t.time[i] - t.time[i - 1]) * before / (before - here));
   }
   return (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1);
 }
@@ -74,22 +77,42 @@ TEST(FreeRotation, FollowsEuler) {
   const double share = turn * turn / 12;
 
   report.reference("period", period, "s");
-  report.record({"angular velocity, largest error", "rad/s", Kind::exact, "Euler (1758), Jacobi's elliptic functions", 0,
-                 {share * duration * steepest, 0},
-                 "a step of second order turns at a rate wrong by (omega dt)2/12; over 45 s that shifts a curve whose slope is "
-                 "2 rad/s2 at most"},
-                found.largest_error, cost(run));
-  report.record({"angular momentum, largest change", "1", Kind::exact, "identity: no moment acts", 0, {1e-12, 0},
+  report.record(
+      {"angular velocity, largest error",
+       "rad/s",
+       Kind::exact,
+       "Euler (1758), Jacobi's elliptic functions",
+       0,
+       {share * duration * steepest, 0},
+       "a step of second order turns at a rate wrong by (omega dt)2/12; over 45 s that shifts a curve whose slope is "
+       "2 rad/s2 at most"},
+      found.largest_error, cost(run));
+  report.record({"angular momentum, largest change",
+                 "1",
+                 Kind::exact,
+                 "identity: no moment acts",
+                 0,
+                 {1e-12, 0},
                  "4000 steps of 5 turns, each rounded to 1e-16: a random walk of 2e-14, at worst 4e-12"},
                 found.largest_momentum, cost(run));
-  report.record({"period", "s", Kind::exact, "4 K/lambda", period, {0, 2 * share},
+  report.record({"period",
+                 "s",
+                 Kind::exact,
+                 "4 K/lambda",
+                 period,
+                 {0, 2 * share},
                  "the rate is wrong by (omega dt)2/12; as much again for zeros between rows"},
                 period_of(found), cost(run));
 
   // half the step: a quarter of the error
   const SceneRun fine = cases::run("scene.toml", {"time.step_s=0.0025"});
   const Tumble half = tumble(fine);
-  report.record({"order of the error in the step", "1", Kind::limit, "symmetric splitting: second order", 2, {0.05, 0},
+  report.record({"order of the error in the step",
+                 "1",
+                 Kind::limit,
+                 "symmetric splitting: second order",
+                 2,
+                 {0.05, 0},
                  "the next term is of fourth order"},
                 std::log2(found.largest_error / half.largest_error), cost(fine));
 

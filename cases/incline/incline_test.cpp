@@ -27,13 +27,17 @@ struct Variant {
   double volume, area;  // m3, m2; per metre in the plane
 };
 
-void PrintTo(const Variant& v, std::ostream* out) { *out << v.name; }
+void PrintTo(const Variant& v, std::ostream* out) {
+  *out << v.name;
+}
 
 const double across = 2 / std::cos(dip / degrees);
 const Variant space{"scene.toml", "3-D", "Space", 3, 4, 2 * across};
 const Variant plane{"plane.toml", "2-D", "Plane", 2, 2, across};
 
-reference::Incline incline(double friction_deg) { return {dip / degrees, friction_deg / degrees, gravity, 0}; }
+reference::Incline incline(double friction_deg) {
+  return {dip / degrees, friction_deg / degrees, gravity, 0};
+}
 
 // times and distances of one stage, from the end of the stage before (from the start of the scene for the first)
 struct Path {
@@ -51,9 +55,11 @@ Path path(const SceneRun& run, int stage, int dimension) {
     const std::string name = std::string("block_displacement_") + axis + "_m";
     const std::vector<double> here = column(run, name, stage);
     const double before = stage == 1 ? 0 : column(run, name, stage - 1).back();
-    for (std::size_t i = 0; i < here.size(); ++i) path.distance[i] = std::hypot(path.distance[i], here[i] - before);
+    for (std::size_t i = 0; i < here.size(); ++i)
+      path.distance[i] = std::hypot(path.distance[i], here[i] - before);
   }
-  for (std::size_t i = 0; i < time.size(); ++i) path.time[i] = time[i] - start;
+  for (std::size_t i = 0; i < time.size(); ++i)
+    path.time[i] = time[i] - start;
   return path;
 }
 
@@ -66,17 +72,28 @@ TEST_P(Incline, SlidesAtTheDipAndAsNewtonSays) {
   const SceneRun run = cases::run(v.scene);
   const double expected = reference::incline_critical_friction(incline(0)) * degrees;
   if (v.dimension == 3) report.reference("critical_friction", expected, "deg");
-  report.record({"critical friction, " + v.name, "deg", Kind::exact, "Coulomb (1785): the dip", expected, {0.005, 0},
+  report.record({"critical friction, " + v.name,
+                 "deg",
+                 Kind::exact,
+                 "Coulomb (1785): the dip",
+                 expected,
+                 {0.005, 0},
                  "half the bracket of 0.01; the force left at rest, 1e-6 of the contact force, is worth 0.00005"},
                 value(run, "critical_friction"), cost(run));
 
   const Path sliding = path(run, slide, v.dimension);
   const double step = run.results.stages[slide - 1].time_step, end = sliding.time.back();
   std::vector<double> closed_form;
-  for (const double t : sliding.time) closed_form.push_back(reference::incline_distance(incline(sliding_friction), t));
-  report.record({"distance after 0.5 s, " + v.name, "m", Kind::exact, "Newton: g (sin - cos tan) t2/2", closed_form.back(),
-                 {0, 2 * step / end}, "velocities stand half a step behind: the slide begins half a step early, dt/t in the "
-                                      "distance; as much again for the overlap, which grows while the joint's area shrinks"},
+  for (const double t : sliding.time)
+    closed_form.push_back(reference::incline_distance(incline(sliding_friction), t));
+  report.record({"distance after 0.5 s, " + v.name,
+                 "m",
+                 Kind::exact,
+                 "Newton: g (sin - cos tan) t2/2",
+                 closed_form.back(),
+                 {0, 2 * step / end},
+                 "velocities stand half a step behind: the slide begins half a step early, dt/t in the "
+                 "distance; as much again for the overlap, which grows while the joint's area shrinks"},
                 sliding.distance.back(), cost(run));
   write_csv("incline", v.dimension == 3 ? "slide.csv" : "slide_plane.csv", {"time_s", "distance_m", "closed_form_m"},
             {sliding.time, sliding.distance, closed_form});
@@ -89,8 +106,13 @@ TEST_P(Incline, SettlesElastically) {
   const SceneRun run = cases::run(v.scene);
   const double weight = density * v.volume * gravity, angle = dip / degrees;
   const double expected = weight / (shear_stiffness * v.area) * std::hypot(std::sin(angle), 0.1 * std::cos(angle));
-  report.record({"settlement, " + v.name, "m", Kind::exact, "two springs: W sin/(ks A) along, W cos/(kn A) across", expected,
-                 {0, 6e-5}, "sheared by 85 micrometres the joint loses up to 5e-5 of its area; rest leaves 1e-6"},
+  report.record({"settlement, " + v.name,
+                 "m",
+                 Kind::exact,
+                 "two springs: W sin/(ks A) along, W cos/(kn A) across",
+                 expected,
+                 {0, 6e-5},
+                 "sheared by 85 micrometres the joint loses up to 5e-5 of its area; rest leaves 1e-6"},
                 path(run, settle, v.dimension).distance.back(), cost(run));
 }
 
@@ -102,8 +124,13 @@ TEST_P(Incline, RestsAboveTheDip) {
   const double elastic = path(run, settle, v.dimension).distance.back();
   double farthest = 0;
   const Path resting = path(run, slide, v.dimension);
-  for (const double d : resting.distance) farthest = std::max(farthest, d);
-  report.record({"distance in 0.5 s at 31 deg, " + v.name, "m", Kind::limit, "Coulomb (1785): it rests", 0,
+  for (const double d : resting.distance)
+    farthest = std::max(farthest, d);
+  report.record({"distance in 0.5 s at 31 deg, " + v.name,
+                 "m",
+                 Kind::limit,
+                 "Coulomb (1785): it rests",
+                 0,
                  {1e-5 * elastic, 0, Bound::at_most},
                  "what the force left at rest, 1e-6 of the contact force, can do: it swings by twice that share of the "
                  "elastic displacement in each of three directions"},
@@ -112,7 +139,8 @@ TEST_P(Incline, RestsAboveTheDip) {
             {resting.time, resting.distance});
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Incline, testing::Values(space, plane), [](const auto& chosen) { return chosen.param.test; });
+INSTANTIATE_TEST_SUITE_P(Both, Incline, testing::Values(space, plane),
+                         [](const auto& chosen) { return chosen.param.test; });
 
 }  // namespace
 }  // namespace voussoir::cases

@@ -60,7 +60,8 @@ TEST(Types, TurningFollowsRodrigues) {
 TEST(Types, AMillionSmallTurnsStayARotation) {
   Rotation<3> r;
   const Spin<3> turn(1e-6 * 2 * pi, 0, 0);
-  for (int i = 0; i < 1'000'000; ++i) r = turned(r, turn);
+  for (int i = 0; i < 1'000'000; ++i)
+    r = turned(r, turn);
   EXPECT_NEAR(r.quaternion.norm(), 1, rounding);
   EXPECT_LT((matrix(r) - Matrix<3>::Identity()).norm(), 1e-9);  // 1e6 roundings of 1e-16, systematic at worst
 }
@@ -100,8 +101,8 @@ TEST(HalfSpace, MovingTheOriginMovesNoPoint) {
   for (int i = 0; i < 100; ++i) {
     const HalfSpace<3> plane{shapes::direction<3>(random), shapes::uniform(random, -1, 1)};
     const Vector<3> shift = shapes::normal_vector<3>(random), point = shapes::normal_vector<3>(random);
-    EXPECT_NEAR(signed_distance<3>(plane, point),
-                signed_distance<3>(moved_origin<3>(plane, shift), point - shift), 10 * rounding);
+    EXPECT_NEAR(signed_distance<3>(plane, point), signed_distance<3>(moved_origin<3>(plane, shift), point - shift),
+                10 * rounding);
   }
 }
 
@@ -124,9 +125,9 @@ void expect_closed_surface(const Polytope<3>& part) {
     EXPECT_EQ(count, 1);
     EXPECT_EQ(edges.count({edge.second, edge.first}), 1u);
   }
-  EXPECT_EQ(static_cast<int>(part.vertices.size()) - static_cast<int>(edges.size()) / 2 +
-                static_cast<int>(part.faces.size()),
-            2);
+  EXPECT_EQ(
+      static_cast<int>(part.vertices.size()) - static_cast<int>(edges.size()) / 2 + static_cast<int>(part.faces.size()),
+      2);
 }
 
 // ∫ n dA = 0 and ∫ x·n dA = 3 V (2-D: 2 A) hold for any closed surface
@@ -216,7 +217,8 @@ TEST(Mass, RegularPolygonsHaveTheirClosedForms) {
       EXPECT_NEAR(part.inscribed_radius, scale, mass_tolerance * scale);
       EXPECT_NEAR(part.mass.volume, area, mass_tolerance * area);
       EXPECT_LT((part.mass.centroid - shift).norm(), mass_tolerance * scale);
-      EXPECT_NEAR(inertia_tensor(moved_origin<2>(part.mass, part.mass.centroid)), inertia, 10 * mass_tolerance * inertia);
+      EXPECT_NEAR(inertia_tensor(moved_origin<2>(part.mass, part.mass.centroid)), inertia,
+                  10 * mass_tolerance * inertia);
     }
 }
 
@@ -230,7 +232,8 @@ void expect_mass_by_sections(Random& random) {
   for (int i = 0; i < 3; ++i) {
     const Vector<Dim> u = shapes::direction<Dim>(random);
     std::vector<oracle::Real> heights;
-    for (const Vector<Dim>& v : part.vertices) heights.push_back(u.dot(v));
+    for (const Vector<Dim>& v : part.vertices)
+      heights.push_back(u.dot(v));
     const double volume = static_cast<double>(oracle::moment<Dim>(planes, u, heights, 0));
     const double first = static_cast<double>(oracle::moment<Dim>(planes, u, heights, 1));
     const double second = static_cast<double>(oracle::moment<Dim>(planes, u, heights, 2));

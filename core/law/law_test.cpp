@@ -51,14 +51,17 @@ void expect_return_to_the_cone(std::uint64_t seed) {
       const JointForce<Dim> f = elastic_coulomb<Dim>(joint, friction, 0, k, shear);
       EXPECT_NEAR(shear.norm(), limit, rounding * limit);
       EXPECT_NEAR(shear.dot(across), limit, 10 * rounding * limit);  // along the trial's direction
-      EXPECT_NEAR(f.plastic_slip, (trial - limit) / (joint.shear_stiffness * k.area),
-                  10 * rounding * k.slip.norm());
+      EXPECT_NEAR(f.plastic_slip, (trial - limit) / (joint.shear_stiffness * k.area), 10 * rounding * k.slip.norm());
       EXPECT_NEAR(f.force.dot(n), normal_force, 10 * rounding * (normal_force + limit));
     }
 }
 
-TEST(Coulomb, ReturnsToTheConeFromAnywhere3D) { expect_return_to_the_cone<3>(31); }
-TEST(Coulomb, ReturnsToTheConeFromAnywhere2D) { expect_return_to_the_cone<2>(32); }
+TEST(Coulomb, ReturnsToTheConeFromAnywhere3D) {
+  expect_return_to_the_cone<3>(31);
+}
+TEST(Coulomb, ReturnsToTheConeFromAnywhere2D) {
+  expect_return_to_the_cone<2>(32);
+}
 
 TEST(Coulomb, IsElasticInsideTheCone) {
   const Vector<3> n(0, 0, 1);
@@ -81,7 +84,8 @@ TEST(Coulomb, WithoutFrictionThereIsNoShear) {
   JointProperties smooth = joint;
   smooth.shear_stiffness = 0;
   shear = {1, 0, 0};
-  EXPECT_TRUE(std::isfinite(elastic_coulomb<3>(smooth, 0, 0, pressed<3>({0, 0, 1}, 1e-3, {1e-3, 0, 0}), shear).plastic_slip));
+  EXPECT_TRUE(
+      std::isfinite(elastic_coulomb<3>(smooth, 0, 0, pressed<3>({0, 0, 1}, 1e-3, {1e-3, 0, 0}), shear).plastic_slip));
   shear.setZero();
   const Vector<3> unloaded = elastic_coulomb<3>(joint, 0.5, 0, pressed<3>({0, 0, 1}, 0, {0, 0, 0}), shear).force;
   EXPECT_EQ(unloaded.norm(), 0);
@@ -132,8 +136,12 @@ void expect_energy_on_random_paths(std::uint64_t seed) {
   }
 }
 
-TEST(Coulomb, MakesNoEnergyOnRandomPaths3D) { expect_energy_on_random_paths<3>(34); }
-TEST(Coulomb, MakesNoEnergyOnRandomPaths2D) { expect_energy_on_random_paths<2>(35); }
+TEST(Coulomb, MakesNoEnergyOnRandomPaths3D) {
+  expect_energy_on_random_paths<3>(34);
+}
+TEST(Coulomb, MakesNoEnergyOnRandomPaths2D) {
+  expect_energy_on_random_paths<2>(35);
+}
 
 TEST(Coulomb, APathInAPlaneIsTheSameInBothDimensions) {
   Random random(36);
@@ -186,7 +194,8 @@ TEST(Carried, AroundAConeItTurnsByTheEnclosedSolidAngle) {
       const double excess = steps * 2 * half_corner - (steps - 2) * pi;
       const Vector<3> first = perpendicular(corner(0));
       Vector<3> shear = first;
-      for (int i = 0; i < steps; ++i) shear = carried(shear, corner(i), corner(i + 1), 0);
+      for (int i = 0; i < steps; ++i)
+        shear = carried(shear, corner(i), corner(i + 1), 0);
       EXPECT_LT((shear - rotated(first, corner(0), excess)).norm(), 10 * carry_tolerance);
     }
 }
@@ -196,7 +205,8 @@ TEST(Carried, FollowsTheSpinAboutTheNormal) {
   const Vector<3> first = 7 * perpendicular(n);
   for (const int steps : {1, 7, 1000}) {
     Vector<3> shear = first;
-    for (int i = 0; i < steps; ++i) shear = carried(shear, n, n, 2.5 / steps);
+    for (int i = 0; i < steps; ++i)
+      shear = carried(shear, n, n, 2.5 / steps);
     EXPECT_LT((shear - rotated(first, n, 2.5)).norm(), 10 * carry_tolerance);
   }
 }

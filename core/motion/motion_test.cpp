@@ -110,7 +110,8 @@ TEST(Damped, LessensWhatDrivesAndAddsToWhatBrakes) {
   EXPECT_EQ(damped(-10, 5, 0), -10);
   // never takes power out of nothing: the damping force's own power is not positive
   for (const double f : {-2.0, 0.0, 2.0})
-    for (const double v : {-3.0, 3.0}) EXPECT_LE((damped(f, v, 0.7) - f) * v, 0);
+    for (const double v : {-3.0, 3.0})
+      EXPECT_LE((damped(f, v, 0.7) - f) * v, 0);
 }
 
 // ---- rotation -------------------------------------------------------------------------------------------------------
@@ -149,7 +150,8 @@ Rotation<3> tumbled(const Body<3>& body, const Motion<3>& start, double time, in
   };
   const double h = time / steps;
   for (int i = 0; i < steps; ++i) {
-    const Matrix<3> k1 = rate(axes), k2 = rate(axes + h / 2 * k1), k3 = rate(axes + h / 2 * k2), k4 = rate(axes + h * k3);
+    const Matrix<3> k1 = rate(axes), k2 = rate(axes + h / 2 * k1), k3 = rate(axes + h / 2 * k2),
+                    k4 = rate(axes + h * k3);
     axes += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
   }
   return {Eigen::Quaterniond(Matrix<3>(axes * body.principal_axes.transpose()))};
@@ -167,7 +169,8 @@ TEST(Rotation, TumblingIsOfSecondOrder) {
     for (int refined = 0; refined < 2; ++refined) {
       const int steps = refined ? 400 : 200;
       Motion<3> motion = start;
-      for (int i = 0; i < steps; ++i) advance<3>(body, {}, 0, {2.0 / steps, 2.0 / steps}, motion);
+      for (int i = 0; i < steps; ++i)
+        advance<3>(body, {}, 0, {2.0 / steps, 2.0 / steps}, motion);
       error[refined] = (matrix(motion.rotation) - expected).norm();
     }
     EXPECT_LT(error[0], 0.01);
@@ -182,7 +185,8 @@ TEST(Rotation, ASymmetricTopPrecessesExactly) {
   const Vector<3> momentum = body.inertia[0] * Vector<3>(1, 0, 2);
   motion.angular_momentum = momentum;
   const double dt = 1e-3;
-  for (int i = 0; i < 1000; ++i) advance<3>(body, {}, 0, {dt, dt}, motion);
+  for (int i = 0; i < 1000; ++i)
+    advance<3>(body, {}, 0, {dt, dt}, motion);
   const Eigen::AngleAxisd precession(momentum.norm() / body.inertia[0], momentum.normalized());
   const Vector<3> axis = matrix(motion.rotation).col(2);
   EXPECT_LT((axis - precession * Vector<3>::UnitZ()).norm(), 1e-6);  // (|ω| dt)²/4 with |ω| about 2
@@ -194,7 +198,8 @@ TEST(Rotation, InThePlaneAConstantMomentIsExact) {
   Load<2> load;
   load.moment = Spin<2>(3);
   const double dt = 0.01;
-  for (int i = 0; i < 100; ++i) advance<2>(body, load, 0, {i == 0 ? 0.5 * dt : dt, dt}, motion);
+  for (int i = 0; i < 100; ++i)
+    advance<2>(body, load, 0, {i == 0 ? 0.5 * dt : dt, dt}, motion);
   EXPECT_NEAR(motion.rotation.angle, 0.5 * 3 / body.inertia[0], rounding);
   EXPECT_NEAR(body.inertia[0], 2500.0 / 6, 1e-9);
 }
@@ -209,7 +214,8 @@ TEST(Rotation, AboutOneFreeAxisOnlyThatMomentCounts) {
     Motion<3> motion;
     const Load<3> load{Vector<3>::Zero(), {300, 200, 100}};
     const double dt = 0.01;
-    for (int i = 0; i < 100; ++i) advance<3>(body, load, 0, {i == 0 ? 0.5 * dt : dt, dt}, motion);
+    for (int i = 0; i < 100; ++i)
+      advance<3>(body, load, 0, {i == 0 ? 0.5 * dt : dt, dt}, motion);
     // turning about an axis leaves the moment of inertia about it alone
     const Vector<3> expected = 0.5 * load.moment[axis] / tensor(axis, axis) * Vector<3>::Unit(axis);
     EXPECT_LT((rotation_vector(motion.rotation) - expected).norm(), 10 * rounding);
@@ -265,8 +271,10 @@ constexpr int freedoms = Dim + spin_freedoms<Dim>;
 template <int Dim>
 Eigen::Matrix<double, Dim, freedoms<Dim>> velocity_at(const Vector<Dim>& arm) {
   Eigen::Matrix<double, Dim, freedoms<Dim>> j;
-  for (int k = 0; k < Dim; ++k) j.col(k) = Vector<Dim>::Unit(k);
-  for (int k = 0; k < spin_freedoms<Dim>; ++k) j.col(Dim + k) = cross(Spin<Dim>(Spin<Dim>::Unit(k)), arm);
+  for (int k = 0; k < Dim; ++k)
+    j.col(k) = Vector<Dim>::Unit(k);
+  for (int k = 0; k < spin_freedoms<Dim>; ++k)
+    j.col(Dim + k) = cross(Spin<Dim>(Spin<Dim>::Unit(k)), arm);
   return j;
 }
 
@@ -279,9 +287,11 @@ struct RandomAssembly {
   RandomAssembly(Random& random, int free, int fixed, int contacts) {
     for (int b = 0; b < free + fixed; ++b) {
       Vector<Dim> shape;
-      for (int k = 0; k < Dim; ++k) shape[k] = shapes::power_of_ten(random, -1, 0.5);
-      model.bodies.push_back(body_of<Dim>(shapes::placed<Dim>(
-          shapes::box<Dim>(-shape, shape), matrix(shapes::orientation<Dim>(random)), 3 * shapes::normal_vector<Dim>(random))));
+      for (int k = 0; k < Dim; ++k)
+        shape[k] = shapes::power_of_ten(random, -1, 0.5);
+      model.bodies.push_back(
+          body_of<Dim>(shapes::placed<Dim>(shapes::box<Dim>(-shape, shape), matrix(shapes::orientation<Dim>(random)),
+                                           3 * shapes::normal_vector<Dim>(random))));
       model.bodies.back().fixed = b >= free;
     }
     list_parts(model);
@@ -317,7 +327,9 @@ struct RandomAssembly {
       const Matrix<Dim> nn = c.geometry.normal * c.geometry.normal.transpose();
       const Matrix<Dim> k = (p.constant_stiffness ? 1 : c.geometry.area) *
                             (p.normal_stiffness * nn + p.shear_stiffness * (Matrix<Dim>::Identity() - nn));
-      const auto centroid = [&](int b) -> Vector<Dim> { return model.bodies[b].reference + state.motions[b].displacement; };
+      const auto centroid = [&](int b) -> Vector<Dim> {
+        return model.bodies[b].reference + state.motions[b].displacement;
+      };
       const Vector<Dim> arm_b = c.geometry.point + centroid(c.part_a) - centroid(c.part_b);
       Eigen::MatrixXd j = Eigen::MatrixXd::Zero(Dim, count);
       j.middleCols<size>(c.part_a * size) = -velocity_at<Dim>(c.geometry.point);
@@ -360,15 +372,20 @@ void expect_safe_time_step(std::uint64_t seed) {
   EXPECT_GE(lowest, margin_share / std::sqrt(2.0) * (1 - 1e-9));
 }
 
-TEST(TimeStep, IsNeverAboveTheFullSystemsLimit3D) { expect_safe_time_step<3>(46); }
-TEST(TimeStep, IsNeverAboveTheFullSystemsLimit2D) { expect_safe_time_step<2>(47); }
+TEST(TimeStep, IsNeverAboveTheFullSystemsLimit3D) {
+  expect_safe_time_step<3>(46);
+}
+TEST(TimeStep, IsNeverAboveTheFullSystemsLimit2D) {
+  expect_safe_time_step<2>(47);
+}
 
 template <int Dim>
 void expect_exact_for_one_free_body(std::uint64_t seed) {
   Random random(seed);
   for (int trial = 0; trial < 50; ++trial) {
     RandomAssembly<Dim> assembly(random, 1, 4, 6);
-    for (Contact<Dim>& c : assembly.state.contacts) c.properties = 0;
+    for (Contact<Dim>& c : assembly.state.contacts)
+      c.properties = 0;
     const double limit = 2 / std::sqrt(assembly.largest_eigenvalue());
     const TimeStepEstimate estimate = estimate_time_step(assembly.model, {}, {}, assembly.state);
     EXPECT_NEAR(estimate.limit / limit, margin_share, 1e-9);

@@ -16,9 +16,9 @@ const Vector<Dim>& largest(const std::vector<Vector<Dim>>& vectors) {
   });
 }
 
-// Axes fitted to the scaled normals p = a/s: the first along the largest, the second along the largest remainder. In these
-// axes the Hessian Σ p pᵀ is graded, so that factorising it top down loses nothing, however thin the region is in one
-// direction (face on face) or in two (edge along edge).
+// Axes fitted to the scaled normals p = a/s: the first along the largest, the second along the largest remainder. In
+// these axes the Hessian Σ p pᵀ is graded, so that factorising it top down loses nothing, however thin the region is in
+// one direction (face on face) or in two (edge along edge).
 Matrix<2> graded_frame(const std::vector<Vector<2>>& scaled) {
   const Vector<2> first = largest(scaled).normalized();
   Matrix<2> frame;
@@ -47,12 +47,14 @@ bool solve_symmetric(Matrix<Dim> h, Vector<Dim>& g) {
     if (!(h(k, k) > 0)) return false;
     for (int i = k + 1; i < Dim; ++i) {
       const double factor = h(i, k) / h(k, k);
-      for (int j = k + 1; j <= i; ++j) h(i, j) -= factor * h(j, k);
+      for (int j = k + 1; j <= i; ++j)
+        h(i, j) -= factor * h(j, k);
       g[i] -= factor * g[k];
     }
   }
   for (int k = Dim - 1; k >= 0; --k) {
-    for (int i = k + 1; i < Dim; ++i) g[k] -= h(i, k) * g[i];
+    for (int i = k + 1; i < Dim; ++i)
+      g[k] -= h(i, k) * g[i];
     g[k] /= h(k, k);
   }
   return true;
@@ -90,9 +92,11 @@ CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const Cen
   bool settled = false;  // near the centre the frame stays: a new one rounds anew, which thin regions magnify
   for (; result.iterations < request.limit; ++result.iterations) {
     if (!settled) {
-      for (std::size_t i = 0; i < count; ++i) work.scaled[i] = planes[i].normal / work.slacks[i];
+      for (std::size_t i = 0; i < count; ++i)
+        work.scaled[i] = planes[i].normal / work.slacks[i];
       frame = graded_frame(work.scaled);
-      for (std::size_t i = 0; i < count; ++i) work.turned[i] = frame * planes[i].normal;
+      for (std::size_t i = 0; i < count; ++i)
+        work.turned[i] = frame * planes[i].normal;
     }
 
     // gradient and Hessian of -Σ log s, and Newton's step

@@ -47,7 +47,8 @@ HalfSpace<Dim> far_plane(int k, double distance) {
 template <int Dim>
 double largest_offset(const HalfSpaces<Dim>& planes) {
   double largest = 0;
-  for (const HalfSpace<Dim>& p : planes) largest = std::max(largest, std::abs(p.offset));
+  for (const HalfSpace<Dim>& p : planes)
+    largest = std::max(largest, std::abs(p.offset));
   return largest;
 }
 
@@ -78,7 +79,8 @@ Basis<Dim> start_basis(const HalfSpaces<Dim>& planes, const FeasibilityRequest<D
     basis.planes = *request.start;
     if (factorise(basis, planes, far) && basis.multipliers().minCoeff() >= -multiplier_rounding) return basis;
   }
-  for (int k = 0; k <= Dim; ++k) basis.planes[k] = -1 - k;
+  for (int k = 0; k <= Dim; ++k)
+    basis.planes[k] = -1 - k;
   factorise(basis, planes, far);
   return basis;
 }
@@ -116,15 +118,15 @@ Eigen::Matrix<double, Dim + 1, 1> meeting_point(const Basis<Dim>& basis, const H
   Eigen::Matrix<double, Dim + 1, 1> solution = basis.inverse.transpose() * basis.offsets, residual;
   for (int step = 0; step < refinement_steps; ++step) {
     for (int k = 0; k <= Dim; ++k)
-      residual[k] = basis.offsets[k] - basis_plane(planes, basis.planes[k], far).normal.dot(solution.template head<Dim>()) -
-                    solution[Dim];
+      residual[k] = basis.offsets[k] -
+                    basis_plane(planes, basis.planes[k], far).normal.dot(solution.template head<Dim>()) - solution[Dim];
     solution += basis.inverse.transpose() * residual;
   }
   return solution;
 }
 
-// What the multipliers prove by weak duality whatever rounding did to them: s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ, negative
-// ones left out, for all x within the reach.
+// What the multipliers prove by weak duality whatever rounding did to them, for all x within the reach and with negative
+// ones left out: s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ.
 template <int Dim>
 double proven_bound(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far, double reach) {
   Vector<Dim> residual = Vector<Dim>::Zero();
@@ -144,16 +146,19 @@ double proven_bound(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, doub
 template <int Dim>
 FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request) {
   const int count = static_cast<int>(planes.size());
-  const double reach = 10 * (largest_offset(planes) + std::numeric_limits<double>::min());  // of what the planes enclose
+  const double reach =
+      10 * (largest_offset(planes) + std::numeric_limits<double>::min());  // of what the planes enclose
   const double far = 100 * reach;
   const int limit = 10 * (count + Dim + 1) + 50;
   const int bland_after = limit / 2;
 
   Basis<Dim> basis = start_basis(planes, request, far);
   FeasibilityResult<Dim> result;
-  bool exact = true;  // the inverse was just computed, not updated
+  bool polished = false;  // the inverse was just computed, not updated, and the point refined
   for (; result.pivots < limit; ++result.pivots) {
-    const Eigen::Matrix<double, Dim + 1, 1> solution = meeting_point(basis, planes, far);
+    const Eigen::Matrix<double, Dim + 1, 1> solution =
+        polished ? meeting_point(basis, planes, far)
+                 : Eigen::Matrix<double, Dim + 1, 1>(basis.inverse.transpose() * basis.offsets);
     result.point = solution.template head<Dim>();
     result.value = -solution[Dim];
 
@@ -178,10 +183,10 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
     }
     if (enter < 0) {
       result.status = FeasibilityStatus::optimal;
-      if (exact) break;
+      if (polished) break;
       // updates lose digits: the answer is taken from a fresh inverse of the final basis
       if (!factorise(basis, planes, far)) break;
-      exact = true;
+      polished = true;
       continue;
     }
 
@@ -191,13 +196,14 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
     const int leave = leaving<Dim>(basis, mu);
     if (leave < 0) break;  // impossible in exact arithmetic: sum(mu) = 1
     pivot<Dim>(basis, leave, enter, planes[enter].offset, mu);
-    exact = false;
+    polished = false;
   }
 
   result.basis = basis.planes;
   for (int k = 0; k <= Dim; ++k) {
     result.multipliers[k] = basis.multipliers()[k];
-    if (basis.planes[k] < 0 && result.multipliers[k] > multiplier_rounding && result.status == FeasibilityStatus::optimal)
+    if (basis.planes[k] < 0 && result.multipliers[k] > multiplier_rounding &&
+        result.status == FeasibilityStatus::optimal)
       result.status = FeasibilityStatus::unbounded;
   }
 

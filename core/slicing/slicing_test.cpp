@@ -27,7 +27,8 @@ template <int Dim>
 std::vector<Polytope<Dim>> cut(const Polytope<Dim>& domain, const std::vector<HalfSpace<Dim>>& planes,
                                SlicingCounters* counters = nullptr, const SlicingLimits& limits = {}) {
   std::vector<Cut<Dim>> cuts;
-  for (const HalfSpace<Dim>& p : planes) cuts.push_back({p, static_cast<int>(cuts.size())});
+  for (const HalfSpace<Dim>& p : planes)
+    cuts.push_back({p, static_cast<int>(cuts.size())});
   SlicingCounters own;
   return slice<Dim>(domain, cuts, limits, counters ? *counters : own);
 }
@@ -35,7 +36,8 @@ std::vector<Polytope<Dim>> cut(const Polytope<Dim>& domain, const std::vector<Ha
 template <int Dim>
 double total_volume(const std::vector<Polytope<Dim>>& blocks) {
   double sum = 0;
-  for (const Polytope<Dim>& b : blocks) sum += b.mass.volume;
+  for (const Polytope<Dim>& b : blocks)
+    sum += b.mass.volume;
   return sum;
 }
 
@@ -51,7 +53,8 @@ template <int Dim>
 HalfSpaces<Dim> axis_joints(int per_axis) {
   HalfSpaces<Dim> planes;
   for (int axis = 0; axis < Dim; ++axis)
-    for (int i = 1; i < per_axis; ++i) planes.push_back({Vector<Dim>::Unit(axis), static_cast<double>(i)});
+    for (int i = 1; i < per_axis; ++i)
+      planes.push_back({Vector<Dim>::Unit(axis), static_cast<double>(i)});
   return planes;
 }
 
@@ -87,7 +90,8 @@ TEST(MakeBlock, NormalisesAndDropsRedundantPlanes) {
     const HalfSpaces<3> needed = shapes::block<3>(shapes::random_planes<3>(random, 6, 1)).faces;
     const Polytope<3> expected = shapes::block<3>(needed);
     HalfSpaces<3> planes = needed;
-    for (int k = 0; k < 6; ++k) planes.push_back({shapes::direction<3>(random), 2.2});  // beyond every corner
+    for (int k = 0; k < 6; ++k)
+      planes.push_back({shapes::direction<3>(random), 2.2});  // beyond every corner
     for (const Vector<3>& v : expected.vertices) {
       Vector<3> out = Vector<3>::Zero();  // a direction in which this corner is the farthest point
       for (const HalfSpace<3>& f : expected.faces)
@@ -104,7 +108,8 @@ TEST(MakeBlock, NormalisesAndDropsRedundantPlanes) {
     const Polytope<3> part = shapes::block<3>(planes);
     EXPECT_EQ(part.faces.size(), needed.size());
     EXPECT_NEAR(part.mass.volume, expected.mass.volume, volume_tolerance);
-    for (const HalfSpace<3>& f : part.faces) EXPECT_NEAR(f.normal.norm(), 1, 1e-15);
+    for (const HalfSpace<3>& f : part.faces)
+      EXPECT_NEAR(f.normal.norm(), 1, 1e-15);
   }
 }
 
@@ -129,10 +134,10 @@ TEST(MakeBlock, RegularShapesWithManyEqualBallsSucceed) {
     const int sides = 3 + i % 30;
     failures += status_of<2>(shapes::placed<2>(shapes::regular_polygon(sides, 1), turn2, shift2)) != BlockStatus::ok;
     failures += status_of<3>(shapes::placed<3>(shapes::pyramid(sides, 1, 2), turn3, shift3)) != BlockStatus::ok;
-    failures += status_of<3>(shapes::placed<3>(shapes::platonic_solids(1)[i % 5].planes, turn3, shift3)) !=
-                BlockStatus::ok;
-    failures += status_of<3>(shapes::placed<3>(shapes::box<3>({-1, -1e-3, -1e-3}, {1, 1e-3, 1e-3}), turn3, {0, 0, 0})) !=
-                BlockStatus::ok;
+    failures +=
+        status_of<3>(shapes::placed<3>(shapes::platonic_solids(1)[i % 5].planes, turn3, shift3)) != BlockStatus::ok;
+    failures += status_of<3>(shapes::placed<3>(shapes::box<3>({-1, -1e-3, -1e-3}, {1, 1e-3, 1e-3}), turn3,
+                                               {0, 0, 0})) != BlockStatus::ok;
   }
   EXPECT_EQ(failures, 0);
 }
@@ -142,7 +147,8 @@ TEST(HullPlanes, GiveBackTheBlock) {
   for (int i = 0; i < 30; ++i) {
     const Polytope<3> part = shapes::block<3>(shapes::random_planes<3>(random, 6, 1));
     std::vector<Vector<3>> points = part.vertices;
-    for (int k = 0; k < 5; ++k) points.push_back(0.3 * shapes::direction<3>(random));
+    for (int k = 0; k < 5; ++k)
+      points.push_back(0.3 * shapes::direction<3>(random));
     shapes::shuffle(points, random);
     int hidden = -1;
     const Polytope<3> again = shapes::block<3>(hull_planes<3>(points, &hidden));
@@ -167,7 +173,8 @@ TEST(Slice, ParallelJointsMakeOneBlockMore) {
   for (int n = 0; n < 20; ++n) {
     const Vector<3> normal = shapes::direction<3>(random);
     HalfSpaces<3> planes;
-    for (int i = 0; i < n; ++i) planes.push_back({normal, -0.9 + 1.8 * i / std::max(n - 1, 1)});
+    for (int i = 0; i < n; ++i)
+      planes.push_back({normal, -0.9 + 1.8 * i / std::max(n - 1, 1)});
     shapes::shuffle(planes, random);
     const std::vector<Polytope<3>> blocks = cut<3>(shapes::block<3>(shapes::cube<3>(1)), planes);
     EXPECT_EQ(static_cast<int>(blocks.size()), n + 1);
@@ -232,14 +239,15 @@ TEST(Slice, AnIntegerGridIsExact) {
         cut<2>(shapes::block<2>(shapes::box<2>({0, 0}, Vector<2>::Constant(n))), axis_joints<2>(n));
     ASSERT_EQ(static_cast<int>(squares.size()), n * n);
     // canonical order: by x first
-    for (int i = 0; i < n * n; ++i) EXPECT_NEAR(squares[i].mass.centroid[0], i / n + 0.5, volume_tolerance);
+    for (int i = 0; i < n * n; ++i)
+      EXPECT_NEAR(squares[i].mass.centroid[0], i / n + 0.5, volume_tolerance);
   }
 }
 
 TEST(Slice, AnOctahedronCutAlongItsPlanesIsEightTetrahedra) {
   const std::vector<Polytope<3>> blocks =
-      cut<3>(shapes::block<3>(shapes::platonic_solids(1)[2].planes), {{Vector<3>::UnitX(), 0}, {Vector<3>::UnitY(), 0},
-                                                                       {Vector<3>::UnitZ(), 0}});
+      cut<3>(shapes::block<3>(shapes::platonic_solids(1)[2].planes),
+             {{Vector<3>::UnitX(), 0}, {Vector<3>::UnitY(), 0}, {Vector<3>::UnitZ(), 0}});
   ASSERT_EQ(blocks.size(), 8u);
   for (const Polytope<3>& b : blocks) {
     EXPECT_EQ(b.faces.size(), 4u);
@@ -269,10 +277,17 @@ TEST(Slice, TouchingPlanesCutNothing) {
   const Polytope<3> cube = shapes::block<3>(shapes::cube<3>(1));
   SlicingCounters counters;
   const double s3 = std::sqrt(3.0), s2 = std::sqrt(2.0);
-  EXPECT_EQ(cut<3>(cube, {{Vector<3>(1, 0, 0), 1}, {Vector<3>(0, 0, 1), -1},            // faces
-                          {Vector<3>(1, 1, 0).normalized(), s2},                          // edge
-                          {Vector<3>(1, 1, 1).normalized(), s3}, {Vector<3>(0, 1, 0), 7}  // corner, outside
-                         }, &counters).size(), 1u);
+  EXPECT_EQ(cut<3>(cube,
+                   {
+                       {Vector<3>(1, 0, 0), 1},
+                       {Vector<3>(0, 0, 1), -1},               // faces
+                       {Vector<3>(1, 1, 0).normalized(), s2},  // edge
+                       {Vector<3>(1, 1, 1).normalized(), s3},
+                       {Vector<3>(0, 1, 0), 7}  // corner, outside
+                   },
+                   &counters)
+                .size(),
+            1u);
   EXPECT_EQ(counters.cuts, 0);
   EXPECT_EQ(cut<2>(shapes::block<2>(shapes::cube<2>(1)), {{Vector<2>(1, 1).normalized(), s2}}).size(), 1u);
 }
@@ -296,7 +311,8 @@ void expect_volume_and_memory(Random& random, int joints) {
       EXPECT_NEAR(b.faces[f].offset, side * plane.offset, 1e-14);
       net[b.joints[f]] += side * face_area<Dim>(b, static_cast<int>(f));
     }
-  for (const double n : net) EXPECT_NEAR(n, 0, sliver_tolerance);
+  for (const double n : net)
+    EXPECT_NEAR(n, 0, sliver_tolerance);
 }
 
 TEST(Slice, KeepsTheVolumeAndRemembersJoints) {
@@ -337,22 +353,29 @@ void expect_invariance(std::uint64_t seed, int joints) {
 
   // 1 mm and 10 km
   for (const double factor : {1e-3, 1e4})
-    expect_same_blocks<Dim>(blocks, cut<Dim>(shapes::block<Dim>(shapes::cube<Dim>(factor)), shapes::scaled<Dim>(planes, factor)),
-                            factor, none, sliver_tolerance);
+    expect_same_blocks<Dim>(
+        blocks, cut<Dim>(shapes::block<Dim>(shapes::cube<Dim>(factor)), shapes::scaled<Dim>(planes, factor)), factor,
+        none, sliver_tolerance);
 
   // another place
   const Vector<Dim> shift = 1e6 * shapes::direction<Dim>(random);
   const HalfSpaces<Dim> domain = shapes::placed<Dim>(shapes::cube<Dim>(1), Matrix<Dim>::Identity(), shift);
-  expect_same_blocks<Dim>(blocks, cut<Dim>(shapes::block<Dim>(domain), shapes::placed<Dim>(planes, Matrix<Dim>::Identity(), shift)),
-                          1, shift, far_origin_tolerance);
+  expect_same_blocks<Dim>(
+      blocks, cut<Dim>(shapes::block<Dim>(domain), shapes::placed<Dim>(planes, Matrix<Dim>::Identity(), shift)), 1,
+      shift, far_origin_tolerance);
 
   // another order
   shapes::shuffle(planes, random);
-  expect_same_blocks<Dim>(blocks, cut<Dim>(shapes::block<Dim>(shapes::cube<Dim>(1)), planes), 1, none, sliver_tolerance);
+  expect_same_blocks<Dim>(blocks, cut<Dim>(shapes::block<Dim>(shapes::cube<Dim>(1)), planes), 1, none,
+                          sliver_tolerance);
 }
 
-TEST(Slice, DependsOnNeitherUnitNorOriginNorOrder3D) { expect_invariance<3>(28, 7); }
-TEST(Slice, DependsOnNeitherUnitNorOriginNorOrder2D) { expect_invariance<2>(29, 15); }
+TEST(Slice, DependsOnNeitherUnitNorOriginNorOrder3D) {
+  expect_invariance<3>(28, 7);
+}
+TEST(Slice, DependsOnNeitherUnitNorOriginNorOrder2D) {
+  expect_invariance<2>(29, 15);
+}
 
 TEST(Slice, UndoesCutsThatLeaveSlivers) {
   const Polytope<3> cube = shapes::block<3>(shapes::cube<3>(1));
@@ -372,7 +395,8 @@ TEST(Slice, ThinSlabsAreBlocksToo) {
       cut<3>(shapes::block<3>(shapes::cube<3>(1)), {{Vector<3>::UnitZ(), 0}, {Vector<3>::UnitZ(), thin}});
   ASSERT_EQ(blocks.size(), 3u);
   double thinnest = 8;
-  for (const Polytope<3>& b : blocks) thinnest = std::min(thinnest, b.mass.volume);
+  for (const Polytope<3>& b : blocks)
+    thinnest = std::min(thinnest, b.mass.volume);
   EXPECT_NEAR(thinnest, 4 * thin, sliver_tolerance * thin);
 }
 

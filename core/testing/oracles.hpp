@@ -21,14 +21,17 @@ using RealMatrix = Eigen::Matrix<Real, Size, Size>;
 // calls with every ascending choice of `size` out of `count`
 inline void for_each_choice(int count, int size, const std::function<void(const std::vector<int>&)>& call) {
   std::vector<int> choice(size);
-  for (int k = 0; k < size; ++k) choice[k] = k;
+  for (int k = 0; k < size; ++k)
+    choice[k] = k;
   while (size <= count) {
     call(choice);
     int k = size - 1;
-    while (k >= 0 && choice[k] == count - size + k) --k;
+    while (k >= 0 && choice[k] == count - size + k)
+      --k;
     if (k < 0) return;
     ++choice[k];
-    for (int j = k + 1; j < size; ++j) choice[j] = choice[j - 1] + 1;
+    for (int j = k + 1; j < size; ++j)
+      choice[j] = choice[j - 1] + 1;
   }
 }
 
@@ -95,7 +98,8 @@ Real volume(const HalfSpaces<Dim>& planes) {
   std::vector<Real> b;
   for (const HalfSpace<Dim>& p : planes) {
     a.push_back({});
-    for (int k = 0; k < Dim; ++k) a.back().push_back(p.normal[k]);
+    for (int k = 0; k < Dim; ++k)
+      a.back().push_back(p.normal[k]);
     b.push_back(p.offset);
   }
   return volume(a, b);
@@ -136,7 +140,8 @@ Real moment(const HalfSpaces<Dim>& planes, const Vector<Dim>& u, std::vector<Rea
   Real sum = 0;
   for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
     const Real middle = (heights[k] + heights[k + 1]) / 2, half = (heights[k + 1] - heights[k]) / 2;
-    for (const auto& [place, weight] : {std::pair<Real, Real>{-node, 5 / Real(9)}, {0, 8 / Real(9)}, {node, 5 / Real(9)}}) {
+    for (const auto& [place, weight] :
+         {std::pair<Real, Real>{-node, 5 / Real(9)}, {0, 8 / Real(9)}, {node, 5 / Real(9)}}) {
       const Real h = middle + half * place;
       sum += half * weight * std::pow(h, power) * section<Dim>(planes, h * n, n);
     }
@@ -181,17 +186,21 @@ RealVector<Dim> analytic_centre(const HalfSpaces<Dim>& planes, RealVector<Dim> p
   return point;
 }
 
-// Largest gap over all separating axes: face normals and, in space, cross products of edges. Negative when they overlap.
+// Largest gap over all separating axes: face normals and, in space, cross products of edges. Negative when they
+// overlap.
 template <int Dim>
 Real separation(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<Dim>& turn, const Vector<Dim>& offset) {
   using V = RealVector<Dim>;
   std::vector<V> corners_a, corners_b, axes, edges_a, edges_b;
   const RealMatrix<Dim> q = turn.template cast<Real>();
-  for (const Vector<Dim>& v : a.vertices) corners_a.push_back(v.template cast<Real>());
+  for (const Vector<Dim>& v : a.vertices)
+    corners_a.push_back(v.template cast<Real>());
   for (const Vector<Dim>& v : b.vertices)
     corners_b.push_back(q * v.template cast<Real>() + offset.template cast<Real>());
-  for (const HalfSpace<Dim>& f : a.faces) axes.push_back(f.normal.template cast<Real>());
-  for (const HalfSpace<Dim>& f : b.faces) axes.push_back(q * f.normal.template cast<Real>());
+  for (const HalfSpace<Dim>& f : a.faces)
+    axes.push_back(f.normal.template cast<Real>());
+  for (const HalfSpace<Dim>& f : b.faces)
+    axes.push_back(q * f.normal.template cast<Real>());
   if constexpr (Dim == 3) {
     for (const std::vector<int>& loop : a.loops)
       for (std::size_t k = 0; k < loop.size(); ++k)

@@ -25,13 +25,16 @@ inline int integer(Random& random, int low, int high) {
 }
 
 // one of a decade 10^low … 10^high
-inline double power_of_ten(Random& random, double low, double high) { return std::pow(10, uniform(random, low, high)); }
+inline double power_of_ten(Random& random, double low, double high) {
+  return std::pow(10, uniform(random, low, high));
+}
 
 template <int Size>
 Eigen::Matrix<double, Size, 1> normal_vector(Random& random) {
   boost::random::normal_distribution<double> normal;
   Eigen::Matrix<double, Size, 1> v;
-  for (int k = 0; k < Size; ++k) v[k] = normal(random);
+  for (int k = 0; k < Size; ++k)
+    v[k] = normal(random);
   return v;
 }
 
@@ -53,7 +56,8 @@ Rotation<Dim> orientation(Random& random) {
 // std::shuffle is not portable
 template <class T>
 void shuffle(std::vector<T>& list, Random& random) {
-  for (int i = static_cast<int>(list.size()) - 1; i > 0; --i) std::swap(list[i], list[integer(random, 0, i)]);
+  for (int i = static_cast<int>(list.size()) - 1; i > 0; --i)
+    std::swap(list[i], list[integer(random, 0, i)]);
 }
 
 // ---- half-spaces ----------------------------------------------------------------------------------------------------
@@ -78,7 +82,8 @@ HalfSpaces<Dim> cube(double h) {
 template <int Dim>
 HalfSpaces<Dim> random_planes(Random& random, int count, double radius) {
   HalfSpaces<Dim> planes = cube<Dim>(1.2 * radius);
-  for (int i = 0; i < count; ++i) planes.push_back({direction<Dim>(random), uniform(random, 0.6, 1.0) * radius});
+  for (int i = 0; i < count; ++i)
+    planes.push_back({direction<Dim>(random), uniform(random, 0.6, 1.0) * radius});
   return planes;
 }
 
@@ -90,7 +95,8 @@ inline void add_family(HalfSpaces<3>& planes, Vector<3> n, double inradius) {
       const Vector<3> flip(signs & 1 ? -1 : 1, signs & 2 ? -1 : 1, signs & 4 ? -1 : 1);
       const Vector<3> candidate = n.cwiseProduct(flip);
       bool known = false;
-      for (const HalfSpace<3>& p : planes) known = known || (p.normal - candidate).norm() < 1e-9;
+      for (const HalfSpace<3>& p : planes)
+        known = known || (p.normal - candidate).norm() < 1e-9;
       if (!known) planes.push_back({candidate, inradius});
     }
 }
@@ -104,16 +110,21 @@ struct Platonic {
 
 // the five of inscribed radius r, with their closed forms in the edge a
 inline std::vector<Platonic> platonic_solids(double r) {
-  const double phi = std::numbers::phi, sqrt2 = std::numbers::sqrt2, sqrt3 = std::numbers::sqrt3, sqrt5 = std::sqrt(5.0);
+  const double phi = std::numbers::phi, sqrt2 = std::numbers::sqrt2, sqrt3 = std::numbers::sqrt3,
+               sqrt5 = std::sqrt(5.0);
   std::vector<Platonic> list;
   const double n = 1 / sqrt3;
-  list.push_back({"tetrahedron", {{{n, n, n}, r}, {{n, -n, -n}, r}, {{-n, n, -n}, r}, {{-n, -n, n}, r}}, 4,
-                  2 * std::sqrt(6.0) * r, 1 / (6 * sqrt2), 1 / 20.0});
+  list.push_back({"tetrahedron",
+                  {{{n, n, n}, r}, {{n, -n, -n}, r}, {{-n, n, -n}, r}, {{-n, -n, n}, r}},
+                  4,
+                  2 * std::sqrt(6.0) * r,
+                  1 / (6 * sqrt2),
+                  1 / 20.0});
   list.push_back({"cube", cube<3>(r), 8, 2 * r, 1, 1 / 6.0});
   list.push_back({"octahedron", {}, 6, std::sqrt(6.0) * r, sqrt2 / 3, 0.1});
   add_family(list.back().planes, {1, 1, 1}, r);
-  list.push_back({"dodecahedron", {}, 20, 2 * r / std::sqrt(2.5 + 1.1 * sqrt5), (15 + 7 * sqrt5) / 4,
-                  (39 * phi + 28) / 150});
+  list.push_back(
+      {"dodecahedron", {}, 20, 2 * r / std::sqrt(2.5 + 1.1 * sqrt5), (15 + 7 * sqrt5) / 4, (39 * phi + 28) / 150});
   add_family(list.back().planes, {0, 1, phi}, r);
   list.push_back({"icosahedron", {}, 12, 2 * sqrt3 * r / (phi * phi), 5 * (3 + sqrt5) / 12, phi * phi / 10});
   add_family(list.back().planes, {1, 1, 1}, r);
@@ -157,7 +168,8 @@ HalfSpaces<Dim> placed(HalfSpaces<Dim> planes, const Matrix<Dim>& turn, const Ve
 
 template <int Dim>
 HalfSpaces<Dim> scaled(HalfSpaces<Dim> planes, double factor) {
-  for (HalfSpace<Dim>& p : planes) p.offset *= factor;
+  for (HalfSpace<Dim>& p : planes)
+    p.offset *= factor;
   return planes;
 }
 

@@ -1,0 +1,78 @@
+// Strength reduction of a block on a slope, whose critical angle is the slope's.
+#include "core/reduction/reduction.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/testing/models.hpp"
+
+namespace voussoir {
+namespace {
+
+using shapes::block_on_plate;
+using shapes::degree;
+using shapes::gravity;
+using shapes::index_of;
+
+// the bias formula is the leading term in an angle of 0.05 rad
+constexpr double bias_tolerance = 0.01;
+
+TEST(Reduction, ABlockOnASlopeFailsAtTheSlopesAngle) {
+  const double slope = 30 * degree;
+  Model<2> model = block_on_plate<2>(slope, 40 * degree);
+  for (const ReductionMethod method : {ReductionMethod::bisection, ReductionMethod::steps}) {
+    State<2> state = initial_state(model);
+    ReducePlan plan;
+    plan.method = method;
+    plan.from = 35 * degree;
+    plan.to = 27 * degree;
+    plan.tolerance = 0.1 * degree;
+    plan.step = 0.5 * degree;
+    plan.failure_displacement = 0.01;
+    const ReductionReport report = reduce<2>(model, {}, plan, state, {}, {});
+    ASSERT_TRUE(report.bracketed) << report.message;
+    EXPECT_GE(report.stable, slope - 1e-3 * degree);
+    EXPECT_LE(report.failed, slope + 1e-3 * degree);
+    EXPECT_NEAR(report.critical, slope, report.error_bar + 1e-3 * degree);
+    EXPECT_LE(report.error_bar, 0.25 * degree * (1 + 1e-12));
+    EXPECT_FALSE(report.rule.empty());
+  }
+}
+
+TEST(Reduction, AtConstantRateTheBiasIsTheOnePredicted) {
+  const double slope = 30 * degree;
+  Model<2> model = block_on_plate<2>(slope, 40 * degree);
+  model.bodies[index_of(model, "block")].free_rotation.fill(false);  // rocking would mix in
+  State<2> state = initial_state(model);
+  ReducePlan plan;
+  plan.method = ReductionMethod::rate;
+  plan.from = 32 * degree;
+  plan.to = 10 * degree;
+  plan.rate = 2 * degree;
+  plan.failure_displacement = 0.05;
+  const ReductionReport report = reduce<2>(model, {}, plan, state, {}, {});
+  ASSERT_TRUE(report.bracketed) << report.message;
+  const double bias = std::cbrt(6 * 0.05 * std::cos(slope) * plan.rate * plan.rate / (0.3 * gravity));
+  EXPECT_NEAR(slope - report.critical, bias, bias_tolerance * bias);
+}
+
+TEST(Reduction, SaysWhenTheSearchIsInTheWrongPlace) {
+  Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);
+  ReducePlan plan;
+  plan.from = 25 * degree;
+  plan.to = 20 * degree;
+  plan.tolerance = 0.1 * degree;
+  plan.failure_displacement = 0.01;
+  State<2> state = initial_state(model);
+  const ReductionReport low = reduce<2>(model, {}, plan, state, {}, {});
+  EXPECT_FALSE(low.bracketed);
+  EXPECT_NE(low.message.find("start higher"), std::string::npos) << low.message;
+  plan.from = 40 * degree;
+  plan.to = 35 * degree;
+  state = initial_state(model);
+  const ReductionReport high = reduce<2>(model, {}, plan, state, {}, {});
+  EXPECT_FALSE(high.bracketed);
+  EXPECT_NE(high.message.find("end lower"), std::string::npos) << high.message;
+}
+
+}  // namespace
+}  // namespace voussoir
