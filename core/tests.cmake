@@ -10,7 +10,7 @@ voussoir_test(unit.law_and_motion LABEL unit
   LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.contact LABEL unit
-  SOURCES contact/contact_test.cpp contact/broad_phase_test.cpp
+  SOURCES contact/contact_test.cpp contact/thin_contact_test.cpp contact/broad_phase_test.cpp
   LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.scene LABEL unit

@@ -125,8 +125,8 @@ Eigen::Matrix<double, Dim + 1, 1> meeting_point(const Basis<Dim>& basis, const H
   return solution;
 }
 
-// What the multipliers prove by weak duality whatever rounding did to them, for all x within the reach and with negative
-// ones left out: s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ.
+// What the multipliers prove by weak duality whatever rounding did to them, for all x within the reach and with
+// negative ones left out: s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ.
 template <int Dim>
 double proven_bound(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far, double reach) {
   Vector<Dim> residual = Vector<Dim>::Zero();
