@@ -19,9 +19,11 @@ struct Workload {
 void prepare(Workload& work, int kind, double depth) {
   Random random(20130 + kind);
   work.part = platonic(kind);
-  for (int i = 0; i < pair_count; ++i) work.pairs.push_back(pair_at(work.part, depth, random));
+  for (int i = 0; i < pair_count; ++i)
+    work.pairs.push_back(pair_at(work.part, depth, random));
   work.contacts.resize(pair_count);
-  for (Contact<3>& c : work.contacts) work.slots.push_back(&c);
+  for (Contact<3>& c : work.contacts)
+    work.slots.push_back(&c);
 }
 
 void resolve(benchmark::State& state, double depth, bool warm) {
@@ -34,7 +36,8 @@ void resolve(benchmark::State& state, double depth, bool warm) {
   counters = {};
   for (auto _ : state) {
     if (!warm)
-      for (Contact<3>& c : work.contacts) c.warm = {};
+      for (Contact<3>& c : work.contacts)
+        c.warm = {};
     narrow_phase<3>(work.pairs, settings, solvers, work.slots, counters);
     benchmark::DoNotOptimize(work.contacts.data());
   }
@@ -48,10 +51,18 @@ void resolve(benchmark::State& state, double depth, bool warm) {
   state.SetLabel(platonic_name(static_cast<int>(state.range(0))));
 }
 
-void touching_cold(benchmark::State& state) { resolve(state, overlap, false); }
-void touching_warm(benchmark::State& state) { resolve(state, overlap, true); }
-void separated_cold(benchmark::State& state) { resolve(state, gap, false); }
-void separated_warm(benchmark::State& state) { resolve(state, gap, true); }
+void touching_cold(benchmark::State& state) {
+  resolve(state, overlap, false);
+}
+void touching_warm(benchmark::State& state) {
+  resolve(state, overlap, true);
+}
+void separated_cold(benchmark::State& state) {
+  resolve(state, gap, false);
+}
+void separated_warm(benchmark::State& state) {
+  resolve(state, gap, true);
+}
 
 BENCHMARK(touching_cold)->DenseRange(0, 4);
 BENCHMARK(touching_warm)->DenseRange(0, 4);

@@ -27,7 +27,8 @@ inline Vector<3> direction(Random& random) {
 
 // circumradius 0.5: size 1
 inline Polytope<3> from_vertices(std::vector<Vector<3>> vertices) {
-  for (Vector<3>& v : vertices) v *= 0.5 / v.norm();
+  for (Vector<3>& v : vertices)
+    v *= 0.5 / v.norm();
   const HalfSpaces<3> planes = hull_planes<3>(vertices);
   const BlockResult<3> block = make_block<3>(planes, std::vector<int>(planes.size(), no_joint));
   if (block.status != BlockStatus::ok) throw std::logic_error("benchmark shape");
@@ -42,16 +43,27 @@ inline Polytope<3> platonic(int kind) {
     for (int s = 0; s < 8; ++s) {
       const Vector<3> p(s & 1 ? -x : x, s & 2 ? -y : y, s & 4 ? -z : z);
       bool known = false;
-      for (const Vector<3>& q : v) known = known || (q - p).norm() < 1e-12;
+      for (const Vector<3>& q : v)
+        known = known || (q - p).norm() < 1e-12;
       if (!known) v.push_back(p);
     }
   };
   switch (kind) {
-    case 0: v = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}; break;
-    case 1: signs(1, 1, 1); break;
-    case 2: signs(1, 0, 0), signs(0, 1, 0), signs(0, 0, 1); break;
-    case 3: signs(1, 1, 1), signs(0, 1 / g, g), signs(1 / g, g, 0), signs(g, 0, 1 / g); break;
-    default: signs(0, 1, g), signs(1, g, 0), signs(g, 0, 1); break;
+    case 0:
+      v = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+      break;
+    case 1:
+      signs(1, 1, 1);
+      break;
+    case 2:
+      signs(1, 0, 0), signs(0, 1, 0), signs(0, 0, 1);
+      break;
+    case 3:
+      signs(1, 1, 1), signs(0, 1 / g, g), signs(1 / g, g, 0), signs(g, 0, 1 / g);
+      break;
+    default:
+      signs(0, 1, g), signs(1, g, 0), signs(g, 0, 1);
+      break;
   }
   return from_vertices(v);
 }
@@ -67,8 +79,7 @@ inline Pair<3> pair_at(const Polytope<3>& part, double depth, Random& random) {
   Pair<3> pair;
   pair.a = pair.b = &part;
   pair.axes.setIdentity();
-  pair.rotation =
-      Eigen::AngleAxisd(uniform(random, 0, 3), direction(random)).toRotationMatrix();
+  pair.rotation = Eigen::AngleAxisd(uniform(random, 0, 3), direction(random)).toRotationMatrix();
   const Vector<3> along = direction(random);
   double near = 0, far = 2;
   HalfSpaces<3> planes;

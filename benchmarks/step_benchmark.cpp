@@ -31,7 +31,8 @@ void stack(benchmark::State& state) {
   goal.step_limit = 200;
   run(model, settings, goal, {}, now);
   const Counters before = now.counters;
-  for (auto _ : state) step(model, settings, now);
+  for (auto _ : state)
+    step(model, settings, now);
   const double steps = static_cast<double>(now.counters.steps - before.steps);
   state.counters["contacts_per_step"] =
       static_cast<double>(now.counters.contact_evaluations - before.contact_evaluations) / steps;

@@ -1,4 +1,5 @@
-// What the cases' narrated tests share: run a scene of the case's folder, look into its results, write data for figures.
+// What the cases' narrated tests share: run a scene of the case's folder, look into its results, write data for
+// figures.
 #pragma once
 
 #include <algorithm>
@@ -48,10 +49,12 @@ inline void write_csv(const std::string& case_name, const std::string& file, con
                       const std::vector<std::vector<double>>& columns) {
   std::ofstream out(verification::case_output(case_name) / file);
   out.precision(12);
-  for (std::size_t k = 0; k < header.size(); ++k) out << (k ? "," : "") << header[k];
+  for (std::size_t k = 0; k < header.size(); ++k)
+    out << (k ? "," : "") << header[k];
   out << '\n';
   for (std::size_t r = 0; r < columns.front().size(); ++r) {
-    for (std::size_t k = 0; k < columns.size(); ++k) out << (k ? "," : "") << columns[k][r];
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      out << (k ? "," : "") << columns[k][r];
     out << '\n';
   }
   if (!out) throw std::runtime_error("cannot write " + file);

@@ -14,8 +14,7 @@ void find_principal_axes(Body<2>& body, const MassProperties<2>& mass, double de
 void find_principal_axes(Body<3>& body, const MassProperties<3>& mass, double density) {
   const Matrix<3> tensor = density * inertia_tensor(mass);
   // axes that are principal already, to rounding, stay as they are: eigenvectors of equal moments are arbitrary
-  const double off_diagonal =
-      std::max({std::abs(tensor(0, 1)), std::abs(tensor(0, 2)), std::abs(tensor(1, 2))});
+  const double off_diagonal = std::max({std::abs(tensor(0, 1)), std::abs(tensor(0, 2)), std::abs(tensor(1, 2))});
   if (off_diagonal <= 1e-13 * tensor.trace()) {
     body.inertia = tensor.diagonal();
     return;
@@ -29,7 +28,8 @@ void find_principal_axes(Body<3>& body, const MassProperties<3>& mass, double de
 template <int Dim>
 double volume(const Body<Dim>& body) {
   double sum = 0;
-  for (const Polytope<Dim>& p : body.parts) sum += p.mass.volume;
+  for (const Polytope<Dim>& p : body.parts)
+    sum += p.mass.volume;
   return sum;
 }
 
@@ -43,9 +43,8 @@ const Joint<Dim>& joint_named(const Model<Dim>& model, const std::string& name) 
 template <int Dim>
 bool contains(const Body<Dim>& body, const Vector<Dim>& point) {
   return std::any_of(body.parts.begin(), body.parts.end(), [&](const Polytope<Dim>& part) {
-    return std::all_of(part.faces.begin(), part.faces.end(), [&](const HalfSpace<Dim>& f) {
-      return signed_distance<Dim>(f, point - body.reference) <= 0;
-    });
+    return std::all_of(part.faces.begin(), part.faces.end(),
+                       [&](const HalfSpace<Dim>& f) { return signed_distance<Dim>(f, point - body.reference) <= 0; });
   });
 }
 
@@ -79,16 +78,19 @@ std::vector<int> select(const Model<Dim>& model, const Selector& selector) {
 template <int Dim>
 Model<Dim> apply(Model<Dim> model, const Change& change) {
   for (const Selector& s : change.fix)
-    for (int b : select(model, s)) model.bodies[b].fixed = true;
+    for (int b : select(model, s))
+      model.bodies[b].fixed = true;
   for (const Selector& s : change.release)
-    for (int b : select(model, s)) model.bodies[b].fixed = false;
+    for (int b : select(model, s))
+      model.bodies[b].fixed = false;
   for (const Selector& s : change.remove)
     for (int b : select(model, s)) {
       model.bodies[b].present = false;
       model.bodies[b].fixed = true;
     }
   if (change.friction)
-    for (JointProperties& p : model.properties) p.friction = *change.friction;
+    for (JointProperties& p : model.properties)
+      p.friction = *change.friction;
   return model;
 }
 

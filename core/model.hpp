@@ -15,17 +15,17 @@ namespace voussoir {
 
 template <int Dim>
 struct Body {
-  std::string name;                                    // empty when the scene gave none
-  std::vector<Polytope<Dim>> parts;                    // one or more, in the body's frame: origin at its centroid
-  Vector<Dim> reference = Vector<Dim>::Zero();         // centroid at the start, m
-  double mass = 0;                                     // kg (2-D: per metre)
-  Spin<Dim> inertia = Spin<Dim>::Zero();               // principal moments, kg m²
-  Matrix<Dim> principal_axes = Matrix<Dim>::Identity();// columns in the body's frame
-  double radius = 0;                                   // largest distance of a vertex from the centroid, m
-  double size = 0;                                     // smallest inscribed radius of its parts, m
+  std::string name;                                      // empty when the scene gave none
+  std::vector<Polytope<Dim>> parts;                      // one or more, in the body's frame: origin at its centroid
+  Vector<Dim> reference = Vector<Dim>::Zero();           // centroid at the start, m
+  double mass = 0;                                       // kg (2-D: per metre)
+  Spin<Dim> inertia = Spin<Dim>::Zero();                 // principal moments, kg m²
+  Matrix<Dim> principal_axes = Matrix<Dim>::Identity();  // columns in the body's frame
+  double radius = 0;                                     // largest distance of a vertex from the centroid, m
+  double size = 0;                                       // smallest inscribed radius of its parts, m
   bool fixed = false;
-  bool present = true;                                 // false once excavated: ids never change
-  std::array<bool, Dim> free_translation;              // world axes; all true unless restrained
+  bool present = true;                     // false once excavated: ids never change
+  std::array<bool, Dim> free_translation;  // world axes; all true unless restrained
   std::array<bool, spin_freedoms<Dim>> free_rotation;
 };
 
@@ -33,8 +33,8 @@ struct Body {
 template <int Dim>
 struct Joint {
   std::string name;
-  HalfSpace<Dim> plane;                                // upward normal
-  int properties = 0;                                  // index into Model::properties
+  HalfSpace<Dim> plane;  // upward normal
+  int properties = 0;    // index into Model::properties
 };
 
 // a convex part of a body: contacts are between parts
@@ -44,19 +44,20 @@ struct PartId {
 
 template <int Dim>
 struct Model {
-  Vector<Dim> origin = Vector<Dim>::Zero();            // world = origin + model coordinates, m
-  std::vector<Body<Dim>> bodies;                       // ids are places in this list: canonical order, never changed
-  std::vector<PartId> parts;                           // every part, by body
+  Vector<Dim> origin = Vector<Dim>::Zero();  // world = origin + model coordinates, m
+  std::vector<Body<Dim>> bodies;             // ids are places in this list: canonical order, never changed
+  std::vector<PartId> parts;                 // every part, by body
   std::vector<Joint<Dim>> joints;
   std::vector<JointProperties> properties;
-  int default_properties = 0;                          // of contacts between faces that no joint made
-  Vector<Dim> gravity = Vector<Dim>::Zero();           // m/s²
-  Solvers<Dim> solvers;                                // the two convex programs' solvers in use
+  int default_properties = 0;                 // of contacts between faces that no joint made
+  Vector<Dim> gravity = Vector<Dim>::Zero();  // m/s²
+  Solvers<Dim> solvers;                       // the two convex programs' solvers in use
 
   const Polytope<Dim>& polytope(int part) const { return bodies[parts[part].body].parts[parts[part].part]; }
 };
 
-// A body from its parts (common frame, m) and density (kg/m³): moves them to the centroid, finds mass and principal axes.
+// A body from its parts (common frame, m) and density (kg/m³): moves them to the centroid, finds mass and principal
+// axes.
 template <int Dim>
 Body<Dim> make_body(std::vector<Polytope<Dim>> parts, double density);
 
@@ -69,8 +70,8 @@ template <int Dim>
 void list_parts(Model<Dim>& model);
 
 // The bodies a selector names, in ascending order. Sides are those of a body's reference centroid, `inside` (world
-// coordinates) tests its parts; several conditions must all hold. An unknown name throws std::out_of_range with the name;
-// choosing none is not an error here.
+// coordinates) tests its parts; several conditions must all hold. An unknown name throws std::out_of_range with the
+// name; choosing none is not an error here.
 template <int Dim>
 std::vector<int> select(const Model<Dim>& model, const Selector& selector);
 

@@ -13,7 +13,8 @@ const char* const axis_names[] = {"x", "y", "z"};
 
 template <int Dim>
 void append_vector(std::vector<Column>& columns, const std::string& name, const std::string& unit) {
-  for (int k = 0; k < Dim; ++k) columns.push_back({name + "_" + axis_names[k], unit});
+  for (int k = 0; k < Dim; ++k)
+    columns.push_back({name + "_" + axis_names[k], unit});
 }
 
 // what all touching contacts of a body exert on it
@@ -62,8 +63,12 @@ std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
   std::vector<Column> columns;
   for (const Monitor& m : monitors) {
     switch (m.quantity) {
-      case Quantity::displacement: append_vector<Dim>(columns, m.name + "_displacement", "m"); break;
-      case Quantity::velocity: append_vector<Dim>(columns, m.name + "_velocity", "m/s"); break;
+      case Quantity::displacement:
+        append_vector<Dim>(columns, m.name + "_displacement", "m");
+        break;
+      case Quantity::velocity:
+        append_vector<Dim>(columns, m.name + "_velocity", "m/s");
+        break;
       case Quantity::rotation:
         if (Dim == 2)
           columns.push_back({m.name + "_rotation", "deg"});
@@ -76,7 +81,9 @@ std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
         else
           append_vector<Dim>(columns, m.name + "_angular_velocity", "rad/s");
         break;
-      case Quantity::contact_load: append_vector<Dim>(columns, m.name + "_contact_load", "N"); break;
+      case Quantity::contact_load:
+        append_vector<Dim>(columns, m.name + "_contact_load", "N");
+        break;
       case Quantity::contact_force:
         columns.push_back({m.name + "_normal_force", "N"});
         columns.push_back({m.name + "_shear_force", "N"});
@@ -97,12 +104,24 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
   const auto append = [&](const auto& v) { values.insert(values.end(), v.data(), v.data() + v.size()); };
   for (const Monitor& m : monitors) {
     switch (m.quantity) {
-      case Quantity::displacement: append(state.motions[m.subject].displacement); break;
-      case Quantity::velocity: append(state.motions[m.subject].velocity); break;
-      case Quantity::rotation: append((degrees * rotation_vector(state.motions[m.subject].rotation)).eval()); break;
-      case Quantity::angular_velocity: append(angular_velocity(model.bodies[m.subject], state.motions[m.subject])); break;
-      case Quantity::contact_load: append(contact_load(m.subject, model, state)); break;
-      case Quantity::contact_force: append_joint(values, m.subject, model, state); break;
+      case Quantity::displacement:
+        append(state.motions[m.subject].displacement);
+        break;
+      case Quantity::velocity:
+        append(state.motions[m.subject].velocity);
+        break;
+      case Quantity::rotation:
+        append((degrees * rotation_vector(state.motions[m.subject].rotation)).eval());
+        break;
+      case Quantity::angular_velocity:
+        append(angular_velocity(model.bodies[m.subject], state.motions[m.subject]));
+        break;
+      case Quantity::contact_load:
+        append(contact_load(m.subject, model, state));
+        break;
+      case Quantity::contact_force:
+        append_joint(values, m.subject, model, state);
+        break;
     }
   }
   return values;
@@ -120,7 +139,8 @@ bool StageRecord::due(double time) {
 void StageRecord::add(std::vector<double> row) {
   rows_.push_back(std::move(row));
   if (interval_ > 0 || rows_.size() < rows_kept) return;
-  for (std::size_t i = 1; 2 * i < rows_.size(); ++i) rows_[i] = std::move(rows_[2 * i]);
+  for (std::size_t i = 1; 2 * i < rows_.size(); ++i)
+    rows_[i] = std::move(rows_[2 * i]);
   rows_.resize((rows_.size() + 1) / 2);
   spacing_ *= 2;
 }

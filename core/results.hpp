@@ -16,18 +16,18 @@ enum class Outcome { done, incomplete, failed };
 
 struct Value {
   double value = 0;
-  std::string unit;                      // "deg", "m", "1" …
-  std::optional<double> error_bar;       // same unit: half width of what the method leaves open
-  std::string rule;                      // how it was found; may be empty
+  std::string unit;                 // "deg", "m", "1" …
+  std::optional<double> error_bar;  // same unit: half width of what the method leaves open
+  std::string rule;                 // how it was found; may be empty
 };
 
 struct StageResult {
-  std::string name, kind;                // kind: settle, run, reduce
-  std::string ended;                     // why it stopped, e.g. "equilibrium", "end time", "bracket closed"
+  std::string name, kind;  // kind: settle, run, reduce
+  std::string ended;       // why it stopped, e.g. "equilibrium", "end time", "bracket closed"
   long long steps = 0;
-  double time = 0;                       // s simulated within the stage
-  double time_step = 0;                  // s at its end
-  double unbalanced = 0;                 // the equilibrium measure at its end
+  double time = 0;        // s simulated within the stage
+  double time_step = 0;   // s at its end
+  double unbalanced = 0;  // the equilibrium measure at its end
 };
 
 // column names carry their unit: time_s, wedge_displacement_x_m, friction_deg …
@@ -38,12 +38,12 @@ struct History {
 
 struct Results {
   Outcome outcome = Outcome::done;
-  std::string message;                   // one line: why it is incomplete or failed
-  std::vector<std::pair<std::string, Value>> values;   // in the order found; names unique
+  std::string message;                                // one line: why it is incomplete or failed
+  std::vector<std::pair<std::string, Value>> values;  // in the order found; names unique
   std::vector<StageResult> stages;
   History history;
   Counters counters;
-  double seconds = 0;                    // wall clock
+  double seconds = 0;  // wall clock
 
   const Value* find(const std::string& name) const {
     for (const auto& [key, value] : values)

@@ -22,7 +22,8 @@ bool follow(const RunSchedule& plan, State<Dim>& state) {
   }
   if (plan.friction_rate > 0) {
     const double friction = std::max(plan.friction_to, plan.friction_from - plan.friction_rate * elapsed);
-    for (int p : plan.properties) state.schedule.friction[p] = friction;
+    for (int p : plan.properties)
+      state.schedule.friction[p] = friction;
     changing = changing || friction > plan.friction_to;
   }
   return changing;
@@ -40,18 +41,25 @@ double farthest(const Model<Dim>& model, const State<Dim>& state, const std::vec
 template <int Dim>
 bool finite(const State<Dim>& state) {
   double sum = 0;
-  for (const Load<Dim>& l : state.loads) sum += l.force.sum() + l.moment.sum();
+  for (const Load<Dim>& l : state.loads)
+    sum += l.force.sum() + l.moment.sum();
   return std::isfinite(sum);
 }
 
 const char* name(ContactStatus status) {
   switch (status) {
-    case ContactStatus::separated: return "separated";
-    case ContactStatus::touching: return "touching";
-    case ContactStatus::lp_not_converged: return "the LP did not converge";
-    case ContactStatus::centre_not_converged: return "the analytic centre did not converge";
-    case ContactStatus::no_normal: return "no normal was found";
-    case ContactStatus::no_face: return "a search along the normal met no face";
+    case ContactStatus::separated:
+      return "separated";
+    case ContactStatus::touching:
+      return "touching";
+    case ContactStatus::lp_not_converged:
+      return "the LP did not converge";
+    case ContactStatus::centre_not_converged:
+      return "the analytic centre did not converge";
+    case ContactStatus::no_normal:
+      return "no normal was found";
+    case ContactStatus::no_face:
+      return "a search along the normal met no face";
   }
   return "unknown";
 }
@@ -69,13 +77,20 @@ std::string first_unanswered(const Model<Dim>& model, const State<Dim>& state) {
 
 std::string describe(StopReason reason) {
   switch (reason) {
-    case StopReason::equilibrium: return "equilibrium";
-    case StopReason::end_time: return "end time";
-    case StopReason::moved_away: return "failure displacement passed";
-    case StopReason::step_limit: return "step limit";
-    case StopReason::time_limit: return "time limit";
-    case StopReason::no_contact_answer: return "a contact found no answer";
-    case StopReason::not_finite: return "a force is not finite";
+    case StopReason::equilibrium:
+      return "equilibrium";
+    case StopReason::end_time:
+      return "end time";
+    case StopReason::moved_away:
+      return "failure displacement passed";
+    case StopReason::step_limit:
+      return "step limit";
+    case StopReason::time_limit:
+      return "time limit";
+    case StopReason::no_contact_answer:
+      return "a contact found no answer";
+    case StopReason::not_finite:
+      return "a force is not finite";
   }
   return "unknown";
 }

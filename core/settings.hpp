@@ -18,8 +18,8 @@ struct ContactSettings {
   CentreSolver centre = CentreSolver::own;
   ContactPoint point = ContactPoint::analytic_centre;
 
-  // two parts touch when the LP's optimum lies below -tolerance times the smaller inscribed radius; below 64 ulp the sign
-  // is rounding, far above it contacts are found late
+  // two parts touch when the LP's optimum lies below -tolerance times the smaller inscribed radius; below 64 ulp the
+  // sign is rounding, far above it contacts are found late
   double tolerance = 1e-13;
 
   // radius r of the inner potential particle that rounds the normal at edges, times the smaller inscribed radius; must
@@ -30,8 +30,9 @@ struct ContactSettings {
   double newton_tolerance = 1e-5;
   int newton_limit = 200;
 
-  // parts closer than this times the smallest inscribed radius are candidates. At a stated time step it changes the cost,
-  // never the result; the estimated step takes every candidate for a possible impact, so it grows a little with fewer
+  // parts closer than this times the smallest inscribed radius are candidates. At a stated time step it changes the
+  // cost, never the result; the estimated step takes every candidate for a possible impact, so it grows a little with
+  // fewer
   double skin = 0.1;
 };
 
@@ -72,15 +73,15 @@ struct Settings {
 
 // run to equilibrium
 struct SettlePlan {
-  double gravity_ramp = 0;     // s: gravity grows from 0 to full within this time
-  double time_limit = 1e9;     // s
+  double gravity_ramp = 0;  // s: gravity grows from 0 to full within this time
+  double time_limit = 1e9;  // s
   long long step_limit = 1'000'000;
 };
 
 // run for a given time
 struct RunPlan {
-  double duration = 0;         // s
-  double gravity_ramp = 0;     // s
+  double duration = 0;      // s
+  double gravity_ramp = 0;  // s
 };
 
 enum class ReductionMethod { bisection, steps, rate };
@@ -88,36 +89,36 @@ enum class ReductionMethod { bisection, steps, rate };
 // lower the friction angle of joints until the model fails (method.md section 6)
 struct ReducePlan {
   ReductionMethod method = ReductionMethod::bisection;
-  std::vector<std::string> properties;       // joint properties to reduce; empty: all
-  double from = 0, to = 0;                   // rad: start (stable) and end of the search
-  double tolerance = 0;                      // rad, bisection: largest bracket at the end
-  double step = 0;                           // rad, steps: decrement
-  double rate = 0;                           // rad/s, rate: speed of reduction
-  double failure_displacement = 0;           // m: a body that has moved this far since the trial began has failed;
-                                             // 0: a tenth of the smallest inscribed radius
-  long long ramp_steps = 500;                // steps over which a trial lowers the friction; few: inertia breaks the path
-  long long step_limit = 1'000'000;          // for one trial
+  std::vector<std::string> properties;  // joint properties to reduce; empty: all
+  double from = 0, to = 0;              // rad: start (stable) and end of the search
+  double tolerance = 0;                 // rad, bisection: largest bracket at the end
+  double step = 0;                      // rad, steps: decrement
+  double rate = 0;                      // rad/s, rate: speed of reduction
+  double failure_displacement = 0;      // m: a body that has moved this far since the trial began has failed;
+                                        // 0: a tenth of the smallest inscribed radius
+  long long ramp_steps = 500;           // steps over which a trial lowers the friction; few: inertia breaks the path
+  long long step_limit = 1'000'000;     // for one trial
 };
 
 // a choice of bodies: all that satisfy every condition given; sides refer to a joint's upward normal
 struct Selector {
   bool all = false;
-  std::vector<std::string> names;            // bodies or joints' sides by name
-  std::vector<std::string> above, below;     // joints
-  std::optional<std::vector<double>> inside; // m: a point in the body
+  std::vector<std::string> names;             // bodies or joints' sides by name
+  std::vector<std::string> above, below;      // joints
+  std::optional<std::vector<double>> inside;  // m: a point in the body
 };
 
 // what changes in the model between two stages
 struct Change {
   std::vector<Selector> fix, release, remove;
-  std::optional<double> friction;            // rad: new friction angle of every joint
+  std::optional<double> friction;  // rad: new friction angle of every joint
 };
 
 struct StagePlan {
   std::string name;
   std::variant<SettlePlan, RunPlan, ReducePlan> plan;
-  Change change;                             // applied before the stage begins
-  std::optional<DampingSettings> damping;    // replaces the scene's within this stage
+  Change change;                           // applied before the stage begins
+  std::optional<DampingSettings> damping;  // replaces the scene's within this stage
 };
 
 enum class Quantity { displacement, velocity, rotation, angular_velocity, contact_load, contact_force };
@@ -126,13 +127,13 @@ enum class Quantity { displacement, velocity, rotation, angular_velocity, contac
 struct MonitorPlan {
   std::string name;
   Quantity quantity = Quantity::displacement;
-  Selector body;                             // every quantity but contact_force
-  std::string joint;                         // contact_force
+  Selector body;      // every quantity but contact_force
+  std::string joint;  // contact_force
 };
 
 struct OutputPlan {
-  double history_interval = 0;               // s between rows of history.csv; 0: about 200 rows a stage
-  double frame_interval = 0;                 // s between ParaView frames; 0: at the end of each stage only
+  double history_interval = 0;  // s between rows of history.csv; 0: about 200 rows a stage
+  double frame_interval = 0;    // s between ParaView frames; 0: at the end of each stage only
   bool frames = true;
 };
 

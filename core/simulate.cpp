@@ -28,10 +28,10 @@ struct Simulation {
   Results results;
   Model<Dim> model;
   State<Dim> state;
-  Settings settings;          // of the stage
-  int stage = 0;              // from 0
-  long long steps_before = 0; // of the stages that ended
-  double next_frame = 0;      // s
+  Settings settings;           // of the stage
+  int stage = 0;               // from 0
+  long long steps_before = 0;  // of the stages that ended
+  double next_frame = 0;       // s
 
   // a row of the history: time, friction angle, monitors
   std::vector<double> row(const State<Dim>& now) const {
@@ -44,7 +44,8 @@ struct Simulation {
 
   void prepare_history() {
     results.history.columns = {"time_s", "stage", "friction_deg"};
-    for (const Column& c : monitor_columns<Dim>(scene.monitors)) results.history.columns.push_back(c.header());
+    for (const Column& c : monitor_columns<Dim>(scene.monitors))
+      results.history.columns.push_back(c.header());
   }
 
   void frame(const State<Dim>& now) {
@@ -79,7 +80,8 @@ struct Simulation {
   }
 
   void finish_rows(StageRecord& record) {
-    for (std::vector<double>& r : record.take()) results.history.rows.push_back(std::move(r));
+    for (std::vector<double>& r : record.take())
+      results.history.rows.push_back(std::move(r));
     std::vector<double> last = row(state);
     if (results.history.rows.empty() || results.history.rows.back() != last)
       results.history.rows.push_back(std::move(last));
@@ -164,7 +166,8 @@ struct Simulation {
       state.motions[b].angular_momentum.setZero();
     }
     if (plan.change.friction)
-      for (std::size_t p = 0; p < model.properties.size(); ++p) state.schedule.friction[p] = model.properties[p].friction;
+      for (std::size_t p = 0; p < model.properties.size(); ++p)
+        state.schedule.friction[p] = model.properties[p].friction;
     // candidates and time step belong to the stage
     state.built.clear();
     state.frequency.clear();
@@ -213,12 +216,8 @@ struct Simulation {
 template <int Dim>
 Results simulate(Prepared<Dim> scene, const Watcher<Dim>& watcher) {
   const auto begin = std::chrono::steady_clock::now();
-  Simulation<Dim> simulation{.scene = std::move(scene),
-                             .watcher = watcher,
-                             .results = {},
-                             .model = {},
-                             .state = {},
-                             .settings = {}};
+  Simulation<Dim> simulation{
+      .scene = std::move(scene), .watcher = watcher, .results = {}, .model = {}, .state = {}, .settings = {}};
   simulation.model = simulation.scene.model;
   simulation.state = simulation.scene.state;
   simulation.execute_all();

@@ -65,8 +65,12 @@ int joint_of(const Model<Dim>& model, const Contact<Dim>& c) {
                   model.polytope(c.part_b).joints[c.geometry.face_b]);
 }
 
-double spin_about(const Vector<3>& normal, const Spin<3>& a, const Spin<3>& b) { return 0.5 * normal.dot(a + b); }
-double spin_about(const Vector<2>&, const Spin<2>&, const Spin<2>&) { return 0; }
+double spin_about(const Vector<3>& normal, const Spin<3>& a, const Spin<3>& b) {
+  return 0.5 * normal.dot(a + b);
+}
+double spin_about(const Vector<2>&, const Spin<2>&, const Spin<2>&) {
+  return 0;
+}
 
 template <int Dim>
 bool needs_area(const Model<Dim>& model) {
@@ -119,7 +123,8 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   std::vector<Contact<Dim>> renewed;
   auto old = state.contacts.begin();
   for (const auto& [a, b] : overlapping_pairs(boxes(model, state, skin))) {
-    while (old != state.contacts.end() && std::pair(old->part_a, old->part_b) < std::pair(a, b)) ++old;
+    while (old != state.contacts.end() && std::pair(old->part_a, old->part_b) < std::pair(a, b))
+      ++old;
     if (old != state.contacts.end() && old->part_a == a && old->part_b == b) {
       renewed.push_back(*old);
       continue;
@@ -131,7 +136,8 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   }
   state.contacts = std::move(renewed);
   state.built.clear();
-  for (const Motion<Dim>& m : state.motions) state.built.push_back({m.displacement, m.rotation});
+  for (const Motion<Dim>& m : state.motions)
+    state.built.push_back({m.displacement, m.rotation});
   ++state.counters.neighbour_builds;
 }
 
@@ -140,7 +146,8 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
   const int count = static_cast<int>(state.contacts.size());
   KernelCounters total;
   if (settings.threads == 1) {
-    for (Contact<Dim>& c : state.contacts) resolve(model, settings, state, c, total);
+    for (Contact<Dim>& c : state.contacts)
+      resolve(model, settings, state, c, total);
     add(state.counters, total);
   } else {
     Counters& counters = state.counters;
@@ -148,7 +155,8 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
     {
       KernelCounters own;
 #pragma omp for schedule(static)
-      for (int i = 0; i < count; ++i) resolve(model, settings, state, state.contacts[i], own);
+      for (int i = 0; i < count; ++i)
+        resolve(model, settings, state, state.contacts[i], own);
 #pragma omp critical
       add(counters, own);
     }
@@ -169,9 +177,9 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
     const Vector<Dim>& n = c.geometry.normal;
     const Spin<Dim> spin_a = angular_velocity(model.bodies[a], state.motions[a]);
     const Spin<Dim> spin_b = angular_velocity(model.bodies[b], state.motions[b]);
-    const Vector<Dim> velocity =
-        state.motions[b].velocity + cross(spin_b, c.geometry.point - between(model, state, a, b)) -
-        state.motions[a].velocity - cross(spin_a, c.geometry.point);
+    const Vector<Dim> velocity = state.motions[b].velocity +
+                                 cross(spin_b, c.geometry.point - between(model, state, a, b)) -
+                                 state.motions[a].velocity - cross(spin_a, c.geometry.point);
 
     JointKinematics<Dim> k;
     k.normal = n;
@@ -194,8 +202,8 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
                                   (model.bodies[b].fixed ? 0 : 1 / model.bodies[b].mass);
       dashpot = 2 * settings.damping.viscous_ratio * std::sqrt(properties.normal_stiffness * k.area / inverse_mass);
     }
-    const JointForce<Dim> answer = elastic_coulomb<Dim>(properties, state.schedule.friction[c.properties], dashpot, k,
-                                                        c.history.shear_force);
+    const JointForce<Dim> answer =
+        elastic_coulomb<Dim>(properties, state.schedule.friction[c.properties], dashpot, k, c.history.shear_force);
     c.force = answer.force;
     c.history.normal = n;
     c.history.plastic_slip += answer.plastic_slip;
@@ -229,21 +237,23 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
     const double step = estimate_time_step(model, settings, settings.damping, state).step;
     state.step_allowed = state.step_allowed > 0 ? std::min(state.step_allowed, step) : step;
     if (!(state.step_allowed > 0))
-      throw std::domain_error("no contact and no joint property determines the time step: state time.step_s in the scene");
+      throw std::domain_error(
+          "no contact and no joint property determines the time step: state time.step_s in the scene");
   }
   state.time_step = state.step_allowed;
 
   const StepTimes times{0.5 * (last + state.time_step), state.time_step};
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].fixed) advance(model.bodies[b], state.loads[b], settings.damping.local, times, state.motions[b]);
+    if (!model.bodies[b].fixed)
+      advance(model.bodies[b], state.loads[b], settings.damping.local, times, state.motions[b]);
   state.time += state.time_step;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                     \
-  template void find_neighbours<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
-  template void find_contacts<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);   \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                       \
+  template void find_neighbours<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);  \
+  template void find_contacts<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);    \
   template void apply_joint_laws<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
-  template void sum_loads<Dim>(const Model<Dim>&, State<Dim>&);                        \
+  template void sum_loads<Dim>(const Model<Dim>&, State<Dim>&);                         \
   template void move_bodies<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -16,7 +16,8 @@ State<Dim> initial_state(const Model<Dim>& model) {
   State<Dim> state;
   state.motions.resize(model.bodies.size());
   state.loads.resize(model.bodies.size());
-  for (const JointProperties& p : model.properties) state.schedule.friction.push_back(p.friction);
+  for (const JointProperties& p : model.properties)
+    state.schedule.friction.push_back(p.friction);
   return state;
 }
 

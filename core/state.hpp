@@ -1,4 +1,5 @@
-// The changing side of a simulation. Positions are reference + displacement, so small steps far from the origin survive.
+// The changing side of a simulation. Positions are reference + displacement, so small steps far from the origin
+// survive.
 #pragma once
 
 #include <array>
@@ -12,56 +13,56 @@ namespace voussoir {
 
 template <int Dim>
 struct Motion {
-  Vector<Dim> displacement = Vector<Dim>::Zero();       // m
-  Rotation<Dim> rotation;                               // of the body's frame
-  Vector<Dim> velocity = Vector<Dim>::Zero();           // m/s, half a step behind the displacement
-  Spin<Dim> angular_momentum = Spin<Dim>::Zero();       // principal axes, kg m²/s, half a step behind
+  Vector<Dim> displacement = Vector<Dim>::Zero();  // m
+  Rotation<Dim> rotation;                          // of the body's frame
+  Vector<Dim> velocity = Vector<Dim>::Zero();      // m/s, half a step behind the displacement
+  Spin<Dim> angular_momentum = Spin<Dim>::Zero();  // principal axes, kg m²/s, half a step behind
 };
 
 // where a body stands
 template <int Dim>
 struct Placement {
-  Vector<Dim> displacement;                             // m
+  Vector<Dim> displacement;  // m
   Rotation<Dim> rotation;
 };
 
 // what the last step did to a body; rebuilt every step
 template <int Dim>
 struct Load {
-  Vector<Dim> force = Vector<Dim>::Zero();              // N, before damping
-  Spin<Dim> moment = Spin<Dim>::Zero();                 // N m about the centroid, before damping
+  Vector<Dim> force = Vector<Dim>::Zero();  // N, before damping
+  Spin<Dim> moment = Spin<Dim>::Zero();     // N m about the centroid, before damping
 };
 
 // values that vary within a stage
 struct Schedule {
   double gravity_factor = 1;
-  std::vector<double> friction;                         // rad, for each of Model::properties
-  double started = 0;                                   // s: when the schedules began to run
+  std::vector<double> friction;  // rad, for each of Model::properties
+  double started = 0;            // s: when the schedules began to run
 };
 
 struct Counters {
   long long steps = 0;
-  long long contact_evaluations = 0;                    // pairs that went through the narrow phase
+  long long contact_evaluations = 0;  // pairs that went through the narrow phase
   long long lp_solves = 0;
   long long lp_pivots = 0;
   long long newton_iterations = 0;
-  long long unconverged = 0;                            // contacts without an answer: the run fails
-  long long normal_fallbacks = 0;                       // normals taken from a face or from the LP's multipliers
-  long long deep_overlaps = 0;                          // overlaps beyond the potential particle's radius
+  long long unconverged = 0;       // contacts without an answer: the run fails
+  long long normal_fallbacks = 0;  // normals taken from a face or from the LP's multipliers
+  long long deep_overlaps = 0;     // overlaps beyond the potential particle's radius
   long long neighbour_builds = 0;
 };
 
 template <int Dim>
 struct State {
-  std::vector<Motion<Dim>> motions;                     // by body
-  std::vector<Load<Dim>> loads;                         // by body
-  std::vector<Contact<Dim>> contacts;                   // candidate pairs by (part a, part b); those that touch carry history
-  std::vector<Placement<Dim>> built;                    // where the bodies stood when the candidates were last listed
-  std::vector<double> frequency;                        // rad/s, by body: stiffest mode of the last time-step estimate
+  std::vector<Motion<Dim>> motions;    // by body
+  std::vector<Load<Dim>> loads;        // by body
+  std::vector<Contact<Dim>> contacts;  // candidate pairs by (part a, part b); those that touch carry history
+  std::vector<Placement<Dim>> built;   // where the bodies stood when the candidates were last listed
+  std::vector<double> frequency;       // rad/s, by body: stiffest mode of the last time-step estimate
   Schedule schedule;
-  double time = 0;                                      // s
-  double time_step = 0;                                 // s: of the last step; 0 at the start
-  double step_allowed = 0;                              // s: of the next; 0: to be estimated
+  double time = 0;          // s
+  double time_step = 0;     // s: of the last step; 0 at the start
+  double step_allowed = 0;  // s: of the next; 0: to be estimated
   Counters counters;
 };
 
@@ -69,9 +70,9 @@ struct State {
 template <int Dim>
 struct Progress {
   State<Dim> now;
-  State<Dim> base;                                      // last stable state of a strength reduction
+  State<Dim> base;  // last stable state of a strength reduction
   int stage = 0;
-  double stable = 0, failed = 0;                        // rad: the bracket of a reduction
+  double stable = 0, failed = 0;  // rad: the bracket of a reduction
 };
 
 // rest at the reference configuration

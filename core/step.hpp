@@ -7,7 +7,8 @@
 
 namespace voussoir {
 
-// Advances the state by one step. Contacts that found no answer are counted in state.counters.unconverged; the caller stops.
+// Advances the state by one step. Contacts that found no answer are counted in state.counters.unconverged; the caller
+// stops.
 template <int Dim>
 void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 

@@ -138,7 +138,8 @@ std::vector<std::string> violations(const std::vector<SourceFile>& sources) {
   std::vector<std::string> found;
   std::set<std::string> unknown_rooms;
   const auto check_room = [&](const std::string& path) {
-    if (top_folder(path) == "core" && room_of(path) != "testing" && !layer_of(room_of(path)) && unknown_rooms.insert(room_of(path)).second)
+    if (top_folder(path) == "core" && room_of(path) != "testing" && !layer_of(room_of(path)) &&
+        unknown_rooms.insert(room_of(path)).second)
       found.push_back(fmt::format("core/{} has no floor: give it one in verification/architecture.cpp", room_of(path)));
   };
 

@@ -16,6 +16,7 @@ namespace {
 
 // one line of study.csv
 struct StudyRow {
+  std::string curve;  // the sweep's name; extrapolations from it are a curve of their own
   const Sweep* sweep = nullptr;
   std::string value;
   std::optional<double> result, error_bar;  // without a result: the run failed
@@ -52,6 +53,7 @@ StudyRow run_row(const StudyPlan& plan, const Sweep& sweep, const std::string& v
 
   StudyRow row;
   row.sweep = &sweep;
+  row.curve = sweep.name;
   row.value = shown(value);
   row.counters = results.counters;
   row.seconds = results.seconds;
@@ -74,6 +76,7 @@ StudyRow run_row(const StudyPlan& plan, const Sweep& sweep, const std::string& v
 StudyRow extrapolate(const Sweep& sweep, const StudyRow& first, double a, const StudyRow& second, double b) {
   StudyRow row;
   row.sweep = &sweep;
+  row.curve = sweep.name + " (extrapolated)";
   row.value = fmt::format("extrapolated {}->{}", first.value, second.value);
   row.counters.contact_evaluations = first.counters.contact_evaluations + second.counters.contact_evaluations;
   row.counters.steps = first.counters.steps + second.counters.steps;
@@ -93,11 +96,11 @@ std::string study_csv(const StudyPlan& plan, const std::vector<StudyRow>& rows) 
   std::string text =
       "sweep,key,value,unit,quantity,result,error_bar,result_unit,status,contact_evaluations,steps,seconds\n";
   for (const StudyRow& row : rows)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.3f}\n", csv_cell(row.sweep->name),
-                        csv_cell(row.sweep->key), csv_cell(row.value), csv_cell(row.sweep->unit),
-                        csv_cell(plan.quantity), row.result ? csv_cell(*row.result) : "",
-                        row.error_bar ? csv_cell(*row.error_bar) : "", csv_cell(row.result_unit), csv_cell(row.status),
-                        row.counters.contact_evaluations, row.counters.steps, row.seconds);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.3f}\n", csv_cell(row.curve), csv_cell(row.sweep->key),
+                        csv_cell(row.value), csv_cell(row.sweep->unit), csv_cell(plan.quantity),
+                        row.result ? csv_cell(*row.result) : "", row.error_bar ? csv_cell(*row.error_bar) : "",
+                        csv_cell(row.result_unit), csv_cell(row.status), row.counters.contact_evaluations,
+                        row.counters.steps, row.seconds);
   return text;
 }
 
@@ -105,8 +108,8 @@ void tell(const StudyArguments& arguments, const StudyPlan& plan, const StudyRow
   if (arguments.quiet) return;
   const std::string result =
       row.result ? fmt::format("{} = {:.8g} {}", plan.quantity, *row.result, row.result_unit) : row.status;
-  fmt::print(stderr, "{}: {} = {}: {} ({} contact evaluations, {})\n", row.sweep->name, row.sweep->key, row.value,
-             result, row.counters.contact_evaluations, duration_text(row.seconds));
+  fmt::print(stderr, "{}: {} = {}: {} ({} contact evaluations, {})\n", row.curve, row.sweep->key, row.value, result,
+             row.counters.contact_evaluations, duration_text(row.seconds));
 }
 
 std::vector<StudyRow> run_sweep(const StudyPlan& plan, const Sweep& sweep, const StudyArguments& arguments) {

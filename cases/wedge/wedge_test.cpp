@@ -45,11 +45,12 @@ TEST(Wedge, BisectionFindsTheClosedForm) {
   const double expected = *reference::critical_friction(thesis_wedge) * degrees;
   const SceneRun scene = run("scene.toml");
   report.reference("critical_friction", expected, "deg");
-  report.record(angle_check("critical friction", Kind::exact, "Hoek & Bray (1974), equal to Boon (2013) section 4.8",
-                            expected, 0.05,
-                            "bracket 0.005, elastic settlement lowers the angle by 0.002 at ks = kn/10, overlap of 0.1 % "
-                            "of the height turns no plane; the rest is room for the sliver contact below the edge"),
-                value(scene, "critical_friction"), cost(scene));
+  report.record(
+      angle_check("critical friction", Kind::exact, "Hoek & Bray (1974), equal to Boon (2013) section 4.8", expected,
+                  0.05,
+                  "bracket 0.005, elastic settlement lowers the angle by 0.002 at ks = kn/10, overlap of 0.1 % "
+                  "of the height turns no plane; the rest is room for the sliver contact below the edge"),
+      value(scene, "critical_friction"), cost(scene));
 }
 
 // A block on elastic joints holds a little longer, the more so the stiffer its joints are in shear.
@@ -67,11 +68,12 @@ TEST(Wedge, StiffShearFollowsTheElasticPlasticPath) {
     path.push_back(reference::elastic_plastic_path(block).critical_friction * degrees);
     const SceneRun scene = run("scene.toml", {fmt::format("joint_properties.rock.shear_stiffness={}", ratio * 10e6)});
     found.push_back(value(scene, "critical_friction"));
-    report.record(angle_check(fmt::format("critical friction, ks/kn = {}", ratio), Kind::exact,
-                              "elastic-plastic block with three translations on two faces", path.back(), 0.05,
-                              "bracket 0.005, path steps 0.0003; slip that inertia adds while friction falls loosens the "
-                              "locked shear, by up to 0.03 when it falls at once"),
-                  found.back(), cost(scene));
+    report.record(
+        angle_check(fmt::format("critical friction, ks/kn = {}", ratio), Kind::exact,
+                    "elastic-plastic block with three translations on two faces", path.back(), 0.05,
+                    "bracket 0.005, path steps 0.0003; slip that inertia adds while friction falls loosens the "
+                    "locked shear, by up to 0.03 when it falls at once"),
+        found.back(), cost(scene));
   }
   write_csv("wedge", "stiffness.csv", {"ks_over_kn", "computed_deg", "path_deg"}, {ratios, found, path});
 }
@@ -85,7 +87,8 @@ TEST(Wedge, StepwiseReduction) {
                             "half a step of 0.05, and the bias of elastic settlement (0.002 at ks = kn/10)"),
                 value(scene, "critical_friction"), cost(scene));
   std::vector<double> friction = column(scene, "friction_deg", 2), slip;
-  const std::vector<double> x = column(scene, "wedge_displacement_x_m", 2), y = column(scene, "wedge_displacement_y_m", 2),
+  const std::vector<double> x = column(scene, "wedge_displacement_x_m", 2),
+                            y = column(scene, "wedge_displacement_y_m", 2),
                             z = column(scene, "wedge_displacement_z_m", 2);
   for (std::size_t i = 0; i < x.size(); ++i)
     slip.push_back(1e3 * std::hypot(x[i] - x[0], y[i] - y[0], z[i] - z[0]));
@@ -97,9 +100,14 @@ TEST(Wedge, StepwiseReduction) {
 TEST(Wedge, EqualStiffness) {
   CaseReport report("wedge");
   const SceneRun scene = run("equal_stiffness.toml");
-  report.record({"critical friction, ks = kn", "deg", Kind::published, "Boon (2013) section 4.8: 33.23; Itasca: 33.19", 33.23,
-                 {0.15, 0}, "their steps and the areas of their faces are not published; Itasca and the thesis differ by "
-                            "0.04, the two ends of the area range by 0.12"},
+  report.record({"critical friction, ks = kn",
+                 "deg",
+                 Kind::published,
+                 "Boon (2013) section 4.8: 33.23; Itasca: 33.19",
+                 33.23,
+                 {0.15, 0},
+                 "their steps and the areas of their faces are not published; Itasca and the thesis differ by "
+                 "0.04, the two ends of the area range by 0.12"},
                 value(scene, "critical_friction"), cost(scene));
 }
 
@@ -108,8 +116,8 @@ TEST(Wedge, FreeRotationIsReported) {
   CaseReport report("wedge");
   const SceneRun scene = run("free_rotation.toml");
   const std::string note = "one contact point for each pair, so a face carries no moment: no target (cases.md)";
-  const double turn = std::hypot(value(scene, "wedge_rotation_x"), value(scene, "wedge_rotation_y"),
-                                 value(scene, "wedge_rotation_z"));
+  const double turn =
+      std::hypot(value(scene, "wedge_rotation_x"), value(scene, "wedge_rotation_y"), value(scene, "wedge_rotation_z"));
   report.report("critical friction, free rotation", "deg", value(scene, "critical_friction"), note, cost(scene));
   report.report("rotation at the last stable angle", "deg", turn, note);
   report.report("tilt of the contact normal on A", "deg", value(scene, "A_normal_tilt"), note);
@@ -126,15 +134,15 @@ TEST(Wedge, TurnedAndMoved) {
         fmt::format("joints.B.dip_direction={}", std::fmod(220 + turn, 360)),
         fmt::format("domain.planes.slope face.dip_direction={}", std::fmod(face_dip_direction + turn, 360))};
     const SceneRun scene = run("scene.toml", sets);
-    report.record(angle_check(fmt::format("critical friction, turned by {:.0f}", turn), Kind::exact, "identity: rotation",
-                              here, 0.01, "one bracket: rounding may tip a trial at the edge of stability"),
-                  value(scene, "critical_friction"), cost(scene));
+    report.record(
+        angle_check(fmt::format("critical friction, turned by {:.0f}", turn), Kind::exact, "identity: rotation", here,
+                    0.01, "one bracket: rounding may tip a trial at the edge of stability"),
+        value(scene, "critical_friction"), cost(scene));
   }
   const std::string shift_point = "[1000000, -2000000, 2999999]";
-  const std::vector<std::string> sets{"joints.A.point=" + shift_point, "joints.B.point=" + shift_point,
-                                      "domain.planes.slope face.point=" + shift_point,
-                                      "domain.box.min=[999996, -2000004, 2999996]",
-                                      "domain.box.max=[1000004, -1999996, 3000000]"};
+  const std::vector<std::string> sets{
+      "joints.A.point=" + shift_point, "joints.B.point=" + shift_point, "domain.planes.slope face.point=" + shift_point,
+      "domain.box.min=[999996, -2000004, 2999996]", "domain.box.max=[1000004, -1999996, 3000000]"};
   const SceneRun scene = run("scene.toml", sets);
   report.record(angle_check("critical friction, moved by 1e6 m", Kind::exact, "identity: translation", here, 0.01,
                             "one bracket: coordinates are taken from the domain's centre"),
@@ -165,7 +173,8 @@ void try_random_wedges(CaseReport& report, unsigned seed, Draw wanted) {
   Draw drawn{0, 0, 0};
   std::vector<double> expected_deg, found_deg;
   while (drawn.both < wanted.both || drawn.single < wanted.single || drawn.borderline < wanted.borderline) {
-    const double dip_a = dip(random), direction_a = direction(random), dip_b = dip(random), direction_b = direction(random);
+    const double dip_a = dip(random), direction_a = direction(random), dip_b = dip(random),
+                 direction_b = direction(random);
     const reference::Wedge w = wedge(dip_a, direction_a, dip_b, direction_b);
     const std::optional<double> critical = reference::critical_friction(w);
     if (!critical) continue;
@@ -179,10 +188,11 @@ void try_random_wedges(CaseReport& report, unsigned seed, Draw wanted) {
     ++count;
 
     const SceneRun scene = run("scene.toml", overrides(w));
-    const std::string name =
-        fmt::format("{} wedge {}: {:.0f}/{:03.0f}, {:.0f}/{:03.0f}",
-                    !kind.non_degenerate ? "borderline" : on_both ? "two-plane" : "one-plane", count, dip_a, direction_a,
-                    dip_b, direction_b);
+    const std::string name = fmt::format("{} wedge {}: {:.0f}/{:03.0f}, {:.0f}/{:03.0f}",
+                                         !kind.non_degenerate ? "borderline"
+                                         : on_both            ? "two-plane"
+                                                              : "one-plane",
+                                         count, dip_a, direction_a, dip_b, direction_b);
     if (!kind.non_degenerate) {
       report.report(name, "deg", value(scene, "critical_friction"),
                     fmt::format("closed form {:.3f}; {}", *critical * degrees, kind.reason), cost(scene));
@@ -190,11 +200,12 @@ void try_random_wedges(CaseReport& report, unsigned seed, Draw wanted) {
     }
     expected_deg.push_back(*critical * degrees);
     found_deg.push_back(value(scene, "critical_friction"));
-    report.record(angle_check(name, Kind::exact, "Hoek & Bray (1974); " + reference::describe(solution.mode),
-                              expected_deg.back(), 0.1,
-                              "bracket 0.005; away from the border between modes the loading path moves the angle by less "
-                              "than 0.1 (elastic-plastic path)"),
-                  found_deg.back(), cost(scene));
+    report.record(
+        angle_check(name, Kind::exact, "Hoek & Bray (1974); " + reference::describe(solution.mode), expected_deg.back(),
+                    0.1,
+                    "bracket 0.005; away from the border between modes the loading path moves the angle by less "
+                    "than 0.1 (elastic-plastic path)"),
+        found_deg.back(), cost(scene));
   }
   write_csv("wedge", "random.csv", {"closed_form_deg", "computed_deg"}, {expected_deg, found_deg});
 }

@@ -10,9 +10,9 @@ namespace voussoir {
 
 template <int Dim>
 struct Box {
-  Vector<Dim> low, high;   // m
-  int body;                // parts of one body never meet
-  bool fixed;              // nor do two fixed ones
+  Vector<Dim> low, high;  // m
+  int body;               // parts of one body never meet
+  bool fixed;             // nor do two fixed ones
 };
 
 // All pairs (i, j), i < j, whose boxes overlap, in ascending order.

@@ -13,7 +13,8 @@ constexpr double parallel_gradients = 1e-6;
 template <int Dim>
 double smallest_slack(const HalfSpaces<Dim>& planes, const Vector<Dim>& point) {
   double least = std::numeric_limits<double>::infinity();
-  for (const HalfSpace<Dim>& p : planes) least = std::min(least, -signed_distance(p, point));
+  for (const HalfSpace<Dim>& p : planes)
+    least = std::min(least, -signed_distance(p, point));
   return least;
 }
 
@@ -58,8 +59,8 @@ struct Resolver {
   KernelCounters& counters;
   HalfSpaces<Dim>& planes;
 
-  Vector<Dim> origin;     // of the local frame, in the first body's frame: the centre of the smaller part
-  double size;            // the smaller inscribed radius, m
+  Vector<Dim> origin;  // of the local frame, in the first body's frame: the centre of the smaller part
+  double size;         // the smaller inscribed radius, m
   int faces_a;
   Vector<Dim> start;
   FeasibilityResult<Dim> lp;
@@ -167,7 +168,8 @@ struct Resolver {
 template <int Dim>
 void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>& planes) {
   planes.clear();
-  for (const HalfSpace<Dim>& f : pair.a->faces) planes.push_back(moved_origin<Dim>(f, origin));
+  for (const HalfSpace<Dim>& f : pair.a->faces)
+    planes.push_back(moved_origin<Dim>(f, origin));
   const Vector<Dim> shift = origin - pair.offset;
   for (const HalfSpace<Dim>& f : pair.b->faces) {
     const Vector<Dim> normal = pair.rotation * f.normal;

@@ -1,4 +1,5 @@
-// Contact between two convex parts (Boon 2013, chapter 3.3): do they overlap, where, in which direction, how far, how wide.
+// Contact between two convex parts (Boon 2013, chapter 3.3): do they overlap, where, in which direction, how far, how
+// wide.
 #pragma once
 
 #include <span>
@@ -39,7 +40,8 @@ template <int Dim>
 void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>& planes);
 
 // Direction from A to B at a point (Eqs 3.31-3.35): difference of the gradients of the parts' inner potentials
-// sum <a·x - d + r>², normalised. False when it vanishes. `fallback` tells that a face normal stood in for a zero gradient.
+// sum <a·x - d + r>², normalised. False when it vanishes. `fallback` tells that a face normal stood in for a zero
+// gradient.
 template <int Dim>
 bool contact_normal(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, double radius,
                     Vector<Dim>& normal, bool& fallback);

@@ -45,27 +45,32 @@ void add_unless_known(std::vector<Vector<Dim>>& vertices, const Vector<Dim>& poi
 template <int Dim>
 MassProperties<Dim> simplex(const std::array<Vector<Dim>, Dim>& corner) {
   Matrix<Dim> edges;
-  for (int k = 0; k < Dim; ++k) edges.col(k) = corner[k];
+  for (int k = 0; k < Dim; ++k)
+    edges.col(k) = corner[k];
   MassProperties<Dim> m;
   m.volume = edges.determinant() / (Dim == 3 ? 6.0 : 2.0);
   Vector<Dim> sum = Vector<Dim>::Zero();
-  for (const Vector<Dim>& c : corner) sum += c;
+  for (const Vector<Dim>& c : corner)
+    sum += c;
   m.centroid = sum / (Dim + 1);
   // ∫ x xᵀ over a simplex with one corner at the origin: V/((D+1)(D+2)) (Σ c cᵀ + (Σc)(Σc)ᵀ)
   m.second_moment = sum * sum.transpose();
-  for (const Vector<Dim>& c : corner) m.second_moment += c * c.transpose();
+  for (const Vector<Dim>& c : corner)
+    m.second_moment += c * c.transpose();
   m.second_moment *= m.volume / ((Dim + 1) * (Dim + 2));
   return m;
 }
 
-void add_face(MassProperties<2>& total, const std::vector<Vector<2>>& v, const std::vector<int>& loop, const Vector<2>& c) {
+void add_face(MassProperties<2>& total, const std::vector<Vector<2>>& v, const std::vector<int>& loop,
+              const Vector<2>& c) {
   const MassProperties<2> m = simplex<2>({v[loop[0]] - c, v[loop[1]] - c});
   total.volume += m.volume;
   total.centroid += m.volume * m.centroid;
   total.second_moment += m.second_moment;
 }
 
-void add_face(MassProperties<3>& total, const std::vector<Vector<3>>& v, const std::vector<int>& loop, const Vector<3>& c) {
+void add_face(MassProperties<3>& total, const std::vector<Vector<3>>& v, const std::vector<int>& loop,
+              const Vector<3>& c) {
   for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
     const MassProperties<3> m = simplex<3>({v[loop[0]] - c, v[loop[k]] - c, v[loop[k + 1]] - c});
     total.volume += m.volume;
@@ -82,7 +87,8 @@ void sort_loop(std::vector<int>& loop, const std::vector<Vector<2>>& v, const Ve
 
 void sort_loop(std::vector<int>& loop, const std::vector<Vector<3>>& v, const Vector<3>& normal) {
   Vector<3> middle = Vector<3>::Zero();
-  for (int i : loop) middle += v[i];
+  for (int i : loop)
+    middle += v[i];
   middle /= static_cast<double>(std::max<std::size_t>(loop.size(), 1));
   const Vector<3> e1 = perpendicular(normal), e2 = normal.cross(e1);
   auto angle = [&](int i) { return std::atan2(e2.dot(v[i] - middle), e1.dot(v[i] - middle)); };
@@ -132,7 +138,8 @@ std::vector<std::vector<int>> find_loops(const HalfSpaces<Dim>& faces, const std
 template <int Dim>
 MassProperties<Dim> integrate(const std::vector<Vector<Dim>>& vertices, const std::vector<std::vector<int>>& loops) {
   Vector<Dim> middle = Vector<Dim>::Zero();
-  for (const Vector<Dim>& v : vertices) middle += v;
+  for (const Vector<Dim>& v : vertices)
+    middle += v;
   middle /= static_cast<double>(std::max<std::size_t>(vertices.size(), 1));
   MassProperties<Dim> total;
   for (const std::vector<int>& loop : loops)
@@ -161,13 +168,15 @@ double face_area(const Polytope<3>& part, int face) {
   const std::vector<int>& loop = part.loops[face];
   Vector<3> twice = Vector<3>::Zero();
   for (std::size_t k = 1; k + 1 < loop.size(); ++k)
-    twice += (part.vertices[loop[k]] - part.vertices[loop[0]]).cross(part.vertices[loop[k + 1]] - part.vertices[loop[0]]);
+    twice +=
+        (part.vertices[loop[k]] - part.vertices[loop[0]]).cross(part.vertices[loop[k + 1]] - part.vertices[loop[0]]);
   return 0.5 * twice.norm();
 }
 
 template <int Dim>
 Polytope<Dim> moved_origin(Polytope<Dim> part, const Vector<Dim>& shift) {
-  for (HalfSpace<Dim>& f : part.faces) f = moved_origin(f, shift);
+  for (HalfSpace<Dim>& f : part.faces)
+    f = moved_origin(f, shift);
   part.radius = 0;
   for (Vector<Dim>& v : part.vertices) {
     v -= shift;
@@ -186,7 +195,9 @@ Matrix<3> inertia_tensor(const MassProperties<3>& mass) {
   return tensor;
 }
 
-double inertia_tensor(const MassProperties<2>& mass) { return mass.second_moment.trace(); }
+double inertia_tensor(const MassProperties<2>& mass) {
+  return mass.second_moment.trace();
+}
 
 template std::vector<std::vector<int>> find_loops<2>(const HalfSpaces<2>&, const std::vector<Vector<2>>&, double);
 template std::vector<std::vector<int>> find_loops<3>(const HalfSpaces<3>&, const std::vector<Vector<3>>&, double);

@@ -11,22 +11,22 @@ namespace voussoir {
 
 template <int Dim>
 struct MassProperties {
-  double volume = 0;                                   // m³ (2-D: m², unit thickness)
-  Vector<Dim> centroid = Vector<Dim>::Zero();          // m
-  Matrix<Dim> second_moment = Matrix<Dim>::Zero();     // ∫ x xᵀ dV about the origin, m⁵ (2-D: m⁴)
+  double volume = 0;                                // m³ (2-D: m², unit thickness)
+  Vector<Dim> centroid = Vector<Dim>::Zero();       // m
+  Matrix<Dim> second_moment = Matrix<Dim>::Zero();  // ∫ x xᵀ dV about the origin, m⁵ (2-D: m⁴)
 };
 
 template <int Dim>
 struct Polytope {
-  HalfSpaces<Dim> faces;                    // body frame, none redundant
-  std::vector<int> joints;                  // for each face the joint that made it, or no_joint
-  std::vector<Vector<Dim>> vertices;        // body frame, m
-  std::vector<std::vector<int>> loops;      // vertices of each face, counter-clockwise seen from outside
-  MassProperties<Dim> mass;                 // about the body's origin, per unit density
-  double inscribed_radius = 0;              // Chebyshev radius, m: the size of the part
-  Vector<Dim> centre = Vector<Dim>::Zero(); // its centre, m
-  double radius = 0;                        // largest distance of a vertex from the body's origin, m
-  std::array<int, Dim + 1> basis{};         // faces that touch the inscribed ball: the LP's start
+  HalfSpaces<Dim> faces;                     // body frame, none redundant
+  std::vector<int> joints;                   // for each face the joint that made it, or no_joint
+  std::vector<Vector<Dim>> vertices;         // body frame, m
+  std::vector<std::vector<int>> loops;       // vertices of each face, counter-clockwise seen from outside
+  MassProperties<Dim> mass;                  // about the body's origin, per unit density
+  double inscribed_radius = 0;               // Chebyshev radius, m: the size of the part
+  Vector<Dim> centre = Vector<Dim>::Zero();  // its centre, m
+  double radius = 0;                         // largest distance of a vertex from the body's origin, m
+  std::array<int, Dim + 1> basis{};          // faces that touch the inscribed ball: the LP's start
 };
 
 // a face that no joint made: the domain's boundary or a block given directly

@@ -11,9 +11,13 @@ Matrix<2> matrix(const Rotation<2>& rotation) {
   return q;
 }
 
-Matrix<3> matrix(const Rotation<3>& rotation) { return rotation.quaternion.toRotationMatrix(); }
+Matrix<3> matrix(const Rotation<3>& rotation) {
+  return rotation.quaternion.toRotationMatrix();
+}
 
-Rotation<2> turned(const Rotation<2>& rotation, const Spin<2>& turn) { return {rotation.angle + turn[0]}; }
+Rotation<2> turned(const Rotation<2>& rotation, const Spin<2>& turn) {
+  return {rotation.angle + turn[0]};
+}
 
 Rotation<3> turned(const Rotation<3>& rotation, const Spin<3>& turn) {
   const double angle = turn.norm();
@@ -24,7 +28,9 @@ Rotation<3> turned(const Rotation<3>& rotation, const Spin<3>& turn) {
   return {(q * rotation.quaternion).normalized()};
 }
 
-Spin<2> rotation_vector(const Rotation<2>& rotation) { return Spin<2>(rotation.angle); }
+Spin<2> rotation_vector(const Rotation<2>& rotation) {
+  return Spin<2>(rotation.angle);
+}
 
 Spin<3> rotation_vector(const Rotation<3>& rotation) {
   const Eigen::Quaterniond& q = rotation.quaternion;
@@ -34,7 +40,9 @@ Spin<3> rotation_vector(const Rotation<3>& rotation) {
   return sign * 2 * std::atan2(sine, std::abs(q.w())) / sine * q.vec();
 }
 
-Vector<2> perpendicular(const Vector<2>& n) { return {-n[1], n[0]}; }
+Vector<2> perpendicular(const Vector<2>& n) {
+  return {-n[1], n[0]};
+}
 
 Vector<3> perpendicular(const Vector<3>& n) {
   int axis = 0;

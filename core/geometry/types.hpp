@@ -32,12 +32,20 @@ struct Rotation<3> {
 };
 
 // velocity of a point at lever arm r of a body that spins at w: w × r
-inline Vector<2> cross(const Spin<2>& w, const Vector<2>& r) { return {-w[0] * r[1], w[0] * r[0]}; }
-inline Vector<3> cross(const Spin<3>& w, const Vector<3>& r) { return w.cross(r); }
+inline Vector<2> cross(const Spin<2>& w, const Vector<2>& r) {
+  return {-w[0] * r[1], w[0] * r[0]};
+}
+inline Vector<3> cross(const Spin<3>& w, const Vector<3>& r) {
+  return w.cross(r);
+}
 
 // moment of a force at lever arm r: r × f
-inline Spin<2> moment(const Vector<2>& r, const Vector<2>& f) { return Spin<2>(r[0] * f[1] - r[1] * f[0]); }
-inline Spin<3> moment(const Vector<3>& r, const Vector<3>& f) { return r.cross(f); }
+inline Spin<2> moment(const Vector<2>& r, const Vector<2>& f) {
+  return Spin<2>(r[0] * f[1] - r[1] * f[0]);
+}
+inline Spin<3> moment(const Vector<3>& r, const Vector<3>& f) {
+  return r.cross(f);
+}
 
 // the matrix that takes body axes to world axes
 Matrix<2> matrix(const Rotation<2>& rotation);

@@ -46,7 +46,9 @@ JointForce<Dim> elastic_coulomb(const JointProperties& properties, double fricti
   return result;
 }
 
-template JointForce<2> elastic_coulomb<2>(const JointProperties&, double, double, const JointKinematics<2>&, Vector<2>&);
-template JointForce<3> elastic_coulomb<3>(const JointProperties&, double, double, const JointKinematics<3>&, Vector<3>&);
+template JointForce<2> elastic_coulomb<2>(const JointProperties&, double, double, const JointKinematics<2>&,
+                                          Vector<2>&);
+template JointForce<3> elastic_coulomb<3>(const JointProperties&, double, double, const JointKinematics<3>&,
+                                          Vector<3>&);
 
 }  // namespace voussoir

@@ -9,18 +9,18 @@ namespace voussoir {
 // motion of the second body relative to the first at the contact, over the last step
 template <int Dim>
 struct JointKinematics {
-  Vector<Dim> normal;          // unit, from the first to the second
-  double overlap = 0;          // m
-  double area = 0;             // m²; 1 for a constant stiffness
-  double closing_speed = 0;    // m/s
-  Vector<Dim> slip;            // tangential displacement increment, m
-  double turn = 0;             // rad: spin of the two bodies about the normal, 3-D only
+  Vector<Dim> normal;        // unit, from the first to the second
+  double overlap = 0;        // m
+  double area = 0;           // m²; 1 for a constant stiffness
+  double closing_speed = 0;  // m/s
+  Vector<Dim> slip;          // tangential displacement increment, m
+  double turn = 0;           // rad: spin of the two bodies about the normal, 3-D only
 };
 
 template <int Dim>
 struct JointForce {
-  Vector<Dim> force;           // N on the second body
-  double plastic_slip = 0;     // m, of this step
+  Vector<Dim> force;        // N on the second body
+  double plastic_slip = 0;  // m, of this step
 };
 
 // Carries a shear force to a new contact plane: turned with the normal, then with the bodies' spin about it, its length

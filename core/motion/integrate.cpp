@@ -22,7 +22,8 @@ Spin<Dim> damped_moment(const Body<Dim>& body, const Load<Dim>& load, double loc
   if (local_damping == 0) return load.moment;
   const Spin<Dim> spin = angular_velocity(body, motion);
   Spin<Dim> moment;
-  for (int k = 0; k < spin_freedoms<Dim>; ++k) moment[k] = damped(load.moment[k], spin[k], local_damping);
+  for (int k = 0; k < spin_freedoms<Dim>; ++k)
+    moment[k] = damped(load.moment[k], spin[k], local_damping);
   return moment;
 }
 

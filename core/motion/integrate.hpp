@@ -13,8 +13,8 @@ struct StepTimes {
   double kick, drift;  // s
 };
 
-// Advances a free body by one step under its load. Translation: v += kick f/m, u += drift v on free freedoms. Rotation in 3-D:
-// angular momentum is kicked by the moment, then the free rotation is split into turns about the principal axes
+// Advances a free body by one step under its load. Translation: v += kick f/m, u += drift v on free freedoms. Rotation
+// in 3-D: angular momentum is kicked by the moment, then the free rotation is split into turns about the principal axes
 // (Dullweber, Leimkuhler & McLachlan 1997): reversible, symplectic, momentum kept exactly, exact inertia.
 template <int Dim>
 void advance(const Body<Dim>& body, const Load<Dim>& load, double local_damping, StepTimes times, Motion<Dim>& motion);

@@ -97,10 +97,9 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
     if (c.touching()) {
       // room to grow before the next estimate
       c.area_rated = area_margin * c.geometry.area;
-      const Matrix<Dim> k =
-          contact_stiffness<Dim>(model.properties[c.properties], c.area_rated, c.geometry.normal);
-      const Vector<Dim> between = (b.reference - a.reference) +
-                                  (state.motions[ib].displacement - state.motions[ia].displacement);
+      const Matrix<Dim> k = contact_stiffness<Dim>(model.properties[c.properties], c.area_rated, c.geometry.normal);
+      const Vector<Dim> between =
+          (b.reference - a.reference) + (state.motions[ib].displacement - state.motions[ia].displacement);
       add<Dim>(stiffness[ia], factor, k, c.geometry.point);
       add<Dim>(stiffness[ib], factor, k, c.geometry.point - between);
       continue;
@@ -132,8 +131,8 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
 
   TimeStepEstimate estimate;
   const double xi = damping.viscous_ratio;
-  estimate.limit = largest > 0 ? 2 / std::sqrt(largest) * (std::sqrt(1 + xi * xi) - xi)
-                               : std::numeric_limits<double>::infinity();
+  estimate.limit =
+      largest > 0 ? 2 / std::sqrt(largest) * (std::sqrt(1 + xi * xi) - xi) : std::numeric_limits<double>::infinity();
   if (settings.time.step)
     estimate.step = *settings.time.step;
   else if (largest > 0)

@@ -8,15 +8,15 @@
 namespace voussoir {
 
 struct TimeStepEstimate {
-  double limit = 0;      // s: 2/sqrt(λ) with damping accounted for; infinity when no contact is near
-  double step = 0;       // s: what the settings make of it; 0 when neither a contact nor the settings give one
+  double limit = 0;  // s: 2/sqrt(λ) with damping accounted for; infinity when no contact is near
+  double step = 0;   // s: what the settings make of it; 0 when neither a contact nor the settings give one
 };
 
-// λ = max over free bodies of λ_max(M⁻¹ Σ f J^T K J) over the body's 3 or 6 freedoms, lever arms included; f = 2 where both
-// bodies are free. Contacts that touch count with their area; candidates that do not, with the smaller of the two parts'
-// largest faces at the lever arm of the body's radius, so that a first impact is safe. Notes in the state each contact's
-// rated area and each body's stiffest frequency.
-// an area may grow by this factor before the step must be estimated anew
+// λ = max over free bodies of λ_max(M⁻¹ Σ f J^T K J) over the body's 3 or 6 freedoms, lever arms included; f = 2 where
+// both bodies are free. Contacts that touch count with their area; candidates that do not, with the smaller of the two
+// parts' largest faces at the lever arm of the body's radius, so that a first impact is safe. Notes in the state each
+// contact's rated area and each body's stiffest frequency. an area may grow by this factor before the step must be
+// estimated anew
 inline constexpr double area_margin = 1.1;
 
 template <int Dim>

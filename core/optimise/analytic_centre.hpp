@@ -16,8 +16,8 @@ struct CentreResult {
 
 template <int Dim>
 struct CentreRequest {
-  Vector<Dim> start;         // strictly inside, m
-  double tolerance = 1e-5;   // on the Newton decrement before the last step
+  Vector<Dim> start;        // strictly inside, m
+  double tolerance = 1e-5;  // on the Newton decrement before the last step
   int limit = 200;
 };
 

@@ -14,18 +14,19 @@ enum class FeasibilityStatus { optimal, separated_early, unbounded, iteration_li
 template <int Dim>
 struct FeasibilityResult {
   FeasibilityStatus status = FeasibilityStatus::iteration_limit;
-  double value = 0;                               // s, m; a lower bound of it when separated_early
-  Vector<Dim> point = Vector<Dim>::Zero();        // x, m
-  std::array<int, Dim + 1> basis{};               // the tight planes
-  std::array<double, Dim + 1> multipliers{};      // their λ
+  double value = 0;                           // s, m; a lower bound of it when separated_early
+  Vector<Dim> point = Vector<Dim>::Zero();    // x, m
+  std::array<int, Dim + 1> basis{};           // the tight planes
+  std::array<double, Dim + 1> multipliers{};  // their λ
   int pivots = 0;
 };
 
 template <int Dim>
 struct FeasibilityRequest {
-  const std::array<int, Dim + 1>* start = nullptr;// planes whose normals contain 0 in their hull; null: a start is built
-  double stop_above = 1e300;                      // m: stop as soon as s is proven larger (the parts are separated)
-  double tolerance = 0;                           // m: a plane violated by no more than this holds
+  const std::array<int, Dim + 1>* start =
+      nullptr;                // planes whose normals contain 0 in their hull; null: a start is built
+  double stop_above = 1e300;  // m: stop as soon as s is proven larger (the parts are separated)
+  double tolerance = 0;       // m: a plane violated by no more than this holds
 };
 
 // Dual simplex with an explicit inverse of the Dim+1 tight planes. Normals need not be unit; zero normals are legal.

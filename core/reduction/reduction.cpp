@@ -37,7 +37,8 @@ struct Search {
     if (friction < present && ramp > 0)
       schedule.friction_rate = (present - friction) / ramp;
     else
-      for (int p : properties) state.schedule.friction[p] = friction;
+      for (int p : properties)
+        state.schedule.friction[p] = friction;
 
     RunGoal goal;
     goal.rest = true;
@@ -56,11 +57,15 @@ struct Search {
 
   static Trial judge(StopReason reason) {
     switch (reason) {
-      case StopReason::equilibrium: return Trial::stable;
-      case StopReason::moved_away: return Trial::failed;
+      case StopReason::equilibrium:
+        return Trial::stable;
+      case StopReason::moved_away:
+        return Trial::failed;
       case StopReason::no_contact_answer:
-      case StopReason::not_finite: return Trial::broken;
-      default: return Trial::undecided;
+      case StopReason::not_finite:
+        return Trial::broken;
+      default:
+        return Trial::undecided;
     }
   }
 

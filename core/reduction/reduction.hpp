@@ -12,13 +12,13 @@ namespace voussoir {
 enum class Trial { stable, failed, undecided, broken };  // broken: a numerical failure
 
 struct ReductionReport {
-  bool bracketed = false;       // both a stable and a failed angle are known
-  double stable = 0, failed = 0;// rad: lowest stable, highest failed
-  double critical = 0;          // rad
-  double error_bar = 0;         // rad: what the search leaves open
-  std::string rule;             // how failure was told
-  std::string message;          // why there is no answer
-  RunReport last;               // the last run
+  bool bracketed = false;         // both a stable and a failed angle are known
+  double stable = 0, failed = 0;  // rad: lowest stable, highest failed
+  double critical = 0;            // rad
+  double error_bar = 0;           // rad: what the search leaves open
+  std::string rule;               // how failure was told
+  std::string message;            // why there is no answer
+  RunReport last;                 // the last run
   int trials = 0;
 };
 
@@ -29,7 +29,8 @@ using TrialHook = std::function<void(const State<Dim>&, double friction, Trial o
 // Lowers the friction of the plan's joint properties from `from` towards `to`.
 //   bisection  every trial starts from the last stable state; ends with a bracket within the tolerance
 //   steps      each step runs to equilibrium (thesis, Method B); ends at the first that does not
-//   rate       constant rate (Method A); ends when a body has moved by the failure displacement. The angle found is too low
+//   rate       constant rate (Method A); ends when a body has moved by the failure displacement. The angle found is too
+//   low
 //              by (6 X cos θ r² / ((1-α) g))^(1/3) on a plane of dip θ: the error bar takes cos θ = 1
 // Afterwards the state is the last stable one (rate: the failed one).
 template <int Dim>

@@ -86,6 +86,8 @@ Node load(Node scene, const std::filesystem::path& folder, int depth) {
 
 }  // namespace
 
-Node with_base(Node scene, const std::filesystem::path& folder) { return load(std::move(scene), folder, 0); }
+Node with_base(Node scene, const std::filesystem::path& folder) {
+  return load(std::move(scene), folder, 0);
+}
 
 }  // namespace voussoir

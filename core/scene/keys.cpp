@@ -31,7 +31,8 @@ const KeyRow rows[] = {
      .meaning = "one line for reports"},
     {.table = "", .key = "base", .type = text, .example = "\"scene.toml\"",
      .meaning = "another scene in the same folder, of which this one states only the differences: tables are merged key by "
-         "key, tables of a list by their name; a stage that states another kind or method replaces the base's"},
+         "key, tables of a list by their name; a stage that states another kind or method replaces the "
+         "base's"},
     {.table = "", .key = "dimension", .type = integer, .range = {2, 3}, .example = "3", .required = true,
      .meaning = "2: plane scene, x to the right, y up, unit thickness; 3: x east, y north, z up",
      .repair = "write dimension = 2 or dimension = 3"},

@@ -1,5 +1,5 @@
-// What in a scene's stated values looks like a mistake of unit or sign. Nothing here is an error: each warning is one line
-// with file, line, key and value.
+// What in a scene's stated values looks like a mistake of unit or sign. Nothing here is an error: each warning is one
+// line with file, line, key and value.
 #pragma once
 
 #include <string>

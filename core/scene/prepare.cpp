@@ -1,7 +1,7 @@
 // A scene made ready to run, in the order of its data: properties, joints, blocks, supports, motion, stages, monitors.
 #include <algorithm>
-#include <map>
 #include <cassert>
+#include <map>
 
 #include "core/scene/bodies.hpp"
 #include "core/scene/scene.hpp"

@@ -14,14 +14,14 @@ namespace voussoir {
 struct Monitor {
   std::string name;
   Quantity quantity = Quantity::displacement;
-  int subject = 0;                       // body, or joint for contact_force
+  int subject = 0;  // body, or joint for contact_force
 };
 
 template <int Dim>
 struct Prepared {
   std::string title;
   Model<Dim> model;
-  State<Dim> state;                      // initial velocities set
+  State<Dim> state;  // initial velocities set
   Settings settings;
   std::vector<StagePlan> stages;
   std::vector<Monitor> monitors;

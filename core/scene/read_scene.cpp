@@ -14,7 +14,6 @@
 namespace voussoir {
 namespace {
 
-
 void read_plane(const Subject& subject, int dimension, PlaneSpec& plane) {
   read(subject, "point", plane.point);
   read_degrees(subject, "dip", plane.dip);

@@ -13,12 +13,10 @@ void read_choice(const Subject& table, std::string_view key, const std::map<std:
   if (const Node* node = table.node->find(key)) target = words.at(node->text);
 }
 
-const std::map<std::string, Quantity> quantity_words = {{"displacement", Quantity::displacement},
-                                                        {"velocity", Quantity::velocity},
-                                                        {"rotation", Quantity::rotation},
-                                                        {"angular_velocity", Quantity::angular_velocity},
-                                                        {"contact_load", Quantity::contact_load},
-                                                        {"contact_force", Quantity::contact_force}};
+const std::map<std::string, Quantity> quantity_words = {
+    {"displacement", Quantity::displacement}, {"velocity", Quantity::velocity},
+    {"rotation", Quantity::rotation},         {"angular_velocity", Quantity::angular_velocity},
+    {"contact_load", Quantity::contact_load}, {"contact_force", Quantity::contact_force}};
 
 bool chooses(const Selector& s) {
   return s.all || !s.names.empty() || !s.above.empty() || !s.below.empty() || s.inside.has_value();

@@ -30,12 +30,14 @@ bool needed(const HalfSpaces<Dim>& planes, const std::vector<bool>& kept, std::s
   return r.status == FeasibilityStatus::unbounded || r.value < -tolerance;
 }
 
-// Bounded iff the recession cone {a_i·x <= 0} holds no direction: along no axis, either way, can a point go on for ever.
+// Bounded iff the recession cone {a_i·x <= 0} holds no direction: along no axis, either way, can a point go on for
+// ever.
 template <int Dim>
 bool bounded(const HalfSpaces<Dim>& planes) {
   constexpr double rounding = 1e-12;  // of unit normals; a needle of aspect 1e6 still answers 1e-6
   HalfSpaces<Dim> cone = planes;
-  for (HalfSpace<Dim>& p : cone) p.offset = 0;
+  for (HalfSpace<Dim>& p : cone)
+    p.offset = 0;
   cone.emplace_back();
   for (int axis = 0; axis < Dim; ++axis)
     for (const double sign : {-1.0, 1.0}) {
@@ -98,7 +100,8 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
 
   // seen from the ball's centre, the vertices depend on neither origin nor unit
   HalfSpaces<Dim> centred = result.part.faces;
-  for (HalfSpace<Dim>& f : centred) f = moved_origin<Dim>(f, ball.point);
+  for (HalfSpace<Dim>& f : centred)
+    f = moved_origin<Dim>(f, ball.point);
   double extent = 0;
   for (const Vector<Dim>& v : find_vertices(centred, redundancy_tolerance * result.part.inscribed_radius))
     extent = std::max(extent, v.norm());
@@ -126,7 +129,8 @@ HalfSpaces<2> hull_planes(const std::vector<Vector<2>>& points, int* hidden) {
   HalfSpaces<2> planes;
   std::vector<bool> used(points.size(), false);
   double extent = 0;
-  for (const Vector<2>& p : points) extent = std::max(extent, (p - points.front()).norm());
+  for (const Vector<2>& p : points)
+    extent = std::max(extent, (p - points.front()).norm());
   const double tolerance = merge_tolerance * extent;
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = 0; j < points.size(); ++j) {
@@ -151,7 +155,8 @@ template <>
 HalfSpaces<3> hull_planes(const std::vector<Vector<3>>& points, int* hidden) {
   HalfSpaces<3> planes;
   double extent = 0;
-  for (const Vector<3>& p : points) extent = std::max(extent, (p - points.front()).norm());
+  for (const Vector<3>& p : points)
+    extent = std::max(extent, (p - points.front()).norm());
   const double tolerance = merge_tolerance * extent;
   const std::size_t n = points.size();
   for (std::size_t i = 0; i < n; ++i)

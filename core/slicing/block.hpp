@@ -9,16 +9,16 @@ namespace voussoir {
 
 enum class BlockStatus {
   ok,
-  open,         // the planes do not close a region
-  empty,        // no point satisfies all of them with room to spare
-  flat,         // vertices without volume
-  bad_plane     // a zero or non-finite normal, or a non-finite offset
+  open,      // the planes do not close a region
+  empty,     // no point satisfies all of them with room to spare
+  flat,      // vertices without volume
+  bad_plane  // a zero or non-finite normal, or a non-finite offset
 };
 
 template <int Dim>
 struct BlockResult {
   BlockStatus status = BlockStatus::ok;
-  int plane = -1;          // the first offending plane of the input (bad_plane)
+  int plane = -1;  // the first offending plane of the input (bad_plane)
   Polytope<Dim> part;
 };
 
@@ -28,8 +28,8 @@ struct BlockResult {
 template <int Dim>
 BlockResult<Dim> make_block(const HalfSpaces<Dim>& planes, const std::vector<int>& joints);
 
-// The half-spaces of the convex hull of points. 2-D and 3-D; coplanar points share one plane. Fewer than Dim+1 points or
-// points without volume give an empty list. `hidden` counts the points that are no vertices of the hull.
+// The half-spaces of the convex hull of points. 2-D and 3-D; coplanar points share one plane. Fewer than Dim+1 points
+// or points without volume give an empty list. `hidden` counts the points that are no vertices of the hull.
 template <int Dim>
 HalfSpaces<Dim> hull_planes(const std::vector<Vector<Dim>>& points, int* hidden = nullptr);
 

@@ -13,7 +13,9 @@ namespace {
 constexpr double cut_tolerance = 1e-10;
 
 // columns span the plane with this unit normal
-Eigen::Matrix<double, 2, 1> plane_axes(const Vector<2>& n) { return perpendicular(n); }
+Eigen::Matrix<double, 2, 1> plane_axes(const Vector<2>& n) {
+  return perpendicular(n);
+}
 Eigen::Matrix<double, 3, 2> plane_axes(const Vector<3>& n) {
   Eigen::Matrix<double, 3, 2> axes;
   axes.col(0) = perpendicular(n);

@@ -10,24 +10,24 @@ namespace voussoir {
 // a persistent joint: an infinite plane; the number is what the faces it makes remember
 template <int Dim>
 struct Cut {
-  HalfSpace<Dim> plane;    // upward normal, unit
+  HalfSpace<Dim> plane;  // upward normal, unit
   int joint;
 };
 
 struct SlicingLimits {
-  double smallest_inscribed_radius = 0;   // m: a cut that would leave a smaller child is undone in that block
+  double smallest_inscribed_radius = 0;  // m: a cut that would leave a smaller child is undone in that block
 };
 
 struct SlicingCounters {
   long long lp_solves = 0;
-  long long cuts = 0;          // blocks split
-  long long undone = 0;        // cuts refused because a child would be too small
+  long long cuts = 0;    // blocks split
+  long long undone = 0;  // cuts refused because a child would be too small
 };
 
-// The blocks in canonical order (centroid, then volume). A joint cuts a block iff the LP of Eq. 3.7 on the joint's plane
-// lies below -1e-10 of the block's size.
+// The blocks in canonical order (centroid, then volume). A joint cuts a block iff the LP of Eq. 3.7 on the joint's
+// plane lies below -1e-10 of the block's size.
 template <int Dim>
-std::vector<Polytope<Dim>> slice(const Polytope<Dim>& domain, const std::vector<Cut<Dim>>& cuts, const SlicingLimits& limits,
-                                 SlicingCounters& counters);
+std::vector<Polytope<Dim>> slice(const Polytope<Dim>& domain, const std::vector<Cut<Dim>>& cuts,
+                                 const SlicingLimits& limits, SlicingCounters& counters);
 
 }  // namespace voussoir

@@ -19,8 +19,8 @@ int main() {
   settings.time.step = 0.1;
   settings.damping.local = 0;
   step(model, settings, state);
-  const bool right = std::abs(model.bodies[0].mass - 2000) < 1e-9 &&
-                     std::abs(state.motions[0].displacement[2] + 0.05) < 1e-12;
+  const bool right =
+      std::abs(model.bodies[0].mass - 2000) < 1e-9 && std::abs(state.motions[0].displacement[2] + 0.05) < 1e-12;
   std::printf("mass %.17g kg, fell %.17g m\n", model.bodies[0].mass, -state.motions[0].displacement[2]);
   return right ? 0 : 1;
 }
