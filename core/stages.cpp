@@ -79,8 +79,8 @@ bool needs_area(const Model<Dim>& model) {
 }
 
 template <int Dim>
-void resolve(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, Contact<Dim>& contact,
-             KernelCounters& counters) {
+void resolve(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, bool per_area,
+             Contact<Dim>& contact, KernelCounters& counters) {
   const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
   const Matrix<Dim> axes = matrix(state.motions[a].rotation);
   const Pair<Dim> pair{&model.polytope(contact.part_a),
@@ -88,7 +88,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, const State<Dim>
                        axes,
                        axes.transpose() * matrix(state.motions[b].rotation),
                        axes.transpose() * between(model, state, a, b),
-                       needs_area(model)};
+                       per_area};
   Contact<Dim>* const slot = &contact;
   narrow_phase<Dim>(std::span(&pair, 1), settings.contact, model.solvers, std::span(&slot, 1), counters);
   if (contact.touching()) {
@@ -144,10 +144,11 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
 template <int Dim>
 void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const int count = static_cast<int>(state.contacts.size());
+  const bool per_area = needs_area(model);
   KernelCounters total;
   if (settings.threads == 1) {
     for (Contact<Dim>& c : state.contacts)
-      resolve(model, settings, state, c, total);
+      resolve(model, settings, state, per_area, c, total);
     add(state.counters, total);
   } else {
     Counters& counters = state.counters;
@@ -156,7 +157,7 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
       KernelCounters own;
 #pragma omp for schedule(static)
       for (int i = 0; i < count; ++i)
-        resolve(model, settings, state, state.contacts[i], own);
+        resolve(model, settings, state, per_area, state.contacts[i], own);
 #pragma omp critical
       add(counters, own);
     }

@@ -45,7 +45,6 @@ struct Search {
     goal.moved_away = failure_displacement;
     goal.step_limit = plan.step_limit;
     report.last = run(model, settings, goal, schedule, state, on_step);
-    ++report.trials;
     const Trial outcome = judge(report.last.reason);
     if (on_trial) on_trial(state, friction, outcome);
     if (outcome == Trial::undecided)
@@ -77,6 +76,13 @@ struct Search {
     return first == Trial::stable;
   }
 
+  // the work done since is not forgotten
+  void go_back_to(const State<Dim>& base) {
+    const Counters spent = state.counters;
+    state = base;
+    state.counters = spent;
+  }
+
   void close(double critical, double error_bar) {
     report.bracketed = true;
     report.critical = critical;
@@ -87,9 +93,7 @@ struct Search {
     if (!start()) return;
     State<Dim> base = state;
     const auto trial_from_base = [&](double friction) {
-      const Counters spent = state.counters;
-      state = base;
-      state.counters = spent;
+      go_back_to(base);
       const Trial outcome = attempt(friction);
       if (outcome == Trial::stable) base = state;
       return outcome;
@@ -105,9 +109,7 @@ struct Search {
       if (outcome == Trial::undecided || outcome == Trial::broken) return;
       (outcome == Trial::stable ? report.stable : report.failed) = middle;
     }
-    const Counters spent = state.counters;
-    state = base;
-    state.counters = spent;
+    go_back_to(base);
     close(0.5 * (report.stable + report.failed), 0.5 * (report.stable - report.failed));
   }
 
@@ -129,9 +131,7 @@ struct Search {
         return;
       }
     }
-    const Counters spent = state.counters;
-    state = base;
-    state.counters = spent;
+    go_back_to(base);
     close(0.5 * (report.stable + report.failed), 0.5 * (report.stable - report.failed));
   }
 
@@ -144,7 +144,6 @@ struct Search {
     goal.step_limit = plan.step_limit;
     const RunSchedule schedule{0, plan.rate, plan.from, plan.to, properties};
     report.last = run(model, settings, goal, schedule, state, on_step);
-    ++report.trials;
     const double found = state.schedule.friction[properties.front()];
     const Trial outcome = judge(report.last.reason);
     if (on_trial) on_trial(state, found, outcome);

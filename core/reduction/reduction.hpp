@@ -19,7 +19,6 @@ struct ReductionReport {
   std::string rule;               // how failure was told
   std::string message;            // why there is no answer
   RunReport last;                 // the last run
-  int trials = 0;
 };
 
 // what happened at an angle; called at the end of each trial, with the state it left
