@@ -48,6 +48,8 @@ bool finite(const State<Dim>& state) {
 
 const char* name(ContactStatus status) {
   switch (status) {
+    case ContactStatus::apart:
+      return "apart";
     case ContactStatus::separated:
       return "separated";
     case ContactStatus::touching:
@@ -67,7 +69,7 @@ const char* name(ContactStatus status) {
 template <int Dim>
 std::string first_unanswered(const Model<Dim>& model, const State<Dim>& state) {
   for (const Contact<Dim>& c : state.contacts)
-    if (c.status != ContactStatus::separated && !c.touching())
+    if (c.unanswered())
       return fmt::format("contact of bodies {} and {} at t = {:.6g} s: {}", model.parts[c.part_a].body,
                          model.parts[c.part_b].body, state.time, name(c.status));
   return {};

@@ -30,9 +30,7 @@ struct ContactSettings {
   double newton_tolerance = 1e-5;
   int newton_limit = 200;
 
-  // parts closer than this times the smallest inscribed radius are candidates. At a stated time step it changes the
-  // cost, never the result; the estimated step takes every candidate for a possible impact, so it grows a little with
-  // fewer
+  // parts closer than this times the smallest inscribed radius are candidates; it changes the cost, never the result
   double skin = 0.1;
 };
 

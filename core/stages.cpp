@@ -21,6 +21,9 @@ Vector<Dim> between(const Model<Dim>& model, const State<Dim>& state, int a, int
          (state.motions[b].displacement - state.motions[a].displacement);
 }
 
+// candidates are those within half a skin of either part, and a little: enough until one has moved that far
+constexpr double candidate_reach = 0.5 * (1 + 1e-9);
+
 template <int Dim>
 double smallest_size(const Model<Dim>& model) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -36,26 +39,39 @@ double moved(const Body<Dim>& body, const Placement<Dim>& then, const Motion<Dim
   return (now.displacement - then.displacement).norm() + body.radius * turn.norm();
 }
 
+// the box around a part, widened by `margin` and by what rounding may have cut off
 template <int Dim>
-std::vector<Box<Dim>> boxes(const Model<Dim>& model, const State<Dim>& state, double skin) {
-  std::vector<Box<Dim>> list;
-  for (const PartId& id : model.parts) {
-    const Body<Dim>& body = model.bodies[id.body];
-    list.push_back({Vector<Dim>::Constant(std::numeric_limits<double>::infinity()),
-                    Vector<Dim>::Constant(-std::numeric_limits<double>::infinity()), id.body, body.fixed});
-    if (!body.present) continue;
-    Box<Dim>& box = list.back();
-    const Matrix<Dim> axes = matrix(state.motions[id.body].rotation);
-    for (const Vector<Dim>& v : body.parts[id.part].vertices) {
-      const Vector<Dim> x = axes * v;
-      box.low = box.low.cwiseMin(x);
-      box.high = box.high.cwiseMax(x);
-    }
-    const Vector<Dim> centroid = body.reference + state.motions[id.body].displacement;
-    box.low += centroid - Vector<Dim>::Constant(skin / 2);
-    box.high += centroid + Vector<Dim>::Constant(skin / 2);
+Box<Dim> bounds(const Model<Dim>& model, const State<Dim>& state, int part, double margin) {
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const PartId id = model.parts[part];
+  const Body<Dim>& body = model.bodies[id.body];
+  Box<Dim> box{Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity), id.body, body.fixed};
+  if (!body.present) return box;
+  const Matrix<Dim> axes = matrix(state.motions[id.body].rotation);
+  for (const Vector<Dim>& v : body.parts[id.part].vertices) {
+    const Vector<Dim> x = axes * v;
+    box.low = box.low.cwiseMin(x);
+    box.high = box.high.cwiseMax(x);
   }
+  const Vector<Dim> centroid = body.reference + state.motions[id.body].displacement;
+  const Vector<Dim> reach = Vector<Dim>::Constant(margin + rounding * body.radius) + rounding * centroid.cwiseAbs();
+  box.low += centroid - reach;
+  box.high += centroid + reach;
+  return box;
+}
+
+template <int Dim>
+std::vector<Box<Dim>> boxes(const Model<Dim>& model, const State<Dim>& state, double margin) {
+  std::vector<Box<Dim>> list;
+  for (std::size_t part = 0; part < model.parts.size(); ++part)
+    list.push_back(bounds(model, state, static_cast<int>(part), margin));
   return list;
+}
+
+template <int Dim>
+bool meet(const Box<Dim>& a, const Box<Dim>& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
 // the joint a contact lies on: of the two faces' joints the later cut
@@ -79,8 +95,25 @@ bool needs_area(const Model<Dim>& model) {
 }
 
 template <int Dim>
+void forget(Contact<Dim>& contact) {
+  contact.history = {};
+  contact.force.setZero();
+  contact.warm.point_known = false;
+}
+
+template <int Dim>
 void resolve(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, bool per_area,
              Contact<Dim>& contact, KernelCounters& counters) {
+  // what the candidates' skin has added leaves no trace: the result is the same for any skin
+  if (!meet(state.bounds[contact.part_a], state.bounds[contact.part_b])) {
+    if (contact.status == ContactStatus::apart) return;
+    contact.status = ContactStatus::apart;
+    contact.area_rated = -1;
+    contact.warm.basis_known = false;
+    forget(contact);
+    return;
+  }
+  ++counters.evaluations;
   const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
   const Matrix<Dim> axes = matrix(state.motions[a].rotation);
   const Pair<Dim> pair{&model.polytope(contact.part_a),
@@ -96,17 +129,33 @@ void resolve(const Model<Dim>& model, const Settings& settings, const State<Dim>
     contact.properties = contact.joint == no_joint ? model.default_properties : model.joints[contact.joint].properties;
     return;
   }
-  contact.history = {};
-  contact.force.setZero();
-  contact.warm.point_known = false;
+  forget(contact);
 }
 
 void add(Counters& total, const KernelCounters& k) {
+  total.contact_evaluations += k.evaluations;
   total.lp_solves += k.lp_solves;
   total.lp_pivots += k.lp_pivots;
   total.newton_iterations += k.newton_iterations;
   total.normal_fallbacks += k.normal_fallbacks;
   total.deep_overlaps += k.deep_overlaps;
+}
+
+// gravity that grows lifts or lowers the potential energy of what has already moved
+template <int Dim>
+void book_gravity_ramp(const Model<Dim>& model, State<Dim>& state) {
+  const double growth = state.schedule.gravity_factor - state.schedule.last_gravity_factor;
+  state.schedule.last_gravity_factor = state.schedule.gravity_factor;
+  if (growth == 0 || state.energy.phase == LedgerPhase::not_begun) return;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.bodies[b].fixed)
+      state.energy.flows.ramp -= growth * model.bodies[b].mass * model.gravity.dot(state.motions[b].displacement);
+}
+
+void book(EnergyFlows& flows, double gravity, double load, double damping) {
+  flows.gravity += gravity;
+  flows.contacts += load - gravity;
+  flows.local += damping;
 }
 
 }  // namespace
@@ -122,7 +171,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   // standing candidates keep their record: both lists are in ascending order
   std::vector<Contact<Dim>> renewed;
   auto old = state.contacts.begin();
-  for (const auto& [a, b] : overlapping_pairs(boxes(model, state, skin))) {
+  for (const auto& [a, b] : overlapping_pairs(boxes(model, state, candidate_reach * skin))) {
     while (old != state.contacts.end() && std::pair(old->part_a, old->part_b) < std::pair(a, b))
       ++old;
     if (old != state.contacts.end() && old->part_a == a && old->part_b == b) {
@@ -143,10 +192,13 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
 
 template <int Dim>
 void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  const int count = static_cast<int>(state.contacts.size());
+  const int count = static_cast<int>(state.contacts.size()), parts = static_cast<int>(model.parts.size());
   const bool per_area = needs_area(model);
+  state.bounds.resize(model.parts.size());
   KernelCounters total;
   if (settings.threads == 1) {
+    for (int i = 0; i < parts; ++i)
+      state.bounds[i] = bounds(model, state, i, 0);
     for (Contact<Dim>& c : state.contacts)
       resolve(model, settings, state, per_area, c, total);
     add(state.counters, total);
@@ -156,21 +208,25 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
     {
       KernelCounters own;
 #pragma omp for schedule(static)
+      for (int i = 0; i < parts; ++i)
+        state.bounds[i] = bounds(model, state, i, 0);
+#pragma omp for schedule(static)
       for (int i = 0; i < count; ++i)
         resolve(model, settings, state, per_area, state.contacts[i], own);
 #pragma omp critical
       add(counters, own);
     }
   }
-  state.counters.contact_evaluations += count;
   for (const Contact<Dim>& c : state.contacts)
-    if (c.status != ContactStatus::separated && !c.touching()) ++state.counters.unconverged;
+    if (c.unanswered()) ++state.counters.unconverged;
 }
 
 template <int Dim>
 void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   // the slip is the one of the step that led here
   const double dt = state.time_step;
+  EnergyLedger& energy = state.energy;
+  energy.elastic = 0;
   for (Contact<Dim>& c : state.contacts) {
     if (!c.touching()) continue;
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
@@ -206,8 +262,12 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
     const JointForce<Dim> answer =
         elastic_coulomb<Dim>(properties, state.schedule.friction[c.properties], dashpot, k, c.history.shear_force);
     c.force = answer.force;
+    energy.elastic += answer.elastic;
+    energy.flows.friction += answer.friction;
+    energy.flows.dashpots += 0.5 * (c.history.dashpot + answer.dashpot) * k.closing_speed * dt;
     c.history.normal = n;
     c.history.plastic_slip += answer.plastic_slip;
+    c.history.dashpot = answer.dashpot;
   }
 }
 
@@ -232,7 +292,7 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   // within a stage the step only shrinks, as soon as a contact is stiffer than it was chosen for
   const double last = state.time_step;
   const bool outgrown = std::any_of(state.contacts.begin(), state.contacts.end(), [](const Contact<Dim>& c) {
-    return c.area_rated < 0 || (c.touching() && c.geometry.area > c.area_rated);
+    return c.status != ContactStatus::apart && (c.area_rated < 0 || (c.touching() && c.geometry.area > c.area_rated));
   });
   if (outgrown || state.frequency.empty()) {
     const double step = estimate_time_step(model, settings, settings.damping, state).step;
@@ -243,10 +303,24 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   }
   state.time_step = state.step_allowed;
 
+  book_gravity_ramp(model, state);
   const StepTimes times{0.5 * (last + state.time_step), state.time_step};
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].fixed)
-      advance(model.bodies[b], state.loads[b], settings.damping.local, times, state.motions[b]);
+  EnergyLedger& energy = state.energy;
+  EnergyFlows after;
+  energy.kinetic = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].fixed) continue;
+    const KickEnergy<Dim> kick =
+        advance(model.bodies[b], state.loads[b], settings.damping.local, times, state.motions[b]);
+    const Vector<Dim> weight = model.bodies[b].mass * state.schedule.gravity_factor * model.gravity;
+    energy.kinetic += kick.kinetic;
+    book(energy.flows, weight.dot(kick.path_before), kick.load_before, kick.damping_before);
+    book(after, weight.dot(kick.path_after), kick.load_after, kick.damping_after);
+  }
+  balance(energy);
+  energy.flows.gravity += after.gravity;
+  energy.flows.contacts += after.contacts;
+  energy.flows.local += after.local;
   state.time += state.time_step;
 }
 

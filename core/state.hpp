@@ -5,7 +5,9 @@
 #include <array>
 #include <vector>
 
+#include "core/contact/broad_phase.hpp"
 #include "core/contact/contact.hpp"
+#include "core/energy.hpp"
 #include "core/geometry/types.hpp"
 #include "core/model.hpp"
 
@@ -36,8 +38,9 @@ struct Load {
 // values that vary within a stage
 struct Schedule {
   double gravity_factor = 1;
-  std::vector<double> friction;  // rad, for each of Model::properties
-  double started = 0;            // s: when the schedules began to run
+  double last_gravity_factor = 1;  // of the step before
+  std::vector<double> friction;    // rad, for each of Model::properties
+  double started = 0;              // s: when the schedules began to run
 };
 
 struct Counters {
@@ -58,21 +61,14 @@ struct State {
   std::vector<Load<Dim>> loads;        // by body
   std::vector<Contact<Dim>> contacts;  // candidate pairs by (part a, part b); those that touch carry history
   std::vector<Placement<Dim>> built;   // where the bodies stood when the candidates were last listed
+  std::vector<Box<Dim>> bounds;        // by part; rebuilt every step
   std::vector<double> frequency;       // rad/s, by body: stiffest mode of the last time-step estimate
   Schedule schedule;
   double time = 0;          // s
   double time_step = 0;     // s: of the last step; 0 at the start
   double step_allowed = 0;  // s: of the next; 0: to be estimated
+  EnergyLedger energy;
   Counters counters;
-};
-
-// exactly what a checkpoint saves
-template <int Dim>
-struct Progress {
-  State<Dim> now;
-  State<Dim> base;  // last stable state of a strength reduction
-  int stage = 0;
-  double stable = 0, failed = 0;  // rad: the bracket of a reduction
 };
 
 // rest at the reference configuration

@@ -8,6 +8,7 @@
 namespace voussoir {
 
 enum class ContactStatus {
+  apart,  // their boxes do not meet: not looked at
   separated,
   touching,
   lp_not_converged,      // the LP hit its iteration limit
@@ -32,6 +33,7 @@ struct JointState {
   Vector<Dim> shear_force = Vector<Dim>::Zero();  // N on the second body
   Vector<Dim> normal = Vector<Dim>::Zero();       // of the step before
   double plastic_slip = 0;                        // m, accumulated
+  double dashpot = 0;                             // N: its share of the normal force, of the step before
 };
 
 // where the kernel starts next time; a new contact starts cold
@@ -48,7 +50,7 @@ struct Contact {
   int part_a = 0, part_b = 0, sub = 0;  // the key: Model::parts, a < b, number of the sub-contact
   int joint = -1;                       // Model::joints, or -1 between faces that no joint made
   int properties = 0;                   // Model::properties in force while touching
-  ContactStatus status = ContactStatus::separated;
+  ContactStatus status = ContactStatus::apart;
   ContactGeometry<Dim> geometry;
   JointState<Dim> history;
   WarmStart<Dim> warm;
@@ -56,6 +58,7 @@ struct Contact {
   double area_rated = -1;                   // m²: the area the time step was last chosen for; negative: not yet
 
   bool touching() const { return status == ContactStatus::touching; }
+  bool unanswered() const { return status > ContactStatus::touching; }
 };
 
 }  // namespace voussoir

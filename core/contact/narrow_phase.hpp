@@ -24,7 +24,8 @@ struct Pair {
 
 // work done by the kernel, summed into the state's counters
 struct KernelCounters {
-  long long lp_solves = 0, lp_pivots = 0, newton_iterations = 0, normal_fallbacks = 0, deep_overlaps = 0;
+  long long evaluations = 0, lp_solves = 0, lp_pivots = 0, newton_iterations = 0, normal_fallbacks = 0;
+  long long deep_overlaps = 0;
 };
 
 // Resolves each pair into the contact at the same place: status, geometry and warm start. A contact that touched before

@@ -32,17 +32,26 @@ JointForce<Dim> elastic_coulomb(const JointProperties& properties, double fricti
                                 const JointKinematics<Dim>& kinematics, Vector<Dim>& shear) {
   const double normal_stiffness = properties.normal_stiffness * kinematics.area;
   const double shear_stiffness = properties.shear_stiffness * kinematics.area;
-  const double normal_force = std::max(0.0, normal_stiffness * kinematics.overlap + dashpot * kinematics.closing_speed);
+  const double spring = normal_stiffness * kinematics.overlap;
+  const double normal_force = std::max(0.0, spring + dashpot * kinematics.closing_speed);
 
   // elastic trial, then return to the cone along the trial's direction
   JointForce<Dim> result;
+  const Vector<Dim> old_shear = shear;
   shear -= shear_stiffness * kinematics.slip;
   const double limit = std::tan(friction) * normal_force, trial = shear.norm();
   if (trial > limit) {
-    if (shear_stiffness > 0) result.plastic_slip = (trial - limit) / shear_stiffness;
+    const Vector<Dim> excess = shear * (1 - limit / trial);
     shear *= limit / trial;
+    if (shear_stiffness > 0) {
+      result.plastic_slip = (trial - limit) / shear_stiffness;
+      result.friction = 0.5 * (old_shear + shear).dot(excess) / shear_stiffness;
+    }
   }
   result.force = normal_force * kinematics.normal + shear;
+  result.dashpot = normal_force - spring;
+  result.elastic = 0.5 * spring * kinematics.overlap;
+  if (shear_stiffness > 0) result.elastic += 0.5 * shear.squaredNorm() / shear_stiffness;
   return result;
 }
 

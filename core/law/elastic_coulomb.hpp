@@ -21,6 +21,9 @@ template <int Dim>
 struct JointForce {
   Vector<Dim> force;        // N on the second body
   double plastic_slip = 0;  // m, of this step
+  double elastic = 0;       // J held by the normal and the shear spring
+  double friction = 0;  // J lost to slip in this step: mean of the old and the new shear force times the plastic slip
+  double dashpot = 0;   // N: the dashpot's share of the normal force
 };
 
 // Carries a shear force to a new contact plane: turned with the normal, then with the bodies' spin about it, its length

@@ -17,19 +17,80 @@ bool none_free(const std::array<bool, Size>& freedoms) {
   return std::none_of(freedoms.begin(), freedoms.end(), [](bool f) { return f; });
 }
 
+// world axes
 template <int Dim>
-Spin<Dim> damped_moment(const Body<Dim>& body, const Load<Dim>& load, double local_damping, const Motion<Dim>& motion) {
-  if (local_damping == 0) return load.moment;
-  const Spin<Dim> spin = angular_velocity(body, motion);
-  Spin<Dim> moment;
+Spin<Dim> damped_moment(const Load<Dim>& load, double local_damping, const Spin<Dim>& spin) {
+  Spin<Dim> moment = load.moment;
+  if (local_damping == 0) return moment;
   for (int k = 0; k < spin_freedoms<Dim>; ++k)
     moment[k] = damped(load.moment[k], spin[k], local_damping);
   return moment;
 }
 
-void rotate(const Body<2>& body, const Load<2>& load, double damping, StepTimes times, Motion<2>& motion) {
-  motion.angular_momentum += times.kick * damped_moment(body, load, damping, motion);
-  motion.rotation.angle += times.drift * motion.angular_momentum[0] / body.inertia[0];
+// books one freedom's kick: `load` and what damping left of it act while the velocity goes from `before` to `after`
+template <int Dim>
+void book(KickEnergy<Dim>& energy, double kick, double load, double left, double before, double after) {
+  energy.load_before += 0.5 * kick * load * before;
+  energy.load_after += 0.5 * kick * load * after;
+  energy.damping_before += 0.5 * kick * (load - left) * before;
+  energy.damping_after += 0.5 * kick * (load - left) * after;
+}
+
+// the time a kick lasts for the books, and the velocity before it: at the start half a step earlier than the given one
+double booked_kick(StepTimes times) {
+  return times.at_start() ? times.drift : times.kick;
+}
+template <class Velocity>
+Velocity velocity_before(StepTimes times, const Velocity& given, const Velocity& after) {
+  return times.at_start() ? Velocity(2 * given - after) : given;
+}
+
+void kick_spin(const Body<2>& body, const Load<2>& load, double damping, StepTimes times, Motion<2>& motion,
+               KickEnergy<2>& energy) {
+  const Spin<2> given = angular_velocity(body, motion);
+  const Spin<2> left = damped_moment(load, damping, given);
+  motion.angular_momentum += times.kick * left;
+  const Spin<2> after = angular_velocity(body, motion), before = velocity_before(times, given, after);
+  book(energy, booked_kick(times), load.moment[0], left[0], before[0], after[0]);
+  energy.kinetic += 0.5 * body.inertia[0] * before[0] * after[0];
+}
+
+void drift_spin(const Body<2>& body, double dt, Motion<2>& motion) {
+  motion.rotation.angle += dt * motion.angular_momentum[0] / body.inertia[0];
+}
+
+// some axes are held: the free components of the spin obey the free block of the inertia tensor
+void kick_partly(const Body<3>& body, const Spin<3>& moment, double dt, Motion<3>& motion) {
+  const Matrix<3> axes = matrix(motion.rotation) * body.principal_axes;
+  Matrix<3> inertia = axes * body.inertia.asDiagonal() * axes.transpose();
+  Spin<3> spin = angular_velocity(body, motion), kick = moment;
+  for (int k = 0; k < 3; ++k) {
+    if (body.free_rotation[k]) continue;
+    inertia.row(k).setZero();
+    inertia.col(k).setZero();
+    inertia(k, k) = 1;
+    kick[k] = 0;
+    spin[k] = 0;
+  }
+  spin += dt * Spin<3>(inertia.inverse() * kick);
+  motion.angular_momentum = angular_momentum(body, motion.rotation, spin);
+}
+
+void kick_spin(const Body<3>& body, const Load<3>& load, double damping, StepTimes times, Motion<3>& motion,
+               KickEnergy<3>& energy) {
+  const Spin<3> given = angular_velocity(body, motion), given_momentum = motion.angular_momentum;
+  const Spin<3> left = damped_moment(load, damping, given);
+  if (all_free<3>(body.free_rotation)) {
+    const Matrix<3> axes = matrix(motion.rotation) * body.principal_axes;
+    motion.angular_momentum += times.kick * (axes.transpose() * left);
+  } else {
+    kick_partly(body, left, times.kick, motion);
+  }
+  const Spin<3> after = angular_velocity(body, motion), before = velocity_before(times, given, after);
+  for (int k = 0; k < 3; ++k)
+    if (body.free_rotation[k]) book(energy, booked_kick(times), load.moment[k], left[k], before[k], after[k]);
+  const Spin<3> momentum_before = velocity_before(times, given_momentum, motion.angular_momentum);
+  energy.kinetic += 0.5 * momentum_before.dot(motion.angular_momentum.cwiseQuotient(body.inertia));
 }
 
 // turns the body about its principal axis k by the share of a step; the momentum seen from the body turns back
@@ -45,33 +106,13 @@ void turn_about(int k, double dt, const Body<3>& body, Motion<3>& motion) {
   motion.rotation.quaternion *= Eigen::Quaterniond(std::cos(0.5 * angle), axis[0], axis[1], axis[2]);
 }
 
-// some axes are held: the free components of the spin obey the free block of the inertia tensor
-void rotate_partly(const Body<3>& body, const Spin<3>& moment, StepTimes times, Motion<3>& motion) {
-  const Matrix<3> axes = matrix(motion.rotation) * body.principal_axes;
-  Matrix<3> inertia = axes * body.inertia.asDiagonal() * axes.transpose();
-  Spin<3> spin = angular_velocity(body, motion), kick = moment;
-  for (int k = 0; k < 3; ++k) {
-    if (body.free_rotation[k]) continue;
-    inertia.row(k).setZero();
-    inertia.col(k).setZero();
-    inertia(k, k) = 1;
-    kick[k] = 0;
-    spin[k] = 0;
-  }
-  spin += times.kick * Spin<3>(inertia.inverse() * kick);
-  motion.rotation = turned(motion.rotation, times.drift * spin);
-  motion.angular_momentum = angular_momentum(body, motion.rotation, spin);
-}
-
-void rotate(const Body<3>& body, const Load<3>& load, double damping, StepTimes times, Motion<3>& motion) {
-  const Spin<3> moment = damped_moment(body, load, damping, motion);
+void drift_spin(const Body<3>& body, double dt, Motion<3>& motion) {
   if (!all_free<3>(body.free_rotation)) {
-    rotate_partly(body, moment, times, motion);
+    const Spin<3> spin = angular_velocity(body, motion);
+    motion.rotation = turned(motion.rotation, dt * spin);
+    motion.angular_momentum = angular_momentum(body, motion.rotation, spin);
     return;
   }
-  const Matrix<3> axes = matrix(motion.rotation) * body.principal_axes;
-  motion.angular_momentum += times.kick * (axes.transpose() * moment);
-  const double dt = times.drift;
   turn_about(0, 0.5 * dt, body, motion);
   turn_about(1, 0.5 * dt, body, motion);
   turn_about(2, dt, body, motion);
@@ -88,13 +129,28 @@ double damped(double force, double velocity, double local_damping) {
 }
 
 template <int Dim>
-void advance(const Body<Dim>& body, const Load<Dim>& load, double local_damping, StepTimes times, Motion<Dim>& motion) {
+KickEnergy<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, double local_damping, StepTimes times,
+                        Motion<Dim>& motion) {
+  KickEnergy<Dim> energy;
+  energy.path_before.setZero();
+  energy.path_after.setZero();
+  const double booked = booked_kick(times);
   for (int k = 0; k < Dim; ++k) {
     if (!body.free_translation[k]) continue;
-    motion.velocity[k] += times.kick * damped(load.force[k], motion.velocity[k], local_damping) / body.mass;
+    const double given = motion.velocity[k], left = damped(load.force[k], given, local_damping);
+    motion.velocity[k] += times.kick * left / body.mass;
+    const double before = velocity_before(times, given, motion.velocity[k]);
+    book(energy, booked, load.force[k], left, before, motion.velocity[k]);
+    energy.kinetic += 0.5 * body.mass * before * motion.velocity[k];
+    energy.path_before[k] = 0.5 * booked * before;
+    energy.path_after[k] = 0.5 * booked * motion.velocity[k];
     motion.displacement[k] += times.drift * motion.velocity[k];
   }
-  if (!none_free(body.free_rotation)) rotate(body, load, local_damping, times, motion);
+  if (!none_free(body.free_rotation)) {
+    kick_spin(body, load, local_damping, times, motion, energy);
+    drift_spin(body, times.drift, motion);
+  }
+  return energy;
 }
 
 template <int Dim>
@@ -130,8 +186,8 @@ double unbalanced_ratio(const Model<Dim>& model, const State<Dim>& state) {
   return mean > 0 ? largest / mean : std::numeric_limits<double>::infinity();
 }
 
-template void advance<2>(const Body<2>&, const Load<2>&, double, StepTimes, Motion<2>&);
-template void advance<3>(const Body<3>&, const Load<3>&, double, StepTimes, Motion<3>&);
+template KickEnergy<2> advance<2>(const Body<2>&, const Load<2>&, double, StepTimes, Motion<2>&);
+template KickEnergy<3> advance<3>(const Body<3>&, const Load<3>&, double, StepTimes, Motion<3>&);
 template double unbalanced_ratio<2>(const Model<2>&, const State<2>&);
 template double unbalanced_ratio<3>(const Model<3>&, const State<3>&);
 

@@ -8,16 +8,29 @@
 namespace voussoir {
 
 // the two halves of a step: velocities are kicked over half the last and half this time step, positions drift over this
-// one; the last is 0 at the start, where velocities are given at the same time as positions
+// one; the last is 0 at the start alone, where velocities are given at the same time as positions
 struct StepTimes {
   double kick, drift;  // s
+  bool at_start() const { return kick == 0.5 * drift; }
+};
+
+// What a kick does to a body's energy, J. Each work comes in two halves: at the velocity before the kick and at the one
+// after it; the kinetic energy (leapfrog's own, ½ m v₋·v₊ and the same for spins) stands between the two. At the start
+// the velocity before is the one half a step earlier that would have led to the given one.
+template <int Dim>
+struct KickEnergy {
+  double kinetic = 0;
+  double load_before = 0, load_after = 0;        // work of the load before damping
+  double damping_before = 0, damping_after = 0;  // lost to local damping
+  Vector<Dim> path_before, path_after;           // m: halves of the displacement the load acted along
 };
 
 // Advances a free body by one step under its load. Translation: v += kick f/m, u += drift v on free freedoms. Rotation
 // in 3-D: angular momentum is kicked by the moment, then the free rotation is split into turns about the principal axes
 // (Dullweber, Leimkuhler & McLachlan 1997): reversible, symplectic, momentum kept exactly, exact inertia.
 template <int Dim>
-void advance(const Body<Dim>& body, const Load<Dim>& load, double local_damping, StepTimes times, Motion<Dim>& motion);
+KickEnergy<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, double local_damping, StepTimes times,
+                        Motion<Dim>& motion);
 
 // force left after damping each component against its velocity: f - α |f| sign(v)
 double damped(double force, double velocity, double local_damping);

@@ -94,10 +94,10 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
     const int ia = model.parts[c.part_a].body, ib = model.parts[c.part_b].body;
     const Body<Dim>&a = model.bodies[ia], &b = model.bodies[ib];
     const double factor = a.fixed || b.fixed ? 1 : 2;
+    if (c.status == ContactStatus::apart) continue;
     if (c.touching()) {
-      // room to grow before the next estimate
       c.area_rated = area_margin * c.geometry.area;
-      const Matrix<Dim> k = contact_stiffness<Dim>(model.properties[c.properties], c.area_rated, c.geometry.normal);
+      const Matrix<Dim> k = contact_stiffness<Dim>(model.properties[c.properties], c.geometry.area, c.geometry.normal);
       const Vector<Dim> between =
           (b.reference - a.reference) + (state.motions[ib].displacement - state.motions[ia].displacement);
       add<Dim>(stiffness[ia], factor, k, c.geometry.point);
@@ -136,7 +136,7 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
   if (settings.time.step)
     estimate.step = *settings.time.step;
   else if (largest > 0)
-    estimate.step = settings.time.fraction * estimate.limit;
+    estimate.step = settings.time.fraction * estimate.limit / std::sqrt(area_margin);
   return estimate;
 }
 

@@ -12,13 +12,14 @@ struct TimeStepEstimate {
   double step = 0;   // s: what the settings make of it; 0 when neither a contact nor the settings give one
 };
 
-// λ = max over free bodies of λ_max(M⁻¹ Σ f J^T K J) over the body's 3 or 6 freedoms, lever arms included; f = 2 where
-// both bodies are free. Contacts that touch count with their area; candidates that do not, with the smaller of the two
-// parts' largest faces at the lever arm of the body's radius, so that a first impact is safe. Notes in the state each
-// contact's rated area and each body's stiffest frequency. an area may grow by this factor before the step must be
-// estimated anew
+// an area may grow by this factor before the step must be estimated anew: `step` leaves room for it
 inline constexpr double area_margin = 1.1;
 
+// λ = max over free bodies of λ_max(M⁻¹ Σ f J^T K J) over the body's 3 or 6 freedoms, lever arms included; f = 2 where
+// both bodies are free: between 1/√2 and 1 of the true limit. Contacts that touch count with their area; pairs whose
+// boxes meet but that do not touch, with the smaller of the two parts' largest faces at the lever arm of the body's
+// radius, so that a first impact is safe. Notes in the state each contact's rated area and each body's stiffest
+// frequency.
 template <int Dim>
 TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
                                     State<Dim>& state);

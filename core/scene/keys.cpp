@@ -183,7 +183,7 @@ const KeyRow rows[] = {
      .example = "400", .meaning = "largest number of iterations of that search",
      .breaks = "a search that needs more ends the run as failed"},
     {.table = "contact", .key = "skin", .unit = "1", .range = {0, 100, true}, .fallback = "0.1", .example = "0.2",
-     .meaning = "blocks closer than this times the smallest inscribed radius are tested for contact",
+     .meaning = "blocks closer than this times the smallest inscribed radius are kept in the list of neighbours",
      .breaks = "changes the cost, never the result"},
     {.table = "damping", .key = "local", .unit = "1", .range = share, .fallback = "0.7", .example = "0",
      .meaning = "share by which each force component is lessened when it drives the motion (Cundall); a stage's "
