@@ -53,12 +53,13 @@ void load_prepared(const Scene& scene, int threads, LoadedScene& loaded) {
   loaded.prepared = std::move(prepared);
 }
 
-Results simulate_any(const Prepared<2>& prepared, const SceneWatcher& watcher) {
-  return simulate<2>(prepared, {watcher.progress, watcher.frame_2d});
-}
-
-Results simulate_any(const Prepared<3>& prepared, const SceneWatcher& watcher) {
-  return simulate<3>(prepared, {watcher.progress, watcher.frame_3d});
+template <int Dim>
+Results simulate_prepared(const Prepared<Dim>& prepared, const ProgressHook& hook) {
+  Progress<Dim> progress = begin(prepared);
+  Watcher<Dim> watcher;
+  watcher.progress = hook;
+  simulate(prepared, progress, watcher);
+  return std::move(progress.results);
 }
 
 }  // namespace
@@ -77,14 +78,14 @@ LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std:
   return loaded;
 }
 
-Results simulate_scene(const LoadedScene& scene, const SceneWatcher& watcher) {
-  return std::visit([&](const auto& prepared) { return simulate_any(prepared, watcher); }, scene.prepared);
+Results simulate_scene(const LoadedScene& scene, const ProgressHook& progress) {
+  return std::visit([&](const auto& prepared) { return simulate_prepared(prepared, progress); }, scene.prepared);
 }
 
 SceneRun run_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides, int threads,
-                   const SceneWatcher& watcher) {
+                   const ProgressHook& progress) {
   LoadedScene scene = load_scene(path, overrides, threads);
-  Results results = simulate_scene(scene, watcher);
+  Results results = simulate_scene(scene, progress);
   return {std::move(scene), std::move(results)};
 }
 

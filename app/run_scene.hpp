@@ -29,14 +29,10 @@ struct LoadedScene {
 LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
                        int threads = 1);
 
-// callbacks; each may be empty
-struct SceneWatcher {
-  std::function<void(const ProgressReport&)> progress;
-  std::function<void(const Model<2>&, const State<2>&, double time)> frame_2d;
-  std::function<void(const Model<3>&, const State<3>&, double time)> frame_3d;
-};
+using ProgressHook = std::function<void(const ProgressReport&)>;
 
-Results simulate_scene(const LoadedScene& scene, const SceneWatcher& watcher = {});
+// in memory, from begin to end
+Results simulate_scene(const LoadedScene& scene, const ProgressHook& progress = {});
 
 struct SceneRun {
   LoadedScene scene;  // as it was before the first step
@@ -45,7 +41,7 @@ struct SceneRun {
 
 // load_scene, then simulate_scene
 SceneRun run_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {}, int threads = 1,
-                   const SceneWatcher& watcher = {});
+                   const ProgressHook& progress = {});
 
 // what is built in besides the core: glpk, ipopt, openmp
 std::vector<std::pair<std::string, bool>> features();

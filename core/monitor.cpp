@@ -128,21 +128,21 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
 }
 
 bool StageRecord::due(double time) {
-  if (interval_ > 0) {
-    if (time < next_) return false;
-    next_ = (std::floor(time / interval_) + 1) * interval_;
+  if (interval > 0) {
+    if (time < next) return false;
+    next = (std::floor(time / interval) + 1) * interval;
     return true;
   }
-  return step_++ % spacing_ == 0;
+  return step++ % spacing == 0;
 }
 
 void StageRecord::add(std::vector<double> row) {
-  rows_.push_back(std::move(row));
-  if (interval_ > 0 || rows_.size() < rows_kept) return;
-  for (std::size_t i = 1; 2 * i < rows_.size(); ++i)
-    rows_[i] = std::move(rows_[2 * i]);
-  rows_.resize((rows_.size() + 1) / 2);
-  spacing_ *= 2;
+  rows.push_back(std::move(row));
+  if (interval > 0 || rows.size() < rows_kept) return;
+  for (std::size_t i = 1; 2 * i < rows.size(); ++i)
+    rows[i] = std::move(rows[2 * i]);
+  rows.resize((rows.size() + 1) / 2);
+  spacing *= 2;
 }
 
 template std::vector<Column> monitor_columns<2>(const std::vector<Monitor>&);

@@ -28,19 +28,15 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
 
 // Rows of a stage. With an interval a row at each; without one it thins itself so that a stage keeps some 200 rows
 // however long it lasts: when full, every second row goes and the spacing doubles.
-class StageRecord {
- public:
-  explicit StageRecord(double interval) : interval_(interval) {}
+struct StageRecord {
+  double interval = 0;  // s; 0: thin
+  double next = 0;      // s: when the next row is due
+  long long step = 0, spacing = 1;
+  std::vector<std::vector<double>> rows;
 
   // whether a row is due now; call once a step
   bool due(double time);
   void add(std::vector<double> row);
-  std::vector<std::vector<double>> take() { return std::move(rows_); }
-
- private:
-  double interval_, next_ = 0;
-  long long step_ = 0, spacing_ = 1;
-  std::vector<std::vector<double>> rows_;
 };
 
 }  // namespace voussoir

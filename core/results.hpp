@@ -43,7 +43,10 @@ struct Results {
   std::vector<StageResult> stages;
   History history;
   Counters counters;
-  double seconds = 0;  // wall clock
+  EnergyLedger energy;
+  std::string state_hash;             // of the last state (core/state_hash.hpp)
+  std::vector<std::string> warnings;  // one line each: what the run itself showed to be doubtful
+  double seconds = 0;                 // wall clock
 
   const Value* find(const std::string& name) const {
     for (const auto& [key, value] : values)

@@ -30,20 +30,34 @@ bool follow(const RunSchedule& plan, State<Dim>& state) {
 }
 
 template <int Dim>
-double farthest(const Model<Dim>& model, const State<Dim>& state, const std::vector<Motion<Dim>>& begin) {
+double farthest(const Model<Dim>& model, const State<Dim>& state, const std::vector<Vector<Dim>>& begin) {
   double largest = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].fixed)
-      largest = std::max(largest, (state.motions[b].displacement - begin[b].displacement).norm());
+    if (!model.bodies[b].fixed) largest = std::max(largest, (state.motions[b].displacement - begin[b]).norm());
   return largest;
 }
 
+// the first body whose load or motion is not a number; -1: none
 template <int Dim>
-bool finite(const State<Dim>& state) {
-  double sum = 0;
-  for (const Load<Dim>& l : state.loads)
-    sum += l.force.sum() + l.moment.sum();
-  return std::isfinite(sum);
+int first_not_finite(const State<Dim>& state) {
+  for (std::size_t b = 0; b < state.motions.size(); ++b) {
+    const Motion<Dim>& m = state.motions[b];
+    const double sum = state.loads[b].force.sum() + state.loads[b].moment.sum() + m.displacement.sum() +
+                       m.velocity.sum() + m.angular_momentum.sum();
+    if (!std::isfinite(sum)) return static_cast<int>(b);
+  }
+  return -1;
+}
+
+template <int Dim>
+std::string name_of(const Model<Dim>& model, int body) {
+  const std::string& name = model.bodies[body].name;
+  return name.empty() ? fmt::format("body {}", body) : fmt::format("body {} ({})", body, name);
+}
+
+template <int Dim>
+std::string moment_of(const State<Dim>& state) {
+  return fmt::format("step {}, t = {:.6g} s", state.counters.steps, state.time);
 }
 
 const char* name(ContactStatus status) {
@@ -70,9 +84,20 @@ template <int Dim>
 std::string first_unanswered(const Model<Dim>& model, const State<Dim>& state) {
   for (const Contact<Dim>& c : state.contacts)
     if (c.unanswered())
-      return fmt::format("contact of bodies {} and {} at t = {:.6g} s: {}", model.parts[c.part_a].body,
-                         model.parts[c.part_b].body, state.time, name(c.status));
+      return fmt::format("contact of {} and {} at {}: {}", name_of(model, model.parts[c.part_a].body),
+                         name_of(model, model.parts[c.part_b].body), moment_of(state), name(c.status));
   return {};
+}
+
+template <int Dim>
+RunProgress<Dim> begin_run(const RunGoal& goal, const State<Dim>& state) {
+  RunProgress<Dim> progress;
+  progress.under_way = true;
+  progress.unconverged = state.counters.unconverged;
+  if (goal.moved_away > 0)
+    for (const Motion<Dim>& m : state.motions)
+      progress.begin.push_back(m.displacement);
+  return progress;
 }
 
 }  // namespace
@@ -92,59 +117,55 @@ std::string describe(StopReason reason) {
     case StopReason::no_contact_answer:
       return "a contact found no answer";
     case StopReason::not_finite:
-      return "a force is not finite";
+      return "a number is not finite";
+    case StopReason::interrupted:
+      return "interrupted";
   }
   return "unknown";
 }
 
 template <int Dim>
 RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& goal, const RunSchedule& schedule,
-              State<Dim>& state, const StepHook<Dim>& hook) {
+              State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks) {
+  if (!progress.under_way) progress = begin_run(goal, state);
   RunReport report;
-  const std::vector<Motion<Dim>> begin = goal.moved_away > 0 ? state.motions : std::vector<Motion<Dim>>{};
-  const long long unconverged = state.counters.unconverged;
-  int at_rest = 0;
+  const auto stop = [&](StopReason reason, const std::string& detail = {}) {
+    progress.under_way = reason == StopReason::interrupted;
+    report.reason = reason;
+    report.detail = detail;
+    report.steps = progress.steps;
+    return report;
+  };
 
   while (true) {
+    if (hooks.pause && hooks.pause()) return stop(StopReason::interrupted);
     const bool changing = follow(schedule, state);
     step(model, settings, state);
-    ++report.steps;
+    ++progress.steps;
     report.unbalanced = goal.rest ? unbalanced_ratio(model, state) : -1;
-    if (hook) hook(state, report.unbalanced);
+    if (hooks.after_step) hooks.after_step(state, report.unbalanced);
 
     // a wrong force must not be stepped over
-    if (state.counters.unconverged > unconverged) {
-      report.reason = StopReason::no_contact_answer;
-      report.detail = first_unanswered(model, state);
-      return report;
-    }
-    if (!finite(state)) {
-      report.reason = StopReason::not_finite;
-      report.detail = fmt::format("at t = {:.6g} s", state.time);
-      return report;
-    }
+    if (state.counters.unconverged > progress.unconverged)
+      return stop(StopReason::no_contact_answer, first_unanswered(model, state));
+    if (const int body = first_not_finite(state); body >= 0)
+      return stop(StopReason::not_finite, name_of(model, body) + " at " + moment_of(state));
 
     // rest must last, and cannot come while gravity or friction still changes
     const bool settled = goal.rest && !changing && report.unbalanced <= settings.equilibrium.unbalanced;
-    at_rest = settled ? at_rest + 1 : 0;
-    if (at_rest >= settings.equilibrium.window) {
-      report.reason = StopReason::equilibrium;
-    } else if (goal.moved_away > 0 && farthest(model, state, begin) > goal.moved_away) {
-      report.reason = StopReason::moved_away;
-    } else if (state.time >= goal.end_time - 1e-9 * state.time_step) {
-      report.reason = StopReason::end_time;
-    } else if (state.time >= goal.time_limit) {
-      report.reason = StopReason::time_limit;
-    } else if (goal.step_limit == 0 || report.steps < goal.step_limit) {
-      continue;
-    }
-    return report;
+    progress.at_rest = settled ? progress.at_rest + 1 : 0;
+    if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
+    if (goal.moved_away > 0 && farthest(model, state, progress.begin) > goal.moved_away)
+      return stop(StopReason::moved_away);
+    if (state.time >= goal.end_time - 1e-9 * state.time_step) return stop(StopReason::end_time);
+    if (state.time >= goal.time_limit) return stop(StopReason::time_limit);
+    if (goal.step_limit > 0 && progress.steps >= goal.step_limit) return stop(StopReason::step_limit);
   }
 }
 
 template RunReport run<2>(const Model<2>&, const Settings&, const RunGoal&, const RunSchedule&, State<2>&,
-                          const StepHook<2>&);
+                          RunProgress<2>&, const RunHooks<2>&);
 template RunReport run<3>(const Model<3>&, const Settings&, const RunGoal&, const RunSchedule&, State<3>&,
-                          const StepHook<3>&);
+                          RunProgress<3>&, const RunHooks<3>&);
 
 }  // namespace voussoir

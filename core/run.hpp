@@ -11,7 +11,16 @@
 
 namespace voussoir {
 
-enum class StopReason { equilibrium, end_time, moved_away, step_limit, time_limit, no_contact_answer, not_finite };
+enum class StopReason {
+  equilibrium,
+  end_time,
+  moved_away,
+  step_limit,
+  time_limit,
+  no_contact_answer,
+  not_finite,
+  interrupted  // the hooks asked for a pause: the run goes on when it is called again
+};
 
 // what a run aims at; anything left out does not stop it
 struct RunGoal {
@@ -37,13 +46,37 @@ struct RunReport {
   double unbalanced = 0;  // the equilibrium measure at the end
 };
 
-// called after every step with the state and the equilibrium measure (negative when the goal needs none)
+// How far a run has come: with it an interrupted run goes on as if nothing had happened.
 template <int Dim>
-using StepHook = std::function<void(const State<Dim>&, double unbalanced)>;
+struct RunProgress {
+  bool under_way = false;
+  long long steps = 0;
+  int at_rest = 0;                 // steps in a row
+  long long unconverged = 0;       // Counters::unconverged at the begin
+  std::vector<Vector<Dim>> begin;  // m: displacements at the begin, kept where the goal looks at them
+};
 
+// Callbacks; each may be empty. Neither can change the run.
+template <int Dim>
+struct RunHooks {
+  // after every step, with the equilibrium measure (negative when the goal needs none)
+  std::function<void(const State<Dim>&, double unbalanced)> after_step;
+  // before every step, when everything that the next steps need lies in state and progress; true stops the run
+  std::function<bool()> pause;
+};
+
+// Begins, or goes on where `progress` says it is under way; the goal and the schedule must then be the same.
 template <int Dim>
 RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& goal, const RunSchedule& schedule,
-              State<Dim>& state, const StepHook<Dim>& hook = {});
+              State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks = {});
+
+// from the begin, without hooks
+template <int Dim>
+RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& goal, const RunSchedule& schedule,
+              State<Dim>& state) {
+  RunProgress<Dim> progress;
+  return run(model, settings, goal, schedule, state, progress);
+}
 
 // a sentence for people
 std::string describe(StopReason reason);

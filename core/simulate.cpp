@@ -5,9 +5,9 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
-#include "core/monitor.hpp"
-#include "core/reduction/reduction.hpp"
+#include "core/state_hash.hpp"
 
 namespace voussoir {
 namespace {
@@ -15,7 +15,10 @@ namespace {
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr long long steps_between_reports = 1000;
 
-// a stage that was run
+// what the ledger may leave unexplained, as a share of the largest energy, before a run is doubted
+constexpr double energy_left_open = 0.05;
+
+// a stage that has ended
 struct Executed {
   std::string kind, ended;
   RunReport report;
@@ -23,40 +26,38 @@ struct Executed {
 
 template <int Dim>
 struct Simulation {
-  Prepared<Dim> scene;
+  const Prepared<Dim>& scene;
   const Watcher<Dim>& watcher;
-  Results results;
-  Model<Dim> model;
-  State<Dim> state;
-  Settings settings;           // of the stage
-  int stage = 0;               // from 0
-  long long steps_before = 0;  // of the stages that ended
-  double next_frame = 0;       // s
+  Progress<Dim>& progress;
+  Model<Dim> model;   // of the stage
+  Settings settings;  // of the stage
+  State<Dim>& state = progress.state;
+  Results& results = progress.results;
+  double seconds_before = progress.results.seconds;
+  std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
 
-  // a row of the history: time, friction angle, monitors
+  const StagePlan& plan() const { return scene.stages[progress.stage]; }
+
+  // a row of the history: time, stage, friction angle, monitors
   std::vector<double> row(const State<Dim>& now) const {
-    std::vector<double> values{now.time, static_cast<double>(stage + 1)};
+    std::vector<double> values{now.time, static_cast<double>(progress.stage + 1)};
     values.push_back(now.schedule.friction.empty() ? 0 : now.schedule.friction.front() * degrees);
     const std::vector<double> monitored = monitor_values<Dim>(scene.monitors, model, now);
     values.insert(values.end(), monitored.begin(), monitored.end());
     return values;
   }
 
-  void prepare_history() {
-    results.history.columns = {"time_s", "stage", "friction_deg"};
-    for (const Column& c : monitor_columns<Dim>(scene.monitors))
-      results.history.columns.push_back(c.header());
-  }
-
   void frame(const State<Dim>& now) {
-    if (watcher.frame && scene.output.frames) watcher.frame(model, now, now.time);
+    if (!scene.output.frames) return;
+    if (watcher.frame) watcher.frame(model, now, now.time);
+    progress.frames.push_back(now.time);
   }
 
   void tell(const State<Dim>& now, const std::string& detail, double unbalanced, double done) {
     if (!watcher.progress) return;
     ProgressReport p;
-    p.stage = scene.stages[stage].name;
-    p.stage_number = stage + 1;
+    p.stage = plan().name;
+    p.stage_number = progress.stage + 1;
     p.stage_count = static_cast<int>(scene.stages.size());
     p.detail = detail;
     p.steps = now.counters.steps;
@@ -66,22 +67,49 @@ struct Simulation {
     watcher.progress(p);
   }
 
-  // rows, frames and progress while a run goes on; `end` is its end time if known
-  StepHook<Dim> recorder(StageRecord& record, double begin, double end) {
-    return [this, &record, begin, end](const State<Dim>& now, double unbalanced) {
-      if (record.due(now.time)) record.add(row(now));
-      if (scene.output.frame_interval > 0 && now.time >= next_frame) {
-        frame(now);
-        next_frame = (std::floor(now.time / scene.output.frame_interval) + 1) * scene.output.frame_interval;
-      }
-      if (now.counters.steps % steps_between_reports == 0)
-        tell(now, "", unbalanced, end < 1e299 ? (now.time - begin) / (end - begin) : -1);
+  std::function<bool()> pause() {
+    if (!watcher.pause) return {};
+    return [this] {
+      count_seconds();
+      return watcher.pause(progress);
     };
   }
 
-  void finish_rows(StageRecord& record) {
-    for (std::vector<double>& r : record.take())
+  void count_seconds() {
+    results.seconds = seconds_before + std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  }
+
+  // rows, frames and progress while a run goes on; `end` is its end time if known
+  RunHooks<Dim> record_run(double end) {
+    const double begin = progress.stage_began;
+    return {.after_step =
+                [this, begin, end](const State<Dim>& now, double unbalanced) {
+                  if (progress.record.due(now.time)) progress.record.add(row(now));
+                  const double interval = scene.output.frame_interval;
+                  if (interval > 0 && now.time >= progress.next_frame) {
+                    frame(now);
+                    progress.next_frame = (std::floor(now.time / interval) + 1) * interval;
+                  }
+                  if (now.counters.steps % steps_between_reports == 0)
+                    tell(now, "", unbalanced, end < 1e299 ? (now.time - begin) / (end - begin) : -1);
+                },
+            .pause = pause()};
+  }
+
+  // a search records the end of each trial
+  RunHooks<Dim> tell_trials() {
+    return {.after_step =
+                [this](const State<Dim>& now, double unbalanced) {
+                  if (now.counters.steps % steps_between_reports == 0)
+                    tell(now, fmt::format("trial at {:.4f} deg", progress.reduction.target * degrees), unbalanced, -1);
+                },
+            .pause = pause()};
+  }
+
+  void finish_rows() {
+    for (std::vector<double>& r : progress.record.rows)
       results.history.rows.push_back(std::move(r));
+    progress.record.rows.clear();
     std::vector<double> last = row(state);
     if (results.history.rows.empty() || results.history.rows.back() != last)
       results.history.rows.push_back(std::move(last));
@@ -89,7 +117,7 @@ struct Simulation {
 
   void fail(Outcome outcome, const std::string& message) {
     results.outcome = outcome;
-    results.message = "stage " + scene.stages[stage].name + ": " + message;
+    results.message = "stage " + plan().name + ": " + message;
   }
 
   void judge(const RunReport& report, bool goal_reached) {
@@ -101,71 +129,67 @@ struct Simulation {
                        report.unbalanced, settings.equilibrium.unbalanced));
   }
 
-  RunReport go(const RunGoal& goal, const RunSchedule& schedule, double end) {
-    StageRecord record(scene.output.history_interval);
-    const RunReport report = run(model, settings, goal, schedule, state, recorder(record, state.time, end));
-    finish_rows(record);
-    return report;
-  }
+  // each `execute` goes on with the stage under way; nothing: interrupted
 
-  Executed execute(const SettlePlan& plan) {
+  std::optional<Executed> execute(const SettlePlan& settle) {
     RunGoal goal;
     goal.rest = true;
-    goal.time_limit = state.time + plan.time_limit;
-    goal.step_limit = plan.step_limit;
-    const RunReport report = go(goal, {.gravity_ramp = plan.gravity_ramp, .properties = {}}, 1e300);
-    judge(report, report.reason == StopReason::equilibrium);
-    return {"settle", describe(report.reason), report};
+    goal.time_limit = progress.stage_began + settle.time_limit;
+    goal.step_limit = settle.step_limit;
+    return go("settle", goal, settle.gravity_ramp, StopReason::equilibrium);
   }
 
-  Executed execute(const RunPlan& plan) {
+  std::optional<Executed> execute(const RunPlan& timed) {
     RunGoal goal;
-    goal.end_time = state.time + plan.duration;
-    const RunReport report = go(goal, {.gravity_ramp = plan.gravity_ramp, .properties = {}}, goal.end_time);
-    judge(report, report.reason == StopReason::end_time);
-    return {"run", describe(report.reason), report};
+    goal.end_time = progress.stage_began + timed.duration;
+    return go("run", goal, timed.gravity_ramp, StopReason::end_time);
   }
 
-  // a reduction records the end of each trial; at constant rate, where the trial is the whole stage, all along
-  Executed execute(const ReducePlan& plan) {
-    StageRecord record(scene.output.history_interval);
-    const bool continuous = plan.method == ReductionMethod::rate;
-    const StepHook<Dim> record_all = recorder(record, state.time, 1e300);
-    std::string trial;
-    const StepHook<Dim> on_step = [&](const State<Dim>& now, double unbalanced) {
-      if (continuous)
-        record_all(now, unbalanced);
-      else if (now.counters.steps % steps_between_reports == 0)
-        tell(now, trial, unbalanced, -1);
-    };
-    const TrialHook<Dim> on_trial = [&](const State<Dim>& now, double friction, Trial outcome) {
+  std::optional<Executed> go(const std::string& kind, const RunGoal& goal, double gravity_ramp, StopReason wanted) {
+    const RunSchedule schedule{.gravity_ramp = gravity_ramp, .properties = {}};
+    const RunReport report = run(model, settings, goal, schedule, state, progress.run, record_run(goal.end_time));
+    if (report.reason == StopReason::interrupted) return {};
+    finish_rows();
+    judge(report, report.reason == wanted);
+    return Executed{kind, describe(report.reason), report};
+  }
+
+  // a search has its trials recorded; at constant rate, where the trial is the whole stage, all that happens
+  std::optional<Executed> execute(const ReducePlan& reduction) {
+    const bool continuous = reduction.method == ReductionMethod::rate;
+    const TrialHook<Dim> on_trial = [&](const State<Dim>& now, double, Trial outcome) {
       if (!continuous) results.history.rows.push_back(row(now));
       if (outcome == Trial::failed) frame(now);
-      trial = fmt::format("after {:.4f} deg: {}", friction * degrees, outcome == Trial::stable ? "stable" : "failed");
     };
-    const ReductionReport report = reduce(model, settings, plan, state, on_step, on_trial);
-    finish_rows(record);
+    const ReductionReport report = reduce(model, settings, reduction, state, progress.reduction,
+                                          continuous ? record_run(1e300) : tell_trials(), on_trial);
+    if (report.last.reason == StopReason::interrupted) return {};
+    finish_rows();
     judge(report.last, true);
     if (report.bracketed) {
       const bool unique = !results.find("critical_friction");
-      const std::string name = unique ? "critical_friction" : scene.stages[stage].name + "_critical_friction";
+      const std::string name = unique ? "critical_friction" : plan().name + "_critical_friction";
       results.values.push_back({name, {report.critical * degrees, "deg", report.error_bar * degrees, report.rule}});
     } else if (results.outcome != Outcome::failed) {
       fail(Outcome::incomplete, "no bracket: " + report.message);
     }
-    return {"reduce", report.bracketed ? "critical friction found" : describe(report.last.reason), report.last};
+    return Executed{"reduce", report.bracketed ? "critical friction found" : describe(report.last.reason), report.last};
   }
 
-  void begin_stage(const StagePlan& plan) {
+  // model and settings of the stage, whether it begins or goes on
+  void enter_stage() {
     settings = scene.settings;
-    if (plan.damping) settings.damping = *plan.damping;
-    model = apply(std::move(model), plan.change);
+    if (plan().damping) settings.damping = *plan().damping;
+    model = apply(std::move(model), plan().change);
+  }
+
+  void begin_stage() {
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
       if (!model.bodies[b].fixed) continue;
       state.motions[b].velocity.setZero();
       state.motions[b].angular_momentum.setZero();
     }
-    if (plan.change.friction)
+    if (plan().change.friction)
       for (std::size_t p = 0; p < model.properties.size(); ++p)
         state.schedule.friction[p] = model.properties[p].friction;
     // candidates and time step belong to the stage
@@ -173,59 +197,97 @@ struct Simulation {
     state.frequency.clear();
     state.step_allowed = 0;
     state.schedule.started = state.time;
+    if (state.energy.phase == LedgerPhase::running) state.energy.phase = LedgerPhase::model_changed;
+    progress.stage_began = state.time;
+    progress.record = {};
+    progress.record.interval = scene.output.history_interval;
+    progress.run = {};
+    progress.reduction = {};
+    progress.stage_under_way = true;
   }
 
-  void end_stage(const std::string& kind, const std::string& ended, const RunReport& report) {
+  void end_stage(const Executed& done) {
     StageResult r;
-    r.name = scene.stages[stage].name;
-    r.kind = kind;
-    r.ended = ended;
-    r.steps = state.counters.steps - steps_before;
-    r.time = state.time - state.schedule.started;
+    r.name = plan().name;
+    r.kind = done.kind;
+    r.ended = done.ended;
+    r.steps = state.counters.steps - progress.steps_before;
+    r.time = state.time - progress.stage_began;
     r.time_step = state.time_step;
-    r.unbalanced = report.unbalanced;
+    r.unbalanced = done.report.unbalanced;
     results.stages.push_back(r);
-    steps_before = state.counters.steps;
+    progress.steps_before = state.counters.steps;
+    progress.stage_under_way = false;
     frame(state);
-    tell(state, r.ended, report.unbalanced, 1);
+    tell(state, r.ended, r.unbalanced, 1);
   }
 
-  void add_final_values() {
+  void add_final_results() {
     const std::vector<Column> columns = monitor_columns<Dim>(scene.monitors);
     const std::vector<double> values = monitor_values<Dim>(scene.monitors, model, state);
     for (std::size_t k = 0; k < columns.size(); ++k)
       results.values.push_back({columns[k].name, {values[k], columns[k].unit, {}, "at the end"}});
+    results.counters = state.counters;
+    results.state_hash = state_hash(model, state);
+    results.energy = state.energy;
+    if (state.energy.closure() > energy_left_open)
+      results.warnings.push_back(fmt::format(
+          "the energy ledger does not close: {:.2g} J, {:.2g} of the largest energy of the run, is unexplained; the "
+          "time step may be too long for impacts (time.fraction), or areas and normals of contacts changed a lot",
+          state.energy.widest, state.energy.closure()));
   }
 
-  void execute_all() {
-    prepare_history();
-    for (stage = 0; stage < static_cast<int>(scene.stages.size()); ++stage) {
-      const StagePlan& plan = scene.stages[stage];
-      begin_stage(plan);
-      const Executed done = std::visit([this](const auto& p) { return execute(p); }, plan.plan);
-      end_stage(done.kind, done.ended, done.report);
+  // false: interrupted
+  bool execute_all() {
+    for (int s = 0; s < progress.stage; ++s)
+      model = apply(std::move(model), scene.stages[s].change);
+    while (progress.stage < static_cast<int>(scene.stages.size())) {
+      enter_stage();
+      if (!progress.stage_under_way) begin_stage();
+      const std::optional<Executed> done = std::visit([this](const auto& p) { return execute(p); }, plan().plan);
+      if (!done) return false;
+      end_stage(*done);
       if (results.outcome != Outcome::done) break;
+      ++progress.stage;
     }
-    add_final_values();
-    results.counters = state.counters;
+    add_final_results();
+    return true;
   }
 };
 
 }  // namespace
 
 template <int Dim>
-Results simulate(Prepared<Dim> scene, const Watcher<Dim>& watcher) {
-  const auto begin = std::chrono::steady_clock::now();
-  Simulation<Dim> simulation{
-      .scene = std::move(scene), .watcher = watcher, .results = {}, .model = {}, .state = {}, .settings = {}};
-  simulation.model = simulation.scene.model;
-  simulation.state = simulation.scene.state;
-  simulation.execute_all();
-  simulation.results.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return std::move(simulation.results);
+Progress<Dim> begin(const Prepared<Dim>& scene) {
+  Progress<Dim> progress;
+  progress.state = scene.state;
+  progress.results.history.columns = {"time_s", "stage", "friction_deg"};
+  for (const Column& c : monitor_columns<Dim>(scene.monitors))
+    progress.results.history.columns.push_back(c.header());
+  return progress;
 }
 
-template Results simulate<2>(Prepared<2>, const Watcher<2>&);
-template Results simulate<3>(Prepared<3>, const Watcher<3>&);
+template <int Dim>
+bool simulate(const Prepared<Dim>& scene, Progress<Dim>& progress, const Watcher<Dim>& watcher) {
+  Simulation<Dim> simulation{
+      .scene = scene, .watcher = watcher, .progress = progress, .model = scene.model, .settings = {}};
+  const bool done = simulation.execute_all();
+  simulation.count_seconds();
+  return done;
+}
+
+template <int Dim>
+History history_so_far(const Progress<Dim>& progress) {
+  History history = progress.results.history;
+  history.rows.insert(history.rows.end(), progress.record.rows.begin(), progress.record.rows.end());
+  return history;
+}
+
+template History history_so_far<2>(const Progress<2>&);
+template History history_so_far<3>(const Progress<3>&);
+template Progress<2> begin(const Prepared<2>&);
+template Progress<3> begin(const Prepared<3>&);
+template bool simulate<2>(const Prepared<2>&, Progress<2>&, const Watcher<2>&);
+template bool simulate<3>(const Prepared<3>&, Progress<3>&, const Watcher<3>&);
 
 }  // namespace voussoir

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "core/results.hpp"
+#include "core/progress.hpp"
 #include "core/scene/prepared.hpp"
 
 namespace voussoir {
@@ -18,14 +18,25 @@ struct ProgressReport {
   double done = -1;                       // share of the stage done, 0..1; negative when unknown
 };
 
-// Callbacks; each may be empty. Neither can change the simulation.
+// Callbacks; each may be empty. None can change the simulation.
 template <int Dim>
 struct Watcher {
   std::function<void(const ProgressReport&)> progress;                           // every thousand steps or so
   std::function<void(const Model<Dim>&, const State<Dim>&, double time)> frame;  // as the output plan asks
+  // before every step, with all that a later `simulate` needs to go on; true stops here
+  std::function<bool(const Progress<Dim>&)> pause;
 };
 
+// before the first step
 template <int Dim>
-Results simulate(Prepared<Dim> scene, const Watcher<Dim>& watcher);
+Progress<Dim> begin(const Prepared<Dim>& scene);
+
+// Goes on until the scene is done (true, results are complete) or the watcher stops it (false).
+template <int Dim>
+bool simulate(const Prepared<Dim>& scene, Progress<Dim>& progress, const Watcher<Dim>& watcher);
+
+// the rows so far, those of the stage under way included
+template <int Dim>
+History history_so_far(const Progress<Dim>& progress);
 
 }  // namespace voussoir

@@ -22,18 +22,19 @@ constexpr std::array top_folders{"core", "app", "reference", "verification", "ca
 
 // from the ground up; a room may include the rooms of the lines above its own
 const std::vector<std::vector<std::string>> layers{
-    {"geometry", "settings"},
+    {"geometry", "settings", "energy"},
     {"law"},
     {"optimise", "load", "support"},
     {"contact", "slicing", "model"},
     {"state"},
     {"results", "scene"},
     {"motion", "monitor", "output"},
-    {"stages"},
+    {"stages", "state_hash"},
     {"step"},
     {"run"},
     {"reduction"},
-    {"simulate"},
+    {"progress"},
+    {"checkpoint", "simulate"},
 };
 
 // what another folder of the house may include besides itself; core is ordered by its layers

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
 #include <functional>
+#include <system_error>
 
 #include "app/bad_input.hpp"
 #include "app/commands/commands.hpp"
+#include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/output_error.hpp"
 #include "core/output/version.hpp"
@@ -43,9 +47,26 @@ void add_run(CLI::App& program, RunArguments& arguments, Action& action) {
   add_scene(command, arguments.scene);
   command->add_option("--out", arguments.out, "folder of the results (default: results/<scene>)");
   add_threads(command, arguments.threads);
+  command
+      ->add_option("--checkpoint-steps", arguments.checkpoint_steps,
+                   "steps between checkpoints (default: by time alone)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--checkpoint-seconds", arguments.checkpoint_seconds,
+                   "wall clock between checkpoints; 0: none (default: 300)")
+      ->check(CLI::NonNegativeNumber);
   command->add_flag("--overwrite", arguments.overwrite, "replace the results that the folder holds");
   command->add_flag("--quiet", arguments.quiet, "no progress and no summary");
   command->callback([&] { action = [&] { return run_command(arguments); }; });
+}
+
+void add_resume(CLI::App& program, ResumeArguments& arguments, Action& action) {
+  CLI::App* command = program.add_subcommand("resume", "go on with a run that was interrupted");
+  command->add_option("folder", arguments.folder, "the folder of its results")->required();
+  command->add_option("--threads", arguments.threads, "number of threads (default: as before)")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--quiet", arguments.quiet, "no progress and no summary");
+  command->callback([&] { action = [&] { return resume_command(arguments); }; });
 }
 
 void add_check(CLI::App& program, SceneArguments& arguments, Action& action) {
@@ -70,19 +91,41 @@ void add_study(CLI::App& program, StudyArguments& arguments, Action& action) {
   command->callback([&] { action = [&] { return study_command(arguments); }; });
 }
 
+ExitCode exit_code(OutputError::Kind kind) {
+  switch (kind) {
+    case OutputError::Kind::failed:
+      return ExitCode::output;
+    case OutputError::Kind::disk_full:
+      return ExitCode::disk_full;
+    case OutputError::Kind::not_permitted:
+      return ExitCode::not_permitted;
+  }
+  return ExitCode::output;
+}
+
 // every failure is one line that says what to do, and a code that a script can ask for
 int guarded(const Action& action) {
   try {
-    return static_cast<int>(action());
+    const ExitCode code = action();
+    // what is still in the buffer counts as well: a pipe or a file may refuse it
+    if (std::fflush(stdout) != 0) throw output_error("standard output", errno);
+    return static_cast<int>(code);
   } catch (const SceneError& error) {
     fmt::print(stderr, "voussoir: {}\n", error.what());
     return static_cast<int>(ExitCode::bad_input);
   } catch (const BadInput& error) {
     fmt::print(stderr, "voussoir: {}\n", error.what());
     return static_cast<int>(ExitCode::bad_input);
+  } catch (const FolderInUse& error) {
+    fmt::print(stderr, "voussoir: {}\n", error.what());
+    return static_cast<int>(ExitCode::in_use);
   } catch (const OutputError& error) {
     fmt::print(stderr, "voussoir: {}\n", error.what());
-    return static_cast<int>(ExitCode::output);
+    return static_cast<int>(exit_code(error.kind));
+  } catch (const std::system_error& error) {
+    // fmt's word for a stream that takes no more
+    fmt::print(stderr, "voussoir: {}\n", error.what());
+    return static_cast<int>(exit_code(output_error("standard output", error.code().value()).kind));
   } catch (const std::exception& error) {
     fmt::print(stderr, "voussoir: unexpected error, please report it: {}\n", error.what());
     return static_cast<int>(ExitCode::numerical);
@@ -96,15 +139,18 @@ int command_line(int argument_count, char** arguments) {
   program.set_version_flag("--version", version_text);
   program.require_subcommand(1);
   program.footer(
-      "Exit codes: 0 done, 1 a goal was not reached, 2 bad input, 4 numerical failure, 5 a result could not be "
-      "written.");
+      "Exit codes: 0 done, 1 a goal was not reached, 2 bad input, 3 the folder is in use by another run, 4 numerical "
+      "failure, 5 a result could not be written, 6 disk full, 7 folder not writable, 128 + n ended by signal n (with a "
+      "checkpoint).");
 
   Action action;
   RunArguments run;
+  ResumeArguments resume;
   SceneArguments check;
   SliceArguments slice;
   StudyArguments study;
   add_run(program, run, action);
+  add_resume(program, resume, action);
   add_check(program, check, action);
   add_slice(program, slice, action);
   add_study(program, study, action);

@@ -1,7 +1,9 @@
-// What the program can do. Each command returns its exit code and throws SceneError, BadInput or OutputError.
+// What the program can do. Each command returns its exit code and throws SceneError, BadInput, FolderInUse or
+// OutputError.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,8 +15,12 @@ enum class ExitCode {
   done = 0,
   incomplete = 1,  // complete, but a goal was not reached: no equilibrium, no bracket
   bad_input = 2,
-  numerical = 4,  // a contact without an answer, a number that is not finite
-  output = 5      // a result could not be written
+  in_use = 3,         // another run writes to the folder
+  numerical = 4,      // a contact without an answer, a number that is not finite
+  output = 5,         // a result could not be written or renamed
+  disk_full = 6,      // or a quota or a limit on the size of files
+  not_permitted = 7,  // a folder or file that must not be written
+  signal = 128        // and the number of the signal that ended a run: 130 for SIGINT, 143 for SIGTERM
 };
 
 ExitCode exit_code(Outcome outcome);
@@ -28,7 +34,15 @@ struct RunArguments {
   SceneArguments scene;
   std::filesystem::path out;  // empty: results/<name of the scene's file>
   int threads = 1;
+  std::optional<long long> checkpoint_steps;  // of RunConduct where they are stated
+  std::optional<double> checkpoint_seconds;
   bool overwrite = false;
+  bool quiet = false;
+};
+
+struct ResumeArguments {
+  std::filesystem::path folder;
+  std::optional<int> threads;  // as before where they are not stated
   bool quiet = false;
 };
 
@@ -46,6 +60,9 @@ struct StudyArguments {
 
 // runs a scene and writes results.json, history.csv, scene.toml and ParaView's files
 ExitCode run_command(const RunArguments& arguments);
+
+// goes on with a run that was interrupted, from its last checkpoint or from its begin; a complete one is left as it is
+ExitCode resume_command(const ResumeArguments& arguments);
 
 // says what a scene activates, what follows from its numbers, and what looks wrong; writes nothing
 ExitCode check_command(const SceneArguments& arguments);

@@ -7,6 +7,8 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/plausibility.hpp"
 #include "app/commands/progress_line.hpp"
+#include "app/interruption.hpp"
+#include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/history_csv.hpp"
@@ -24,24 +26,14 @@ fs::path results_folder(const RunArguments& arguments) {
 }
 
 void refuse_to_overwrite(const fs::path& folder) {
-  std::error_code error;
-  if (fs::exists(folder / "results.json", error))
+  if (holds_results(folder))
     throw BadInput(
         fmt::format("'{}' holds results: choose another folder with --out, or add --overwrite", folder.string()));
-}
-
-bool is_our_frame(const fs::path& path) {
-  const std::string name = path.filename().string();
-  return path.extension() == ".vtp" && (name.starts_with("blocks_") || name.starts_with("contacts_"));
-}
-
-// only what a run writes; results.json first, so that a folder without it holds nothing complete
-void remove_old_results(const fs::path& folder) {
-  std::error_code error;
-  for (const char* name : {"results.json", "history.csv", "scene.toml", "blocks.pvd", "contacts.pvd"})
-    if (!fs::remove(folder / name, error) && error) throw OutputError(folder / name, error.message());
-  for (const auto& entry : fs::directory_iterator(folder / "frames", error))
-    if (is_our_frame(entry.path())) fs::remove(entry.path(), error);
+  if (holds_unfinished_run(folder))
+    throw BadInput(
+        fmt::format("'{0}' holds a run that was interrupted: go on with 'voussoir resume {0}', or add "
+                    "--overwrite to start again",
+                    folder.string()));
 }
 
 RunRecord record_of(const LoadedScene& scene, const std::vector<std::string>& warnings, int threads) {
@@ -80,6 +72,105 @@ void print_summary(const LoadedScene& scene, const Results& results, const fs::p
   fmt::print("results: {}\n", folder.string());
 }
 
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings)
+    fmt::print(stderr, "voussoir: warning: {}\n", warning);
+}
+
+struct Errand {
+  fs::path folder;
+  RunConduct conduct;
+  std::vector<std::string> warnings;
+  bool quiet = false;
+};
+
+// when the next checkpoint is due, in steps and in seconds
+class CheckpointClock {
+ public:
+  CheckpointClock(const RunConduct& conduct, long long steps, double seconds) : conduct_(conduct) {
+    restart(steps, seconds);
+  }
+  bool due(long long steps, double seconds) const {
+    return (conduct_.checkpoint_steps > 0 && steps >= steps_ + conduct_.checkpoint_steps) ||
+           (conduct_.checkpoint_seconds > 0 && seconds >= seconds_ + conduct_.checkpoint_seconds);
+  }
+  void restart(long long steps, double seconds) {
+    steps_ = steps;
+    seconds_ = seconds;
+  }
+
+ private:
+  RunConduct conduct_;
+  long long steps_ = 0;
+  double seconds_ = 0;
+};
+
+// the run goes on from where `progress` stands; false: a signal stopped it, with a checkpoint
+template <int Dim>
+bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const Errand& errand,
+           Progress<Dim>& progress) {
+  FrameSeries frames{errand.folder, progress.frames};
+  ProgressLine line(!errand.quiet);
+  CheckpointClock clock(errand.conduct, progress.state.counters.steps, progress.results.seconds);
+  Watcher<Dim> watcher;
+  watcher.progress = [&](const ProgressReport& report) { line.show(report); };
+  watcher.frame = [&](const Model<Dim>& model, const State<Dim>& state, double time) {
+    write_frame(frames, model, state, time);
+  };
+  watcher.pause = [&](const Progress<Dim>& now) {
+    const bool stop = interruption() != 0;
+    const long long steps = now.state.counters.steps;
+    if (stop || clock.due(steps, now.results.seconds)) {
+      write_history_csv(errand.folder / "history.csv", history_so_far(now));
+      save_checkpoint(errand.folder, now, scene_hash);
+      clock.restart(steps, now.results.seconds);
+    }
+    return stop;
+  };
+  return simulate(prepared, progress, watcher);
+}
+
+// what the run so far has written beyond its checkpoint is cut off
+template <int Dim>
+void cut_back_to(const Progress<Dim>& progress, const fs::path& folder) {
+  cut_back(FrameSeries{folder, progress.frames});
+  write_history_csv(folder / "history.csv", history_so_far(progress));
+}
+
+// begins or goes on, and writes the results
+template <int Dim>
+ExitCode carry_out_prepared(const LoadedScene& scene, const Prepared<Dim>& prepared, const Errand& errand) {
+  std::vector<std::string> remarks;
+  Progress<Dim> progress = last_progress(errand.folder, prepared, scene.hash, remarks);
+  print_warnings(remarks);
+  cut_back_to(progress, errand.folder);
+
+  note_interruptions();
+  if (!go_on(prepared, scene.hash, errand, progress)) {
+    fmt::print(stderr, "voussoir: interrupted after step {} (t = {:.6g} s): go on with 'voussoir resume {}'\n",
+               progress.state.counters.steps, progress.state.time, errand.folder.string());
+    return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + interruption());
+  }
+
+  // results.json comes last: where it is, everything is
+  const Results& results = progress.results;
+  write_history_csv(errand.folder / "history.csv", results.history);
+  write_results_json(errand.folder / "results.json", results,
+                     record_of(scene, errand.warnings, errand.conduct.threads));
+  remove_checkpoints(errand.folder);
+  if (!errand.quiet) {
+    print_warnings(results.warnings);
+    print_summary(scene, results, errand.folder);
+  } else if (results.outcome != Outcome::done) {
+    fmt::print(stderr, "voussoir: {}: {}\n", outcome_name(results.outcome), results.message);
+  }
+  return exit_code(results.outcome);
+}
+
+ExitCode carry_out(const LoadedScene& scene, const Errand& errand) {
+  return std::visit([&](const auto& prepared) { return carry_out_prepared(scene, prepared, errand); }, scene.prepared);
+}
+
 }  // namespace
 
 ExitCode exit_code(Outcome outcome) {
@@ -96,38 +187,37 @@ ExitCode exit_code(Outcome outcome) {
 
 ExitCode run_command(const RunArguments& arguments) {
   // nothing is written before the whole scene is known to be good
-  const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides, arguments.threads);
+  RunConduct conduct;
+  conduct.threads = arguments.threads;
+  if (arguments.checkpoint_steps) conduct.checkpoint_steps = *arguments.checkpoint_steps;
+  if (arguments.checkpoint_seconds) conduct.checkpoint_seconds = *arguments.checkpoint_seconds;
+  const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides, conduct.threads);
   const std::vector<std::string> warnings = assess(scene).warnings;
-  if (!arguments.quiet)
-    for (const std::string& warning : warnings)
-      fmt::print(stderr, "voussoir: warning: {}\n", warning);
+  if (!arguments.quiet) print_warnings(warnings);
+
+  // the folder is ours alone, and says what is run before the first step
   const fs::path folder = results_folder(arguments);
+  const FolderLock lock(folder);
   if (!arguments.overwrite) refuse_to_overwrite(folder);
-  prepare_folder(folder);
-  remove_old_results(folder);
+  remove_old_run(folder);
   write_file(folder / "scene.toml", scene.text);
+  write_conduct(folder, conduct);
+  return carry_out(scene, {folder, conduct, warnings, arguments.quiet});
+}
 
-  // run, with a frame whenever the scene asks for one
-  FrameSeries frames{folder};
-  ProgressLine progress(!arguments.quiet);
-  SceneWatcher watcher;
-  watcher.progress = [&](const ProgressReport& report) { progress.show(report); };
-  watcher.frame_2d = [&](const Model<2>& model, const State<2>& state, double time) {
-    write_frame(frames, model, state, time);
-  };
-  watcher.frame_3d = [&](const Model<3>& model, const State<3>& state, double time) {
-    write_frame(frames, model, state, time);
-  };
-  const Results results = simulate_scene(scene, watcher);
-  progress.clear();
-
-  // results.json comes last: where it is, everything is
-  write_history_csv(folder / "history.csv", results.history);
-  write_results_json(folder / "results.json", results, record_of(scene, warnings, arguments.threads));
-  if (!arguments.quiet) print_summary(scene, results, folder);
-  if (arguments.quiet && results.outcome != Outcome::done)
-    fmt::print(stderr, "voussoir: {}: {}\n", outcome_name(results.outcome), results.message);
-  return exit_code(results.outcome);
+ExitCode resume_command(const ResumeArguments& arguments) {
+  const fs::path& folder = arguments.folder;
+  if (!fs::is_directory(folder))
+    throw BadInput(fmt::format("'{}' is not a folder: name the folder of an interrupted run", folder.string()));
+  if (holds_results(folder)) {
+    if (!arguments.quiet) fmt::print("'{}' is complete: nothing to do\n", folder.string());
+    return ExitCode::done;
+  }
+  RunConduct conduct = read_conduct(folder);
+  if (arguments.threads) conduct.threads = *arguments.threads;
+  const FolderLock lock(folder);
+  const LoadedScene scene = load_scene(folder / "scene.toml", {}, conduct.threads);
+  return carry_out(scene, {folder, conduct, assess(scene).warnings, arguments.quiet});
 }
 
 }  // namespace voussoir

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.hpp"
+#include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/history_csv.hpp"
@@ -42,7 +43,7 @@ void write_blocks(const Prepared<Dim>& prepared, const std::filesystem::path& fo
 
 ExitCode slice_command(const SliceArguments& arguments) {
   const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides);
-  prepare_folder(arguments.out);
+  const FolderLock lock(arguments.out);
   std::visit([&](const auto& prepared) { write_blocks(prepared, arguments.out); }, scene.prepared);
   return ExitCode::done;
 }

@@ -6,6 +6,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/progress_line.hpp"
 #include "app/commands/study_plan.hpp"
+#include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/history_csv.hpp"
@@ -47,9 +48,8 @@ void check_every_run(const StudyPlan& plan) {
 
 StudyRow run_row(const StudyPlan& plan, const Sweep& sweep, const std::string& value, const StudyArguments& arguments) {
   ProgressLine progress(!arguments.quiet);
-  SceneWatcher watcher;
-  watcher.progress = [&](const ProgressReport& report) { progress.show(report); };
-  const Results results = run_scene(sweep.scene, overrides_of(sweep, value), arguments.threads, watcher).results;
+  const ProgressHook show = [&](const ProgressReport& report) { progress.show(report); };
+  const Results results = run_scene(sweep.scene, overrides_of(sweep, value), arguments.threads, show).results;
 
   StudyRow row;
   row.sweep = &sweep;
@@ -135,7 +135,7 @@ std::vector<StudyRow> run_sweep(const StudyPlan& plan, const Sweep& sweep, const
 ExitCode study_command(const StudyArguments& arguments) {
   const StudyPlan plan = read_study_plan(arguments.plan);
   check_every_run(plan);
-  prepare_folder(arguments.out);
+  const FolderLock lock(arguments.out);
 
   std::vector<StudyRow> rows;
   for (const Sweep& sweep : plan.sweeps) {

@@ -1,58 +1,103 @@
 #include "core/output/atomic_file.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <string>
 
 namespace voussoir {
 namespace {
 
+namespace fs = std::filesystem;
+
 // the process id keeps two programs that write the same result from sharing a temporary file
-std::filesystem::path temporary_name(const std::filesystem::path& path) {
-  std::filesystem::path temporary = path;
+fs::path temporary_name(const fs::path& path) {
+  fs::path temporary = path;
   temporary += ".part" + std::to_string(::getpid());
   return temporary;
 }
 
-[[noreturn]] void give_up(const std::filesystem::path& path, const std::filesystem::path& temporary) {
-  const std::string reason = std::strerror(errno);
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw OutputError(path, reason);
+// 0 or what went wrong
+int write_all(int file, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(file, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return written < 0 ? errno : EIO;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+// A rename lasts only once its folder is on the disk. File systems that cannot flush a folder say EINVAL.
+void flush_folder(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) throw output_error(folder, errno);
+  const int error = ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
+  ::close(descriptor);
+  if (error != 0) throw output_error(folder, error);
+}
+
+// a temporary file with the whole content on the disk; errors name the file that was meant
+fs::path write_temporary(const fs::path& path, std::string_view content) {
+  const fs::path temporary = temporary_name(path);
+  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) throw output_error(path, errno);
+
+  // a full disk may show only when the data is flushed or the file closed
+  int error = write_all(file, content);
+  if (error == 0 && ::fsync(file) != 0) error = errno;
+  if (::close(file) != 0 && error == 0) error = errno;
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    throw output_error(path, error);
+  }
+  return temporary;
+}
+
+void put_in_place(const fs::path& temporary, const fs::path& path) {
+  if (::rename(temporary.c_str(), path.c_str()) != 0) {
+    const int error = errno;
+    ::unlink(temporary.c_str());
+    throw output_error(path, error);
+  }
 }
 
 }  // namespace
 
-void write_file(const std::filesystem::path& path, std::string_view content) {
-  const std::filesystem::path temporary = temporary_name(path);
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
-  if (!file) give_up(path, temporary);
-
-  // a full disk may show only when the buffer is flushed: look at the answer of fclose as well
-  const bool written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
-  const int write_errno = errno;
-  const bool closed = std::fclose(file) == 0;
-  if (!written) errno = write_errno;
-  if (!written || !closed) give_up(path, temporary);
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) give_up(path, temporary);
+void write_file(const fs::path& path, std::string_view content) {
+  put_in_place(write_temporary(path, content), path);
+  flush_folder(path);
 }
 
-void prepare_folder(const std::filesystem::path& folder) {
+void write_file_and_keep(const fs::path& path, const fs::path& previous, std::string_view content) {
+  const fs::path temporary = write_temporary(path, content);
+  if (::rename(path.c_str(), previous.c_str()) != 0 && errno != ENOENT) {
+    const int error = errno;
+    ::unlink(temporary.c_str());
+    throw output_error(previous, error);
+  }
+  put_in_place(temporary, path);
+  flush_folder(path);
+}
+
+void remove_file(const fs::path& path) {
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT) throw output_error(path, errno);
+}
+
+void prepare_folder(const fs::path& folder) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw OutputError(folder, error.message());
-  if (!std::filesystem::is_directory(folder)) throw OutputError(folder, "not a folder");
+  fs::create_directories(folder, error);
+  if (error) throw output_error(folder, error.value());
+  if (!fs::is_directory(folder)) throw output_error(folder, ENOTDIR);
 
   // hours of computing should not end at a folder that refuses files
-  const std::filesystem::path probe = temporary_name(folder / "probe");
-  std::FILE* file = std::fopen(probe.c_str(), "wb");
-  if (!file) throw OutputError(folder, std::strerror(errno));
-  std::fclose(file);
-  std::filesystem::remove(probe, error);
+  const fs::path probe = temporary_name(folder / "probe");
+  const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) throw output_error(folder, errno);
+  ::close(file);
+  ::unlink(probe.c_str());
 }
 
 }  // namespace voussoir

@@ -1,4 +1,5 @@
-// Files appear whole or not at all: written under a temporary name beside the target, then renamed.
+// Files appear whole or not at all: written under a temporary name beside the target, flushed to the disk, renamed, and
+// the folder flushed. Every function throws OutputError.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +9,17 @@
 
 namespace voussoir {
 
-// replaces `path` by `content`; throws OutputError
+// replaces `path` by `content`
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-// makes the folder and its parents, and proves that a file can be created there; throws OutputError
+// as write_file; what `path` was becomes `previous` as soon as the new content is safe on the disk
+void write_file_and_keep(const std::filesystem::path& path, const std::filesystem::path& previous,
+                         std::string_view content);
+
+// a file that need not be there
+void remove_file(const std::filesystem::path& path);
+
+// makes the folder and its parents, and proves that a file can be created there
 void prepare_folder(const std::filesystem::path& folder);
 
 }  // namespace voussoir

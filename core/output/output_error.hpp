@@ -1,4 +1,4 @@
-// A result that could not be written: names the path and the reason; the program ends with exit code 5.
+// A result that could not be written: names the path and the reason. The kind decides the program's exit code.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,19 @@
 namespace voussoir {
 
 struct OutputError : std::runtime_error {
-  OutputError(const std::filesystem::path& path, const std::string& reason)
-      : std::runtime_error("cannot write '" + path.string() + "': " + reason) {}
+  enum class Kind {
+    failed,        // a write, flush or rename that went wrong
+    disk_full,     // or a quota or a limit on the file's size
+    not_permitted  // a folder or file that refuses us
+  };
+
+  OutputError(const std::filesystem::path& path, const std::string& reason, Kind why = Kind::failed)
+      : std::runtime_error("cannot write '" + path.string() + "': " + reason), kind(why) {}
+
+  Kind kind;
 };
+
+// from errno
+OutputError output_error(const std::filesystem::path& path, int error_number);
 
 }  // namespace voussoir

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <charconv>
+#include <optional>
+
 #include "core/output/atomic_file.hpp"
 
 namespace voussoir {
@@ -79,6 +83,35 @@ std::vector<std::string> names_of(const std::vector<Named>& list) {
   return names;
 }
 
+constexpr std::array kinds{"blocks", "contacts"};
+
+std::string frame_file(const char* kind, std::size_t number) {
+  return fmt::format("frames/{}_{:04}.vtp", kind, number);
+}
+
+// the number in the name of one of our frames
+std::optional<std::size_t> frame_number(const std::filesystem::path& path) {
+  if (path.extension() != ".vtp") return {};
+  const std::string name = path.stem().string();
+  for (const std::string kind : kinds) {
+    if (!name.starts_with(kind + "_")) continue;
+    const std::string digits = name.substr(kind.size() + 1);
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (error == std::errc{} && end == digits.data() + digits.size()) return number;
+  }
+  return {};
+}
+
+void write_collections(const FrameSeries& series) {
+  for (const char* kind : kinds) {
+    std::vector<TimedFile> files;
+    for (std::size_t k = 0; k < series.times.size(); ++k)
+      files.push_back({series.times[k], frame_file(kind, k)});
+    write_file(series.folder / fmt::format("{}.pvd", kind), pvd(files));
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -128,21 +161,27 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
   return data;
 }
 
+void cut_back(const FrameSeries& series) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(series.folder / "frames", error)) {
+    const std::optional<std::size_t> number = frame_number(entry.path());
+    if (number && *number >= series.times.size()) remove_file(entry.path());
+  }
+  if (!series.times.empty())
+    write_collections(series);
+  else
+    for (const char* kind : kinds)
+      remove_file(series.folder / fmt::format("{}.pvd", kind));
+}
+
 template <int Dim>
 void write_frame(FrameSeries& series, const Model<Dim>& model, const State<Dim>& state, double time) {
   if (series.times.empty()) prepare_folder(series.folder / "frames");
   const std::size_t frame = series.times.size();
-  write_file(series.folder / fmt::format("frames/blocks_{:04}.vtp", frame), vtp(block_faces(model, state, time)));
-  write_file(series.folder / fmt::format("frames/contacts_{:04}.vtp", frame), vtp(contact_points(model, state, time)));
+  write_file(series.folder / frame_file("blocks", frame), vtp(block_faces(model, state, time)));
+  write_file(series.folder / frame_file("contacts", frame), vtp(contact_points(model, state, time)));
   series.times.push_back(time);
-
-  // the collections come last: they never name a file that is not there
-  for (const char* kind : {"blocks", "contacts"}) {
-    std::vector<TimedFile> files;
-    for (std::size_t k = 0; k < series.times.size(); ++k)
-      files.push_back({series.times[k], fmt::format("frames/{}_{:04}.vtp", kind, k)});
-    write_file(series.folder / fmt::format("{}.pvd", kind), pvd(files));
-  }
+  write_collections(series);  // last: they never name a file that is not there
 }
 
 template PolyData block_faces<2>(const Model<2>&, const State<2>&, double);

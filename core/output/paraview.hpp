@@ -29,6 +29,10 @@ struct FrameSeries {
   std::vector<double> times = {};  // s, of the frames written
 };
 
+// Removes frames beyond the series and lets the collections name what is left: a run that goes on from a checkpoint
+// writes the later ones again. Throws OutputError.
+void cut_back(const FrameSeries& series);
+
 // Adds a frame and renews the collections, so that a run that is cut short can be opened too. Throws OutputError.
 template <int Dim>
 void write_frame(FrameSeries& series, const Model<Dim>& model, const State<Dim>& state, double time);

@@ -61,6 +61,18 @@ Json counters_json(const Counters& counters) {
           {"neighbour_builds", counters.neighbour_builds}};
 }
 
+Json energy_json(const EnergyLedger& energy, NumberWriter& number) {
+  const std::pair<const char*, double> entries[] = {
+      {"kinetic", energy.kinetic},           {"elastic", energy.elastic},   {"potential", energy.potential()},
+      {"friction", energy.flows.friction},   {"damping", energy.damping()}, {"external", energy.external()},
+      {"unexplained", energy.unexplained()}, {"closure", energy.closure()},
+  };
+  Json json = {{"unit", "J"}};
+  for (const auto& [name, value] : entries)
+    json[name] = number(value, std::string("energy.") + name);
+  return json;
+}
+
 Json program_json(const RunRecord& record) {
   Json features = Json::object();
   for (const auto& [name, built_in] : record.features)
@@ -91,7 +103,8 @@ std::string outcome_name(Outcome outcome) {
 
 std::string results_json(const Results& results, const RunRecord& record) {
   NumberWriter number;
-  const Json values = values_json(results, number), stages = stages_json(results, number);
+  const Json values = values_json(results, number), stages = stages_json(results, number),
+             energy = energy_json(results.energy, number);
 
   Json json;
   json["schema"] = "voussoir.results";
@@ -100,12 +113,16 @@ std::string results_json(const Results& results, const RunRecord& record) {
   json["dimension"] = record.dimension;
   json["input_hash"] = record.input_hash;
   json["warnings"] = record.warnings;
+  for (const std::string& warning : results.warnings)
+    json["warnings"].push_back(warning);
   json["program"] = program_json(record);
   json["status"] = outcome_name(results.outcome);
   json["message"] = complete_message(results, number);
   json["values"] = values;
   json["stages"] = stages;
+  json["energy"] = energy;
   json["counters"] = counters_json(results.counters);
+  json["state_hash"] = results.state_hash;
   json["timing"] = {{"seconds", std::isfinite(results.seconds) ? Json(results.seconds) : Json()},
                     {"threads", record.threads}};
   // a scene's title may hold bytes that are not UTF-8: replace them, a lost result would be worse

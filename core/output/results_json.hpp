@@ -25,9 +25,11 @@ struct RunRecord {
 // "done", "incomplete", "failed"
 std::string outcome_name(Outcome outcome);
 
-// Numbers have the digits to be read back exactly. JSON knows no NaN: a number that is not finite becomes null and the
-// message says which. What depends on the machine (seconds, threads) stands under `timing` alone: the rest is the same
-// for the same input.
+// Energies in J (2-D: J per metre): now kinetic, elastic, potential; until now lost to friction and damping, put in by
+// external work, unexplained; `closure` is the largest unexplained of the run over its largest energy
+// (core/energy.hpp). Numbers have the digits to be read back exactly. JSON knows no NaN: a number that is not finite
+// becomes null and the message says which. What depends on the machine (seconds, threads) stands under `timing` alone:
+// the rest is the same for the same input.
 std::string results_json(const Results& results, const RunRecord& record);
 
 // throws OutputError

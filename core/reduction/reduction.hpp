@@ -21,6 +21,18 @@ struct ReductionReport {
   RunReport last;                 // the last run
 };
 
+// Where a search stands: with it an interrupted one goes on as if nothing had happened.
+template <int Dim>
+struct ReductionProgress {
+  int trial = 0;                                // from 0, which is the start at `from`
+  double target = 0;                            // rad: friction angle of the trial under way
+  double friction_from = 0, friction_rate = 0;  // rad, rad/s: how it gets there
+  double time_limit = 0;                        // s, constant rate: when the angle reaches `to`
+  double stable = 0, failed = 0;                // rad: the bracket so far
+  RunProgress<Dim> run;                         // of the trial under way
+  State<Dim> base;                              // the last stable state
+};
+
 // what happened at an angle; called at the end of each trial, with the state it left
 template <int Dim>
 using TrialHook = std::function<void(const State<Dim>&, double friction, Trial outcome)>;
@@ -28,12 +40,13 @@ using TrialHook = std::function<void(const State<Dim>&, double friction, Trial o
 // Lowers the friction of the plan's joint properties from `from` towards `to`.
 //   bisection  every trial starts from the last stable state; ends with a bracket within the tolerance
 //   steps      each step runs to equilibrium (thesis, Method B); ends at the first that does not
-//   rate       constant rate (Method A); ends when a body has moved by the failure displacement. The angle found is too
-//   low
-//              by (6 X cos θ r² / ((1-α) g))^(1/3) on a plane of dip θ: the error bar takes cos θ = 1
-// Afterwards the state is the last stable one (rate: the failed one).
+//   rate       constant rate (Method A); ends when a body has moved by the failure displacement. The angle found is
+//              too low by (6 X cos θ r² / ((1-α) g))^(1/3) on a plane of dip θ: the error bar takes cos θ = 1
+// Afterwards the state is the last stable one (rate: the failed one). A search that the hooks interrupted
+// (`last.reason`) goes on when it is called again with its progress.
 template <int Dim>
 ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,
-                       const StepHook<Dim>& on_step, const TrialHook<Dim>& on_trial);
+                       ReductionProgress<Dim>& progress, const RunHooks<Dim>& hooks = {},
+                       const TrialHook<Dim>& on_trial = {});
 
 }  // namespace voussoir

@@ -16,6 +16,11 @@ using shapes::index_of;
 // the bias formula is the leading term in an angle of 0.05 rad
 constexpr double bias_tolerance = 0.01;
 
+ReductionReport reduce_from_scratch(const Model<2>& model, const ReducePlan& plan, State<2>& state) {
+  ReductionProgress<2> progress;
+  return reduce<2>(model, {}, plan, state, progress);
+}
+
 TEST(Reduction, ABlockOnASlopeFailsAtTheSlopesAngle) {
   const double slope = 30 * degree;
   Model<2> model = block_on_plate<2>(slope, 40 * degree);
@@ -28,7 +33,7 @@ TEST(Reduction, ABlockOnASlopeFailsAtTheSlopesAngle) {
     plan.tolerance = 0.1 * degree;
     plan.step = 0.5 * degree;
     plan.failure_displacement = 0.01;
-    const ReductionReport report = reduce<2>(model, {}, plan, state, {}, {});
+    const ReductionReport report = reduce_from_scratch(model, plan, state);
     ASSERT_TRUE(report.bracketed) << report.message;
     EXPECT_GE(report.stable, slope - 1e-3 * degree);
     EXPECT_LE(report.failed, slope + 1e-3 * degree);
@@ -49,7 +54,7 @@ TEST(Reduction, AtConstantRateTheBiasIsTheOnePredicted) {
   plan.to = 10 * degree;
   plan.rate = 2 * degree;
   plan.failure_displacement = 0.05;
-  const ReductionReport report = reduce<2>(model, {}, plan, state, {}, {});
+  const ReductionReport report = reduce_from_scratch(model, plan, state);
   ASSERT_TRUE(report.bracketed) << report.message;
   const double bias = std::cbrt(6 * 0.05 * std::cos(slope) * plan.rate * plan.rate / (0.3 * gravity));
   EXPECT_NEAR(slope - report.critical, bias, bias_tolerance * bias);
@@ -63,13 +68,13 @@ TEST(Reduction, SaysWhenTheSearchIsInTheWrongPlace) {
   plan.tolerance = 0.1 * degree;
   plan.failure_displacement = 0.01;
   State<2> state = initial_state(model);
-  const ReductionReport low = reduce<2>(model, {}, plan, state, {}, {});
+  const ReductionReport low = reduce_from_scratch(model, plan, state);
   EXPECT_FALSE(low.bracketed);
   EXPECT_NE(low.message.find("start higher"), std::string::npos) << low.message;
   plan.from = 40 * degree;
   plan.to = 35 * degree;
   state = initial_state(model);
-  const ReductionReport high = reduce<2>(model, {}, plan, state, {}, {});
+  const ReductionReport high = reduce_from_scratch(model, plan, state);
   EXPECT_FALSE(high.bracketed);
   EXPECT_NE(high.message.find("end lower"), std::string::npos) << high.message;
 }

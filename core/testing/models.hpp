@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/model.hpp"
+#include "core/slicing/slice.hpp"
 #include "core/testing/shapes.hpp"
 
 namespace voussoir::shapes {
@@ -54,6 +55,27 @@ Model<Dim> block_on_plate(double slope, double friction) {
 template <int Dim>
 int index_of(const Model<Dim>& model, const std::string& name) {
   return select(model, {.names = {name}, .above = {}, .below = {}, .inside = {}}).front();
+}
+
+// three joint sets through a box, each at these distances from its middle; blocks at the bottom are fixed
+inline std::vector<Body<3>> jointed_box(const std::vector<double>& distances = {-0.65, 0.05, 0.6}) {
+  std::vector<Cut<3>> cuts;
+  const Vector<3> sets[] = {upward_normal_3d(70 * degree, 80 * degree), upward_normal_3d(65 * degree, 190 * degree),
+                            upward_normal_3d(12 * degree, 300 * degree)};
+  for (const Vector<3>& n : sets)
+    for (const double c : distances)
+      cuts.push_back({{n, c}, 0});
+  SlicingCounters counters;
+  std::vector<Body<3>> bodies;
+  for (const Polytope<3>& part : slice<3>(block<3>(cube<3>(1)), cuts, {0.01}, counters)) {
+    Body<3> body = make_body<3>({part}, density);
+    double lowest = 0;
+    for (const Vector<3>& v : part.vertices)
+      lowest = std::min(lowest, v[2]);
+    body.fixed = lowest < -0.99;
+    bodies.push_back(body);
+  }
+  return bodies;
 }
 
 }  // namespace voussoir::shapes

@@ -1,0 +1,129 @@
+#include "core/checkpoint/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <cereal/archives/binary.hpp>
+#include <cstdint>
+#include <cstring>
+#include <istream>
+#include <sstream>
+#include <streambuf>
+
+#include "core/checkpoint/fields.hpp"
+#include "core/output/fingerprint.hpp"
+#include "core/output/version.hpp"
+
+namespace voussoir {
+namespace {
+
+constexpr std::string_view magic = "VOUSSOIR checkpoint\n";
+constexpr std::uint32_t order_mark = 0x01020304;
+constexpr std::size_t seal_size = 24;  // the text of a fingerprint: "fnv1a64:" and 16 digits
+
+// after magic and order mark
+struct Header {
+  std::uint32_t format = checkpoint_format, dimension = 3;
+  std::int64_t step = 0;
+  std::string scene_hash, build;
+  std::uint64_t payload = 0;  // bytes
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(format, dimension, step, scene_hash, build, payload);
+  }
+};
+
+// reads memory without a copy
+struct Bytes : std::streambuf {
+  explicit Bytes(std::string_view bytes) {
+    char* begin = const_cast<char*>(bytes.data());
+    setg(begin, begin, begin + bytes.size());
+  }
+  std::size_t consumed() const { return static_cast<std::size_t>(gptr() - eback()); }
+};
+
+template <class T>
+void append(std::string& bytes, const T& object) {
+  std::ostringstream stream(std::ios::binary);
+  cereal::BinaryOutputArchive archive(stream);
+  archive(object);
+  bytes += stream.view();
+}
+
+// the bytes between magic and seal, once the seal has proved them whole
+std::string_view unseal(std::string_view bytes) {
+  if (!bytes.starts_with(magic)) throw CheckpointError("is not a checkpoint of this program");
+  constexpr std::size_t least = magic.size() + sizeof order_mark + seal_size;
+  if (bytes.size() < least) throw CheckpointError("is cut short");
+  std::uint32_t mark = 0;
+  std::memcpy(&mark, bytes.data() + magic.size(), sizeof mark);
+  if (mark == 0x04030201) throw CheckpointError("was written on a machine with the other byte order");
+  const std::string_view content = bytes.substr(0, bytes.size() - seal_size);
+  if (fingerprint(content) != bytes.substr(content.size())) throw CheckpointError("is damaged or cut short");
+  if (mark != order_mark) throw CheckpointError("was written on a machine of unknown byte order");
+  return content.substr(magic.size() + sizeof mark);
+}
+
+// the header, and what follows it
+Header read_header(std::string_view& content) {
+  Bytes source(content);
+  std::istream stream(&source);
+  cereal::BinaryInputArchive archive(stream);
+  Header header;
+  archive(header.format);
+  if (header.format != checkpoint_format)
+    throw CheckpointError(
+        fmt::format("has format {}, this program reads format {}: resume it with the program that "
+                    "wrote it",
+                    header.format, checkpoint_format));
+  archive(header.dimension, header.step, header.scene_hash, header.build, header.payload);
+  content.remove_prefix(source.consumed());
+  if (header.payload != content.size()) throw CheckpointError("does not have the size it states");
+  return header;
+}
+
+}  // namespace
+
+std::string build_name() {
+  return fmt::format("voussoir {} ({}), {}", version(), commit(), compiler());
+}
+
+template <int Dim>
+std::string checkpoint_bytes(const Progress<Dim>& progress, const std::string& scene_hash) {
+  std::string payload;
+  append(payload, progress);
+  std::string bytes(magic);
+  bytes.append(reinterpret_cast<const char*>(&order_mark), sizeof order_mark);
+  append(bytes,
+         Header{checkpoint_format, Dim, progress.state.counters.steps, scene_hash, build_name(), payload.size()});
+  bytes += payload;
+  bytes += fingerprint(bytes);
+  return bytes;
+}
+
+CheckpointRecord checkpoint_record(std::string_view bytes) {
+  std::string_view content = unseal(bytes);
+  const Header header = read_header(content);
+  return {header.scene_hash, header.build, static_cast<int>(header.dimension), header.step};
+}
+
+template <int Dim>
+Progress<Dim> read_checkpoint(std::string_view bytes, const std::string& scene_hash) {
+  std::string_view content = unseal(bytes);
+  const Header header = read_header(content);
+  if (header.scene_hash != scene_hash || header.dimension != Dim)
+    throw CheckpointError("belongs to another scene: was the scene in the folder changed?");
+  Bytes source(content);
+  std::istream stream(&source);
+  cereal::BinaryInputArchive archive(stream);
+  Progress<Dim> progress;
+  archive(progress);
+  return progress;
+}
+
+template std::string checkpoint_bytes<2>(const Progress<2>&, const std::string&);
+template std::string checkpoint_bytes<3>(const Progress<3>&, const std::string&);
+template Progress<2> read_checkpoint<2>(std::string_view, const std::string&);
+template Progress<3> read_checkpoint<3>(std::string_view, const std::string&);
+
+}  // namespace voussoir

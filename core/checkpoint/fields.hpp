@@ -1,0 +1,169 @@
+// The members of everything that Progress holds, for an archive. Each list is bound to its struct: a member that is
+// added there and not here does not compile.
+#pragma once
+
+#include <cereal/cereal.hpp>
+#include <cereal/types/array.hpp>
+#include <cereal/types/optional.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/utility.hpp>
+#include <cereal/types/vector.hpp>
+
+#include "core/progress.hpp"
+
+namespace Eigen {
+
+// fixed sizes only
+template <class Archive, int Rows, int Columns, int Options>
+void serialize(Archive& archive, Matrix<double, Rows, Columns, Options>& m) {
+  static_assert(Rows > 0 && Columns > 0);
+  for (int i = 0; i < Rows * Columns; ++i)
+    archive(m.data()[i]);
+}
+
+}  // namespace Eigen
+
+namespace voussoir {
+
+template <class Archive>
+void serialize(Archive& archive, Rotation<2>& r) {
+  archive(r.angle);
+}
+template <class Archive>
+void serialize(Archive& archive, Rotation<3>& r) {
+  archive(r.quaternion.coeffs());
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, Motion<Dim>& m) {
+  auto& [displacement, rotation, velocity, angular_momentum] = m;
+  archive(displacement, rotation, velocity, angular_momentum);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, Placement<Dim>& p) {
+  auto& [displacement, rotation] = p;
+  archive(displacement, rotation);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, Load<Dim>& l) {
+  auto& [force, moment] = l;
+  archive(force, moment);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, Box<Dim>& b) {
+  auto& [low, high, body, fixed] = b;
+  archive(low, high, body, fixed);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, ContactGeometry<Dim>& g) {
+  auto& [point, normal, overlap, area, face_a, face_b] = g;
+  archive(point, normal, overlap, area, face_a, face_b);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, JointState<Dim>& j) {
+  auto& [shear_force, normal, plastic_slip, dashpot] = j;
+  archive(shear_force, normal, plastic_slip, dashpot);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, WarmStart<Dim>& w) {
+  auto& [point_known, point, basis_known, basis] = w;
+  archive(point_known, point, basis_known, basis);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, Contact<Dim>& c) {
+  auto& [part_a, part_b, sub, joint, properties, status, geometry, history, warm, force, area_rated] = c;
+  archive(part_a, part_b, sub, joint, properties, status, geometry, history, warm, force, area_rated);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Schedule& s) {
+  auto& [gravity_factor, last_gravity_factor, friction, started] = s;
+  archive(gravity_factor, last_gravity_factor, friction, started);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Counters& c) {
+  auto& [steps, evaluations, solves, pivots, iterations, unconverged, fallbacks, deep, builds] = c;
+  archive(steps, evaluations, solves, pivots, iterations, unconverged, fallbacks, deep, builds);
+}
+
+template <class Archive>
+void serialize(Archive& archive, EnergyFlows& f) {
+  auto& [gravity, contacts, friction, dashpots, local, ramp, changes] = f;
+  archive(gravity, contacts, friction, dashpots, local, ramp, changes);
+}
+
+template <class Archive>
+void serialize(Archive& archive, EnergyLedger& e) {
+  auto& [flows, kinetic, elastic, kinetic_origin, elastic_origin, motion_error, contact_error, widest, turnover,
+         phase] = e;
+  archive(flows, kinetic, elastic, kinetic_origin, elastic_origin, motion_error, contact_error, widest, turnover,
+          phase);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, State<Dim>& s) {
+  auto& [motions, loads, contacts, built, bounds, frequency, schedule, time, time_step, step_allowed, energy,
+         counters] = s;
+  archive(motions, loads, contacts, built, bounds, frequency, schedule, time, time_step, step_allowed, energy,
+          counters);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, RunProgress<Dim>& r) {
+  auto& [under_way, steps, at_rest, unconverged, begin] = r;
+  archive(under_way, steps, at_rest, unconverged, begin);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, ReductionProgress<Dim>& r) {
+  auto& [trial, target, friction_from, friction_rate, time_limit, stable, failed, run, base] = r;
+  archive(trial, target, friction_from, friction_rate, time_limit, stable, failed, run, base);
+}
+
+template <class Archive>
+void serialize(Archive& archive, StageRecord& r) {
+  auto& [interval, next, step, spacing, rows] = r;
+  archive(interval, next, step, spacing, rows);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Value& v) {
+  auto& [value, unit, error_bar, rule] = v;
+  archive(value, unit, error_bar, rule);
+}
+
+template <class Archive>
+void serialize(Archive& archive, StageResult& s) {
+  auto& [name, kind, ended, steps, time, time_step, unbalanced] = s;
+  archive(name, kind, ended, steps, time, time_step, unbalanced);
+}
+
+template <class Archive>
+void serialize(Archive& archive, History& h) {
+  auto& [columns, rows] = h;
+  archive(columns, rows);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Results& r) {
+  auto& [outcome, message, values, stages, history, counters, energy, state_hash, warnings, seconds] = r;
+  archive(outcome, message, values, stages, history, counters, energy, state_hash, warnings, seconds);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, Progress<Dim>& p) {
+  auto& [state, stage, stage_under_way, stage_began, steps_before, run, reduction, record, next_frame, frames,
+         results] = p;
+  archive(state, stage, stage_under_way, stage_began, steps_before, run, reduction, record, next_frame, frames,
+          results);
+}
+
+}  // namespace voussoir

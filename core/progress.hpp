@@ -1,0 +1,27 @@
+// Everything a simulation has done and where it stands: exactly what a checkpoint saves.
+#pragma once
+
+#include <vector>
+
+#include "core/monitor.hpp"
+#include "core/reduction/reduction.hpp"
+#include "core/results.hpp"
+
+namespace voussoir {
+
+template <int Dim>
+struct Progress {
+  State<Dim> state;
+  int stage = 0;                     // from 0; the number of stages when all is done
+  bool stage_under_way = false;      // its changes are applied
+  double stage_began = 0;            // s
+  long long steps_before = 0;        // of the stages that ended
+  RunProgress<Dim> run;              // of a stage that settles or runs
+  ReductionProgress<Dim> reduction;  // of a stage that reduces strength
+  StageRecord record;                // rows of the stage under way
+  double next_frame = 0;             // s
+  std::vector<double> frames;        // s: of the frames written
+  Results results;                   // of what has ended
+};
+
+}  // namespace voussoir
