@@ -1,4 +1,5 @@
-# voussoir_test(<name> LABEL <label> SOURCES <files…> LIBS <targets…>): one GoogleTest program, one CTest entry.
+# voussoir_test(<name> LABEL <label> SOURCES <files…> LIBS <targets…>): one GoogleTest program, one CTest entry, with
+# floating-point traps on.
 function(voussoir_test name)
   cmake_parse_arguments(arg "" "LABEL" "SOURCES;LIBS" ${ARGN})
   if(NOT VOUSSOIR_BUILD_TESTS)
@@ -6,7 +7,7 @@ function(voussoir_test name)
   endif()
   string(REPLACE "." "_" target ${name})
   add_executable(${target} ${arg_SOURCES})
-  target_link_libraries(${target} PRIVATE voussoir_flags ${arg_LIBS} GTest::gtest_main)
+  target_link_libraries(${target} PRIVATE voussoir_flags voussoir_traps ${arg_LIBS} GTest::gtest_main)
   # a test's own code need not be fast, and compiling it is what `make test` waits for
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${target} PRIVATE VOUSSOIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/floating_point_traps.hpp"
 #include "core/run.hpp"
 #include "core/slicing/slice.hpp"
 #include "core/testing/models.hpp"
@@ -452,6 +453,7 @@ TEST(Run, StopsAtAForceThatIsNotFinite) {
   Model<3> model = block_on_plate<3>(0, 35 * degree);
   State<3> state = initial_state(model);
   state.schedule.gravity_factor = std::numeric_limits<double>::infinity();
+  const WithoutTraps without_traps;
   EXPECT_EQ(run<3>(model, {}, {.rest = true}, {}, state).reason, StopReason::not_finite);
 }
 
