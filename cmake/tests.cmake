@@ -1,7 +1,8 @@
-# voussoir_test(<name> LABEL <label> SOURCES <files…> LIBS <targets…>): one GoogleTest program, one CTest entry, with
-# floating-point traps on.
+# voussoir_test(<name> [LONG] LABEL <label> SOURCES <files…> LIBS <targets…>): one GoogleTest program, one CTest entry,
+# with floating-point traps on. With LONG, its tests named DISABLED_… are <name>.long (label long), which only
+# `ctest -C Long` runs.
 function(voussoir_test name)
-  cmake_parse_arguments(arg "" "LABEL" "SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(arg "LONG" "LABEL" "SOURCES;LIBS" ${ARGN})
   if(NOT VOUSSOIR_BUILD_TESTS)
     return()
   endif()
@@ -13,4 +14,9 @@ function(voussoir_test name)
   target_compile_definitions(${target} PRIVATE VOUSSOIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   add_test(NAME ${name} COMMAND ${target} --gtest_brief=1 WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
   set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL})
+  if(arg_LONG)
+    add_test(NAME ${name}.long CONFIGURATIONS Long WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
+      COMMAND ${target} --gtest_brief=1 --gtest_also_run_disabled_tests --gtest_filter=*DISABLED_*)
+    set_tests_properties(${name}.long PROPERTIES LABELS long)
+  endif()
 endfunction()

@@ -32,3 +32,7 @@ voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_t
 voussoir_test(unit.step LABEL unit
   SOURCES step_test.cpp reduction/reduction_test.cpp
   LIBS voussoir_core Boost::headers)
+
+voussoir_test(unit.extremes LONG LABEL unit
+  SOURCES law/law_extremes_test.cpp
+  LIBS voussoir_core Boost::headers)
