@@ -34,5 +34,5 @@ voussoir_test(unit.step LABEL unit
   LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.extremes LONG LABEL unit
-  SOURCES law/law_extremes_test.cpp
-  LIBS voussoir_core Boost::headers)
+  SOURCES law/law_extremes_test.cpp motion/motion_extremes_test.cpp motion/step_extremes_test.cpp
+  LIBS voussoir_core Boost::headers fmt::fmt)
