@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/floating_point_traps.hpp"
 #include "core/run.hpp"
 #include "core/slicing/slice.hpp"
 #include "core/state_hash.hpp"
@@ -342,6 +343,7 @@ TEST(Run, StopsAtAForceThatIsNotFinite) {
   Model<3> model = block_on_plate<3>(0, 35 * degree);
   State<3> state = initial_state(model);
   state.schedule.gravity_factor = std::numeric_limits<double>::infinity();
+  const WithoutTraps without_traps;
   EXPECT_EQ(run<3>(model, {}, {.rest = true}, {}, state).reason, StopReason::not_finite);
 }
 

@@ -2,7 +2,7 @@
 find_package(Boost 1.74 REQUIRED)
 
 voussoir_test(unit.blocks LABEL unit
-  SOURCES geometry/geometry_test.cpp optimise/optimise_test.cpp slicing/slicing_test.cpp
+  SOURCES floating_point_traps_test.cpp geometry/geometry_test.cpp optimise/optimise_test.cpp slicing/slicing_test.cpp
   LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.law_and_motion LABEL unit
@@ -32,3 +32,7 @@ voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_t
 voussoir_test(unit.step LABEL unit
   SOURCES step_test.cpp energy_test.cpp state_hash_test.cpp reduction/reduction_test.cpp checkpoint/checkpoint_test.cpp
   LIBS voussoir_core cereal::cereal Boost::headers)
+
+voussoir_test(unit.extremes LONG LABEL unit
+  SOURCES law/law_extremes_test.cpp motion/motion_extremes_test.cpp motion/step_extremes_test.cpp
+  LIBS voussoir_core Boost::headers fmt::fmt)

@@ -64,9 +64,11 @@ std::string describe(const Row& row) {
   const char* sign = check.tolerance.bound == Bound::at_most    ? "at most "
                      : check.tolerance.bound == Bound::at_least ? "at least "
                                                                 : "";
-  return fmt::format("{}: {} = {:.9g} {}, expected {}{:.9g} within {:.3g} (margin {:.3g}; {}; because {})",
-                     row.case_name, check.quantity, row.computed, check.unit, sign, check.expected,
-                     width(check.expected, check.tolerance), margin(row.computed, check), check.source, check.because);
+  // fmt compares what it prints: under floating-point traps a NaN would end the program unreported
+  const std::string computed = std::isnan(row.computed) ? "nan" : fmt::format("{:.9g}", row.computed);
+  return fmt::format("{}: {} = {} {}, expected {}{:.9g} within {:.3g} (margin {:.3g}; {}; because {})", row.case_name,
+                     check.quantity, computed, check.unit, sign, check.expected, width(check.expected, check.tolerance),
+                     margin(row.computed, check), check.source, check.because);
 }
 
 }  // namespace

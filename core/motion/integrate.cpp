@@ -96,14 +96,15 @@ void kick_spin(const Body<3>& body, const Load<3>& load, double damping, StepTim
 // turns the body about its principal axis k by the share of a step; the momentum seen from the body turns back
 void turn_about(int k, double dt, const Body<3>& body, Motion<3>& motion) {
   Spin<3>& momentum = motion.angular_momentum;
-  const double angle = dt * momentum[k] / body.inertia[k];
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double half_angle = 0.5 * dt * momentum[k] / body.inertia[k];
+  const double c = std::cos(half_angle), s = std::sin(half_angle);
   const int i = (k + 1) % 3, j = (k + 2) % 3;
   const double mi = momentum[i], mj = momentum[j];
-  momentum[i] = c * mi + s * mj;
-  momentum[j] = c * mj - s * mi;
-  const Vector<3> axis = std::sin(0.5 * angle) * body.principal_axes.col(k);
-  motion.rotation.quaternion *= Eigen::Quaterniond(std::cos(0.5 * angle), axis[0], axis[1], axis[2]);
+  // as a change: a cosine near one is rounded the same way step after step, and the momentum would drift
+  momentum[i] += 2 * s * (c * mj - s * mi);
+  momentum[j] -= 2 * s * (c * mi + s * mj);
+  const Vector<3> axis = s * body.principal_axes.col(k);
+  motion.rotation.quaternion *= Eigen::Quaterniond(c, axis[0], axis[1], axis[2]);
 }
 
 void drift_spin(const Body<3>& body, double dt, Motion<3>& motion) {

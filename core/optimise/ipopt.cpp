@@ -6,11 +6,12 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <mutex>
 #include <vector>
+
+#include "core/floating_point_traps.hpp"
 
 namespace voussoir {
 namespace {
@@ -180,13 +181,6 @@ CentreStatus status_of(Ipopt::ApplicationReturnStatus status) {
   }
 }
 
-// Ipopt divides by zero on purpose: a program that traps such faults must not stop there
-struct WithoutTraps {
-  std::fenv_t environment;
-  WithoutTraps() { std::feholdexcept(&environment); }
-  ~WithoutTraps() { std::fesetenv(&environment); }
-};
-
 }  // namespace
 
 template <int Dim>
@@ -202,7 +196,7 @@ CentreResult<Dim> solve_analytic_centre_ipopt(const HalfSpaces<Dim>& planes, con
   // one call at a time in the whole program; the application is made once, its options cost more than a solve
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
-  const WithoutTraps without_traps;
+  const WithoutTraps without_traps;  // Ipopt divides by zero on purpose
   static const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = make_application();
   if (!IsValid(application)) {
     result.status = CentreStatus::singular;

@@ -134,9 +134,9 @@ BounceResult with_gravity(double z, double gravity) {
 BounceResult bounce(const Bounce& bounce) {
   require(bounce.mass > 0 && bounce.stiffness > 0 && bounce.impact_speed > 0,
           "bounce: mass, stiffness and impact speed must be positive");
-  require(bounce.damping_ratio >= 0 && std::isfinite(bounce.damping_ratio),
+  require(std::isfinite(bounce.damping_ratio) && bounce.damping_ratio >= 0,
           "bounce: damping ratio must not be negative");
-  require(bounce.gravity >= 0 && std::isfinite(bounce.gravity), "bounce: gravity acts into the contact, 0 or more");
+  require(std::isfinite(bounce.gravity) && bounce.gravity >= 0, "bounce: gravity acts into the contact, 0 or more");
   const double w = std::sqrt(bounce.stiffness / bounce.mass), z = bounce.damping_ratio, v = bounce.impact_speed;
 
   BounceResult result;

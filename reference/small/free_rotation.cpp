@@ -38,7 +38,7 @@ Motion motion_of(const FreeRotation& body) {
   const auto& inertia = body.inertia;
   const auto& w = body.angular_velocity;
   for (int i = 0; i < 3; ++i) {
-    require(inertia[i] > 0 && std::isfinite(inertia[i]), "moments of inertia must be positive");
+    require(std::isfinite(inertia[i]) && inertia[i] > 0, "moments of inertia must be positive");
     require(std::isfinite(w[i]), "angular velocity must be finite");
     require(inertia[i] <= (inertia[(i + 1) % 3] + inertia[(i + 2) % 3]) * (1 + 1e-12),
             "a moment of inertia exceeds the sum of the others; no body has such moments");

@@ -18,10 +18,10 @@ void check(const Incline& incline, double time) {
   require(incline.angle >= 0 && incline.angle <= pi / 2, "incline: angle must lie in 0..pi/2 radians");
   require(incline.friction_angle >= 0 && incline.friction_angle < pi / 2,
           "incline: friction angle must lie in 0..pi/2 radians, pi/2 excluded");
-  require(incline.gravity > 0 && std::isfinite(incline.gravity), "incline: gravity must be positive");
-  require(incline.initial_velocity >= 0 && std::isfinite(incline.initial_velocity),
+  require(std::isfinite(incline.gravity) && incline.gravity > 0, "incline: gravity must be positive");
+  require(std::isfinite(incline.initial_velocity) && incline.initial_velocity >= 0,
           "incline: initial velocity must be finite and down the plane");
-  require(time >= 0 && std::isfinite(time), "incline: time must be finite and not negative");
+  require(std::isfinite(time) && time >= 0, "incline: time must be finite and not negative");
 }
 
 struct Slide {
@@ -38,8 +38,8 @@ Slide slide_of(const Incline& incline, double time) {
 
 void check(const Column& column) {
   require(column.blocks >= 1, "column: at least one block");
-  require(column.mass > 0 && std::isfinite(column.mass), "column: mass must be positive");
-  require(column.stiffness > 0 && std::isfinite(column.stiffness), "column: stiffness must be positive");
+  require(std::isfinite(column.mass) && column.mass > 0, "column: mass must be positive");
+  require(std::isfinite(column.stiffness) && column.stiffness > 0, "column: stiffness must be positive");
   require(std::isfinite(column.gravity), "column: gravity must be finite");
 }
 

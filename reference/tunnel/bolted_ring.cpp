@@ -18,15 +18,15 @@ void require(bool holds, const std::string& message) {
 }
 
 void check(const BoltedRing& ring, double distance) {
-  require(ring.radius > 0 && std::isfinite(ring.radius), "radius must be positive");
-  require(ring.shear_modulus > 0 && std::isfinite(ring.shear_modulus), "shear modulus must be positive, in Pa");
+  require(std::isfinite(ring.radius) && ring.radius > 0, "radius must be positive");
+  require(std::isfinite(ring.shear_modulus) && ring.shear_modulus > 0, "shear modulus must be positive, in Pa");
   require(ring.poisson_ratio >= 0 && ring.poisson_ratio < 0.5, "Poisson's ratio must lie in 0..0.5, 0.5 excluded");
   require(std::isfinite(ring.in_situ_pressure), "in-situ pressure must be finite, in Pa");
   require(ring.bolt_stiffness >= 0 && ring.mean_joint_spacing >= 0 && ring.bolt_length >= 0,
           "bolt stiffness, mean joint spacing and bolt length must not be negative; use 0 for no bolts");
   require(ring.tangential_spacing > 0 && ring.longitudinal_spacing > 0,
           "bolt spacings must be positive; in a plane model the longitudinal one is 1 m");
-  require(distance >= ring.radius && std::isfinite(distance), "distance must be at least the radius");
+  require(std::isfinite(distance) && distance >= ring.radius, "distance must be at least the radius");
 }
 
 // Displacement over radius, and its slope by rho.

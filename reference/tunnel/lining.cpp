@@ -12,7 +12,7 @@ void require(bool holds, const std::string& message) {
 }
 
 void require_positive(double value, const std::string& name) {
-  require(value > 0 && std::isfinite(value), name + " must be positive and finite");
+  require(std::isfinite(value) && value > 0, name + " must be positive and finite");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ void require(bool holds, const std::string& message) {
 
 void check(double pressure, double radius) {
   require(std::isfinite(pressure), "pressure must be finite, in Pa");
-  require(radius > 0 && std::isfinite(radius), "radius must be positive, in m");
+  require(std::isfinite(radius) && radius > 0, "radius must be positive, in m");
 }
 
 }  // namespace

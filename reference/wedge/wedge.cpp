@@ -43,16 +43,16 @@ void check_plane(const WedgePlane& plane, const std::string& name) {
   require(std::isfinite(plane.dip_direction), "dip direction" + of + " must be finite, in radians");
   require(plane.friction_angle >= 0 && plane.friction_angle < half_turn / 2,
           "friction angle" + of + " must lie in 0..pi/2 radians, pi/2 excluded");
-  require(plane.cohesion_force >= 0 && std::isfinite(plane.cohesion_force),
+  require(std::isfinite(plane.cohesion_force) && plane.cohesion_force >= 0,
           "cohesion force" + of + " must be finite and not negative (cohesion times area)");
-  require(plane.uplift_force >= 0 && std::isfinite(plane.uplift_force),
+  require(std::isfinite(plane.uplift_force) && plane.uplift_force >= 0,
           "uplift force" + of + " must be finite and not negative; state suction as an extra force");
 }
 
 void check(const Wedge& wedge) {
   check_plane(wedge.a, "A");
   check_plane(wedge.b, "B");
-  require(wedge.weight > 0 && std::isfinite(wedge.weight), "weight must be positive and finite");
+  require(std::isfinite(wedge.weight) && wedge.weight > 0, "weight must be positive and finite");
   require(to_eigen(wedge.extra_force).allFinite(), "extra force must be finite");
 }
 

@@ -196,7 +196,7 @@ WedgePathResult elastic_plastic_path(const ElasticPlasticWedge& block, const Wed
     require(plane->cohesion_force == 0 && plane->uplift_force == 0,
             "cohesion and uplift are not modelled along the path; set them to zero");
   for (const double value : {block.area_a, block.area_b, block.normal_stiffness, block.shear_stiffness})
-    require(value > 0 && std::isfinite(value), "areas and stiffnesses must be positive and finite");
+    require(std::isfinite(value) && value > 0, "areas and stiffnesses must be positive and finite");
   require(settings.friction_start > 0 && settings.friction_start < 1.5707963,
           "friction_start must lie between 0 and pi/2 radians");
   require(settings.gravity_steps >= 1, "gravity_steps must be at least 1");
@@ -212,7 +212,7 @@ WedgePathResult elastic_plastic_path(const ElasticPlasticWedge& block, const Wed
 }
 
 WedgeFaces wedge_faces(const Wedge& wedge, double face_dip, double face_dip_direction, double height) {
-  require(height > 0 && std::isfinite(height), "height must be positive and finite");
+  require(std::isfinite(height) && height > 0, "height must be positive and finite");
   const WedgeSolution solution = solve_wedge(wedge);
   const Vector3d n_a = to_eigen(upward_normal(wedge.a.dip, wedge.a.dip_direction));
   const Vector3d n_b = to_eigen(upward_normal(wedge.b.dip, wedge.b.dip_direction));
