@@ -43,7 +43,8 @@ struct Results {
   std::vector<StageResult> stages;
   History history;
   Counters counters;
-  double seconds = 0;  // wall clock
+  std::string state_hash;  // of the last state (core/state_hash.hpp)
+  double seconds = 0;      // wall clock
 
   const Value* find(const std::string& name) const {
     for (const auto& [key, value] : values)

@@ -30,5 +30,5 @@ voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_t
   LIBS voussoir_core ${outside_solvers})
 
 voussoir_test(unit.step LABEL unit
-  SOURCES step_test.cpp reduction/reduction_test.cpp
+  SOURCES step_test.cpp state_hash_test.cpp reduction/reduction_test.cpp
   LIBS voussoir_core Boost::headers)

@@ -29,7 +29,7 @@ const std::vector<std::vector<std::string>> layers{
     {"state"},
     {"results", "scene"},
     {"motion", "monitor", "output"},
-    {"stages"},
+    {"stages", "state_hash"},
     {"step"},
     {"run"},
     {"reduction"},

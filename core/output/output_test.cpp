@@ -97,6 +97,7 @@ Results some_results() {
   results.values = {{"critical_friction", {33.35 + 1e-14, "deg", 0.01, "bisection"}}, {"height", {0.1, "m", {}, ""}}};
   results.stages.push_back({"settle", "settle", "equilibrium", 100, 0.5, 1e-3, 1e-7});
   results.counters.steps = 123'456'789'012;
+  results.state_hash = fingerprint("state");
   results.seconds = 1.5;
   return results;
 }
@@ -122,6 +123,7 @@ TEST(ResultsJson, HoldsWhatTheRunFound) {
   EXPECT_FALSE(json["values"]["height"].contains("error_bar"));
   EXPECT_EQ(json["stages"][0]["ended"], "equilibrium");
   EXPECT_EQ(json["counters"]["steps"], 123'456'789'012);
+  EXPECT_EQ(json["state_hash"], results.state_hash);
   EXPECT_EQ(json["timing"]["seconds"], 1.5);
 }
 

@@ -106,6 +106,7 @@ std::string results_json(const Results& results, const RunRecord& record) {
   json["values"] = values;
   json["stages"] = stages;
   json["counters"] = counters_json(results.counters);
+  json["state_hash"] = results.state_hash;
   json["timing"] = {{"seconds", std::isfinite(results.seconds) ? Json(results.seconds) : Json()},
                     {"threads", record.threads}};
   // a scene's title may hold bytes that are not UTF-8: replace them, a lost result would be worse

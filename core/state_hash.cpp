@@ -1,0 +1,57 @@
+#include "core/state_hash.hpp"
+
+#include <bit>
+#include <cstdint>
+
+#include "core/output/fingerprint.hpp"
+
+namespace voussoir {
+namespace {
+
+struct Bytes {
+  std::string text;
+
+  // lowest byte first on any machine
+  void add(std::uint64_t word) {
+    for (int byte = 0; byte < 8; ++byte)
+      text.push_back(static_cast<char>(word >> (8 * byte)));
+  }
+  void add(double x) { add(std::bit_cast<std::uint64_t>(x)); }
+  void add(int x) { add(static_cast<std::uint64_t>(x)); }
+  template <class Derived>
+  void add(const Eigen::MatrixBase<Derived>& v) {
+    for (const double x : v)
+      add(x);
+  }
+  void add(const Rotation<2>& r) { add(r.angle); }
+  void add(const Rotation<3>& r) { add(r.quaternion.coeffs()); }
+};
+
+}  // namespace
+
+template <int Dim>
+std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
+  Bytes bytes;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (!model.bodies[b].present) continue;
+    bytes.add(static_cast<int>(b));
+    bytes.add(state.motions[b].displacement);
+    bytes.add(state.motions[b].rotation);
+    bytes.add(state.motions[b].velocity);
+    bytes.add(state.motions[b].angular_momentum);
+  }
+  for (const Contact<Dim>& c : state.contacts) {
+    if (!c.touching()) continue;
+    for (const int key : {c.part_a, c.part_b, c.sub})
+      bytes.add(key);
+    bytes.add(c.history.shear_force);
+    bytes.add(c.history.normal);
+    bytes.add(c.history.plastic_slip);
+  }
+  return fingerprint(bytes.text);
+}
+
+template std::string state_hash<2>(const Model<2>&, const State<2>&);
+template std::string state_hash<3>(const Model<3>&, const State<3>&);
+
+}  // namespace voussoir
