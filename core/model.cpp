@@ -96,6 +96,8 @@ Model<Dim> apply(Model<Dim> model, const Change& change) {
 
 template <int Dim>
 Body<Dim> make_body(std::vector<Polytope<Dim>> parts, double density) {
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const Polytope<Dim>& a, const Polytope<Dim>& b) { return in_order(a.mass, b.mass); });
   MassProperties<Dim> total;
   for (const Polytope<Dim>& p : parts) {
     total.volume += p.mass.volume;
@@ -123,9 +125,8 @@ Body<Dim> make_body(std::vector<Polytope<Dim>> parts, double density) {
 template <int Dim>
 void number_bodies(Model<Dim>& model) {
   std::stable_sort(model.bodies.begin(), model.bodies.end(), [](const Body<Dim>& a, const Body<Dim>& b) {
-    for (int k = 0; k < Dim; ++k)
-      if (a.reference[k] != b.reference[k]) return a.reference[k] < b.reference[k];
-    return volume(a) < volume(b);
+    return in_order<Dim>({.volume = volume(a), .centroid = a.reference},
+                         {.volume = volume(b), .centroid = b.reference});
   });
   list_parts(model);
 }

@@ -51,7 +51,7 @@ TEST(Determinism, EveryThreadCountGivesTheSameBits) {
   EXPECT_GT(model.bodies.size(), 45u);
   EXPECT_LT(model.bodies.size(), 80u);
   std::string expected;
-  for (const int threads : {1, 2, 4}) {
+  for (const int threads : {1, 2, 4, 8}) {
     Settings settings;
     settings.threads = threads;
     State<3> state = initial_state(model);

@@ -29,6 +29,14 @@ struct Polytope {
   std::array<int, Dim + 1> basis{};          // faces that touch the inscribed ball: the LP's start
 };
 
+// the order of solids, whatever order they were given in: by centroid, then volume
+template <int Dim>
+bool in_order(const MassProperties<Dim>& a, const MassProperties<Dim>& b) {
+  for (int k = 0; k < Dim; ++k)
+    if (a.centroid[k] != b.centroid[k]) return a.centroid[k] < b.centroid[k];
+  return a.volume < b.volume;
+}
+
 // a face that no joint made: the domain's boundary or a block given directly
 inline constexpr int no_joint = -1;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/optimise/feasibility.hpp"
 
@@ -17,6 +18,34 @@ constexpr double redundancy_tolerance = 1e-10;
 template <int Dim>
 bool valid(const HalfSpace<Dim>& plane) {
   return plane.normal.allFinite() && std::isfinite(plane.offset) && plane.normal.norm() > 0;
+}
+
+// Unit to rounding stays as it is: a plane that was divided again at every later cut would come out in other bits when
+// the cuts come in another order.
+template <int Dim>
+void normalise(HalfSpace<Dim>& plane) {
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const double norm = plane.normal.norm();
+  if (std::abs(norm - 1) <= rounding) return;
+  plane.normal /= norm;
+  plane.offset /= norm;
+}
+
+// the order of a part's faces, whatever the order in which its planes were given
+template <int Dim>
+bool before(const HalfSpace<Dim>& a, const HalfSpace<Dim>& b) {
+  for (int k = 0; k < Dim; ++k)
+    if (a.normal[k] != b.normal[k]) return a.normal[k] < b.normal[k];
+  return a.offset < b.offset;
+}
+
+// corners by their coordinates: planes through them must not round differently when they are listed otherwise
+template <int Dim>
+std::vector<Vector<Dim>> sorted(std::vector<Vector<Dim>> points) {
+  std::sort(points.begin(), points.end(), [](const Vector<Dim>& a, const Vector<Dim>& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  });
+  return points;
 }
 
 // Eq. 3.8 asked through the feasibility program: the plane is needed iff the others leave room beyond it
@@ -70,13 +99,11 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
       result.plane = static_cast<int>(i);
       return result;
     }
-    const double norm = planes[i].normal.norm();
-    planes[i].normal /= norm;
-    planes[i].offset /= norm;
+    normalise(planes[i]);
   }
 
   // the largest inscribed ball tells whether the planes enclose a solid at all
-  const FeasibilityResult<Dim> ball = solve_feasibility<Dim>(planes, {});
+  FeasibilityResult<Dim> ball = solve_feasibility<Dim>(planes, {});
   if (static_cast<int>(planes.size()) <= Dim || !bounded(planes)) {
     result.status = BlockStatus::open;
     return result;
@@ -85,18 +112,24 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
     result.status = BlockStatus::empty;
     return result;
   }
-  result.part.inscribed_radius = -ball.value;
-  result.part.centre = ball.point;
 
   // redundant planes go; of equal ones the last, and with it the newest joint, stays
   std::vector<bool> kept(planes.size(), true);
   for (std::size_t i = 0; i < planes.size(); ++i)
-    kept[i] = needed(planes, kept, i, redundancy_tolerance * result.part.inscribed_radius);
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    if (!kept[i]) continue;
+    kept[i] = needed(planes, kept, i, redundancy_tolerance * -ball.value);
+
+  // from here on the faces stand in canonical order, and every bit of the part follows from them
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    if (kept[i]) order.push_back(i);
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return before(planes[i], planes[j]); });
+  for (const std::size_t i : order) {
     result.part.faces.push_back(planes[i]);
     result.part.joints.push_back(joints[i]);
   }
+  ball = solve_feasibility<Dim>(result.part.faces, {});
+  result.part.inscribed_radius = -ball.value;
+  result.part.centre = ball.point;
 
   // seen from the ball's centre, the vertices depend on neither origin nor unit
   HalfSpaces<Dim> centred = result.part.faces;
@@ -125,7 +158,8 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
 }
 
 template <>
-HalfSpaces<2> hull_planes(const std::vector<Vector<2>>& points, int* hidden) {
+HalfSpaces<2> hull_planes(const std::vector<Vector<2>>& stated, int* hidden) {
+  const std::vector<Vector<2>> points = sorted<2>(stated);
   HalfSpaces<2> planes;
   std::vector<bool> used(points.size(), false);
   double extent = 0;
@@ -152,7 +186,8 @@ HalfSpaces<2> hull_planes(const std::vector<Vector<2>>& points, int* hidden) {
 }
 
 template <>
-HalfSpaces<3> hull_planes(const std::vector<Vector<3>>& points, int* hidden) {
+HalfSpaces<3> hull_planes(const std::vector<Vector<3>>& stated, int* hidden) {
+  const std::vector<Vector<3>> points = sorted<3>(stated);
   HalfSpaces<3> planes;
   double extent = 0;
   for (const Vector<3>& p : points)

@@ -50,13 +50,6 @@ BlockResult<Dim> child(const Polytope<Dim>& block, const HalfSpace<Dim>& plane, 
   return make_block<Dim>(faces, joints);
 }
 
-template <int Dim>
-bool before(const Polytope<Dim>& a, const Polytope<Dim>& b) {
-  for (int k = 0; k < Dim; ++k)
-    if (a.mass.centroid[k] != b.mass.centroid[k]) return a.mass.centroid[k] < b.mass.centroid[k];
-  return a.mass.volume < b.mass.volume;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -88,7 +81,8 @@ std::vector<Polytope<Dim>> slice(const Polytope<Dim>& domain, const std::vector<
     }
     blocks = std::move(next);
   }
-  std::sort(blocks.begin(), blocks.end(), before<Dim>);
+  std::sort(blocks.begin(), blocks.end(),
+            [](const Polytope<Dim>& a, const Polytope<Dim>& b) { return in_order(a.mass, b.mass); });
   return blocks;
 }
 
