@@ -122,6 +122,16 @@ TEST(MakeBlock, OfEqualPlanesTheLastOneStays) {
   EXPECT_EQ(r.part.joints, (std::vector<int>{11, 12, 14, 15, 16, 17}));
 }
 
+// x + y <= 1 and x + y >= 1, whose unit normals and offsets round: what is left between them is rounding, no block
+TEST(MakeBlock, PlanesThatOnlyTouchMakeNoBlock) {
+  for (const double length : {0.4234619140625, 1.0, 3.0, 0.1}) {
+    HalfSpaces<2> planes = shapes::cube<2>(1.5);
+    planes.push_back({{length, length}, length});
+    planes.push_back({{-4, -4}, -4});
+    EXPECT_EQ(make_block<2>(planes, std::vector<int>(planes.size(), no_joint)).status, BlockStatus::empty) << length;
+  }
+}
+
 TEST(MakeBlock, RegularShapesWithManyEqualBallsSucceed) {
   // planes tangent to one ball leave the LP's optimum degenerate, whatever the orientation
   Random random(22);
