@@ -123,7 +123,7 @@ TEST_F(Program, ThreadsDoNotChangeTheResults) {
 TEST_F(Program, ResultsAreNotOverwrittenUnasked) {
   ASSERT_EQ(run("run " + cubes_ + "--out out").code, 0);
   const std::string before = read(folder_ / "out/results.json");
-  expect_one_line(run("run " + cubes_ + "--out out --set stage.settle.step_limit=5"), 2, "--overwrite");
+  expect_one_line(run("run " + cubes_ + "--out out --set stage.settle.step_limit=50000"), 2, "--overwrite");
   EXPECT_EQ(read(folder_ / "out/results.json"), before);
 
   // frames of a longer run must not survive in a shorter one's folder

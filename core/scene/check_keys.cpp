@@ -155,10 +155,11 @@ void Checker::number(const KeyRow& row, const Node& node, const std::string& pat
   if (!node.decimal) refuse(node, path, "must be written as a decimal number" + example_of(row));
   if (!std::isfinite(node.number)) refuse(node, path, "must be a finite number" + unit + example_of(row));
   if (whole && node.number != std::floor(node.number)) refuse(node, path, what + example_of(row));
-  const Range& r = row.range;
-  const bool inside = (r.above_low ? node.number > r.low : node.number >= r.low) &&
-                      (r.below_high ? node.number < r.high : node.number <= r.high);
-  if (!inside) refuse(node, path, "must " + range_text(row) + repair_of(row));
+  // powers of such a number underflow, and no quantity of a scene is so small
+  constexpr double least_magnitude = 1e-100;
+  if (node.number != 0 && std::abs(node.number) < least_magnitude)
+    refuse(node, path, "is smaller than any quantity of a scene but not zero; write 0, or correct the exponent");
+  if (!row.range.holds(node.number)) refuse(node, path, "must " + range_text(row) + repair_of(row));
 }
 
 void Checker::numbers(const KeyRow& row, const Node& node, const std::string& path, std::size_t count) const {
@@ -256,6 +257,11 @@ void Checker::value(const KeyRow& row, const Node& node, const std::string& path
   }
 }
 
+// behind a number; a share needs none
+std::string unit_of(const KeyRow& row) {
+  return row.unit.empty() || row.unit == "1" ? "" : " " + std::string(row.unit);
+}
+
 std::string plain(double number) {
   Node node;
   node.kind = Node::Kind::number;
@@ -280,12 +286,27 @@ std::vector<std::string> keys_of(const Groups& groups) {
   return keys;
 }
 
+bool Range::holds(double x) const {
+  if (or_zero && x == 0) return true;
+  return (above_low ? x > low : x >= low) && (below_high ? x < high : x <= high);
+}
+
 std::string range_text(const KeyRow& row) {
   const Range& r = row.range;
-  const std::string unit = row.unit.empty() || row.unit == "1" ? "" : " " + std::string(row.unit);
+  const std::string unit = unit_of(row);
   if (!r.above_low && !r.below_high) return "lie between " + plain(r.low) + " and " + plain(r.high) + unit;
   return (r.above_low ? "be greater than " : "be at least ") + plain(r.low) +
          (r.below_high ? " and less than " : " and at most ") + plain(r.high) + unit;
+}
+
+std::string usual_text(const KeyRow& row) {
+  const Range& r = row.usual;
+  const bool lowest = std::isinf(r.low), highest = std::isinf(r.high);
+  if (lowest && highest) return "";
+  const std::string zero = r.or_zero ? "0 or " : "";
+  if (lowest) return zero + "at most " + plain(r.high) + unit_of(row);
+  if (highest) return zero + (r.above_low ? "more than " : "at least ") + plain(r.low) + unit_of(row);
+  return zero + (r.above_low ? "more than " : "") + plain(r.low) + " to " + plain(r.high) + unit_of(row);
 }
 
 int scene_dimension(const Node& scene) {
