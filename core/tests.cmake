@@ -14,7 +14,7 @@ voussoir_test(unit.contact LABEL unit
   LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.scene LABEL unit
-  SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/keys_test.cpp
+  SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
   LIBS voussoir_core fmt::fmt)
 
 voussoir_test(unit.output LABEL unit SOURCES output/output_test.cpp

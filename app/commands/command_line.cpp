@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <new>
 
 #include "app/bad_input.hpp"
 #include "app/commands/commands.hpp"
@@ -83,6 +84,9 @@ int guarded(const Action& action) {
   } catch (const OutputError& error) {
     fmt::print(stderr, "voussoir: {}\n", error.what());
     return static_cast<int>(ExitCode::output);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "voussoir: there is not enough memory; make the scene smaller\n");
+    return static_cast<int>(ExitCode::numerical);
   } catch (const std::exception& error) {
     fmt::print(stderr, "voussoir: unexpected error, please report it: {}\n", error.what());
     return static_cast<int>(ExitCode::numerical);

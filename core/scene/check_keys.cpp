@@ -8,6 +8,12 @@
 namespace voussoir {
 namespace {
 
+// planes or corners of one block, every three of which are tried
+constexpr std::size_t most_corners = 200;
+
+// so many joints that meet make more blocks than any memory holds
+constexpr std::size_t most_joints = 10000;
+
 struct Checker {
   int dimension;
 
@@ -123,7 +129,8 @@ void Checker::table(const Node& node, const Groups& groups, const std::string& p
     value(*row, member->value, here);
   }
   for (const KeyRow& row : key_rows()) {
-    if (!row.required || node.find(row.key) || find_row(groups, row.key) != &row) continue;
+    const bool belongs = std::find(groups.begin(), groups.end(), row.table) != groups.end();
+    if (!row.required || !belongs || node.find(row.key) || find_row(groups, row.key) != &row) continue;
     if (applies(node, groups, row))
       refuse(
           {&node, path}, row.key,
@@ -137,6 +144,10 @@ void Checker::tables(const KeyRow& row, const Node& node, const std::string& pat
                                                    [](const Node& item) { return item.kind == Node::Kind::table; });
   if (!of_tables)
     refuse(node, path, "must be a list of tables; write [[" + path + "]] with two brackets on a line of its own");
+  if (row.key == "planes" && node.items.size() > most_corners)
+    refuse(node, path, "must hold at most " + std::to_string(most_corners) + " planes; divide the block");
+  if (row.key == "joints" && node.items.size() > most_joints)
+    refuse(node, path, "must hold at most " + std::to_string(most_joints) + " joints; divide the scene");
   std::set<std::string> names;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     const Node& item = node.items[i];
@@ -171,11 +182,9 @@ void Checker::numbers(const KeyRow& row, const Node& node, const std::string& pa
 }
 
 void Checker::points(const KeyRow& row, const Node& node, const std::string& path) const {
-  constexpr std::size_t most = 200;  // the hull tries every three of them
   if (node.kind != Node::Kind::list) refuse(node, path, "must be a list of points" + example_of(row));
-  if (node.items.size() > most)
-    refuse(node, path,
-           "must hold at most " + std::to_string(most) + " points; give so many-sided a block by its planes");
+  if (node.items.size() > most_corners)
+    refuse(node, path, "must hold at most " + std::to_string(most_corners) + " points; divide the block");
   for (std::size_t i = 0; i < node.items.size(); ++i)
     numbers(row, node.items[i], path + "." + std::to_string(i + 1), dimension);
 }
@@ -214,6 +223,8 @@ void check_text(const KeyRow& row, const Node& node, const std::string& path) {
            "must be one of " + quoted_list(row.choices) +
                (near.empty() ? example_of(row) : "; did you mean \"" + near + "\"?"));
   }
+  constexpr std::size_t longest_text = 1000;  // bytes; a name or a title is one line
+  if (node.text.size() > longest_text) refuse(node, path, "must be at most 1000 characters long; shorten it");
   const bool control = std::any_of(node.text.begin(), node.text.end(),
                                    [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
   if (control) refuse(node, path, "must not contain line breaks or other control characters; write it in one line");

@@ -73,7 +73,7 @@ TEST(Keys, HoldTheDefaultsOfSettings) {
 
 TEST(Keys, HaveExamplesThatAreAccepted) {
   for (const KeyRow& row : key_rows()) {
-    if (row.type == KeyType::table || row.type == KeyType::tables) continue;
+    if (row.type == KeyType::table || row.type == KeyType::tables || row.key == "base") continue;
     ASSERT_FALSE(row.example.empty()) << row.key;
     const std::string text = address(row) + "=" + std::string(row.example);
     // what else must fit together is judged after types and ranges, with its own words

@@ -76,7 +76,12 @@ void add_domain(const Scene& scene, Model<Dim>& model) {
   SlicingLimits limits;
   limits.smallest_inscribed_radius = scene.smallest_inscribed_radius;
   SlicingCounters counters;
-  for (Polytope<Dim>& part : slice<Dim>(make_domain<Dim>(*scene.domain, model.origin), cuts, limits, counters))
+  std::vector<Polytope<Dim>> parts = slice<Dim>(make_domain<Dim>(*scene.domain, model.origin), cuts, limits, counters);
+  if (counters.given_up)
+    refuse(top_of(scene), "joints",
+           "cut the domain into more than " + std::to_string(limits.most_blocks) +
+               " blocks; state fewer joints, a smaller domain or slicing.smallest_inscribed_radius");
+  for (Polytope<Dim>& part : parts)
     model.bodies.push_back(make_body<Dim>({std::move(part)}, density));
 }
 

@@ -399,6 +399,17 @@ TEST(Slice, UndoesCutsThatLeaveSlivers) {
   }
 }
 
+TEST(Slice, GivesUpBeyondTheMostBlocks) {
+  SlicingCounters counters;
+  SlicingLimits limits;
+  limits.most_blocks = 20;
+  cut<3>(shapes::block<3>(shapes::cube<3>(4)), axis_joints<3>(3), &counters, limits);
+  EXPECT_TRUE(counters.given_up);
+  limits.most_blocks = 27;
+  EXPECT_EQ(cut<3>(shapes::block<3>(shapes::cube<3>(4)), axis_joints<3>(3), &(counters = {}), limits).size(), 27u);
+  EXPECT_FALSE(counters.given_up);
+}
+
 TEST(Slice, ThinSlabsAreBlocksToo) {
   const double thin = 1e-6;
   const std::vector<Polytope<3>> blocks =
