@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <functional>
+#include <new>
 #include <system_error>
 
 #include "app/bad_input.hpp"
@@ -126,6 +127,9 @@ int guarded(const Action& action) {
     // fmt's word for a stream that takes no more
     fmt::print(stderr, "voussoir: {}\n", error.what());
     return static_cast<int>(exit_code(output_error("standard output", error.code().value()).kind));
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "voussoir: there is not enough memory; make the scene smaller\n");
+    return static_cast<int>(ExitCode::numerical);
   } catch (const std::exception& error) {
     fmt::print(stderr, "voussoir: unexpected error, please report it: {}\n", error.what());
     return static_cast<int>(ExitCode::numerical);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/motion/time_step.hpp"
@@ -16,13 +17,23 @@ namespace {
 constexpr double large_overlap_share = 0.01;   // of the inscribed radius: blocks visibly sink into each other
 constexpr double large_fraction_damped = 0.2;  // of the stable time step
 constexpr double large_fraction_undamped = 0.1;
-constexpr double many_steps = 1e7;
-constexpr double settlement_margin = 10;  // failure displacement over elastic settlement
-constexpr double wide_size_ratio = 100;   // largest over smallest inscribed radius
+constexpr double least_overlap_share = 1e-9;  // stiffer than rock can be: rounding becomes visible
+constexpr double large_overlap = 0.01;        // m: joints in rock close by a millimetre or so
+constexpr double many_steps = 1e6;            // hours
+constexpr double few_steps = 10;              // show nothing of a motion
+constexpr double small_step_share = 1e-3;     // of the stable time step, when stated
+constexpr double many_frames = 1e4;           // files
+constexpr double settlement_margin = 10;      // failure displacement over elastic settlement
+constexpr double wide_size_ratio = 100;       // largest over smallest inscribed radius
 
 template <int Dim>
 bool moves(const Body<Dim>& body) {
   return body.present && !body.fixed;
+}
+
+template <int Dim>
+std::string name_of(const Model<Dim>& model, int body) {
+  return model.bodies[body].name.empty() ? std::to_string(body) : model.bodies[body].name;
 }
 
 // Overlap at which the joints under a body carry its weight: u such that sum k A (n·g)² u = W over its faces that look
@@ -57,12 +68,21 @@ double settling_time(double overlap, double g, const DampingSettings& damping, d
   return decay > 0 ? -std::log(rest) / decay : 0;
 }
 
+// inscribed radius of the smallest free block, m; 0 when none is free yet
+template <int Dim>
+double smallest_size(const Model<Dim>& model) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Body<Dim>& body : model.bodies)
+    if (moves(body)) smallest = std::min(smallest, body.size);
+  return std::isfinite(smallest) ? smallest : 0;
+}
+
 struct Forecaster {
   double settling;  // s
   double g;         // m/s²
   double smallest;  // m: inscribed radius of a free block
 
-  double operator()(const SettlePlan& plan) const { return std::min(plan.gravity_ramp + settling, plan.time_limit); }
+  double operator()(const SettlePlan& plan) const { return plan.gravity_ramp + settling; }
   double operator()(const RunPlan& plan) const { return plan.duration; }
   double operator()(const ReducePlan& plan) const {
     const double range = std::abs(plan.from - plan.to);
@@ -87,40 +107,72 @@ struct Forecaster {
 template <int Dim>
 void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, State<Dim>& state, Plausibility& result) {
   const double g = model.gravity.norm();
-  double smallest = 0;
-  for (const Body<Dim>& body : model.bodies)
-    if (moves(body)) smallest = smallest == 0 ? body.size : std::min(smallest, body.size);
+  const double smallest = smallest_size(model);
   for (const StagePlan& stage : prepared.stages) {
     const DampingSettings damping = stage.damping.value_or(prepared.settings.damping);
     const TimeStepEstimate estimate = estimate_time_step<Dim>(model, prepared.settings, damping, state);
     if (&stage == &prepared.stages.front()) result.step_limit = estimate.limit;
-    StageForecast forecast{stage.name, estimate.step, 0};
+    StageForecast forecast{stage.name, estimate.step};
     double settling = 0;
     if (g > 0 && result.overlap > 0)
       settling = settling_time(result.overlap, g, damping, prepared.settings.equilibrium.unbalanced);
-    if (estimate.step > 0) forecast.steps = std::visit(Forecaster{settling, g, smallest}, stage.plan) / estimate.step;
+    forecast.duration = std::visit(Forecaster{settling, g, smallest}, stage.plan);
+    if (estimate.step > 0) forecast.steps = forecast.duration / estimate.step;
     result.stages.push_back(forecast);
   }
 }
 
 template <int Dim>
-void find_overlaps(const Prepared<Dim>& prepared, const Model<Dim>& model, Plausibility& result) {
+void find_overlaps(const Model<Dim>& model, Plausibility& result) {
   for (const Body<Dim>& body : model.bodies) {
     if (!moves(body)) continue;
     const double overlap = own_weight_overlap(model, body);
     result.overlap = std::max(result.overlap, overlap);
     result.overlap_share = std::max(result.overlap_share, overlap / body.size);
   }
-  const double radius = prepared.settings.contact.potential_radius;
-  if (result.overlap_share > radius)
+}
+
+// Weight over stiffness: a wrong unit in density, gravity, stiffness or geometry shows here.
+template <int Dim>
+void judge_overlaps(const Prepared<Dim>& prepared, Plausibility& result) {
+  const double radius = prepared.settings.contact.potential_radius, share = result.overlap_share;
+  const std::string units = "or check the units of normal_stiffness (Pa/m), density, gravity and the geometry (m)";
+  if (share > radius)
     result.warnings.push_back(
         fmt::format("blocks sink by {:.2g} of their inscribed radius under their own weight, more than "
-                    "contact.potential_radius = {:.2g}: raise normal_stiffness, or potential_radius",
-                    result.overlap_share, radius));
-  else if (result.overlap_share > large_overlap_share)
+                    "contact.potential_radius = {:.2g}: raise normal_stiffness, or potential_radius, {}",
+                    share, radius, units));
+  else if (share > large_overlap_share)
+    result.warnings.push_back(fmt::format(
+        "blocks sink by {:.2g} of their inscribed radius under their own weight: raise normal_stiffness, {}", share,
+        units));
+  else if (share > 0 && share < least_overlap_share)
     result.warnings.push_back(
-        fmt::format("blocks sink by {:.2g} of their inscribed radius under their own weight: raise normal_stiffness",
-                    result.overlap_share));
+        fmt::format("blocks sink by only {:.2g} of their inscribed radius under their own weight: lower "
+                    "normal_stiffness, {}",
+                    share, units));
+  if (result.overlap > large_overlap)
+    result.warnings.push_back(fmt::format(
+        "joints close by {:.2g} m under the weight of one block, rock joints by a millimetre: raise normal_stiffness, "
+        "{}",
+        result.overlap, units));
+}
+
+// blocks that were stated into each other fly apart
+template <int Dim>
+void judge_first_contacts(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
+                          Plausibility& result) {
+  for (const Contact<Dim>& contact : state.contacts) {
+    if (!contact.touching()) continue;
+    const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
+    const double size = std::min(model.bodies[a].size, model.bodies[b].size);
+    if (contact.geometry.overlap <= prepared.settings.contact.potential_radius * size) continue;
+    result.warnings.push_back(
+        fmt::format("blocks {} and {} overlap by {:.2g} m at the start, {:.2g} of the smaller inscribed radius: check "
+                    "their vertices, planes or box",
+                    name_of(model, a), name_of(model, b), contact.geometry.overlap, contact.geometry.overlap / size));
+    return;  // one tells
+  }
 }
 
 template <int Dim>
@@ -141,8 +193,8 @@ void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const 
     const Motion<Dim>& motion = prepared.state.motions[b];
     anything_moves |= motion.velocity.norm() > 0 || motion.angular_momentum.norm() > 0;
     if (model.gravity.norm() > 0 && !has_neighbour[b])
-      result.warnings.push_back(fmt::format("block {} has no neighbour: it begins by falling",
-                                            body.name.empty() ? std::to_string(b) : body.name));
+      result.warnings.push_back(
+          fmt::format("block {} has no neighbour: it begins by falling", name_of(model, static_cast<int>(b))));
   }
   if (!anything_moves && state.contacts.empty())
     result.warnings.push_back("no gravity, no velocity and no contact: nothing will move");
@@ -154,7 +206,7 @@ void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const 
 }
 
 void judge_stage(const StagePlan& stage, const DampingSettings& damping, const TimeSettings& time, double overlap,
-                 Plausibility& result) {
+                 double smallest, Plausibility& result) {
   const std::string where = "stage." + stage.name;
   const bool undamped = damping.local == 0 && damping.viscous_ratio == 0;
   const double fraction = undamped ? large_fraction_undamped : large_fraction_damped;
@@ -166,11 +218,90 @@ void judge_stage(const StagePlan& stage, const DampingSettings& damping, const T
   if (seeks_rest && undamped)
     result.warnings.push_back(where + " waits for rest but nothing damps: give it damping.local = 0.7");
   if (const auto* plan = std::get_if<ReducePlan>(&stage.plan);
+      plan && smallest > 0 && plan->failure_displacement > smallest)
+    result.warnings.push_back(
+        fmt::format("{}.failure_displacement = {:.2g} m exceeds the smallest inscribed radius of a free block, {:.2g} "
+                    "m; is it in m?",
+                    where, plan->failure_displacement, smallest));
+  if (const auto* plan = std::get_if<ReducePlan>(&stage.plan);
       plan && plan->failure_displacement > 0 && plan->failure_displacement < settlement_margin * overlap)
     result.warnings.push_back(fmt::format(
-        "{}: failure_displacement = {:.2g} m is less than {} times the elastic settlement of about {:.2g} m: "
+        "{}.failure_displacement = {:.2g} m is less than {} times the elastic settlement of about {:.2g} m: "
         "settling may pass as failure",
         where, plan->failure_displacement, settlement_margin, overlap));
+}
+
+// the keys that make a stage long or short
+struct DurationKeys {
+  std::string operator()(const SettlePlan&) const { return "gravity_ramp_s"; }
+  std::string operator()(const RunPlan&) const { return "duration_s"; }
+  std::string operator()(const ReducePlan& plan) const {
+    switch (plan.method) {
+      case ReductionMethod::bisection:
+        return "tolerance_deg";
+      case ReductionMethod::steps:
+        return "step_deg";
+      case ReductionMethod::rate:
+        return "rate_deg_per_s";
+    }
+    return "";
+  }
+};
+
+void judge_steps(const StagePlan& stage, const StageForecast& forecast, Plausibility& result) {
+  const std::string key = fmt::format("stage.{}.{}", stage.name, std::visit(DurationKeys{}, stage.plan));
+  const char* const units =
+      "or the time step (normal_stiffness, density, block sizes, time.fraction, time.step_s): is a unit wrong?";
+  if (forecast.steps > many_steps)
+    result.warnings.push_back(fmt::format("stage.{} needs about {:.0e} steps of {:.2g} s: check {}, {}", stage.name,
+                                          forecast.steps, forecast.time_step, key, units));
+  if (std::holds_alternative<RunPlan>(stage.plan) && forecast.time_step > 0 && forecast.steps < few_steps)
+    result.warnings.push_back(fmt::format("stage.{} takes about {:.1g} steps of {:.2g} s: check {}, {}", stage.name,
+                                          forecast.steps, forecast.time_step, key, units));
+}
+
+// what the times that a stage states mean beside its own times
+void judge_times(const StagePlan& stage, const StageForecast& forecast, double period, const OutputPlan& output,
+                 Plausibility& result) {
+  const auto warn = [&](const std::string& key, double value, const std::string& what) {
+    result.warnings.push_back(fmt::format("{} = {:.3g} s: {}; is it in s?", key, value, what));
+  };
+  const std::string where = "stage." + stage.name;
+  double ramp = 0;
+  if (const auto* plan = std::get_if<RunPlan>(&stage.plan)) ramp = plan->gravity_ramp;
+  if (const auto* plan = std::get_if<SettlePlan>(&stage.plan)) {
+    ramp = plan->gravity_ramp;
+    if (plan->time_limit < forecast.duration)
+      warn(where + ".time_limit_s", plan->time_limit,
+           fmt::format("rest is expected after about {:.2g} s", forecast.duration));
+  }
+  if (ramp > 0 && ramp < period)
+    warn(where + ".gravity_ramp_s", ramp,
+         fmt::format("shorter than one swing of the blocks, {:.2g} s, it acts as a blow", period));
+  for (const auto& [key, interval] : {std::pair{"output.history_interval_s", output.history_interval},
+                                      std::pair{"output.frame_interval_s", output.frame_interval}}) {
+    if (interval == 0) continue;
+    if (interval < forecast.time_step)
+      warn(key, interval, fmt::format("shorter than the time step of {}, {:.2g} s", where, forecast.time_step));
+    if (forecast.duration > 0 && interval > forecast.duration)
+      warn(key, interval, fmt::format("longer than {}, about {:.2g} s", where, forecast.duration));
+  }
+  if (output.frames && output.frame_interval > 0 && forecast.duration / output.frame_interval > many_frames)
+    warn("output.frame_interval_s", output.frame_interval,
+         fmt::format("{} would write about {:.0e} files", where, forecast.duration / output.frame_interval));
+}
+
+void judge_stated_step(const TimeSettings& time, Plausibility& result) {
+  if (!time.step || !std::isfinite(result.step_limit)) return;
+  if (*time.step > result.step_limit)
+    result.warnings.push_back(fmt::format(
+        "time.step_s = {:.3g} s exceeds the stability limit of {:.2g} s: the blocks will fly apart; lower it, or leave "
+        "it out",
+        *time.step, result.step_limit));
+  if (*time.step < small_step_share * result.step_limit)
+    result.warnings.push_back(
+        fmt::format("time.step_s = {:.3g} s is tiny beside the stability limit of {:.2g} s; is it in s?", *time.step,
+                    result.step_limit));
 }
 
 template <int Dim>
@@ -187,17 +318,23 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
                                                    [](const Contact<Dim>& contact) { return contact.touching(); }));
 
   // numbers
-  find_overlaps(prepared, model, result);
+  find_overlaps(model, result);
   forecast_stages(prepared, model, state, result);
 
   // warnings
   judge_bodies(prepared, model, state, result);
   for (const StagePlan& stage : prepared.stages)
     judge_stage(stage, stage.damping.value_or(prepared.settings.damping), prepared.settings.time, result.overlap,
-                result);
-  for (const StageForecast& stage : result.stages)
-    if (stage.steps > many_steps)
-      result.warnings.push_back(fmt::format("stage.{} needs about {:.0e} steps", stage.name, stage.steps));
+                smallest_size(model), result);
+  judge_overlaps(prepared, result);
+  judge_first_contacts(prepared, model, state, result);
+  judge_stated_step(prepared.settings.time, result);
+  const double g = model.gravity.norm();
+  const double period = g > 0 ? 2 * std::numbers::pi * std::sqrt(result.overlap / g) : 0;
+  for (std::size_t k = 0; k < prepared.stages.size(); ++k) {
+    judge_steps(prepared.stages[k], result.stages[k], result);
+    judge_times(prepared.stages[k], result.stages[k], period, prepared.output, result);
+  }
   return result;
 }
 

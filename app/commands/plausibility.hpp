@@ -12,6 +12,7 @@ namespace voussoir {
 struct StageForecast {
   std::string name;
   double time_step = 0;  // s; 0 when no contact determines it
+  double duration = 0;   // s: expected; 0 when nothing tells
   double steps = 0;      // 0 when nothing tells
 };
 

@@ -121,6 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadInput{"degree_sign", "dip = 30", "dip = 30° #!", "not valid TOML", "correct the TOML"},
                     BadInput{"accent", "dip = 30", "é = 30 #!", "not valid TOML", "correct the TOML"},
                     BadInput{"overflow", "dip = 30", "dip = 1e400 #!", "1e400", "correct the TOML"},
+                    BadInput{"underflow", "dip = 30", "dip = 1e-400 #!", "too small for the machine", "write 0"},
                     BadInput{"no_value", "dip = 30", "dip = #!", "not valid TOML", "correct the TOML"},
                     BadInput{"open_text", "name = \"A\"", "name = \"A #!", "not valid TOML", "double quotes"},
                     BadInput{"dangling", "dip = 30", "dip = 30 30 #!", "not valid TOML", "correct the TOML"},
@@ -234,6 +235,10 @@ INSTANTIATE_TEST_SUITE_P(
                              "must lie between"},
                     BadInput{"reversed", "from_deg = 40", "from_deg = 4 #!", "stage.reduce.from_deg = 4",
                              "must be greater than to_deg (5)"},
+                    BadInput{"endless_ramp", "name = \"settle\"\nkind",
+                             "name = \"settle\"\ngravity_ramp_s = 1e9 #!\nkind", "stage.settle.gravity_ramp_s = 1e+09",
+                             "less than time_limit_s (by default 1e9)"},
+                    BadInput{"denormal", "dip = 30", "dip = 1e-310 #!", "joints.A.dip = 1e-310", "write 0"},
                     BadInput{"box_reversed", "box = { min = [-2, -2, -2], max = [2, 2, 2] }",
                              "box = { min = [-2, -2, 2], max = [2, 2, -2] } #!", "domain.box.max",
                              "must exceed min along z"}),
@@ -377,6 +382,8 @@ TEST(BadOverrides, AreToldWithTheirText) {
                              {"joints.A.dip=nan", "joints.A.dip = nan", "must be a finite number"},
                              {"joints.A.dip=65\ndensity=3", "joints.A.dip", "not valid TOML"},
                              {"gravity=[0,0", "gravity", "not valid TOML"},
+                             {"gravity=[0,0,1e-400]", "gravity", "not valid TOML"},
+                             {"base=scene.toml", "base", "cannot be set"},
                              {"stage.settle.damping.local=2", "stage.settle.damping.local = 2", "less than 1"},
                              {"dimension=2", "gravity", "a list of 2 numbers"}};
   for (const BadOverride& bad : all) {

@@ -1,6 +1,7 @@
 #include "core/scene/base_scene.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "core/scene/scene_text.hpp"
 #include "core/scene/toml_text.hpp"
@@ -8,8 +9,8 @@
 namespace voussoir {
 namespace {
 
-// a base of a base of a base: more is a circle
-constexpr int most_bases = 4;
+// a base of a base of a base …
+constexpr std::size_t most_bases = 16;
 
 const std::string* name_of(const Node& table) {
   const Node* name = table.find("name");
@@ -35,18 +36,20 @@ void lay_over(Node& base, const Node& scene);
 
 // a table of the list goes over the base's of the same name, or behind the others
 void lay_list_over(Node& base, const Node& scene) {
+  std::map<std::string, std::size_t> places;  // by name, the first of it
+  for (std::size_t i = 0; i < base.items.size(); ++i)
+    if (const std::string* name = name_of(base.items[i])) places.emplace(*name, i);
   for (const Node& item : scene.items) {
     const std::string* name = name_of(item);
-    const auto same = std::find_if(base.items.begin(), base.items.end(), [&](const Node& other) {
-      const std::string* other_name = name_of(other);
-      return name && other_name && *name == *other_name;
-    });
-    if (same == base.items.end())
+    const auto same = name ? places.find(*name) : places.end();
+    if (same == places.end()) {
+      if (name) places.emplace(*name, base.items.size());
       base.items.push_back(item);
-    else if (is_another(*same, item))
-      *same = item;
-    else
-      lay_over(*same, item);
+    } else if (is_another(base.items[same->second], item)) {
+      base.items[same->second] = item;
+    } else {
+      lay_over(base.items[same->second], item);
+    }
   }
 }
 
@@ -67,18 +70,43 @@ void forget_base(Node& scene) {
   std::erase_if(scene.members, [](const Member& m) { return m.key == "base"; });
 }
 
-Node load(Node scene, const std::filesystem::path& folder, int depth) {
+namespace fs = std::filesystem;
+
+bool is_below(const fs::path& file, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
+// The file a scene names as its base: a regular file in its folder, wherever links point.
+fs::path base_file(const Node& stated, const fs::path& folder) {
+  if (stated.kind != Node::Kind::text) refuse(stated, "base", "must be the name of a scene file in quotes");
+  const fs::path relative = stated.text;
+  const bool escapes = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
+  if (escapes) refuse(stated, "base", "must lie in the scene's own folder: give its name without .. or a leading /");
+  std::error_code error;
+  const bool control =
+      std::any_of(stated.text.begin(), stated.text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+  if (control || !fs::is_regular_file(folder / relative, error))
+    refuse(stated, "base", "there is no such file beside the scene");
+  const fs::path file = fs::canonical(folder / relative, error);
+  if (error || !is_below(file, fs::canonical(folder.empty() ? "." : folder, error)))
+    refuse(stated, "base", "is a link that leaves the scene's own folder; copy the file beside the scene");
+  return file;
+}
+
+// `chain` holds the bases that led here
+Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain) {
   const Node* stated = scene.find("base");
   if (!stated) return scene;
-  if (stated->kind != Node::Kind::text) refuse(*stated, "base", "must be the name of a scene file in quotes");
-  const std::filesystem::path relative = stated->text;
-  const bool escapes = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
-  if (escapes) refuse(*stated, "base", "must lie in the scene's own folder: give its name without .. or a leading /");
-  if (depth == most_bases) refuse(*stated, "base", "more than 4 bases in a row: do they name each other?");
-  const std::filesystem::path file = folder / relative;
-  if (!std::filesystem::is_regular_file(file)) refuse(*stated, "base", "there is no such file beside the scene");
-  const auto source = std::make_shared<const std::string>(file.string());
-  Node base = load(parse_toml(file_text(file), source), file.parent_path(), depth + 1);
+  const fs::path file = base_file(*stated, folder);
+  if (std::find(chain.begin(), chain.end(), file) != chain.end())
+    refuse(*stated, "base", "leads back to itself; name another file, or remove one base of the circle");
+  if (chain.size() == most_bases)
+    refuse(*stated, "base", "more than 16 bases in a row; state this scene's differences from one nearer to the first");
+  chain.push_back(file);
+  // messages name the file as the user would find it
+  const fs::path shown = folder / fs::path(stated->text);
+  const auto source = std::make_shared<const std::string>(shown.string());
+  Node base = load(parse_toml(file_text(file), source), shown.parent_path(), chain);
   lay_over(base, scene);
   forget_base(base);
   return base;
@@ -86,8 +114,9 @@ Node load(Node scene, const std::filesystem::path& folder, int depth) {
 
 }  // namespace
 
-Node with_base(Node scene, const std::filesystem::path& folder) {
-  return load(std::move(scene), folder, 0);
+Node with_base(Node scene, const fs::path& folder) {
+  std::vector<fs::path> chain;
+  return load(std::move(scene), folder, chain);
 }
 
 }  // namespace voussoir

@@ -8,6 +8,12 @@
 namespace voussoir {
 namespace {
 
+// planes or corners of one block, every three of which are tried
+constexpr std::size_t most_corners = 200;
+
+// so many joints that meet make more blocks than any memory holds
+constexpr std::size_t most_joints = 10000;
+
 struct Checker {
   int dimension;
 
@@ -123,7 +129,8 @@ void Checker::table(const Node& node, const Groups& groups, const std::string& p
     value(*row, member->value, here);
   }
   for (const KeyRow& row : key_rows()) {
-    if (!row.required || node.find(row.key) || find_row(groups, row.key) != &row) continue;
+    const bool belongs = std::find(groups.begin(), groups.end(), row.table) != groups.end();
+    if (!row.required || !belongs || node.find(row.key) || find_row(groups, row.key) != &row) continue;
     if (applies(node, groups, row))
       refuse(
           {&node, path}, row.key,
@@ -137,6 +144,10 @@ void Checker::tables(const KeyRow& row, const Node& node, const std::string& pat
                                                    [](const Node& item) { return item.kind == Node::Kind::table; });
   if (!of_tables)
     refuse(node, path, "must be a list of tables; write [[" + path + "]] with two brackets on a line of its own");
+  if (row.key == "planes" && node.items.size() > most_corners)
+    refuse(node, path, "must hold at most " + std::to_string(most_corners) + " planes; divide the block");
+  if (row.key == "joints" && node.items.size() > most_joints)
+    refuse(node, path, "must hold at most " + std::to_string(most_joints) + " joints; divide the scene");
   std::set<std::string> names;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     const Node& item = node.items[i];
@@ -155,10 +166,11 @@ void Checker::number(const KeyRow& row, const Node& node, const std::string& pat
   if (!node.decimal) refuse(node, path, "must be written as a decimal number" + example_of(row));
   if (!std::isfinite(node.number)) refuse(node, path, "must be a finite number" + unit + example_of(row));
   if (whole && node.number != std::floor(node.number)) refuse(node, path, what + example_of(row));
-  const Range& r = row.range;
-  const bool inside = (r.above_low ? node.number > r.low : node.number >= r.low) &&
-                      (r.below_high ? node.number < r.high : node.number <= r.high);
-  if (!inside) refuse(node, path, "must " + range_text(row) + repair_of(row));
+  // powers of such a number underflow, and no quantity of a scene is so small
+  constexpr double least_magnitude = 1e-100;
+  if (node.number != 0 && std::abs(node.number) < least_magnitude)
+    refuse(node, path, "is smaller than any quantity of a scene but not zero; write 0, or correct the exponent");
+  if (!row.range.holds(node.number)) refuse(node, path, "must " + range_text(row) + repair_of(row));
 }
 
 void Checker::numbers(const KeyRow& row, const Node& node, const std::string& path, std::size_t count) const {
@@ -170,11 +182,9 @@ void Checker::numbers(const KeyRow& row, const Node& node, const std::string& pa
 }
 
 void Checker::points(const KeyRow& row, const Node& node, const std::string& path) const {
-  constexpr std::size_t most = 200;  // the hull tries every three of them
   if (node.kind != Node::Kind::list) refuse(node, path, "must be a list of points" + example_of(row));
-  if (node.items.size() > most)
-    refuse(node, path,
-           "must hold at most " + std::to_string(most) + " points; give so many-sided a block by its planes");
+  if (node.items.size() > most_corners)
+    refuse(node, path, "must hold at most " + std::to_string(most_corners) + " points; divide the block");
   for (std::size_t i = 0; i < node.items.size(); ++i)
     numbers(row, node.items[i], path + "." + std::to_string(i + 1), dimension);
 }
@@ -213,6 +223,8 @@ void check_text(const KeyRow& row, const Node& node, const std::string& path) {
            "must be one of " + quoted_list(row.choices) +
                (near.empty() ? example_of(row) : "; did you mean \"" + near + "\"?"));
   }
+  constexpr std::size_t longest_text = 1000;  // bytes; a name or a title is one line
+  if (node.text.size() > longest_text) refuse(node, path, "must be at most 1000 characters long; shorten it");
   const bool control = std::any_of(node.text.begin(), node.text.end(),
                                    [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
   if (control) refuse(node, path, "must not contain line breaks or other control characters; write it in one line");
@@ -256,6 +268,11 @@ void Checker::value(const KeyRow& row, const Node& node, const std::string& path
   }
 }
 
+// behind a number; a share needs none
+std::string unit_of(const KeyRow& row) {
+  return row.unit.empty() || row.unit == "1" ? "" : " " + std::string(row.unit);
+}
+
 std::string plain(double number) {
   Node node;
   node.kind = Node::Kind::number;
@@ -280,12 +297,27 @@ std::vector<std::string> keys_of(const Groups& groups) {
   return keys;
 }
 
+bool Range::holds(double x) const {
+  if (or_zero && x == 0) return true;
+  return (above_low ? x > low : x >= low) && (below_high ? x < high : x <= high);
+}
+
 std::string range_text(const KeyRow& row) {
   const Range& r = row.range;
-  const std::string unit = row.unit.empty() || row.unit == "1" ? "" : " " + std::string(row.unit);
+  const std::string unit = unit_of(row);
   if (!r.above_low && !r.below_high) return "lie between " + plain(r.low) + " and " + plain(r.high) + unit;
   return (r.above_low ? "be greater than " : "be at least ") + plain(r.low) +
          (r.below_high ? " and less than " : " and at most ") + plain(r.high) + unit;
+}
+
+std::string usual_text(const KeyRow& row) {
+  const Range& r = row.usual;
+  const bool lowest = std::isinf(r.low), highest = std::isinf(r.high);
+  if (lowest && highest) return "";
+  const std::string zero = r.or_zero ? "0 or " : "";
+  if (lowest) return zero + "at most " + plain(r.high) + unit_of(row);
+  if (highest) return zero + (r.above_low ? "more than " : "at least ") + plain(r.low) + unit_of(row);
+  return zero + (r.above_low ? "more than " : "") + plain(r.low) + " to " + plain(r.high) + unit_of(row);
 }
 
 int scene_dimension(const Node& scene) {

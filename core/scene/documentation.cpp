@@ -52,6 +52,9 @@ addressed by their name, or by their number from 1 where they have none (`--set 
 written as in the file; a word needs no quotes. A key that the file leaves out can be set as well. So a name may hold
 any characters but '.', '=' and control characters, and is unique in its list.
 
+A value outside the range that a key allows is refused. One outside its usual range is told as a warning before the run:
+most often its unit is wrong.
+
 Blocks are chosen by selectors: by name, by the side of joints or by a point inside, never by number. A block is chosen
 when it satisfies every condition that the table states.
 )";
@@ -94,12 +97,13 @@ std::string type_text(const KeyRow& row) {
 
 // ranges that only keep numbers sane would be noise
 std::string allowed_text(const KeyRow& row) {
+  const std::string usual = usual_text(row).empty() ? "" : "; usually " + usual_text(row);
   const bool numeric = row.type == KeyType::number || row.type == KeyType::integer;
-  if (!numeric) return type_text(row);
+  if (!numeric) return type_text(row) + usual;
   std::string range = range_text(row);
   for (const std::string_view verb : {"lie ", "be "})
     if (range.starts_with(verb)) range.erase(0, verb.size());
-  return type_text(row) + ", " + range;
+  return type_text(row) + ", " + range + usual;
 }
 
 std::string default_text(const KeyRow& row) {

@@ -34,6 +34,9 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
   bool above_low = false;   // low itself is refused
   bool below_high = false;  // high itself is refused
+  bool or_zero = false;     // zero lies in it, although it lies below low
+
+  bool holds(double x) const;
 };
 
 // the key means something only where another key of its table has this value
@@ -46,7 +49,8 @@ struct KeyRow {
   std::string_view key;
   KeyType type = KeyType::number;
   std::string_view unit{};
-  Range range{};
+  Range range{};                // anything else is refused; of vectors, each entry
+  Range usual{};                // anything else is legal but more likely a slip: a warning; of vectors, the length
   std::string_view fallback{};  // the default as TOML; empty: none
   std::string_view example{};   // a value as TOML
   bool required = false;        // where its condition holds
@@ -56,6 +60,7 @@ struct KeyRow {
   std::string_view meaning{};
   std::string_view repair{};  // what to do about a value out of range; may be empty
   std::string_view breaks{};  // what goes wrong with a badly chosen value; may be empty
+  std::string_view slip{};    // the slip that an unusual value suggests, as a question; may be empty
 };
 
 std::span<const KeyRow> key_rows();
@@ -68,6 +73,9 @@ std::vector<std::string> keys_of(const Groups& groups);
 
 // "be greater than 0 and at most 1", "lie between 0 and 90 deg"
 std::string range_text(const KeyRow& row);
+
+// "500 to 8000 kg/m³", "0 or 1.6 to 90 deg", "at most 100 m/s"; empty when everything is usual
+std::string usual_text(const KeyRow& row);
 
 // Holds every value of a tree against the table; throws SceneError at the first that does not fit.
 void check_keys(const Node& scene);

@@ -9,7 +9,9 @@
 
 namespace voussoir {
 
-// Gravity, densities, stiffnesses, angles, sizes, and joints that cut nothing.
+// Every value outside the usual range of its key (scene/keys.hpp); then what several values tell together: the
+// direction of gravity, swapped stiffnesses, sizes of blocks, coordinates next to zero, planes and joints that miss the
+// domain.
 template <int Dim>
 std::vector<std::string> implausible_values(const Scene& scene, const Prepared<Dim>& prepared);
 

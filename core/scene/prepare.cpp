@@ -76,7 +76,12 @@ void add_domain(const Scene& scene, Model<Dim>& model) {
   SlicingLimits limits;
   limits.smallest_inscribed_radius = scene.smallest_inscribed_radius;
   SlicingCounters counters;
-  for (Polytope<Dim>& part : slice<Dim>(make_domain<Dim>(*scene.domain, model.origin), cuts, limits, counters))
+  std::vector<Polytope<Dim>> parts = slice<Dim>(make_domain<Dim>(*scene.domain, model.origin), cuts, limits, counters);
+  if (counters.given_up)
+    refuse(top_of(scene), "joints",
+           "cut the domain into more than " + std::to_string(limits.most_blocks) +
+               " blocks; state fewer joints, a smaller domain or slicing.smallest_inscribed_radius");
+  for (Polytope<Dim>& part : parts)
     model.bodies.push_back(make_body<Dim>({std::move(part)}, density));
 }
 
@@ -137,12 +142,14 @@ std::vector<int> chosen(const Model<Dim>& model, const SelectorSpec& spec) {
 }
 
 template <int Dim>
-std::vector<int> chosen_some(const Model<Dim>& model, const SelectorSpec& spec) {
+std::vector<int> chosen_some(const Scene& scene, const Model<Dim>& model, const SelectorSpec& spec) {
   std::vector<int> bodies = chosen<Dim>(model, spec);
   if (bodies.empty())
-    refuse(*spec.subject.node, spec.subject.path,
-           "chooses no block (of " + std::to_string(model.bodies.size()) +
-               "); check the sides of the joints, or choose by a point inside");
+    refuse(
+        *spec.subject.node, spec.subject.path,
+        "chooses no block (of " + std::to_string(model.bodies.size()) +
+            "); check the sides of the joints and the extent of domain.box or the blocks, or choose by a point inside" +
+            (scene.smallest_inscribed_radius > 0 ? ", or lower slicing.smallest_inscribed_radius" : ""));
   return bodies;
 }
 
@@ -154,10 +161,10 @@ bool releases(const Scene& scene) {
 template <int Dim>
 void add_supports(const Scene& scene, Model<Dim>& model) {
   for (const SelectorSpec& fix : scene.fix)
-    for (const int b : chosen_some<Dim>(model, fix))
+    for (const int b : chosen_some<Dim>(scene, model, fix))
       model.bodies[b].fixed = true;
   for (const RestrainSpec& restrain : scene.restrain)
-    for (const int b : chosen_some<Dim>(model, restrain.bodies)) {
+    for (const int b : chosen_some<Dim>(scene, model, restrain.bodies)) {
       Body<Dim>& body = model.bodies[b];
       for (int k = 0; k < Dim; ++k)
         body.free_translation[k] = body.free_translation[k] && !restrain.translation[k];
@@ -202,7 +209,7 @@ State<Dim> moving_state(const Scene& scene, const Model<Dim>& model) {
       if (model.bodies[b].name == block.name)
         set_motion<Dim>(block.subject, block.motion, model.bodies[b], state.motions[b]);
   for (const InitialVelocitySpec& spec : scene.initial_velocity)
-    for (const int b : chosen_some<Dim>(model, spec.bodies))
+    for (const int b : chosen_some<Dim>(scene, model, spec.bodies))
       set_motion<Dim>(spec.bodies.subject, spec.motion, model.bodies[b], state.motions[b]);
   return state;
 }
@@ -213,7 +220,7 @@ std::vector<StagePlan> checked_stages(const Scene& scene, const Model<Dim>& mode
   const std::vector<std::string> names = property_names(scene);
   for (const StageSpec& stage : scene.stages) {
     for (const SelectorSpec& change : stage.changes)
-      chosen_some<Dim>(model, change);
+      chosen_some<Dim>(scene, model, change);
     if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan.plan)) {
       if (names.empty())
         refuse(*stage.subject.node, stage.subject.path, "there is no friction to reduce; add [[joint_properties]]");
@@ -248,7 +255,7 @@ std::vector<Monitor> find_monitors(const Scene& scene, const Model<Dim>& model) 
   for (const MonitorSpec& spec : scene.monitors) {
     int subject = 0;
     if (spec.joint.empty()) {
-      const std::vector<int> bodies = chosen_some<Dim>(model, spec.body);
+      const std::vector<int> bodies = chosen_some<Dim>(scene, model, spec.body);
       if (bodies.size() != 1)
         refuse(*spec.body.subject.node, spec.body.subject.path,
                "chooses " + std::to_string(bodies.size()) +

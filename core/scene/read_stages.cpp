@@ -59,10 +59,12 @@ SettlePlan read_settle(const Subject& table) {
   read(table, "gravity_ramp_s", plan.gravity_ramp);
   read(table, "time_limit_s", plan.time_limit);
   read(table, "step_limit", plan.step_limit);
-  if (plan.gravity_ramp >= plan.time_limit)
+  if (plan.gravity_ramp >= plan.time_limit) {
+    const Node* limit = table.node->find("time_limit_s");
     refuse(table, "gravity_ramp_s",
-           "must be less than time_limit_s (" + value_text(*table.node->find("time_limit_s")) +
+           "must be less than time_limit_s (" + (limit ? value_text(*limit) : "by default 1e9") +
                "): rest needs full gravity; shorten the ramp or raise the limit");
+  }
   return plan;
 }
 

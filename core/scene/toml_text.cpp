@@ -23,23 +23,53 @@
 #include <algorithm>
 #include <cctype>
 #include <cfenv>
+#include <vector>
 
 namespace voussoir {
 namespace {
 
-Node converted(const toml::node& from, const std::shared_ptr<const std::string>& source) {
+// the text that is parsed, to look up how a number was written
+class Document {
+ public:
+  Document(std::string_view text, const std::shared_ptr<const std::string>& name) : source(name), text_(text) {
+    starts_.push_back(0);
+    for (std::size_t i = 0; i < text.size(); ++i)
+      if (text[i] == '\n') starts_.push_back(i + 1);
+  }
+
+  // "1e-400" is read as zero: its first digits are not
+  bool states_more_than_zero(const toml::source_position& begin) const {
+    if (begin.line < 1 || begin.line > starts_.size()) return false;
+    std::string_view rest = text_.substr(starts_[begin.line - 1]);
+    for (auto column = begin.column; column > 1 && !rest.empty(); --column) {
+      rest.remove_prefix(1);
+      while (!rest.empty() && (static_cast<unsigned char>(rest.front()) & 0xC0) == 0x80)
+        rest.remove_prefix(1);  // the rest of a character in UTF-8
+    }
+    const std::string_view digits = rest.substr(0, rest.find_first_not_of("+-0123456789._"));
+    return digits.find_first_of("123456789") != std::string_view::npos;
+  }
+
+  std::shared_ptr<const std::string> source;
+
+ private:
+  std::string_view text_;
+  std::vector<std::size_t> starts_;  // of the lines
+};
+
+Node converted(const toml::node& from, const Document& document) {
   Node node;
-  node.place = {source, static_cast<int>(from.source().begin.line)};
+  node.place = {document.source, static_cast<int>(from.source().begin.line)};
   if (const auto* table = from.as_table()) {
     // the library's tables are sorted by key, and so are ours
     for (const auto& [key, value] : *table) {
-      node.members.push_back({std::string(key.str()), converted(value, source)});
+      node.members.push_back({std::string(key.str()), converted(value, document)});
       if (node.members.back().value.place.line == 0) node.members.back().value.place.line = key.source().begin.line;
     }
   } else if (const auto* list = from.as_array()) {
     node.kind = Node::Kind::list;
     for (const toml::node& item : *list)
-      node.items.push_back(converted(item, source));
+      node.items.push_back(converted(item, document));
   } else if (const auto* text = from.as_string()) {
     node.kind = Node::Kind::text;
     node.text = text->get();
@@ -50,6 +80,10 @@ Node converted(const toml::node& from, const std::shared_ptr<const std::string>&
   } else if (const auto* number = from.as_floating_point()) {
     node.kind = Node::Kind::number;
     node.number = number->get();
+    if (node.number == 0 && document.states_more_than_zero(from.source().begin))
+      throw SceneError(
+          place_text(node.place) +
+          ": a number is too small for the machine and would count as zero; write 0, or correct the exponent");
   } else if (const auto* boolean = from.as_boolean()) {
     node.kind = Node::Kind::boolean;
     node.boolean = boolean->get();
@@ -71,10 +105,12 @@ class WithoutTraps {
   std::fenv_t environment;
 };
 
-// Keys of very many parts would nest tables until the stack ends; the library limits nested values only.
-void limit_nesting(std::string_view text, const std::string& source) {
+// What a text claims, before anything is allocated for it. Keys of very many parts would nest tables until the stack
+// ends (the library limits nested values only); and every value needs a comma, an equals sign or a bracket.
+void limit_size(std::string_view text, const std::string& source) {
   constexpr int most_dots = 100;
-  int line = 1, dots = 0;
+  constexpr int most_values = 1'000'000;  // a few hundred bytes of memory each
+  int line = 1, dots = 0, values = 0;
   for (const char c : text) {
     if (c == '\n') ++line;
     if (c == '\n' || c == ',' || c == '=') dots = 0;
@@ -82,6 +118,9 @@ void limit_nesting(std::string_view text, const std::string& source) {
       throw SceneError(
           source + ":" + std::to_string(line) +
           ": more than 100 dots in a row: keys must not nest so deeply; a scene needs three levels at most");
+    if ((c == ',' || c == '=' || c == '[' || c == '{') && ++values > most_values)
+      throw SceneError(source + ":" + std::to_string(line) +
+                       ": more than a million values: a scene must be smaller; divide it");
   }
 }
 
@@ -115,10 +154,10 @@ std::string repair_hint(std::string_view description) {
 }  // namespace
 
 Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>& source) {
-  limit_nesting(text, *source);
+  limit_size(text, *source);
   const WithoutTraps guard;
   try {
-    Node root = converted(toml::parse(text, std::string_view(*source)), source);
+    Node root = converted(toml::parse(text, std::string_view(*source)), {text, source});
     root.place.line = 1;
     return root;
   } catch (const toml::parse_error& error) {
@@ -129,13 +168,14 @@ Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>&
 
 Node parse_toml_value(std::string_view text, const Place& place) {
   const auto source = std::make_shared<const std::string>(place_text(place));
-  limit_nesting(text, *source);
+  limit_size(text, *source);
   const WithoutTraps guard;
   Node value;
   try {
     // a line break would start another key; overrides are one line
     if (text.find_first_of("\n\r") != std::string_view::npos) throw SceneError("");
-    Node document = converted(toml::parse("value = " + std::string(text)), source);
+    const std::string line = "value = " + std::string(text);
+    Node document = converted(toml::parse(line), {line, source});
     value = std::move(document.members.at(0).value);
   } catch (const std::exception&) {
     if (!is_bare_word(text))

@@ -15,6 +15,9 @@ constexpr double merge_tolerance = 1e-10;
 // a plane that would cut off less than this times the inscribed radius is redundant
 constexpr double redundancy_tolerance = 1e-10;
 
+// an inscribed ball smaller than this times the offsets it follows from is their rounding: planes that only touch
+constexpr double ball_rounding = 64 * std::numeric_limits<double>::epsilon();
+
 template <int Dim>
 bool valid(const HalfSpace<Dim>& plane) {
   return plane.normal.allFinite() && std::isfinite(plane.offset) && plane.normal.norm() > 0;
@@ -76,6 +79,15 @@ bool bounded(const HalfSpaces<Dim>& planes) {
   return true;
 }
 
+// s = -Σ λ d is negative by more than the rounding of its terms
+template <int Dim>
+bool holds_ball(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& ball) {
+  double terms = 0;
+  for (int k = 0; k <= Dim; ++k)
+    if (ball.basis[k] >= 0) terms += std::abs(ball.multipliers[k] * planes[ball.basis[k]].offset);
+  return ball.status == FeasibilityStatus::optimal && -ball.value > ball_rounding * terms;
+}
+
 // faces that bound nothing (a plane that touches an edge or a corner within rounding) go
 template <int Dim>
 void drop_empty_faces(Polytope<Dim>& part) {
@@ -108,7 +120,7 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
     result.status = BlockStatus::open;
     return result;
   }
-  if (ball.status != FeasibilityStatus::optimal || !(ball.value < 0)) {
+  if (!holds_ball(planes, ball)) {
     result.status = BlockStatus::empty;
     return result;
   }
@@ -144,7 +156,8 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
 
   drop_empty_faces(result.part);
   result.part.mass = integrate(result.part.vertices, result.part.loops);
-  if (static_cast<int>(result.part.faces.size()) <= Dim || !(result.part.mass.volume > 0)) {
+  const int fewest = static_cast<int>(std::min(result.part.faces.size(), result.part.vertices.size()));
+  if (fewest <= Dim || !(result.part.mass.volume > 0)) {
     result.status = BlockStatus::flat;
     return result;
   }

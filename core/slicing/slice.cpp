@@ -80,6 +80,10 @@ std::vector<Polytope<Dim>> slice(const Polytope<Dim>& domain, const std::vector<
       next.push_back(std::move(above.part));
     }
     blocks = std::move(next);
+    if (blocks.size() > limits.most_blocks) {
+      counters.given_up = true;
+      break;
+    }
   }
   std::sort(blocks.begin(), blocks.end(),
             [](const Polytope<Dim>& a, const Polytope<Dim>& b) { return in_order(a.mass, b.mass); });

@@ -124,6 +124,16 @@ TEST(MakeBlock, OfEqualPlanesTheLastOneStays) {
   EXPECT_EQ(r.part.joints, (std::vector<int>{11, 12, 14, 15, 16, 17}));
 }
 
+// x + y <= 1 and x + y >= 1, whose unit normals and offsets round: what is left between them is rounding, no block
+TEST(MakeBlock, PlanesThatOnlyTouchMakeNoBlock) {
+  HalfSpaces<2> planes = shapes::cube<2>(1.5);
+  planes.push_back({{0.4234619140625, 0.4234619140625}, 0.4234619140625});
+  planes.push_back({{-3.9058837890625, -3.7808837890625}, 2.861083984375});
+  planes.push_back({{-1.4810791015625, 3.974365234375}, -3.9949951171875});
+  planes.push_back({{-4, -4}, -4});
+  EXPECT_EQ(make_block<2>(planes, std::vector<int>(planes.size(), no_joint)).status, BlockStatus::empty);
+}
+
 TEST(MakeBlock, RegularShapesWithManyEqualBallsSucceed) {
   // planes tangent to one ball leave the LP's optimum degenerate, whatever the orientation
   Random random(22);
@@ -389,6 +399,17 @@ TEST(Slice, UndoesCutsThatLeaveSlivers) {
     EXPECT_EQ(counters.cuts, kept ? 1 : 0);
     EXPECT_EQ(counters.undone, kept ? 0 : 1);
   }
+}
+
+TEST(Slice, GivesUpBeyondTheMostBlocks) {
+  SlicingCounters counters;
+  SlicingLimits limits;
+  limits.most_blocks = 20;
+  cut<3>(shapes::block<3>(shapes::cube<3>(4)), axis_joints<3>(3), &counters, limits);
+  EXPECT_TRUE(counters.given_up);
+  limits.most_blocks = 27;
+  EXPECT_EQ(cut<3>(shapes::block<3>(shapes::cube<3>(4)), axis_joints<3>(3), &(counters = {}), limits).size(), 27u);
+  EXPECT_FALSE(counters.given_up);
 }
 
 TEST(Slice, ThinSlabsAreBlocksToo) {

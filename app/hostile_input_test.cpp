@@ -1,0 +1,129 @@
+// Scenes that claim too much, and files that are none: told in one line, exit code 2, in little memory and time.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "app/testing/program.hpp"
+
+namespace voussoir {
+namespace {
+
+using namespace program;
+
+// kilobytes of memory and seconds of processor time; a program that needs more is killed, which its code shows.
+// Sanitizers reserve terabytes.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+const std::string limits = "ulimit -t 60 && ";
+#else
+const std::string limits = "ulimit -t 5 && ulimit -v 500000 && ";
+#endif
+
+class Hostile : public Program {
+ protected:
+  Ended check(const std::string& scene, const std::string& more = "") const {
+    return run("check '" + scene + "' " + more, limits);
+  }
+  void refused(const std::string& scene, const std::string& part) const {
+    SCOPED_TRACE(scene);
+    expect_one_line(check(scene), 2, part);
+  }
+  void refused_text(const std::string& text, const std::string& part) const {
+    write("scene.toml", text);
+    refused("scene.toml", part);
+  }
+};
+
+std::string repeated(const std::string& text, int count) {
+  std::string all;
+  all.reserve(text.size() * count);
+  for (int i = 0; i < count; ++i)
+    all += text;
+  return all;
+}
+
+TEST_F(Hostile, SizesAreRefusedBeforeTheyAreAllocated) {
+  write("sparse.toml", "");
+  fs::resize_file(folder_ / "sparse.toml", std::uintmax_t{10} << 30);
+  refused("sparse.toml", "larger than 16 MB");
+  fs::remove(folder_ / "sparse.toml");
+
+  refused_text("a = " + repeated("[", 100'000), "depth");
+  refused_text("a = " + repeated("{a=", 100'000), "depth");
+  refused_text("a" + repeated(".a", 100'000) + " = 1", "100 dots");
+  refused_text("[a" + repeated(".a", 100'000) + "]", "100 dots");
+  refused_text(repeated("[", 1'000'000), "scene.toml:1");
+  refused_text("density = " + repeated("1", 1'000'000), "too long");
+  refused_text("density = 0." + repeated("1", 1'000'000), "length");
+  refused_text("density = 1e" + repeated("1", 1'000'000), "scene.toml:1");
+  refused_text("dimension = 3\ntitle = \"" + repeated("a", 10'000'000) + "\"", "at most 1000 characters");
+  refused_text("dimension = 3\n" + repeated("a", 10'000'000) + " = 1", "no such key");
+  refused_text("a = [" + repeated("1,", 7'000'000) + "]", "more than a million values");
+  refused_text(repeated("[[fix]]\n", 1'500'000), "more than a million values");
+  refused_text("dimension = 3\n" + repeated("[[fix]]\n", 400'000), "fix.1.below is missing");
+  refused_text(repeated("\n", 15'000'000), "dimension is missing");
+  refused_text("dimension = 3\n[[blocks]]\nname = \"a\"\nvertices = [" + repeated("[0,0,0],", 201) + "]",
+               "at most 200 points");
+  refused_text("dimension = 3\n[[blocks]]\nname = \"a\"\nplanes = [" + repeated("{},", 201) + "]",
+               "at most 200 planes");
+  refused_text("dimension = 3\n" + repeated("[[joints]]\n", 10'001), "at most 10000 joints");
+}
+
+TEST_F(Hostile, OnlyRegularFilesAreScenes) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.toml").c_str(), 0600), 0);
+  refused("pipe.toml", "not a file");
+  refused("/dev/zero", "not a file");
+  refused("/dev/stdin", "not a file");
+  refused(".", "not a file");
+  fs::create_symlink("circle.toml", folder_ / "circle.toml");
+  refused("circle.toml", "no such file");
+}
+
+TEST_F(Hostile, ABaseIsARegularFileInTheScenesFolder) {
+  const std::string good = read(scenes / "two_cubes.toml");
+  write("good.toml", good);
+  fs::create_directories(folder_ / "below");
+  write("below/good.toml", good);
+  fs::create_directories(folder_.string() + "_outside");
+  std::ofstream(folder_.string() + "_outside/good.toml") << good;
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.toml").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder_ / "device.toml");
+  fs::create_symlink(folder_.string() + "_outside/good.toml", folder_ / "leaves.toml");
+  fs::create_symlink(folder_.string() + "_outside", folder_ / "away");
+  fs::create_symlink("good.toml", folder_ / "stays.toml");
+  fs::create_symlink("self.toml", folder_ / "self.toml");
+
+  for (const char* base : {"good.toml", "below/good.toml", "./good.toml", "stays.toml"}) {
+    write("scene.toml", std::string("base = \"") + base + "\"\n");
+    EXPECT_EQ(check("scene.toml").code, 0) << base;
+  }
+  const std::pair<std::string, std::string> bad[] = {{"../" + folder_.filename().string() + "/good.toml", "without .."},
+                                                     {"below/../good.toml", "without .."},
+                                                     {(folder_ / "good.toml").string(), "leading /"},
+                                                     {"none.toml", "no such file"},
+                                                     {"below", "no such file"},
+                                                     {"pipe.toml", "no such file"},
+                                                     {"device.toml", "no such file"},
+                                                     {"self.toml", "no such file"},
+                                                     {"good.toml\\u0000", "no such file"},
+                                                     {"leaves.toml", "leaves the scene's own folder"},
+                                                     {"away/good.toml", "leaves the scene's own folder"},
+                                                     {"scene.toml", "leads back to itself"},
+                                                     {"", "no such file"}};
+  for (const auto& [base, part] : bad)
+    refused_text("base = \"" + base + "\"\n", part);
+  expect_one_line(check("good.toml", "--set base=below/good.toml"), 2, "cannot be set");
+  fs::remove_all(folder_.string() + "_outside");
+}
+
+TEST_F(Hostile, BasesChainSixteenDeepAndEndInNoCircle) {
+  write("0.toml", read(scenes / "two_cubes.toml"));
+  for (int i = 1; i <= 17; ++i)
+    write(fmt::format("{}.toml", i), fmt::format("base = \"{}.toml\"\n", i - 1));
+  EXPECT_EQ(check("16.toml").code, 0);
+  refused("17.toml", "more than 16 bases");
+  write("a.toml", "base = \"b.toml\"\n");
+  write("b.toml", "base = \"a.toml\"\n");
+  refused("a.toml", "leads back to itself");
+}
+
+}  // namespace
+}  // namespace voussoir

@@ -1,0 +1,64 @@
+// Bytes to a scene: accepted or refused in one line, never a crash; what is accepted reads back to the same scene.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "app/effective_scene.hpp"
+#include "core/scene/plausibility.hpp"
+#include "core/scene/scene.hpp"
+#include "fuzz/require.hpp"
+
+namespace voussoir::fuzz {
+namespace {
+
+// in a folder that does not exist, so that `base` finds nothing
+const char* const name = "no_such_folder/scene.toml";
+
+void require_one_line(const std::string& message) {
+  require(message.starts_with(name), "an error begins with the file");
+  require(std::none_of(message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }),
+          "an error is one line without control characters");
+}
+
+// Slicing is not what is fuzzed here: n joints make up to n³/6 blocks, hulls and planes cost their fourth power.
+bool is_small(const Scene& scene) {
+  constexpr std::size_t many = 12;
+  const bool domain = !scene.domain || scene.domain->planes.size() <= many;
+  return scene.joints.size() <= many / 2 && scene.blocks.size() <= many && domain &&
+         std::all_of(scene.blocks.begin(), scene.blocks.end(), [](const BlockSpec& block) {
+           return block.vertices.size() <= many && block.planes.size() <= many;
+         });
+}
+
+template <int Dim>
+void prepare_and_judge(const Scene& scene) {
+  const Prepared<Dim> prepared = prepare<Dim>(scene);
+  for (const Body<Dim>& body : prepared.model.bodies) {
+    require(std::isfinite(body.mass) && body.mass > 0, "masses are finite and positive");
+    require(body.inertia.allFinite() && body.inertia.minCoeff() > 0, "moments of inertia are finite and positive");
+  }
+  for (const std::string& warning : implausible_values<Dim>(scene, prepared))
+    require_one_line(warning);
+}
+
+void read(std::string_view text) {
+  const Scene scene = parse_scene(text, name);
+  const std::string canonical = canonical_text(scene);
+  require(canonical_text(parse_scene(toml_text(*scene.tree), name)) == canonical, "a scene reads back to itself");
+  if (!is_small(scene)) return;
+  scene.dimension == 2 ? prepare_and_judge<2>(scene) : prepare_and_judge<3>(scene);
+}
+
+}  // namespace
+}  // namespace voussoir::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace voussoir::fuzz;
+  const Stopwatch stopwatch;
+  try {
+    read({reinterpret_cast<const char*>(data), size});
+  } catch (const voussoir::SceneError& error) {
+    require_one_line(error.what());
+  }
+  return 0;
+}
