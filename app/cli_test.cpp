@@ -1,6 +1,8 @@
 // The program as its users meet it: arguments in, files, messages and exit codes out.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "app/run_scene.hpp"
 #include "app/testing/program.hpp"
 
@@ -72,6 +74,28 @@ TEST_F(Program, BadInputWritesNothing) {
   expect_one_line(run("run " + cubes_ + "--out out --set density=-1"), 2, "density");
   expect_one_line(run("run " + cubes_ + "--out out --set joints.bad.dip=1"), 2, "bed");
   EXPECT_TRUE(folder_is_empty());
+}
+
+TEST_F(Program, ARunWhoseEnergyDoesNotCloseSaysSo) {
+  const std::string bounce =
+      std::string("run ") + VOUSSOIR_SOURCE_DIR "/cases/bounce/scene.toml --set output.history_interval_s=0 " +
+      "--set damping.viscous_ratio=0 ";
+  const auto doubts = [&](const std::string& where) {
+    const nlohmann::json warnings = results(where)["warnings"];
+    return std::count_if(warnings.begin(), warnings.end(), [](const nlohmann::json& w) {
+      return w.get<std::string>().find("energy ledger does not close") != std::string::npos;
+    });
+  };
+  ASSERT_EQ(run(bounce + "--set time.fraction=0.05 --out fine").code, 0);
+  EXPECT_EQ(doubts("fine"), 0);
+  EXPECT_LT(results("fine")["energy"]["closure"], 0.01);
+
+  // a one-sided contact gains energy when the step is long
+  const Ended coarse = run(bounce + "--set time.fraction=0.9 --out coarse");
+  ASSERT_EQ(coarse.code, 0);
+  EXPECT_EQ(doubts("coarse"), 1);
+  EXPECT_NE(coarse.err.find("energy ledger does not close"), std::string::npos) << coarse.err;
+  EXPECT_GT(results("coarse")["energy"]["closure"], 0.05);
 }
 
 TEST_F(Program, AGoalNotReachedIsOne) {

@@ -97,6 +97,12 @@ Results some_results() {
   results.values = {{"critical_friction", {33.35 + 1e-14, "deg", 0.01, "bisection"}}, {"height", {0.1, "m", {}, ""}}};
   results.stages.push_back({"settle", "settle", "equilibrium", 100, 0.5, 1e-3, 1e-7});
   results.counters.steps = 123'456'789'012;
+  results.energy.flows.gravity = 12;
+  results.energy.flows.local = 1;
+  results.energy.flows.dashpots = 2;
+  results.energy.turnover = 12;
+  results.energy.widest = 3;
+  results.warnings = {"late doubt"};
   results.state_hash = fingerprint("state");
   results.seconds = 1.5;
   return results;
@@ -123,6 +129,10 @@ TEST(ResultsJson, HoldsWhatTheRunFound) {
   EXPECT_FALSE(json["values"]["height"].contains("error_bar"));
   EXPECT_EQ(json["stages"][0]["ended"], "equilibrium");
   EXPECT_EQ(json["counters"]["steps"], 123'456'789'012);
+  EXPECT_EQ(json["energy"]["potential"], -12);
+  EXPECT_EQ(json["energy"]["damping"], 3);
+  EXPECT_EQ(json["energy"]["closure"], 0.25);
+  EXPECT_EQ(json["warnings"].back(), "late doubt");
   EXPECT_EQ(json["state_hash"], results.state_hash);
   EXPECT_EQ(json["timing"]["seconds"], 1.5);
 }
