@@ -37,15 +37,16 @@ double farthest(const Model<Dim>& model, const State<Dim>& state, const std::vec
   return largest;
 }
 
-// the first body whose load or motion is not a number; -1: none
+// the first body whose motion is not a number, or else whose load is, for a wrong motion spoils its neighbours' loads;
+// -1: none
 template <int Dim>
 int first_not_finite(const State<Dim>& state) {
   for (std::size_t b = 0; b < state.motions.size(); ++b) {
     const Motion<Dim>& m = state.motions[b];
-    const double sum = state.loads[b].force.sum() + state.loads[b].moment.sum() + m.displacement.sum() +
-                       m.velocity.sum() + m.angular_momentum.sum();
-    if (!std::isfinite(sum)) return static_cast<int>(b);
+    if (!std::isfinite(m.displacement.sum() + m.velocity.sum() + m.angular_momentum.sum())) return static_cast<int>(b);
   }
+  for (std::size_t b = 0; b < state.loads.size(); ++b)
+    if (!std::isfinite(state.loads[b].force.sum() + state.loads[b].moment.sum())) return static_cast<int>(b);
   return -1;
 }
 

@@ -9,6 +9,10 @@ voussoir_test(unit.law_and_motion LABEL unit
   SOURCES law/law_test.cpp motion/motion_test.cpp
   LIBS voussoir_core Boost::headers)
 
+voussoir_test(unit.extremes LONG LABEL unit
+  SOURCES law/law_extremes_test.cpp motion/motion_extremes_test.cpp motion/step_extremes_test.cpp
+  LIBS voussoir_core Boost::headers fmt::fmt)
+
 voussoir_test(unit.contact LABEL unit
   SOURCES contact/contact_test.cpp contact/thin_contact_test.cpp contact/broad_phase_test.cpp
   LIBS voussoir_core Boost::headers)

@@ -54,7 +54,7 @@ JointForce<Dim> elastic_coulomb(const JointProperties& properties, double fricti
   const double normal_stiffness = properties.normal_stiffness * kinematics.area;
   const double shear_stiffness = properties.shear_stiffness * kinematics.area;
   const double spring = normal_stiffness * kinematics.overlap;
-  const double normal_force = std::max(0.0, spring + dashpot * kinematics.closing_speed);
+  const double normal_force = std::max(spring + dashpot * kinematics.closing_speed, 0.0);  // a NaN stays one
 
   // elastic trial, then return to the cone along the trial's direction
   JointForce<Dim> result;

@@ -132,7 +132,7 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
   TimeStepEstimate estimate;
   const double xi = damping.viscous_ratio;
   estimate.limit =
-      largest > 0 ? 2 / std::sqrt(largest) * (std::sqrt(1 + xi * xi) - xi) : std::numeric_limits<double>::infinity();
+      largest > 0 ? 2 / std::sqrt(largest) / (std::sqrt(1 + xi * xi) + xi) : std::numeric_limits<double>::infinity();
   if (settings.time.step)
     estimate.step = *settings.time.step;
   else if (largest > 0)
