@@ -37,7 +37,3 @@ voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_t
 voussoir_test(unit.step LABEL unit
   SOURCES step_test.cpp energy_test.cpp state_hash_test.cpp reduction/reduction_test.cpp checkpoint/checkpoint_test.cpp
   LIBS voussoir_core cereal::cereal Boost::headers)
-
-voussoir_test(unit.extremes LONG LABEL unit
-  SOURCES law/law_extremes_test.cpp motion/motion_extremes_test.cpp motion/step_extremes_test.cpp
-  LIBS voussoir_core Boost::headers fmt::fmt)
