@@ -1,5 +1,7 @@
-// A whole step of a settled pile: n cubes stacked on a fixed one.
+// A whole step: of a settled pile, n cubes stacked on a fixed one; and of contacts with next to no force.
 #include <benchmark/benchmark.h>
+
+#include <limits>
 
 #include "benchmarks/shapes.hpp"
 #include "core/run.hpp"
@@ -8,23 +10,28 @@
 namespace voussoir::benchmarks {
 namespace {
 
-void stack(benchmark::State& state) {
+// n cubes that overlap by a given depth on a fixed one
+Model<3> cubes(int n, double overlap, double stiffness) {
   const Polytope<3> cube = platonic(1);
   const double side = 1 / std::sqrt(3.0);
   Model<3> model;
-  const int n = static_cast<int>(state.range(0));
   for (int i = 0; i <= n; ++i) {
     Body<3> body = make_body<3>({cube}, 2000);
-    body.reference = {0, 0, i * side};
+    body.reference = {0, 0, i * (side - overlap)};
     body.fixed = i == 0;
     model.bodies.push_back(body);
   }
-  model.gravity = {0, 0, -9.81};
   JointProperties rock;
-  rock.normal_stiffness = rock.shear_stiffness = 1e9;
+  rock.normal_stiffness = rock.shear_stiffness = stiffness;
   rock.friction = 0.6;
   model.properties.push_back(rock);
   number_bodies(model);
+  return model;
+}
+
+void stack(benchmark::State& state) {
+  Model<3> model = cubes(static_cast<int>(state.range(0)), 0, 1e9);
+  model.gravity = {0, 0, -9.81};
   State<3> now = initial_state(model);
   const Settings settings;
   RunGoal goal;
@@ -42,6 +49,25 @@ void stack(benchmark::State& state) {
 }
 
 BENCHMARK(stack)->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);
+
+// Ten contacts whose forces are tiny: of 1e-4 N, or of 1e-311 N, which only denormal numbers hold. The two must take
+// the same time, or a rock mass that is almost at rest would slow down. (An overlap cannot be denormal: below 1e-13 of
+// the size it is no contact.)
+void tiny_forces(benchmark::State& state) {
+  const bool denormal = state.range(0) == 1;
+  const Model<3> model = cubes(10, 1e-6, denormal ? 1e-304 : 1e3);
+  State<3> now = initial_state(model);
+  Settings settings;
+  settings.time.step = 1e-6;
+  for (auto _ : state)
+    step(model, settings, now);
+  double force = 0;
+  for (const Contact<3>& c : now.contacts)
+    force = std::max(force, c.force.cwiseAbs().maxCoeff());
+  state.counters["denormal"] = force > 0 && force < std::numeric_limits<double>::min();
+}
+
+BENCHMARK(tiny_forces)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace voussoir::benchmarks

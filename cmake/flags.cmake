@@ -3,9 +3,11 @@
 # with any compiler and optimisation level.
 add_library(voussoir_flags INTERFACE)
 target_compile_features(voussoir_flags INTERFACE cxx_std_20)
-target_compile_options(voussoir_flags INTERFACE
-  -Wall -Wextra -Wshadow -Wno-psabi
-  -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize> $<$<CXX_COMPILER_ID:Clang>:-fno-vectorize -fno-slp-vectorize>)
+set(VOUSSOIR_ARITHMETIC -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize>
+  $<$<CXX_COMPILER_ID:Clang>:-fno-vectorize -fno-slp-vectorize>
+  CACHE STRING "how sums may be rounded; any other flags give up equal bits and serve only to measure their price")
+mark_as_advanced(VOUSSOIR_ARITHMETIC)
+target_compile_options(voussoir_flags INTERFACE -Wall -Wextra -Wshadow -Wno-psabi ${VOUSSOIR_ARITHMETIC})
 
 set(VOUSSOIR_SANITIZE "" CACHE STRING "sanitizers to build with, e.g. address,undefined")
 if(VOUSSOIR_SANITIZE)

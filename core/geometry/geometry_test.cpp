@@ -1,6 +1,7 @@
 // Rotations, half-spaces, vertices, faces and mass against closed forms and integration by sections.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 
