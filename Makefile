@@ -4,11 +4,12 @@ PRESET ?= release
 BUILD  := $(if $(filter release,$(PRESET)),build,build-$(PRESET))
 JOBS   ?= $(shell nproc)
 
-.PHONY: help packages configure build test test-long reports benchmark run format clean
+.PHONY: help packages configure build test test-long coverage reports benchmark run format clean
 
 help:
 	@echo "make test                verify: build and run every test (PRESET=dev|asan|tsan for other builds)"
 	@echo "make test-long           the long tests"
+	@echo "make coverage            line coverage of the core's rooms by the unit tests (build-coverage)"
 	@echo "make reports             figures, studies and the verification manual: $(BUILD)/reports/index.html"
 	@echo "make benchmark           time the kernels"
 	@echo "make run SCENE=file      run one scene (OUT=folder SET='key=value …')"
@@ -29,6 +30,10 @@ test: build
 
 test-long: build
 	@cd $(BUILD) && ctest -C Long -L long --output-on-failure --parallel $(JOBS)
+
+coverage: packages
+	@command -v gcovr >/dev/null || cmake/install_packages.sh gcovr
+	@cmake/coverage.sh $(CURDIR) $(CURDIR)/build-coverage $(JOBS)
 
 reports: build
 	@cmake/make_reports.sh $(BUILD) $(JOBS)

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Installs the packages of packages.txt that this machine lacks; silent when nothing is missing.
+# Installs the packages of packages.txt, or those named, that this machine lacks; silent when nothing is missing.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 mapfile -t wanted < <(grep -vE '^\s*(#|$)' "$here/packages.txt")
+[ $# -eq 0 ] || wanted=("$@")
 missing=()
 for package in "${wanted[@]}"; do
   [ "$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null)" = "install ok installed" ] || missing+=("$package")

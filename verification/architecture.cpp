@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr int longest_file = 500;  // lines; a longer one holds two ideas
 constexpr int one_screen = 60;     // lines of core/step.cpp: the whole method at a glance
 
-constexpr std::array top_folders{"core", "app", "reference", "verification", "cases", "benchmarks", "reports"};
+constexpr std::array top_folders{"core", "app", "reference", "verification", "cases", "benchmarks", "reports", "fuzz"};
 
 // from the ground up; a room may include the rooms of the lines above its own
 const std::vector<std::vector<std::string>> layers{
@@ -50,6 +50,7 @@ const std::vector<Reach> reaches{
     {"cases", {"core", "app", "reference", "verification"}},
     {"benchmarks", {"core", "app"}},
     {"reports", {"verification"}},
+    {"fuzz", {"core", "app"}},
 };
 
 std::string top_folder(std::string_view path) {

@@ -57,6 +57,7 @@ TEST(Architecture, KeepsTheHousesApart) {
   EXPECT_FALSE(arrow("reference/wedge/wedge_test.cpp", "verification/verification.hpp").empty());
   EXPECT_FALSE(arrow("verification/summary.cpp", "reports/text.hpp").empty());
   EXPECT_FALSE(arrow("benchmarks/step.cpp", "cases/wedge/x.hpp").empty());
+  EXPECT_FALSE(arrow("core/step.cpp", "fuzz/require.hpp").empty());
 }
 
 TEST(Architecture, RefusesUnknownRoomsRelativePathsAndLongFiles) {

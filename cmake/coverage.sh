@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# coverage.sh SOURCE BUILD JOBS: line coverage of the core's rooms by their unit tests; fails where one of the rooms that
+# read input or decide contacts lies below the least share.
+set -euo pipefail
+source=$1 build=$2 jobs=$3
+rooms=(scene geometry contact law)
+least=95  # % of lines
+tests=(unit_blocks unit_law_and_motion unit_contact unit_scene)
+
+cd "$source"
+mkdir -p "$build"
+cmake --preset coverage -B "$build" >"$build/configure.log" 2>&1 || { cat "$build/configure.log"; exit 1; }
+cmake --build "$build" --parallel "$jobs" --target "${tests[@]}"
+find "$build" -name '*.gcda' -delete
+(cd "$build" && ctest --output-on-failure --parallel "$jobs" -R "^unit\\.(blocks|law_and_motion|contact|scene)$")
+
+# tests are not judged by themselves
+common=(--root "$source" --object-directory "$build" --exclude '.*_test\.[ch]pp' --exclude 'core/testing/')
+gcovr "${common[@]}" --filter 'core/' --print-summary | tee "$build/coverage.txt"
+failed=0
+for room in "${rooms[@]}"; do
+  share=$(gcovr "${common[@]}" --filter "core/$room/" | awk '$1 == "TOTAL" {print $4}')
+  echo "core/$room: ${share:-nothing measured} of the lines"
+  [ "${share%\%}" -ge "$least" ] 2>/dev/null || { echo "core/$room lies below $least %"; failed=1; }
+done
+exit $failed
