@@ -2,32 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "core/geometry/surface.hpp"
 #include "core/optimise/feasibility.hpp"
 
 namespace voussoir {
 namespace {
 
-// vertices closer than this times the block's extent are one; three decades above the rounding of the intersections
+// points closer than this times the extent of a hull are one
 constexpr double merge_tolerance = 1e-10;
 
 // a plane that would cut off less than this times the inscribed radius is redundant
 constexpr double redundancy_tolerance = 1e-10;
 
+// Coordinates carry 2e-16 of the extent and of the distance from the origin. Where that comes near the inscribed radius
+// few digits of volume and overlap are left: such a block is refused.
+constexpr double thinnest = 1e-8;                                           // inscribed radius / extent
+constexpr double farthest = 1e-6 / std::numeric_limits<double>::epsilon();  // distance / inscribed radius
+
 template <int Dim>
 bool valid(const HalfSpace<Dim>& plane) {
   return plane.normal.allFinite() && std::isfinite(plane.offset) && plane.normal.norm() > 0;
-}
-
-// Eq. 3.8 asked through the feasibility program: the plane is needed iff the others leave room beyond it
-template <int Dim>
-bool needed(const HalfSpaces<Dim>& planes, const std::vector<bool>& kept, std::size_t candidate, double tolerance) {
-  HalfSpaces<Dim> others;
-  for (std::size_t i = 0; i < planes.size(); ++i)
-    if (kept[i] && i != candidate) others.push_back(planes[i]);
-  others.push_back({-planes[candidate].normal, -planes[candidate].offset});
-  const FeasibilityResult<Dim> r = solve_feasibility<Dim>(others, {});
-  return r.status == FeasibilityStatus::unbounded || r.value < -tolerance;
 }
 
 // Bounded iff the recession cone {a_i·x <= 0} holds no direction: along no axis, either way, can a point go on for
@@ -45,17 +41,6 @@ bool bounded(const HalfSpaces<Dim>& planes) {
       if (!(solve_feasibility<Dim>(cone, {}).value > rounding)) return false;
     }
   return true;
-}
-
-// faces that bound nothing (a plane that touches an edge or a corner within rounding) go
-template <int Dim>
-void drop_empty_faces(Polytope<Dim>& part) {
-  for (std::size_t f = part.faces.size(); f-- > 0;) {
-    if (!part.loops[f].empty()) continue;
-    part.faces.erase(part.faces.begin() + f);
-    part.joints.erase(part.joints.begin() + f);
-    part.loops.erase(part.loops.begin() + f);
-  }
 }
 
 }  // namespace
@@ -85,36 +70,35 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
     result.status = BlockStatus::empty;
     return result;
   }
+  if (ball.point.norm() > farthest * std::abs(ball.value)) {
+    result.status = BlockStatus::far;
+    return result;
+  }
   result.part.inscribed_radius = -ball.value;
   result.part.centre = ball.point;
 
-  // redundant planes go; of equal ones the last, and with it the newest joint, stays
-  std::vector<bool> kept(planes.size(), true);
-  for (std::size_t i = 0; i < planes.size(); ++i)
-    kept[i] = needed(planes, kept, i, redundancy_tolerance * result.part.inscribed_radius);
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    if (!kept[i]) continue;
-    result.part.faces.push_back(planes[i]);
-    result.part.joints.push_back(joints[i]);
-  }
-
-  // seen from the ball's centre, the vertices depend on neither origin nor unit
-  HalfSpaces<Dim> centred = result.part.faces;
+  // seen from the ball's centre, the surface depends on neither origin nor unit
+  HalfSpaces<Dim> centred = planes;
   for (HalfSpace<Dim>& f : centred)
     f = moved_origin<Dim>(f, ball.point);
+  Surface<Dim> surface = find_surface<Dim>(centred, redundancy_tolerance * result.part.inscribed_radius);
   double extent = 0;
-  for (const Vector<Dim>& v : find_vertices(centred, redundancy_tolerance * result.part.inscribed_radius))
+  for (const Vector<Dim>& v : surface.vertices)
     extent = std::max(extent, v.norm());
-  const double tolerance = merge_tolerance * extent;
-  result.part.vertices = find_vertices(centred, tolerance);
-  result.part.loops = find_loops(centred, result.part.vertices, 4 * tolerance);
-
-  drop_empty_faces(result.part);
-  result.part.mass = integrate(result.part.vertices, result.part.loops);
-  if (static_cast<int>(result.part.faces.size()) <= Dim || !(result.part.mass.volume > 0)) {
-    result.status = BlockStatus::flat;
+  if (surface.status != SurfaceStatus::ok || result.part.inscribed_radius < thinnest * extent) {
+    result.status = surface.status == SurfaceStatus::open ? BlockStatus::open : BlockStatus::flat;
     return result;
   }
+
+  // redundant planes have no loop and go
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    if (surface.loops[i].empty()) continue;
+    result.part.faces.push_back(planes[i]);
+    result.part.joints.push_back(joints[i]);
+    result.part.loops.push_back(std::move(surface.loops[i]));
+  }
+  result.part.vertices = std::move(surface.vertices);
+  result.part.mass = integrate(result.part.vertices, result.part.loops);
   for (Vector<Dim>& v : result.part.vertices) {
     v += ball.point;
     result.part.radius = std::max(result.part.radius, v.norm());
