@@ -218,14 +218,17 @@ Planes planes_of(const HalfSpaces<3>& planes) {
 }
 
 Planes planes_of(const Pair<3>& pair) {
+  return planes_of(pair, point_of(pair.offset));
+}
+
+Planes planes_of(const Pair<3>& pair, const Point& offset) {
   Planes result = planes_of(pair.a->faces);
-  const Point shift = point_of(pair.offset);
   for (const HalfSpace<3>& f : pair.b->faces) {
     const Point own = point_of(f.normal);
     Plane p;
     for (int row = 0; row < 3; ++row)
       p.normal[row] = dot(point_of(pair.rotation.row(row)), own);
-    p.offset = Rational(f.offset) + dot(p.normal, shift);
+    p.offset = Rational(f.offset) + dot(p.normal, offset);
     result.push_back(std::move(p));
   }
   return result;

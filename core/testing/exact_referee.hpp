@@ -32,6 +32,9 @@ Planes planes_of(const HalfSpaces<3>& planes);
 // Both parts' planes in the first body's frame as the pair's doubles say, planes of A first: (R a)·x <= d + (R a)·o.
 Planes planes_of(const Pair<3>& pair);
 
+// the same with an offset that no double holds
+Planes planes_of(const Pair<3>& pair, const Point& offset);
+
 // every half-space grown by the distance (negative: shrunk), taking normals for unit
 Planes grown(Planes planes, double distance);
 
