@@ -2,7 +2,7 @@
 find_package(Boost 1.74 REQUIRED)
 
 voussoir_test(unit.blocks LABEL unit
-  SOURCES geometry/geometry_test.cpp optimise/optimise_test.cpp slicing/slicing_test.cpp
+  SOURCES geometry/geometry_test.cpp optimise/optimise_test.cpp slicing/slicing_test.cpp slicing/sliver_test.cpp
   LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.law_and_motion LABEL unit

@@ -1,6 +1,6 @@
 # the atlas: a row of maps for every kernel, a column for every difficulty; each cell is the worst of its answers
 load style
-set terminal svg size 1180,1080 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,11' \
+set terminal svg size 1180,1000 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,11' \
     linewidth 1 enhanced
 set output out
 kernels = 'block cut decision centre normal overlap area'
@@ -19,29 +19,30 @@ last = column_max
 half = last / 2
 set xrange [-0.5:last+0.5]
 left = 0.125
-top = 0.885
+top = 0.875
 wide = 0.1155
 gap = 0.029
-high = 0.0985
-between = 0.0155
+high = 0.105
+between = 0.0135
 
 set multiplot
 # legend
-names = 'correct "answered, with a warning" "refused by name" wrong'
-colours = '#cfe6f2 #f0a830 #7d7d7d #8b0000'
-do for [i=1:4] {
-  x = 0.125 + (i - 1) * 0.19 - (i == 1 ? 0 : 0.06) + (i > 2 ? 0.06 : 0)
+names = 'correct "answered, with a warning" "refused by name" wrong "apart: nothing to find"'
+colours = '#cfe6f2 #f0a830 #7d7d7d #8b0000 #ffffff'
+places = '0.125 0.235 0.445 0.605 0.705'
+do for [i=1:5] {
+  x = real(word(places, i))
   set object i rectangle from screen x, screen 0.962 to screen x + 0.022, screen 0.980 \
       fc rgb word(colours, i) fs solid 1 border rgb '#606060'
   set label i word(names, i) at screen x + 0.028, screen 0.971 left
 }
 set label 9 'depth, share of the smaller block''s inscribed diameter: gap (plane misses) to the left of 0, overlap (cap cut off) to the right' \
-    at screen 0.5, screen 0.022 center
+    at screen 0.5, screen 0.018 center
 
 do for [a=1:6] {
   do for [k=1:7] {
     l = left + (a - 1) * (wide + gap)
-    t = top - (k - 1) * (high + between) + 0.04
+    t = top - (k - 1) * (high + between) + 0.035
     set lmargin at screen l
     set rmargin at screen l + wide
     set tmargin at screen t
@@ -61,11 +62,11 @@ do for [a=1:6] {
     if (k <= 2 && a == 4) {
       # a pair's place is no question for one block
       unset xtics; unset ytics
-      set label 12 'one block' at graph 0.5, graph 0.5 center textcolor rgb '#808080'
+      set label 12 'one block only' at graph 0.5, graph 0.5 center front textcolor rgb '#606060'
     } else { unset label 12 }
     plot 'atlas.csv' using 'x':(column('axis') == a - 1 ? column('y') : NaN):(0.5):'half_height':word(kernels, k) \
          with boxxyerror lc palette fs solid 1 noborder
-    if (a == 1 && k == 1) { unset for [i=1:4] object i; unset for [i=1:4] label i; unset label 9 }
+    if (a == 1 && k == 1) { unset for [i=1:5] object i; unset for [i=1:5] label i; unset label 9 }
   }
 }
 unset multiplot

@@ -103,7 +103,7 @@ void check(CaseReport& report, const Atlas& atlas) {
 
 TEST(Robustness, NoAnswerIsWrongUnsaid) {
   CaseReport report("robustness", {"wrong answers, block", "wrong answers, decision"});
-  const Grid g = grid(2, {4, 6, 12, 24, 40}, {0.3, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}, 1);
+  const Grid g = grid(2, {4, 6, 12, 24, 40}, {0.3, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}, 2);
   const Atlas atlas = sweep(g);
   write_map(g, atlas);
   check(report, atlas);

@@ -30,8 +30,10 @@ void refuse_all(Judgements& all, std::initializer_list<Kernel> list) {
     of(all, k).verdict = Verdict::refused;
 }
 
+constexpr int most_kinds = 60;  // a multiple of how many kinds of meetings and of cuts there are
+
 // a solid with one plane more, and the same solid cut by that plane
-void judge_plane(const Shapes& s, const Place& place, int instance, Random& random, Judgements& all) {
+void judge_plane(const Shapes& s, const Place& place, Random& random, Judgements& all) {
   const Matrix<3> straight = Matrix<3>::Identity();
   const HalfSpaces<3> far = shapes::placed<3>(s.a, straight, s.made);
   const BlockResult<3> near = made(s.a);
@@ -40,7 +42,8 @@ void judge_plane(const Shapes& s, const Place& place, int instance, Random& rand
     refuse_all(all, {Kernel::cut});
     return;
   }
-  const HalfSpaces<3> plane = shapes::placed<3>({cutting_plane(near.part, place, instance, random)}, straight, s.made);
+  const HalfSpaces<3> plane = shapes::placed<3>(
+      {cutting_plane(near.part, place, shapes::integer(random, 0, most_kinds - 1), random)}, straight, s.made);
   HalfSpaces<3> planes = far;
   planes.push_back(plane[0]);
   shapes::shuffle(planes, random);
@@ -52,14 +55,14 @@ void judge_plane(const Shapes& s, const Place& place, int instance, Random& rand
     refuse_all(all, {Kernel::cut});
 }
 
-void judge_pair(const Shapes& s, const Place& place, int instance, Random& random, Judgements& all) {
+void judge_pair(const Shapes& s, const Place& place, Random& random, Judgements& all) {
   const BlockResult<3> a = made(shapes::placed<3>(s.a, Matrix<3>::Identity(), s.made)),
                        b = made(shapes::placed<3>(s.b, Matrix<3>::Identity(), s.made));
   if (a.status != BlockStatus::ok || b.status != BlockStatus::ok) {
     refuse_all(all, {Kernel::decision, Kernel::centre, Kernel::normal, Kernel::overlap, Kernel::area});
     return;
   }
-  Judgements pair = judge_meeting(meet(a.part, b.part, place, instance, random));
+  Judgements pair = judge_meeting(meet(a.part, b.part, place, shapes::integer(random, 0, most_kinds - 1), random));
   for (const Kernel k : {Kernel::decision, Kernel::centre, Kernel::normal, Kernel::overlap, Kernel::area})
     of(all, k) = of(pair, k);
 }
@@ -90,8 +93,8 @@ Judgements judge_instance(const Place& place, int instance) {
   Random random = seeded(place, instance);
   const Shapes s = random_shapes(place, random);
   Judgements all;
-  if (place.axis != Axis::placed) judge_plane(s, place, instance, random, all);
-  judge_pair(s, place, instance, random, all);
+  if (place.axis != Axis::placed) judge_plane(s, place, random, all);
+  judge_pair(s, place, random, all);
   return all;
 }
 
