@@ -3,6 +3,7 @@ find_package(Boost 1.74 REQUIRED)
 
 voussoir_test(unit.blocks LABEL unit
   SOURCES floating_point_traps_test.cpp geometry/geometry_test.cpp optimise/optimise_test.cpp slicing/slicing_test.cpp
+    slicing/sliver_test.cpp
   LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.law_and_motion LABEL unit
@@ -33,6 +34,12 @@ foreach(solver voussoir_glpk voussoir_ipopt)
 endforeach()
 voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_test.cpp
   LIBS voussoir_core ${outside_solvers})
+
+# the exact referee: GPL, so a library of its own that only tests link
+add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exact_programs.cpp)
+target_link_libraries(voussoir_exact_referee PUBLIC voussoir_core gmpxx gmp PRIVATE voussoir_flags cddgmp)
+voussoir_test(unit.exact_referee LABEL unit SOURCES testing/exact_referee_test.cpp
+  LIBS voussoir_exact_referee Boost::headers)
 
 voussoir_test(unit.step LABEL unit
   SOURCES step_test.cpp energy_test.cpp state_hash_test.cpp reduction/reduction_test.cpp checkpoint/checkpoint_test.cpp

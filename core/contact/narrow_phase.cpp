@@ -10,6 +10,9 @@ namespace {
 // gradients that differ by less give no direction
 constexpr double parallel_gradients = 1e-6;
 
+// an LP value nearer to zero than this share of the coordinates has the sign of their rounding
+constexpr double undecided = 4 * std::numeric_limits<double>::epsilon();
+
 template <int Dim>
 double smallest_slack(const HalfSpaces<Dim>& planes, const Vector<Dim>& point) {
   double least = std::numeric_limits<double>::infinity();
@@ -61,6 +64,7 @@ struct Resolver {
 
   Vector<Dim> origin;  // of the local frame, in the first body's frame: the centre of the smaller part
   double size;         // the smaller inscribed radius, m
+  double decided;      // m: overlaps beyond it are overlaps
   int faces_a;
   Vector<Dim> start;
   FeasibilityResult<Dim> lp;
@@ -68,7 +72,7 @@ struct Resolver {
 
   // true when the parts overlap; otherwise the contact's status is set
   bool solve_lp(const std::array<int, Dim + 1>& basis) {
-    const double limit = -settings.tolerance * size;
+    const double limit = -decided;
     const FeasibilityRequest<Dim> request{&basis, limit, 1e-15 * size};
     lp = solvers.feasibility(planes, request);
     ++counters.lp_solves;
@@ -101,7 +105,7 @@ struct Resolver {
   bool establish() {
     if (contact.warm.point_known && settings.point == ContactPoint::analytic_centre) {
       start = contact.warm.point - origin;
-      if (smallest_slack<Dim>(planes, start) > settings.tolerance * size) return true;
+      if (smallest_slack<Dim>(planes, start) > decided) return true;
     }
     contact.warm.point_known = false;
     return establish_cold();
@@ -258,6 +262,8 @@ void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
     const bool a_smaller = pair.a->radius < pair.b->radius;
     const Vector<Dim> origin = a_smaller ? pair.a->centre : Vector<Dim>(pair.offset + pair.rotation * pair.b->centre);
     assemble<Dim>(pair, origin, planes);
+    const double size = std::min(pair.a->inscribed_radius, pair.b->inscribed_radius);
+    const double coordinates = origin.norm() + (origin - pair.offset).norm() + std::min(pair.a->radius, pair.b->radius);
     Resolver<Dim>{.pair = pair,
                   .settings = settings,
                   .solvers = solvers,
@@ -265,7 +271,8 @@ void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
                   .counters = counters,
                   .planes = planes,
                   .origin = origin,
-                  .size = std::min(pair.a->inscribed_radius, pair.b->inscribed_radius),
+                  .size = size,
+                  .decided = std::max(settings.tolerance * size, undecided * coordinates),
                   .faces_a = static_cast<int>(pair.a->faces.size()),
                   .start = {},
                   .lp = {}}

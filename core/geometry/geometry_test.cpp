@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/geometry/surface.hpp"
 #include "core/testing/oracles.hpp"
 #include "core/testing/shapes.hpp"
 
@@ -181,9 +182,9 @@ TEST(Topology, ManyPlanesThroughAVertexAreOneVertex) {
 TEST(Topology, APlaneThroughACornerBoundsNothing) {
   HalfSpaces<3> planes = shapes::cube<3>(1);
   planes.push_back({Vector<3>(1, 1, 1).normalized(), std::sqrt(3.0)});
-  const std::vector<Vector<3>> vertices = find_vertices<3>(planes, 1e-10);
-  EXPECT_EQ(vertices.size(), 8u);
-  EXPECT_TRUE(find_loops<3>(planes, vertices, 1e-10).back().empty());
+  const Surface<3> surface = find_surface<3>(planes, 0);
+  EXPECT_EQ(surface.vertices.size(), 8u);
+  EXPECT_TRUE(surface.loops.back().empty());
 }
 
 // ---- mass -----------------------------------------------------------------------------------------------------------

@@ -6,47 +6,42 @@
 namespace voussoir {
 namespace {
 
-// the point where Dim planes meet; false when they are parallel within rounding
-bool intersect(const HalfSpaces<2>& f, std::array<int, 2> index, Vector<2>& point) {
-  Matrix<2> a;
-  a << f[index[0]].normal.transpose(), f[index[1]].normal.transpose();
-  const double determinant = a.determinant();
-  if (std::abs(determinant) < 1e-12) return false;  // unit normals: the sine of the angle between them
-  point = a.inverse() * Vector<2>(f[index[0]].offset, f[index[1]].offset);
-  return true;
+// Axes fitted to the spread of the vertices: the first along the farthest, the second along the largest remainder. The
+// determinant of a sliver's edges has no large terms in them that cancel, whatever the sliver's orientation.
+Matrix<2> fitted_axes(const std::vector<Vector<2>>& vertices, const Vector<2>& middle) {
+  Vector<2> first = Vector<2>::Zero();
+  for (const Vector<2>& v : vertices)
+    if ((v - middle).squaredNorm() > first.squaredNorm()) first = v - middle;
+  if (first.isZero(0)) return Matrix<2>::Identity();
+  first.normalize();
+  Matrix<2> axes;
+  axes << first.transpose(), perpendicular(first).transpose();
+  return axes;
 }
 
-bool intersect(const HalfSpaces<3>& f, std::array<int, 3> index, Vector<3>& point) {
-  Matrix<3> a;
-  a << f[index[0]].normal.transpose(), f[index[1]].normal.transpose(), f[index[2]].normal.transpose();
-  const Vector<3> d(f[index[0]].offset, f[index[1]].offset, f[index[2]].offset);
-  const double determinant = a.determinant();
-  if (std::abs(determinant) < 1e-12) return false;
-  point = a.inverse() * d;
-  // one step of iterative refinement: thin wedges lose digits in the explicit inverse
-  point += a.inverse() * (d - a * point);
-  return true;
-}
-
-template <int Dim>
-bool inside(const HalfSpaces<Dim>& faces, const Vector<Dim>& point, double tolerance) {
-  return std::all_of(faces.begin(), faces.end(),
-                     [&](const HalfSpace<Dim>& f) { return signed_distance(f, point) <= tolerance; });
-}
-
-template <int Dim>
-void add_unless_known(std::vector<Vector<Dim>>& vertices, const Vector<Dim>& point, double tolerance) {
-  for (const Vector<Dim>& v : vertices)
-    if ((v - point).cwiseAbs().maxCoeff() <= tolerance) return;
-  vertices.push_back(point);
+Matrix<3> fitted_axes(const std::vector<Vector<3>>& vertices, const Vector<3>& middle) {
+  Vector<3> first = Vector<3>::Zero(), second = first;
+  for (const Vector<3>& v : vertices)
+    if ((v - middle).squaredNorm() > first.squaredNorm()) first = v - middle;
+  if (first.isZero(0)) return Matrix<3>::Identity();
+  first.normalize();
+  for (const Vector<3>& v : vertices) {
+    const Vector<3> remainder = v - middle - first.dot(v - middle) * first;
+    if (remainder.squaredNorm() > second.squaredNorm()) second = remainder;
+  }
+  second -= first.dot(second) * first;
+  second = second.isZero(0) ? perpendicular(first) : Vector<3>(second.normalized());
+  Matrix<3> axes;
+  axes << first.transpose(), second.transpose(), first.cross(second).transpose();
+  return axes;
 }
 
 // signed volume and moments of the simplex (origin, corners…)
 template <int Dim>
-MassProperties<Dim> simplex(const std::array<Vector<Dim>, Dim>& corner) {
+MassProperties<Dim> simplex(const Matrix<Dim>& axes, const std::array<Vector<Dim>, Dim>& corner) {
   Matrix<Dim> edges;
   for (int k = 0; k < Dim; ++k)
-    edges.col(k) = corner[k];
+    edges.col(k) = axes * corner[k];
   MassProperties<Dim> m;
   m.volume = edges.determinant() / (Dim == 3 ? 6.0 : 2.0);
   Vector<Dim> sum = Vector<Dim>::Zero();
@@ -61,79 +56,25 @@ MassProperties<Dim> simplex(const std::array<Vector<Dim>, Dim>& corner) {
   return m;
 }
 
-void add_face(MassProperties<2>& total, const std::vector<Vector<2>>& v, const std::vector<int>& loop,
-              const Vector<2>& c) {
-  const MassProperties<2> m = simplex<2>({v[loop[0]] - c, v[loop[1]] - c});
+template <int Dim>
+void add(MassProperties<Dim>& total, const MassProperties<Dim>& m) {
   total.volume += m.volume;
   total.centroid += m.volume * m.centroid;
   total.second_moment += m.second_moment;
 }
 
-void add_face(MassProperties<3>& total, const std::vector<Vector<3>>& v, const std::vector<int>& loop,
-              const Vector<3>& c) {
-  for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
-    const MassProperties<3> m = simplex<3>({v[loop[0]] - c, v[loop[k]] - c, v[loop[k + 1]] - c});
-    total.volume += m.volume;
-    total.centroid += m.volume * m.centroid;
-    total.second_moment += m.second_moment;
-  }
+void add_face(MassProperties<2>& total, const Matrix<2>& axes, const std::vector<Vector<2>>& v,
+              const std::vector<int>& loop, const Vector<2>& c) {
+  add<2>(total, simplex<2>(axes, {v[loop[0]] - c, v[loop[1]] - c}));
 }
 
-void sort_loop(std::vector<int>& loop, const std::vector<Vector<2>>& v, const Vector<2>& normal) {
-  const Vector<2> along = perpendicular(normal);  // the solid lies to the left of this direction
-  std::sort(loop.begin(), loop.end(), [&](int i, int j) { return along.dot(v[i]) < along.dot(v[j]); });
-  if (loop.size() > 2) loop = {loop.front(), loop.back()};
-}
-
-void sort_loop(std::vector<int>& loop, const std::vector<Vector<3>>& v, const Vector<3>& normal) {
-  Vector<3> middle = Vector<3>::Zero();
-  for (int i : loop)
-    middle += v[i];
-  middle /= static_cast<double>(std::max<std::size_t>(loop.size(), 1));
-  const Vector<3> e1 = perpendicular(normal), e2 = normal.cross(e1);
-  auto angle = [&](int i) { return std::atan2(e2.dot(v[i] - middle), e1.dot(v[i] - middle)); };
-  std::sort(loop.begin(), loop.end(), [&](int i, int j) { return angle(i) < angle(j); });
+void add_face(MassProperties<3>& total, const Matrix<3>& axes, const std::vector<Vector<3>>& v,
+              const std::vector<int>& loop, const Vector<3>& c) {
+  for (std::size_t k = 1; k + 1 < loop.size(); ++k)
+    add<3>(total, simplex<3>(axes, {v[loop[0]] - c, v[loop[k]] - c, v[loop[k + 1]] - c}));
 }
 
 }  // namespace
-
-template <>
-std::vector<Vector<2>> find_vertices(const HalfSpaces<2>& faces, double tolerance) {
-  std::vector<Vector<2>> vertices;
-  const int n = static_cast<int>(faces.size());
-  Vector<2> p;
-  for (int i = 0; i < n; ++i)
-    for (int j = i + 1; j < n; ++j)
-      if (intersect(faces, {i, j}, p) && inside(faces, p, tolerance)) add_unless_known(vertices, p, tolerance);
-  return vertices;
-}
-
-template <>
-std::vector<Vector<3>> find_vertices(const HalfSpaces<3>& faces, double tolerance) {
-  std::vector<Vector<3>> vertices;
-  const int n = static_cast<int>(faces.size());
-  Vector<3> p;
-  for (int i = 0; i < n; ++i)
-    for (int j = i + 1; j < n; ++j)
-      for (int k = j + 1; k < n; ++k)
-        if (intersect(faces, {i, j, k}, p) && inside(faces, p, tolerance)) add_unless_known(vertices, p, tolerance);
-  return vertices;
-}
-
-template <int Dim>
-std::vector<std::vector<int>> find_loops(const HalfSpaces<Dim>& faces, const std::vector<Vector<Dim>>& vertices,
-                                         double tolerance) {
-  std::vector<std::vector<int>> loops(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (std::size_t v = 0; v < vertices.size(); ++v)
-      if (std::abs(signed_distance(faces[f], vertices[v])) <= tolerance) loops[f].push_back(static_cast<int>(v));
-    if (static_cast<int>(loops[f].size()) < Dim)
-      loops[f].clear();  // a plane that only touches an edge or a corner bounds no face
-    else
-      sort_loop(loops[f], vertices, faces[f].normal);
-  }
-  return loops;
-}
 
 template <int Dim>
 MassProperties<Dim> integrate(const std::vector<Vector<Dim>>& vertices, const std::vector<std::vector<int>>& loops) {
@@ -141,9 +82,10 @@ MassProperties<Dim> integrate(const std::vector<Vector<Dim>>& vertices, const st
   for (const Vector<Dim>& v : vertices)
     middle += v;
   middle /= static_cast<double>(std::max<std::size_t>(vertices.size(), 1));
+  const Matrix<Dim> axes = fitted_axes(vertices, middle);
   MassProperties<Dim> total;
   for (const std::vector<int>& loop : loops)
-    if (!loop.empty()) add_face(total, vertices, loop, middle);
+    if (!loop.empty()) add_face(total, axes, vertices, loop, middle);
   if (total.volume > 0) total.centroid /= total.volume;
   return moved_origin<Dim>(total, -middle);
 }
@@ -199,8 +141,6 @@ double inertia_tensor(const MassProperties<2>& mass) {
   return mass.second_moment.trace();
 }
 
-template std::vector<std::vector<int>> find_loops<2>(const HalfSpaces<2>&, const std::vector<Vector<2>>&, double);
-template std::vector<std::vector<int>> find_loops<3>(const HalfSpaces<3>&, const std::vector<Vector<3>>&, double);
 template MassProperties<2> integrate<2>(const std::vector<Vector<2>>&, const std::vector<std::vector<int>>&);
 template MassProperties<3> integrate<3>(const std::vector<Vector<3>>&, const std::vector<std::vector<int>>&);
 template MassProperties<2> moved_origin<2>(const MassProperties<2>&, const Vector<2>&);

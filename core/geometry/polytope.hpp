@@ -40,16 +40,6 @@ bool in_order(const MassProperties<Dim>& a, const MassProperties<Dim>& b) {
 // a face that no joint made: the domain's boundary or a block given directly
 inline constexpr int no_joint = -1;
 
-// Vertices of {x : a·x <= d} (thesis App. B): intersections of Dim planes inside all the others, merged within
-// `tolerance` (m). More than Dim planes through a vertex is normal input.
-template <int Dim>
-std::vector<Vector<Dim>> find_vertices(const HalfSpaces<Dim>& faces, double tolerance);
-
-// For each face the vertices that lie on it within `tolerance`, counter-clockwise seen from outside (2-D: two ends).
-template <int Dim>
-std::vector<std::vector<int>> find_loops(const HalfSpaces<Dim>& faces, const std::vector<Vector<Dim>>& vertices,
-                                         double tolerance);
-
 // Exact integrals over the solid, summed over simplices around the mean vertex so that nothing depends on the origin.
 template <int Dim>
 MassProperties<Dim> integrate(const std::vector<Vector<Dim>>& vertices, const std::vector<std::vector<int>>& loops);

@@ -138,8 +138,11 @@ CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const Cen
     }
     if (decrement <= request.tolerance * request.tolerance) {
       ++result.iterations;
-      result.status = CentreStatus::converged;
       result.point = request.start + moved;
+      // in a region as thin as the coordinates' rounding the point itself may round to the outside
+      const bool inside = std::all_of(planes.begin(), planes.end(),
+                                      [&](const HalfSpace<Dim>& p) { return signed_distance(p, result.point) < 0; });
+      result.status = inside ? CentreStatus::converged : CentreStatus::singular;
       return result;
     }
   }

@@ -54,10 +54,17 @@ Polytope<Dim> checked(const BlockResult<Dim>& result, const Node& node, const st
                  " is empty; turn round the plane that points the wrong way, or move one");
     case BlockStatus::flat:
       break;
+    case BlockStatus::far:
+      refuse(node, path,
+             std::string("the ") + what +
+                 " lies so far from the middle of the scene that its coordinates round by more than 1e-6 of its size; "
+                 "bring the solids together, or make it larger");
     case BlockStatus::bad_plane:
       refuse(node, path + "." + std::to_string(result.plane + 1), "is not a plane; give a normal that is not zero");
   }
-  refuse(node, path, std::string("the ") + what + " has no volume; move its planes or corners apart");
+  refuse(node, path,
+         std::string("the ") + what +
+             " has no volume, or is thinner than 1e-8 of its length; move its planes or corners apart");
 }
 
 template <int Dim>

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/surface.hpp"
 #include "core/optimise/feasibility.hpp"
 
 namespace voussoir {
 namespace {
 
-// vertices closer than this times the block's extent are one; three decades above the rounding of the intersections
+// points closer than this times the extent of a hull are one
 constexpr double merge_tolerance = 1e-10;
 
 // a plane that would cut off less than this times the inscribed radius is redundant
@@ -17,6 +18,11 @@ constexpr double redundancy_tolerance = 1e-10;
 
 // an inscribed ball smaller than this times the offsets it follows from is their rounding: planes that only touch
 constexpr double ball_rounding = 64 * std::numeric_limits<double>::epsilon();
+
+// Coordinates carry 2e-16 of the extent and of the distance from the origin. Where that comes near the inscribed radius
+// few digits of volume and overlap are left: such a block is refused.
+constexpr double thinnest = 1e-8;                                           // inscribed radius / extent
+constexpr double farthest = 1e-6 / std::numeric_limits<double>::epsilon();  // distance / inscribed radius
 
 template <int Dim>
 bool valid(const HalfSpace<Dim>& plane) {
@@ -51,17 +57,6 @@ std::vector<Vector<Dim>> sorted(std::vector<Vector<Dim>> points) {
   return points;
 }
 
-// Eq. 3.8 asked through the feasibility program: the plane is needed iff the others leave room beyond it
-template <int Dim>
-bool needed(const HalfSpaces<Dim>& planes, const std::vector<bool>& kept, std::size_t candidate, double tolerance) {
-  HalfSpaces<Dim> others;
-  for (std::size_t i = 0; i < planes.size(); ++i)
-    if (kept[i] && i != candidate) others.push_back(planes[i]);
-  others.push_back({-planes[candidate].normal, -planes[candidate].offset});
-  const FeasibilityResult<Dim> r = solve_feasibility<Dim>(others, {});
-  return r.status == FeasibilityStatus::unbounded || r.value < -tolerance;
-}
-
 // Bounded iff the recession cone {a_i·x <= 0} holds no direction: along no axis, either way, can a point go on for
 // ever.
 template <int Dim>
@@ -88,15 +83,45 @@ bool holds_ball(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& bal
   return ball.status == FeasibilityStatus::optimal && -ball.value > ball_rounding * terms;
 }
 
-// faces that bound nothing (a plane that touches an edge or a corner within rounding) go
+// seen from the ball's centre, the surface depends on neither origin nor unit
 template <int Dim>
-void drop_empty_faces(Polytope<Dim>& part) {
-  for (std::size_t f = part.faces.size(); f-- > 0;) {
-    if (!part.loops[f].empty()) continue;
-    part.faces.erase(part.faces.begin() + f);
-    part.joints.erase(part.joints.begin() + f);
-    part.loops.erase(part.loops.begin() + f);
+Surface<Dim> surface_around(HalfSpaces<Dim> planes, const FeasibilityResult<Dim>& ball) {
+  for (HalfSpace<Dim>& p : planes)
+    p = moved_origin<Dim>(p, ball.point);
+  return find_surface<Dim>(planes, redundancy_tolerance * -ball.value);
+}
+
+template <int Dim>
+BlockStatus judge(const Surface<Dim>& surface, double inscribed_radius) {
+  if (surface.status == SurfaceStatus::open) return BlockStatus::open;
+  double extent = 0;
+  for (const Vector<Dim>& v : surface.vertices)
+    extent = std::max(extent, v.norm());
+  const bool solid = surface.status == SurfaceStatus::ok && inscribed_radius >= thinnest * extent;
+  return solid ? BlockStatus::ok : BlockStatus::flat;
+}
+
+// all that follows from a part's faces
+template <int Dim>
+BlockStatus describe(Polytope<Dim>& part) {
+  const FeasibilityResult<Dim> ball = solve_feasibility<Dim>(part.faces, {});
+  part.inscribed_radius = -ball.value;
+  part.centre = ball.point;
+  part.basis = ball.basis;
+  Surface<Dim> surface = surface_around(part.faces, ball);
+  if (const BlockStatus status = judge(surface, part.inscribed_radius); status != BlockStatus::ok) return status;
+  const bool whole = std::none_of(surface.loops.begin(), surface.loops.end(), [](const auto& l) { return l.empty(); });
+  part.vertices = std::move(surface.vertices);
+  part.loops = std::move(surface.loops);
+  part.mass = integrate(part.vertices, part.loops);
+  const int fewest = static_cast<int>(std::min(part.faces.size(), part.vertices.size()));
+  if (!whole || fewest <= Dim || !(part.mass.volume > 0)) return BlockStatus::flat;
+  for (Vector<Dim>& v : part.vertices) {
+    v += ball.point;
+    part.radius = std::max(part.radius, v.norm());
   }
+  part.mass = moved_origin<Dim>(part.mass, -ball.point);
+  return BlockStatus::ok;
 }
 
 }  // namespace
@@ -115,7 +140,7 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
   }
 
   // the largest inscribed ball tells whether the planes enclose a solid at all
-  FeasibilityResult<Dim> ball = solve_feasibility<Dim>(planes, {});
+  const FeasibilityResult<Dim> ball = solve_feasibility<Dim>(planes, {});
   if (static_cast<int>(planes.size()) <= Dim || !bounded(planes)) {
     result.status = BlockStatus::open;
     return result;
@@ -124,49 +149,26 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
     result.status = BlockStatus::empty;
     return result;
   }
+  if (ball.point.norm() > farthest * std::abs(ball.value)) {
+    result.status = BlockStatus::far;
+    return result;
+  }
 
-  // redundant planes go; of equal ones the last, and with it the newest joint, stays
-  std::vector<bool> kept(planes.size(), true);
+  // redundant planes have no loop and go; of equal ones the last, and with it the newest joint, stays
+  const Surface<Dim> all = surface_around(planes, ball);
+  result.status = judge(all, -ball.value);
+  if (result.status != BlockStatus::ok) return result;
+  std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < planes.size(); ++i)
-    kept[i] = needed(planes, kept, i, redundancy_tolerance * -ball.value);
+    if (!all.loops[i].empty()) kept.push_back(i);
 
   // from here on the faces stand in canonical order, and every bit of the part follows from them
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < planes.size(); ++i)
-    if (kept[i]) order.push_back(i);
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return before(planes[i], planes[j]); });
-  for (const std::size_t i : order) {
+  std::sort(kept.begin(), kept.end(), [&](std::size_t i, std::size_t j) { return before(planes[i], planes[j]); });
+  for (const std::size_t i : kept) {
     result.part.faces.push_back(planes[i]);
     result.part.joints.push_back(joints[i]);
   }
-  ball = solve_feasibility<Dim>(result.part.faces, {});
-  result.part.inscribed_radius = -ball.value;
-  result.part.centre = ball.point;
-
-  // seen from the ball's centre, the vertices depend on neither origin nor unit
-  HalfSpaces<Dim> centred = result.part.faces;
-  for (HalfSpace<Dim>& f : centred)
-    f = moved_origin<Dim>(f, ball.point);
-  double extent = 0;
-  for (const Vector<Dim>& v : find_vertices(centred, redundancy_tolerance * result.part.inscribed_radius))
-    extent = std::max(extent, v.norm());
-  const double tolerance = merge_tolerance * extent;
-  result.part.vertices = find_vertices(centred, tolerance);
-  result.part.loops = find_loops(centred, result.part.vertices, 4 * tolerance);
-
-  drop_empty_faces(result.part);
-  result.part.mass = integrate(result.part.vertices, result.part.loops);
-  const int fewest = static_cast<int>(std::min(result.part.faces.size(), result.part.vertices.size()));
-  if (fewest <= Dim || !(result.part.mass.volume > 0)) {
-    result.status = BlockStatus::flat;
-    return result;
-  }
-  for (Vector<Dim>& v : result.part.vertices) {
-    v += ball.point;
-    result.part.radius = std::max(result.part.radius, v.norm());
-  }
-  result.part.mass = moved_origin<Dim>(result.part.mass, -ball.point);
-  result.part.basis = solve_feasibility<Dim>(result.part.faces, {}).basis;
+  result.status = describe(result.part);
   return result;
 }
 

@@ -10,8 +10,9 @@ namespace voussoir {
 enum class BlockStatus {
   ok,
   open,      // the planes do not close a region
-  empty,     // no point satisfies all of them with room to spare
-  flat,      // vertices without volume
+  empty,     // no point satisfies all of them with room to spare: 1e-10 of the coordinates at most is left
+  flat,      // thinner than 1e-8 of its extent: its coordinates' rounding would be seen in its volume
+  far,       // so far from the origin that coordinates round by more than 1e-6 of its size
   bad_plane  // a zero or non-finite normal, or a non-finite offset
 };
 
@@ -23,9 +24,11 @@ struct BlockResult {
 };
 
 // Normals are normalised; of planes that coincide the last one, with its joint, is kept (Boon 2013, Eq. 3.8, decided as
-// in method.md section 1). Faces come in an order of their own, so that a part has the same bits for any order of its
-// planes (which of planes that coincide names the joint apart). `joints` names the joint of each plane, or no_joint.
-// Coordinates as given: the caller keeps the origin near the block.
+// in method.md section 1), and a plane that would cut off less than 1e-10 of the inscribed radius is dropped. Faces come
+// in an order of their own, so that a part has the same bits for any order of its planes (which of planes that coincide
+// names the joint apart). Vertices lie within some 64 roundings of the coordinates of the planes, measured across them;
+// volume, centroid and inertia follow from that. `joints` names the joint of each plane, or no_joint. Coordinates as
+// given: the caller keeps the origin near the block.
 template <int Dim>
 BlockResult<Dim> make_block(const HalfSpaces<Dim>& planes, const std::vector<int>& joints);
 

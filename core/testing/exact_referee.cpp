@@ -1,0 +1,390 @@
+// The exact referee's sections, solids and 113-bit answers.
+#include "core/testing/exact_referee.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace voussoir::exact {
+namespace {
+
+Rational dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Point point_of(const Vector<3>& v) {
+  return {Rational(v[0]), Rational(v[1]), Rational(v[2])};
+}
+
+// ---- 113 bits -------------------------------------------------------------------------------------------------------
+
+Quad quad(const Rational& q) {
+  // three doubles hold 159 bits
+  mpf_class rest(q, 256);
+  Quad sum = 0;
+  for (int part = 0; part < 3; ++part) {
+    const double leading = rest.get_d();
+    sum += leading;
+    rest -= leading;
+  }
+  return sum;
+}
+
+QuadVector quads(const Vector<3>& v) {
+  return {v[0], v[1], v[2]};
+}
+Quad dot(const QuadVector& a, const QuadVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+QuadVector cross(const QuadVector& a, const QuadVector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// ---- a convex polygon from lines, exactly ---------------------------------------------------------------------------
+
+// α u + β v <= γ in a plane, with rounded copies that decide most questions
+struct Line {
+  Rational alpha, beta, gamma;
+  double a = 0, b = 0, c = 0;
+
+  Line(Rational alpha_, Rational beta_, Rational gamma_)
+      : alpha(std::move(alpha_)), beta(std::move(beta_)), gamma(std::move(gamma_)) {
+    a = alpha.get_d();
+    b = beta.get_d();
+    c = gamma.get_d();
+  }
+};
+
+// where two lines meet: (u, v)/w, w > 0
+struct Corner {
+  int first, second;  // the lines before and after it, counter-clockwise
+  Rational u, v, w;
+  double x = 0, y = 0;
+};
+
+Corner meet(const std::vector<Line>& lines, int first, int second) {
+  const Line &p = lines[first], &q = lines[second];
+  Corner c{first, second, p.gamma * q.beta - q.gamma * p.beta, p.alpha * q.gamma - q.alpha * p.gamma,
+           p.alpha * q.beta - q.alpha * p.beta};
+  if (sgn(c.w) == 0) throw std::logic_error("parallel lines do not meet");
+  if (sgn(c.w) < 0) {
+    c.u = -c.u;
+    c.v = -c.v;
+    c.w = -c.w;
+  }
+  c.x = Rational(c.u / c.w).get_d();
+  c.y = Rational(c.v / c.w).get_d();
+  return c;
+}
+
+// a sum of a few terms whose value exceeds this share of the terms has the right sign in double: some 64 roundings
+constexpr double decided = 1e-14;
+
+// sign of how far the corner lies beyond the line; in double where that decides, else exactly
+int side(const Line& line, const Corner& corner) {
+  const double au = line.a * corner.x, bv = line.b * corner.y, value = au + bv - line.c;
+  if (std::abs(value) > decided * (std::abs(au) + std::abs(bv) + std::abs(line.c))) return value > 0 ? 1 : -1;
+  return sgn(Rational(line.alpha * corner.u + line.beta * corner.v - line.gamma * corner.w));
+}
+
+using Polygon = std::vector<Corner>;
+
+// cuts off what lies beyond the line; the polygon keeps its corners in order
+void clip(Polygon& polygon, const std::vector<Line>& lines, int number) {
+  const std::size_t n = polygon.size();
+  std::vector<int> sides(n);
+  bool any_out = false, any_in = false;
+  for (std::size_t k = 0; k < n; ++k) {
+    sides[k] = side(lines[number], polygon[k]);
+    any_out = any_out || sides[k] > 0;
+    any_in = any_in || sides[k] < 0;
+  }
+  if (!any_out) return;
+  if (!any_in) {
+    polygon.clear();  // a touching point or edge has no area
+    return;
+  }
+  Polygon clipped;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t next = (k + 1) % n;
+    const int edge = polygon[k].second;  // the line from this corner to the next
+    if (sides[k] < 0) clipped.push_back(polygon[k]);
+    if (sides[k] == 0) {
+      // the cut passes through the corner, which now lies between the cut and the edge that stays
+      Corner c = polygon[k];
+      const bool stays_behind = sides[(k + n - 1) % n] < 0, stays_ahead = sides[next] < 0;
+      if (!stays_behind && stays_ahead) c.first = number;
+      if (stays_behind && !stays_ahead) c.second = number;
+      if (stays_behind || stays_ahead) clipped.push_back(std::move(c));
+    }
+    if (sides[k] < 0 && sides[next] > 0) clipped.push_back(meet(lines, edge, number));
+    if (sides[k] > 0 && sides[next] < 0) clipped.push_back(meet(lines, number, edge));
+  }
+  polygon = std::move(clipped);
+}
+
+// ---- the section of a solid by a plane ------------------------------------------------------------------------------
+
+// a plane's numbers in double
+struct Rounded {
+  std::array<double, 3> n;
+  double d;
+  explicit Rounded(const Plane& p)
+      : n{p.normal[0].get_d(), p.normal[1].get_d(), p.normal[2].get_d()}, d(p.offset.get_d()) {}
+};
+
+std::vector<Rounded> rounded_planes(const Planes& planes) {
+  return {planes.begin(), planes.end()};
+}
+
+// the plane's points by two of their coordinates: x[k] = (offset - n[i] x[i] - n[j] x[j]) / n[k]
+struct Chart {
+  Plane plane;
+  Rounded rounded;
+  int i, j, k;
+
+  explicit Chart(const Plane& p) : plane(p), rounded(p), k(0) {
+    for (int axis = 1; axis < 3; ++axis)
+      if (abs(p.normal[axis]) > abs(p.normal[k])) k = axis;
+    i = (k + 1) % 3;
+    j = (k + 2) % 3;
+  }
+
+  Line line(const Plane& p) const {
+    const Point &n = plane.normal, &a = p.normal;
+    const int sign = sgn(n[k]);
+    return {sign * (a[i] * n[k] - a[k] * n[i]), sign * (a[j] * n[k] - a[k] * n[j]),
+            sign * (p.offset * n[k] - a[k] * plane.offset)};
+  }
+
+  // true when doubles suffice to see that no corner lies beyond the plane: most planes of a large solid
+  bool surely_inside(const Rounded& p, const Polygon& polygon) const {
+    const double sign = rounded.n[k] > 0 ? 1 : -1;
+    const auto [alpha, alpha_terms] = minor(p.n[i], rounded.n[k], p.n[k], rounded.n[i]);
+    const auto [beta, beta_terms] = minor(p.n[j], rounded.n[k], p.n[k], rounded.n[j]);
+    const auto [gamma, gamma_terms] = minor(p.d, rounded.n[k], p.n[k], rounded.d);
+    return std::all_of(polygon.begin(), polygon.end(), [&](const Corner& c) {
+      const double terms = alpha_terms * std::abs(c.x) + beta_terms * std::abs(c.y) + gamma_terms;
+      return sign * (alpha * c.x + beta * c.y - gamma) < -decided * terms;
+    });
+  }
+
+  // a b - c d, and the size of its terms
+  static std::pair<double, double> minor(double a, double b, double c, double d) {
+    return {a * b - c * d, std::abs(a * b) + std::abs(c * d)};
+  }
+
+  Point lift(const Corner& c) const {
+    Point x;
+    x[i] = c.u / c.w;
+    x[j] = c.v / c.w;
+    x[k] = (plane.offset - plane.normal[i] * x[i] - plane.normal[j] * x[j]) / plane.normal[k];
+    return x;
+  }
+};
+
+// far beyond any coordinate of a solid whose numbers are doubles of ordinary size; exact arithmetic does not mind
+const Rational beyond_everything = Rational(1e60);
+
+// The section's corners, counter-clockwise in (x_i, x_j). `own` is the place of the plane itself among the solid's, or
+// -1: of coincident planes only the first has a facet.
+Polygon section(const Chart& chart, const Planes& planes, const std::vector<Rounded>& rounded, int own) {
+  std::vector<Line> lines{
+      {1, 0, beyond_everything}, {0, 1, beyond_everything}, {-1, 0, beyond_everything}, {0, -1, beyond_everything}};
+  Polygon polygon{meet(lines, 0, 1), meet(lines, 1, 2), meet(lines, 2, 3), meet(lines, 3, 0)};
+  for (int p = 0; p < static_cast<int>(planes.size()) && !polygon.empty(); ++p) {
+    if (p == own || chart.surely_inside(rounded[p], polygon)) continue;
+    Line line = chart.line(planes[p]);
+    if (sgn(line.alpha) == 0 && sgn(line.beta) == 0) {
+      const bool coincident = sgn(line.gamma) == 0 && dot(planes[p].normal, chart.plane.normal) > 0;
+      if (sgn(line.gamma) < 0 || (own >= 0 && coincident && p < own)) return {};
+      continue;
+    }
+    lines.push_back(std::move(line));
+    clip(polygon, lines, static_cast<int>(lines.size()) - 1);
+  }
+  for (const Corner& c : polygon)
+    if (c.first < 4 || c.second < 4) throw std::logic_error("the solid is not closed");
+  return polygon;
+}
+
+}  // namespace
+
+Planes planes_of(const HalfSpaces<3>& planes) {
+  Planes result;
+  for (const HalfSpace<3>& p : planes)
+    result.push_back({point_of(p.normal), Rational(p.offset)});
+  return result;
+}
+
+Planes planes_of(const Pair<3>& pair) {
+  return planes_of(pair, point_of(pair.offset));
+}
+
+Planes planes_of(const Pair<3>& pair, const Point& offset) {
+  Planes result = planes_of(pair.a->faces);
+  for (const HalfSpace<3>& f : pair.b->faces) {
+    const Point own = point_of(f.normal);
+    Plane p;
+    for (int row = 0; row < 3; ++row)
+      p.normal[row] = dot(point_of(pair.rotation.row(row)), own);
+    p.offset = Rational(f.offset) + dot(p.normal, offset);
+    result.push_back(std::move(p));
+  }
+  return result;
+}
+
+Planes grown(Planes planes, double distance) {
+  for (Plane& p : planes)
+    p.offset += Rational(distance);
+  return planes;
+}
+
+Quad section_area(const Planes& planes, const Vector<3>& point, const Vector<3>& normal) {
+  const Point n = point_of(normal);
+  const Chart chart({n, dot(n, point_of(point))});
+  const Polygon polygon = section(chart, planes, rounded_planes(planes), -1);
+  if (polygon.size() < 3) return 0;
+  std::vector<std::array<Quad, 2>> corner;
+  for (const Corner& c : polygon)
+    corner.push_back({quad(c.u / c.w - polygon[0].u / polygon[0].w), quad(c.v / c.w - polygon[0].v / polygon[0].w)});
+  Quad twice = 0;
+  for (std::size_t k = 1; k + 1 < corner.size(); ++k)
+    twice += corner[k][0] * corner[k + 1][1] - corner[k][1] * corner[k + 1][0];
+  const Quad stretch = root(quad(dot(n, n))) / quad(abs(n[chart.k]));
+  return (twice < 0 ? -twice : twice) / 2 * stretch;
+}
+
+Solid solid(const Planes& planes) {
+  Solid result;
+  std::vector<std::vector<Point>> facets;
+  Point middle{0, 0, 0};
+  const std::vector<Rounded> rounded = rounded_planes(planes);
+  for (int f = 0; f < static_cast<int>(planes.size()); ++f) {
+    const Chart chart(planes[f]);
+    const Polygon polygon = section(chart, planes, rounded, f);
+    if (polygon.size() < 3) continue;
+    facets.emplace_back();
+    for (const Corner& c : polygon)
+      facets.back().push_back(chart.lift(c));
+    // counter-clockwise in the chart is so from outside when the normal's k is positive: (i, j, k) is cyclic
+    if (sgn(planes[f].normal[chart.k]) < 0) std::reverse(facets.back().begin(), facets.back().end());
+    result.edges += static_cast<int>(polygon.size());
+  }
+  result.facets = static_cast<int>(facets.size());
+  result.vertices = result.edges;
+  result.edges /= 2;
+  if (facets.empty()) return result;
+
+  // any point near the solid will do: the sums run in coordinates relative to it
+  for (int k = 0; k < 3; ++k)
+    middle[k] = Rational(facets[0][0][k].get_d());
+  std::array<QuadVector, 3> about_middle{};
+  QuadVector first{};
+  for (const std::vector<Point>& facet : facets) {
+    std::vector<QuadVector> v;
+    for (const Point& p : facet) {
+      v.push_back({quad(p[0] - middle[0]), quad(p[1] - middle[1]), quad(p[2] - middle[2])});
+      result.corners.push_back({p[0].get_d(), p[1].get_d(), p[2].get_d()});
+    }
+    for (std::size_t t = 1; t + 1 < v.size(); ++t) {
+      const Quad volume = dot(v[0], cross(v[t], v[t + 1])) / 6;
+      const QuadVector sum{v[0][0] + v[t][0] + v[t + 1][0], v[0][1] + v[t][1] + v[t + 1][1],
+                           v[0][2] + v[t][2] + v[t + 1][2]};
+      result.volume += volume;
+      for (int i = 0; i < 3; ++i) {
+        first[i] += volume * sum[i] / 4;
+        for (int j = 0; j < 3; ++j)
+          about_middle[i][j] +=
+              volume / 20 * (sum[i] * sum[j] + v[0][i] * v[0][j] + v[t][i] * v[t][j] + v[t + 1][i] * v[t + 1][j]);
+      }
+    }
+  }
+  if (!(result.volume > 0)) return result;
+  for (int i = 0; i < 3; ++i) {
+    result.centroid[i] = quad(middle[i]) + first[i] / result.volume;
+    for (int j = 0; j < 3; ++j)
+      result.second_moment[i][j] = about_middle[i][j] - first[i] * first[j] / result.volume;
+  }
+  return result;
+}
+
+Centre centre(const HalfSpaces<3>& planes, const Vector<3>& point) {
+  Centre result;
+  const QuadVector x = quads(point);
+  QuadVector gradient{};
+  std::array<QuadVector, 3> hessian{};
+  for (const HalfSpace<3>& p : planes) {
+    const QuadVector a = quads(p.normal);
+    const Quad slack = Quad(p.offset) - dot(a, x);
+    if (!(slack > 0)) return result;
+    for (int i = 0; i < 3; ++i) {
+      gradient[i] += a[i] / slack;
+      for (int j = 0; j < 3; ++j)
+        hessian[i][j] += a[i] * a[j] / (slack * slack);
+    }
+  }
+  result.interior = true;
+  // gᵀ H⁻¹ g by Gaussian elimination with pivots on the diagonal: H is positive definite
+  std::array<bool, 3> done{};
+  for (int round = 0; round < 3; ++round) {
+    int pivot = -1;
+    for (int i = 0; i < 3; ++i)
+      if (!done[i] && (pivot < 0 || hessian[i][i] > hessian[pivot][pivot])) pivot = i;
+    done[pivot] = true;
+    if (!(hessian[pivot][pivot] > 0)) throw std::logic_error("113 bits do not resolve the region");
+    result.decrement += gradient[pivot] * gradient[pivot] / hessian[pivot][pivot];
+    for (int i = 0; i < 3; ++i) {
+      if (done[i]) continue;
+      const Quad factor = hessian[i][pivot] / hessian[pivot][pivot];
+      gradient[i] -= factor * gradient[pivot];
+      for (int j = 0; j < 3; ++j)
+        if (!done[j]) hessian[i][j] -= factor * hessian[pivot][j];
+    }
+  }
+  result.decrement = root(result.decrement);
+  return result;
+}
+
+Normal contact_normal(const HalfSpaces<3>& planes, int faces_a, const Vector<3>& point, double radius) {
+  const QuadVector x = quads(point);
+  std::array<QuadVector, 2> gradient{};
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const QuadVector a = quads(planes[i].normal);
+    const Quad depth = dot(a, x) - Quad(planes[i].offset) + Quad(radius);
+    if (!(depth > 0)) continue;
+    for (int k = 0; k < 3; ++k)
+      gradient[static_cast<int>(i) < faces_a ? 0 : 1][k] += depth * a[k];
+  }
+  Normal result;
+  result.gradient_a = root(dot(gradient[0], gradient[0]));
+  result.gradient_b = root(dot(gradient[1], gradient[1]));
+  if (result.gradient_a == 0 || result.gradient_b == 0) return result;
+  for (int k = 0; k < 3; ++k)
+    result.normal[k] = gradient[0][k] / result.gradient_a - gradient[1][k] / result.gradient_b;
+  result.difference = root(dot(result.normal, result.normal));
+  if (result.difference == 0) return result;
+  for (Quad& n : result.normal)
+    n /= result.difference;
+  return result;
+}
+
+double to_double(const Quad& q) {
+  return static_cast<double>(q);
+}
+
+Quad to_quad(const Rational& q) {
+  return quad(q);
+}
+
+Quad root(Quad square) {
+  if (!(square > 0)) return 0;
+  // the double's root has 53 bits; each of Heron's steps doubles them
+  Quad r = std::sqrt(static_cast<double>(square));
+  if (r == 0) return 0;  // below the range of doubles: far below anything judged here
+  for (int step = 0; step < 2; ++step)
+    r = (r + square / r) / 2;
+  return r;
+}
+
+}  // namespace voussoir::exact

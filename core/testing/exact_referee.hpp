@@ -1,0 +1,104 @@
+// Exact answers to what the kernels of space (Dim = 3) answer in double. Doubles are rational numbers, so decisions,
+// LP values, vertices and sections are exact; what needs a root or a long sum is taken in 113 bits from exact vertices.
+// Programs and vertices: cddlib with GMP. Sections, solids and everything else: written here, sharing nothing with the
+// core but its plain structs. cddlib is GPL and has global state: tests only, one thread.
+// A programming error of the caller (no planes, not closed where it must be) throws std::logic_error.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <array>
+#include <vector>
+
+#include "core/contact/narrow_phase.hpp"
+
+namespace voussoir::exact {
+
+using Rational = mpq_class;
+using Point = std::array<Rational, 3>;
+using Quad = __float128;
+using QuadVector = std::array<Quad, 3>;
+
+// normal·x <= offset; the normal need not be unit
+struct Plane {
+  Point normal;
+  Rational offset;
+};
+using Planes = std::vector<Plane>;
+
+// the doubles themselves
+Planes planes_of(const HalfSpaces<3>& planes);
+
+// Both parts' planes in the first body's frame as the pair's doubles say, planes of A first: (R a)·x <= d + (R a)·o.
+Planes planes_of(const Pair<3>& pair);
+
+// the same with an offset that no double holds
+Planes planes_of(const Pair<3>& pair, const Point& offset);
+
+// every half-space grown by the distance (negative: shrunk), taking normals for unit
+Planes grown(Planes planes, double distance);
+
+// ---- programs -------------------------------------------------------------------------------------------------------
+
+// min s : a·x - d <= s
+struct Program {
+  bool bounded = true;  // false: s has no minimum, the planes do not close a region
+  Rational value;
+};
+Program feasibility(const Planes& planes);
+
+// the same over the points of a plane (the section that a joint would cut out, Boon 2013, Eq. 3.7)
+Program section_feasibility(const Planes& planes, const Plane& joint);
+
+// Bounds of the program's minimum proven by a basis that someone guessed: 4 of the planes, multipliers and point by
+// Cramer's rule, then every plane checked. Cheap for thousands of planes, where cddlib is not. `proven` is false when
+// the basis proves no lower bound (singular or a negative multiplier).
+struct ProgramBounds {
+  bool proven = false;
+  Rational low, high;
+};
+ProgramBounds feasibility_bounds(const Planes& planes, const std::array<int, 4>& basis);
+
+// corners of a closed solid, each once, by cddlib
+std::vector<Point> vertices(const Planes& planes);
+
+// ---- sections and solids --------------------------------------------------------------------------------------------
+
+// Area of the section by the plane through the point normal to n; 0 when it is empty. The solid must be closed.
+Quad section_area(const Planes& planes, const Vector<3>& point, const Vector<3>& normal);
+
+struct Solid {
+  Quad volume = 0;
+  QuadVector centroid{};                       // m
+  std::array<QuadVector, 3> second_moment{};   // about the centroid, m⁵
+  int facets = 0, edges = 0, vertices = 0;     // vertices counts corners of facets: one for every facet that it is on
+  std::vector<std::array<double, 3>> corners;  // rounded, one for every facet that it is on
+};
+
+// All facets by clipping, integrals by simplices around a point inside. The solid must be closed; an empty one has
+// volume 0. Coincident planes share one facet.
+Solid solid(const Planes& planes);
+
+// ---- the contact's point, normal and overlap, in 113 bits -----------------------------------------------------------
+
+// Newton's decrement of -Σ log(d - a·x), which bounds the distance to the analytic centre in the metric of the region:
+// along any direction by `decrement/(1 - decrement)` times the region's half width.
+struct Centre {
+  bool interior = false;
+  Quad decrement = 0;
+};
+Centre centre(const HalfSpaces<3>& planes, const Vector<3>& point);
+
+// Difference of the unit gradients of both parts' potentials Σ <a·x - d + r>². `gradient` is the smaller of both
+// gradients' lengths, `difference` the length before it was normalised; the normal is meaningless when one is 0.
+struct Normal {
+  QuadVector normal{};
+  Quad gradient_a = 0, gradient_b = 0, difference = 0;
+};
+Normal contact_normal(const HalfSpaces<3>& planes, int faces_a, const Vector<3>& point, double radius);
+
+double to_double(const Quad& q);
+Quad to_quad(const Rational& q);
+Quad root(Quad square);
+
+}  // namespace voussoir::exact
