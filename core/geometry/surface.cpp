@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace voussoir {
 namespace {
@@ -24,6 +25,10 @@ constexpr double farthest = 1e9;
 
 // planes whose normals span less are no better a place for their common point than the cuts that made it
 constexpr double well_conditioned = 1e-4;
+
+// Corners nearer to each other than this times the band are one: more planes than dimensions through a point leave, cut
+// in an unlucky order, several points where one is meant.
+constexpr double one_corner = 4;
 
 enum class Side { in, on, out };
 
@@ -211,6 +216,43 @@ void sharpen(Vector<Dim>& point, const HalfSpaces<Dim>& faces, const std::vector
   if (spanned > well_conditioned) point = common_point<Dim>(normals, offsets);
 }
 
+// Edges too short to mean anything shrink to a point; faces that lose their area with them go. What is left still fits
+// together: an edge that shrinks does so in both of its faces.
+template <int Dim>
+void shrink_short_edges(Surface<Dim>& surface, double shortest) {
+  std::vector<int> stands_for(surface.vertices.size());
+  std::iota(stands_for.begin(), stands_for.end(), 0);
+  const auto root = [&](int v) {
+    while (stands_for[v] != v)
+      v = stands_for[v];
+    return v;
+  };
+  for (const std::vector<int>& loop : surface.loops)
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const int i = root(loop[k]), j = root(loop[(k + 1) % loop.size()]);
+      if (i != j && (surface.vertices[i] - surface.vertices[j]).norm() <= shortest)
+        stands_for[std::max(i, j)] = std::min(i, j);
+    }
+
+  // new numbers for those that stay
+  std::vector<int> number(surface.vertices.size());
+  std::vector<Vector<Dim>> vertices;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    number[v] = static_cast<int>(vertices.size());
+    if (stands_for[v] == static_cast<int>(v)) vertices.push_back(surface.vertices[v]);
+  }
+  if (vertices.size() == surface.vertices.size()) return;
+  surface.vertices = std::move(vertices);
+  for (std::vector<int>& loop : surface.loops) {
+    for (int& v : loop)
+      v = number[root(v)];
+    loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
+    while (loop.size() > 1 && loop.front() == loop.back())
+      loop.pop_back();
+    if (static_cast<int>(loop.size()) < Dim) loop.clear();
+  }
+}
+
 template <int Dim>
 Surface<Dim> surface_of(const Solid<Dim>& solid, const HalfSpaces<Dim>& faces) {
   Surface<Dim> surface;
@@ -236,6 +278,7 @@ Surface<Dim> surface_of(const Solid<Dim>& solid, const HalfSpaces<Dim>& faces) {
     std::sort(through[v].begin(), through[v].end());
     sharpen<Dim>(surface.vertices[v], faces, through[v]);
   }
+  shrink_short_edges(surface, one_corner * solid.band);
   return surface;
 }
 

@@ -110,12 +110,20 @@ BlockStatus describe(Polytope<Dim>& part) {
   part.basis = ball.basis;
   Surface<Dim> surface = surface_around(part.faces, ball);
   if (const BlockStatus status = judge(surface, part.inscribed_radius); status != BlockStatus::ok) return status;
-  const bool whole = std::none_of(surface.loops.begin(), surface.loops.end(), [](const auto& l) { return l.empty(); });
+
+  // a face that only just bounded something may have lost it: without it, all over again
+  for (std::size_t f = part.faces.size(); f-- > 0;) {
+    if (!surface.loops[f].empty()) continue;
+    part.faces.erase(part.faces.begin() + f);
+    part.joints.erase(part.joints.begin() + f);
+  }
+  if (part.faces.size() < surface.loops.size()) return describe(part);
+
   part.vertices = std::move(surface.vertices);
   part.loops = std::move(surface.loops);
   part.mass = integrate(part.vertices, part.loops);
   const int fewest = static_cast<int>(std::min(part.faces.size(), part.vertices.size()));
-  if (!whole || fewest <= Dim || !(part.mass.volume > 0)) return BlockStatus::flat;
+  if (fewest <= Dim || !(part.mass.volume > 0)) return BlockStatus::flat;
   for (Vector<Dim>& v : part.vertices) {
     v += ball.point;
     part.radius = std::max(part.radius, v.norm());
