@@ -1,15 +1,24 @@
 #include "app/interruption.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <csignal>
 #include <initializer_list>
 
 namespace voussoir {
 namespace {
 
+constexpr int asking[] = {SIGINT, SIGTERM, SIGHUP};
+
 volatile std::sig_atomic_t noted = 0;
 
+// the next one, whichever it is, ends the program
 void note(int signal) {
   noted = signal;
+  for (const int other : asking)
+    std::signal(other, SIG_DFL);
 }
 
 }  // namespace
@@ -17,14 +26,25 @@ void note(int signal) {
 void note_interruptions() {
   struct sigaction action = {};
   action.sa_handler = note;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    ::sigaction(signal, &action, nullptr);
-  std::signal(SIGXFSZ, SIG_IGN);
+  action.sa_flags = static_cast<int>(SA_RESTART);  // a signal is no reason for a file not to open
+  for (const int signal : asking)
+    ::sigaddset(&action.sa_mask, signal);
+  for (const int signal : asking) {
+    // who started us may have asked for deafness: nohup, or a shell that runs us in the background
+    struct sigaction before = {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
+  }
 }
 
 int interruption() {
   return noted;
+}
+
+void prepare_process() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF && ::open("/dev/null", O_RDWR) < 0) return;
 }
 
 }  // namespace voussoir

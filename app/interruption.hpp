@@ -3,11 +3,15 @@
 
 namespace voussoir {
 
-// From now on SIGINT, SIGTERM and SIGHUP are noted instead of ending the program; the same signal a second time ends
-// it. A file that exceeds the limit of its size is an error of writing, not a signal.
+// From now on SIGINT, SIGTERM and SIGHUP are noted instead of ending the program; a second one ends it. Those that were
+// ignored stay ignored.
 void note_interruptions();
 
 // the signal noted last; 0: none
 int interruption();
+
+// At the program's start: a file that exceeds the limit of its size becomes an error of writing instead of a signal,
+// and a standard stream that is closed cannot be mistaken for the next file that is opened.
+void prepare_process();
 
 }  // namespace voussoir

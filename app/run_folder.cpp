@@ -2,13 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "app/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
@@ -21,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int conduct_version = 1;
+constexpr int most_threads = 1024;  // as on the command line
 const char* const newest = "checkpoint";
 const char* const previous = "checkpoint.previous";
 
@@ -29,12 +30,15 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, error);
 }
 
+// whole or refused: streams would end quietly where reading fails
 std::string content_of(const fs::path& path) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  std::string content(error ? 0 : size, '\0');
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  content << file.rdbuf();
-  if (!file) throw BadInput(fmt::format("cannot read '{}'", path.string()));
-  return std::move(content).str();
+  if (error || !file.read(content.data(), static_cast<std::streamsize>(size)))
+    throw BadInput(fmt::format("cannot read '{}'", path.string()));
+  return content;
 }
 
 std::string host() {
@@ -53,8 +57,9 @@ FolderLock::FolderLock(const fs::path& folder) {
     const int error = errno;
     ::close(file_);
     if (error != EWOULDBLOCK) throw output_error(path, error);
+    const std::string holder = content_of(path);
     throw FolderInUse(fmt::format("'{}' is in use by {}: wait for it, or choose another folder with --out",
-                                  folder.string(), content_of(path)));
+                                  folder.string(), holder.empty() ? "another process" : holder));
   }
   // for whom it may concern; the lock itself is the kernel's
   const std::string holder = fmt::format("process {} on {}", ::getpid(), host());
@@ -63,6 +68,10 @@ FolderLock::FolderLock(const fs::path& folder) {
     ::close(file_);
     throw output_error(path, error);
   }
+
+  // nobody else writes here now
+  remove_unfinished_files(folder);
+  remove_unfinished_files(folder / "frames");
 }
 
 FolderLock::~FolderLock() {
@@ -81,12 +90,18 @@ void write_conduct(const fs::path& folder, const RunConduct& conduct) {
 
 RunConduct read_conduct(const fs::path& folder) {
   const fs::path path = folder / "run.json";
-  if (!is_there(path)) throw BadInput(fmt::format("'{}' holds no run: 'voussoir run' makes one", folder.string()));
   try {
     const nlohmann::json json = nlohmann::json::parse(content_of(path));
     if (json.at("schema") != "voussoir.run" || json.at("schema_version") != conduct_version)
       throw BadInput(fmt::format("'{}' was written by another version of this program", path.string()));
-    return {json.at("threads"), json.at("checkpoint_steps"), json.at("checkpoint_seconds")};
+    const RunConduct conduct{json.at("threads"), json.at("checkpoint_steps"), json.at("checkpoint_seconds")};
+    if (conduct.threads < 1 || conduct.threads > most_threads || conduct.checkpoint_steps < 0 ||
+        !(conduct.checkpoint_seconds >= 0))
+      throw BadInput(
+          fmt::format("'{}' is damaged (a number is out of range): start again with 'voussoir run "
+                      "--overwrite'",
+                      path.string()));
+    return conduct;
   } catch (const nlohmann::json::exception& error) {
     throw BadInput(
         fmt::format("'{}' is damaged ({}): start again with 'voussoir run --overwrite'", path.string(), error.what()));
@@ -99,6 +114,10 @@ bool holds_results(const fs::path& folder) {
 
 bool holds_unfinished_run(const fs::path& folder) {
   return is_there(folder / "run.json") && !holds_results(folder);
+}
+
+bool holds_checkpoints(const fs::path& folder) {
+  return is_there(folder / newest) || is_there(folder / previous);
 }
 
 void remove_old_run(const fs::path& folder) {
@@ -122,22 +141,33 @@ void save_checkpoint(const fs::path& folder, const Progress<Dim>& progress, cons
 template <int Dim>
 Progress<Dim> last_progress(const fs::path& folder, const Prepared<Dim>& scene, const std::string& scene_hash,
                             std::vector<std::string>& remarks) {
+  std::vector<std::string> refusals;
   for (const char* name : {newest, previous}) {
     const fs::path path = folder / name;
     if (!is_there(path)) continue;
-    const std::string bytes = content_of(path);
     try {
+      const std::string bytes = content_of(path);
       Progress<Dim> progress = read_checkpoint<Dim>(bytes, scene_hash);
       if (const std::string build = checkpoint_record(bytes).build; build != build_name())
         remarks.push_back(fmt::format("'{}' was written by {}, this is {}: the last bits may differ", path.string(),
                                       build, build_name()));
+      // what cannot be used must not displace what can when the next checkpoint is written
+      if (!refusals.empty()) {
+        move_file(path, folder / newest);
+        remarks.push_back(fmt::format("{}; the one before it is used", refusals.front()));
+      }
       return progress;
     } catch (const CheckpointError& error) {
-      remarks.push_back(fmt::format("'{}' {}", path.string(), error.what()));
+      refusals.push_back(fmt::format("'{}' {}", path.string(), error.what()));
+    } catch (const BadInput& error) {
+      refusals.push_back(error.what());
     }
   }
-  if (!remarks.empty())
-    throw BadInput(fmt::format("{}; no checkpoint can be used: remove it to start the run over", remarks.back()));
+  if (!refusals.empty())
+    throw BadInput(
+        fmt::format("no checkpoint can be used: {}; put back what was changed, or start again with 'voussoir "
+                    "run --overwrite'",
+                    fmt::join(refusals, "; ")));
   return begin(scene);
 }
 

@@ -21,7 +21,8 @@ struct FolderInUse : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Makes the folder if need be and holds its lock. Throws OutputError, or FolderInUse with the holder's name.
+// Makes the folder if need be, holds its lock and removes what killed programs left half-written. Throws OutputError,
+// or FolderInUse with the holder's name.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);
@@ -47,6 +48,7 @@ RunConduct read_conduct(const std::filesystem::path& folder);
 
 bool holds_results(const std::filesystem::path& folder);
 bool holds_unfinished_run(const std::filesystem::path& folder);
+bool holds_checkpoints(const std::filesystem::path& folder);
 
 // removes what a run writes, and nothing else; results.json first, so that a folder without it holds nothing complete
 void remove_old_run(const std::filesystem::path& folder);
@@ -57,7 +59,8 @@ template <int Dim>
 void save_checkpoint(const std::filesystem::path& folder, const Progress<Dim>& progress, const std::string& scene_hash);
 
 // What the newest good checkpoint holds, or the begin of the scene where there is none. `remarks` gains a line for each
-// checkpoint that was passed over or that another program wrote. Throws BadInput when none of those there can be used.
+// checkpoint that was passed over, and then replaced by the one before it, or that another program wrote. Throws
+// BadInput when none of those there can be used, and OutputError.
 template <int Dim>
 Progress<Dim> last_progress(const std::filesystem::path& folder, const Prepared<Dim>& scene,
                             const std::string& scene_hash, std::vector<std::string>& remarks);

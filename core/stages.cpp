@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <stdexcept>
 
@@ -158,6 +159,17 @@ void book(EnergyFlows& flows, double gravity, double load, double damping) {
   flows.local += damping;
 }
 
+// in a thread: no exception may leave it, so the first one waits in `failure`
+template <class Work>
+void attempt(std::exception_ptr& failure, const Work& work) {
+  try {
+    work();
+  } catch (...) {
+#pragma omp critical
+    if (!failure) failure = std::current_exception();
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -204,18 +216,20 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
     add(state.counters, total);
   } else {
     Counters& counters = state.counters;
+    std::exception_ptr failure;
 #pragma omp parallel num_threads(settings.threads)
     {
       KernelCounters own;
 #pragma omp for schedule(static)
       for (int i = 0; i < parts; ++i)
-        state.bounds[i] = bounds(model, state, i, 0);
+        attempt(failure, [&] { state.bounds[i] = bounds(model, state, i, 0); });
 #pragma omp for schedule(static)
       for (int i = 0; i < count; ++i)
-        resolve(model, settings, state, per_area, state.contacts[i], own);
+        attempt(failure, [&] { resolve(model, settings, state, per_area, state.contacts[i], own); });
 #pragma omp critical
       add(counters, own);
     }
+    if (failure) std::rethrow_exception(failure);
   }
   for (const Contact<Dim>& c : state.contacts)
     if (c.unanswered()) ++state.counters.unconverged;

@@ -5,12 +5,17 @@
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <system_error>
 
 #include "app/bad_input.hpp"
 #include "app/commands/commands.hpp"
+#include "app/interruption.hpp"
+#include "app/message.hpp"
 #include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/output_error.hpp"
@@ -21,6 +26,23 @@ namespace voussoir {
 namespace {
 
 using Action = std::function<ExitCode()>;
+
+// memory was asked for and not given: this must not ask again
+int not_enough_memory() {
+  std::fputs("voussoir: not enough memory; a run that was going on can be resumed from its last checkpoint\n", stderr);
+  return static_cast<int>(ExitCode::no_memory);
+}
+
+// an outside library may forbid exceptions where it asks for memory
+[[noreturn]] void end_without_handler() {
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    std::_Exit(not_enough_memory());
+  } catch (...) {
+  }
+  std::abort();
+}
 
 std::string version_text() {
   std::string text = fmt::format("voussoir {} ({})\nbuilt by {}\n", version(), commit(), compiler());
@@ -109,42 +131,44 @@ int guarded(const Action& action) {
   try {
     const ExitCode code = action();
     // what is still in the buffer counts as well: a pipe or a file may refuse it
-    if (std::fflush(stdout) != 0) throw output_error("standard output", errno);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw output_error("standard output", errno);
     return static_cast<int>(code);
   } catch (const SceneError& error) {
-    fmt::print(stderr, "voussoir: {}\n", error.what());
+    tell("voussoir: {}\n", error.what());
     return static_cast<int>(ExitCode::bad_input);
   } catch (const BadInput& error) {
-    fmt::print(stderr, "voussoir: {}\n", error.what());
+    tell("voussoir: {}\n", error.what());
     return static_cast<int>(ExitCode::bad_input);
   } catch (const FolderInUse& error) {
-    fmt::print(stderr, "voussoir: {}\n", error.what());
+    tell("voussoir: {}\n", error.what());
     return static_cast<int>(ExitCode::in_use);
   } catch (const OutputError& error) {
-    fmt::print(stderr, "voussoir: {}\n", error.what());
+    tell("voussoir: {}\n", error.what());
     return static_cast<int>(exit_code(error.kind));
+  } catch (const std::filesystem::filesystem_error& error) {
+    tell("voussoir: {}\n", error.what());
+    return static_cast<int>(exit_code(output_error(error.path1(), error.code().value()).kind));
   } catch (const std::system_error& error) {
     // fmt's word for a stream that takes no more
-    fmt::print(stderr, "voussoir: {}\n", error.what());
-    return static_cast<int>(exit_code(output_error("standard output", error.code().value()).kind));
+    const OutputError refused = output_error("standard output", error.code().value());
+    tell("voussoir: {}\n", refused.what());
+    return static_cast<int>(exit_code(refused.kind));
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "voussoir: there is not enough memory; make the scene smaller\n");
-    return static_cast<int>(ExitCode::numerical);
+    return not_enough_memory();
   } catch (const std::exception& error) {
-    fmt::print(stderr, "voussoir: unexpected error, please report it: {}\n", error.what());
+    tell("voussoir: unexpected error, please report it: {}\n", error.what());
     return static_cast<int>(ExitCode::numerical);
   }
 }
 
-}  // namespace
-
-int command_line(int argument_count, char** arguments) {
+int parse_and_act(int argument_count, char** arguments) {
   CLI::App program("Distinct element models of jointed rock, verified.", "voussoir");
   program.set_version_flag("--version", version_text);
   program.require_subcommand(1);
   program.footer(
       "Exit codes: 0 done, 1 a goal was not reached, 2 bad input, 3 the folder is in use by another run, 4 numerical "
-      "failure, 5 a result could not be written, 6 disk full, 7 folder not writable, 128 + n ended by signal n (with a "
+      "failure, 5 a result could not be written, 6 disk full, 7 folder not writable, 8 not enough memory, 128 + n "
+      "ended by signal n (with a "
       "checkpoint).");
 
   Action action;
@@ -166,9 +190,21 @@ int command_line(int argument_count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     // help and version are no errors; anything else is bad input, whatever number the parser has for it
     const int code = program.exit(error);
-    return code == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+    return code == 0 ? guarded([] { return ExitCode::done; }) : static_cast<int>(ExitCode::bad_input);
   }
   return guarded(action);
+}
+
+}  // namespace
+
+int command_line(int argument_count, char** arguments) {
+  prepare_process();
+  std::set_terminate(end_without_handler);
+  try {
+    return parse_and_act(argument_count, arguments);
+  } catch (const std::bad_alloc&) {
+    return not_enough_memory();
+  }
 }
 
 }  // namespace voussoir

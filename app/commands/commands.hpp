@@ -20,7 +20,8 @@ enum class ExitCode {
   output = 5,         // a result could not be written or renamed
   disk_full = 6,      // or a quota or a limit on the size of files
   not_permitted = 7,  // a folder or file that must not be written
-  signal = 128        // and the number of the signal that ended a run: 130 for SIGINT, 143 for SIGTERM
+  no_memory = 8,
+  signal = 128  // and the number of the signal that ended a run: 130 for SIGINT, 143 for SIGTERM
 };
 
 ExitCode exit_code(Outcome outcome);

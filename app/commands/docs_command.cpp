@@ -1,4 +1,4 @@
-#include <cstdio>
+#include <fmt/format.h>
 
 #include "app/commands/commands.hpp"
 #include "core/scene/scene.hpp"
@@ -6,7 +6,7 @@
 namespace voussoir {
 
 ExitCode docs_command() {
-  std::fputs(scene_documentation().c_str(), stdout);
+  fmt::print("{}", scene_documentation());
   return ExitCode::done;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/message.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -36,14 +38,14 @@ void ProgressLine::show(const ProgressReport& report) {
   if (shown_ && now - last_shown_ < time_between_lines) return;
   last_shown_ = now;
   shown_ = true;
-  fmt::print(stderr, "\r\033[K{}", text(report, now));
+  tell("\r\033[K{}", text(report, now));
   std::fflush(stderr);
 }
 
 void ProgressLine::clear() {
   if (!shown_) return;
   shown_ = false;
-  fmt::print(stderr, "\r\033[K");
+  tell("\r\033[K");
   std::fflush(stderr);
 }
 

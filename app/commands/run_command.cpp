@@ -8,6 +8,7 @@
 #include "app/commands/plausibility.hpp"
 #include "app/commands/progress_line.hpp"
 #include "app/interruption.hpp"
+#include "app/message.hpp"
 #include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
@@ -74,7 +75,7 @@ void print_summary(const LoadedScene& scene, const Results& results, const fs::p
 
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings)
-    fmt::print(stderr, "voussoir: warning: {}\n", warning);
+    tell("voussoir: warning: {}\n", warning);
 }
 
 struct Errand {
@@ -147,8 +148,8 @@ ExitCode carry_out_prepared(const LoadedScene& scene, const Prepared<Dim>& prepa
 
   note_interruptions();
   if (!go_on(prepared, scene.hash, errand, progress)) {
-    fmt::print(stderr, "voussoir: interrupted after step {} (t = {:.6g} s): go on with 'voussoir resume {}'\n",
-               progress.state.counters.steps, progress.state.time, errand.folder.string());
+    tell("voussoir: interrupted after step {} (t = {:.6g} s): go on with 'voussoir resume {}'\n",
+         progress.state.counters.steps, progress.state.time, errand.folder.string());
     return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + interruption());
   }
 
@@ -162,13 +163,18 @@ ExitCode carry_out_prepared(const LoadedScene& scene, const Prepared<Dim>& prepa
     print_warnings(results.warnings);
     print_summary(scene, results, errand.folder);
   } else if (results.outcome != Outcome::done) {
-    fmt::print(stderr, "voussoir: {}: {}\n", outcome_name(results.outcome), results.message);
+    tell("voussoir: {}: {}\n", outcome_name(results.outcome), results.message);
   }
   return exit_code(results.outcome);
 }
 
 ExitCode carry_out(const LoadedScene& scene, const Errand& errand) {
   return std::visit([&](const auto& prepared) { return carry_out_prepared(scene, prepared, errand); }, scene.prepared);
+}
+
+ExitCode already_complete(const ResumeArguments& arguments) {
+  if (!arguments.quiet) fmt::print("'{}' is complete: nothing to do\n", arguments.folder.string());
+  return ExitCode::done;
 }
 
 }  // namespace
@@ -207,15 +213,21 @@ ExitCode run_command(const RunArguments& arguments) {
 
 ExitCode resume_command(const ResumeArguments& arguments) {
   const fs::path& folder = arguments.folder;
-  if (!fs::is_directory(folder))
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
     throw BadInput(fmt::format("'{}' is not a folder: name the folder of an interrupted run", folder.string()));
+  if (!holds_results(folder) && !holds_unfinished_run(folder))
+    throw BadInput(fmt::format("'{}' holds no run: 'voussoir run' makes one", folder.string()));
+
+  // a complete run may be kept where nothing can be written
+  if (holds_results(folder) && !holds_checkpoints(folder)) return already_complete(arguments);
+  const FolderLock lock(folder);
   if (holds_results(folder)) {
-    if (!arguments.quiet) fmt::print("'{}' is complete: nothing to do\n", folder.string());
-    return ExitCode::done;
+    remove_checkpoints(folder);
+    return already_complete(arguments);
   }
   RunConduct conduct = read_conduct(folder);
   if (arguments.threads) conduct.threads = *arguments.threads;
-  const FolderLock lock(folder);
   const LoadedScene scene = load_scene(folder / "scene.toml", {}, conduct.threads);
   return carry_out(scene, {folder, conduct, assess(scene).warnings, arguments.quiet});
 }

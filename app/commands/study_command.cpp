@@ -6,6 +6,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/progress_line.hpp"
 #include "app/commands/study_plan.hpp"
+#include "app/message.hpp"
 #include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
@@ -104,19 +105,19 @@ std::string study_csv(const StudyPlan& plan, const std::vector<StudyRow>& rows) 
   return text;
 }
 
-void tell(const StudyArguments& arguments, const StudyPlan& plan, const StudyRow& row) {
+void tell_row(const StudyArguments& arguments, const StudyPlan& plan, const StudyRow& row) {
   if (arguments.quiet) return;
   const std::string result =
       row.result ? fmt::format("{} = {:.8g} {}", plan.quantity, *row.result, row.result_unit) : row.status;
-  fmt::print(stderr, "{}: {} = {}: {} ({} contact evaluations, {})\n", row.curve, row.sweep->key, row.value, result,
-             row.counters.contact_evaluations, duration_text(row.seconds));
+  tell("{}: {} = {}: {} ({} contact evaluations, {})\n", row.curve, row.sweep->key, row.value, result,
+       row.counters.contact_evaluations, duration_text(row.seconds));
 }
 
 std::vector<StudyRow> run_sweep(const StudyPlan& plan, const Sweep& sweep, const StudyArguments& arguments) {
   std::vector<StudyRow> rows;
   for (const std::string& value : sweep.values) {
     rows.push_back(run_row(plan, sweep, value, arguments));
-    tell(arguments, plan, rows.back());
+    tell_row(arguments, plan, rows.back());
   }
   if (!sweep.power) return rows;
   std::optional<double> coarser;
@@ -125,7 +126,7 @@ std::vector<StudyRow> run_sweep(const StudyPlan& plan, const Sweep& sweep, const
     if (row.result && coarser) row.error_bar = std::abs(*row.result - *coarser);
     coarser = row.result;
     rows.push_back(row);
-    tell(arguments, plan, rows.back());
+    tell_row(arguments, plan, rows.back());
   }
   return rows;
 }

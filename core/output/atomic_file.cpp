@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <string>
 
@@ -11,11 +12,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view temporary_extension = ".voussoir-part";
+
 // the process id keeps two programs that write the same result from sharing a temporary file
 fs::path temporary_name(const fs::path& path) {
   fs::path temporary = path;
-  temporary += ".part" + std::to_string(::getpid());
+  temporary += std::string(temporary_extension) + std::to_string(::getpid());
   return temporary;
+}
+
+bool is_temporary(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  if (!extension.starts_with(temporary_extension)) return false;
+  const std::string_view process = std::string_view(extension).substr(temporary_extension.size());
+  return !process.empty() && std::all_of(process.begin(), process.end(), [](char c) { return '0' <= c && c <= '9'; });
+}
+
+// 0 or what went wrong
+int flush(int file) {
+  while (::fsync(file) != 0)
+    if (errno != EINTR) return errno;
+  return 0;
 }
 
 // 0 or what went wrong
@@ -34,9 +51,9 @@ void flush_folder(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) throw output_error(folder, errno);
-  const int error = ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
+  const int error = flush(descriptor);
   ::close(descriptor);
-  if (error != 0) throw output_error(folder, error);
+  if (error != 0 && error != EINVAL) throw output_error(folder, error);
 }
 
 // a temporary file with the whole content on the disk; errors name the file that was meant
@@ -45,10 +62,10 @@ fs::path write_temporary(const fs::path& path, std::string_view content) {
   const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) throw output_error(path, errno);
 
-  // a full disk may show only when the data is flushed or the file closed
+  // a full disk may show only when the data is flushed or the file closed; a close that was interrupted has closed
   int error = write_all(file, content);
-  if (error == 0 && ::fsync(file) != 0) error = errno;
-  if (::close(file) != 0 && error == 0) error = errno;
+  if (error == 0) error = flush(file);
+  if (::close(file) != 0 && error == 0 && errno != EINTR) error = errno;
   if (error != 0) {
     ::unlink(temporary.c_str());
     throw output_error(path, error);
@@ -82,6 +99,17 @@ void write_file_and_keep(const fs::path& path, const fs::path& previous, std::st
   flush_folder(path);
 }
 
+void move_file(const fs::path& from, const fs::path& to) {
+  if (::rename(from.c_str(), to.c_str()) != 0) throw output_error(to, errno);
+  flush_folder(to);
+}
+
+void remove_unfinished_files(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (is_temporary(entry.path())) remove_file(entry.path());
+}
+
 void remove_file(const fs::path& path) {
   if (::unlink(path.c_str()) != 0 && errno != ENOENT) throw output_error(path, errno);
 }
@@ -97,7 +125,7 @@ void prepare_folder(const fs::path& folder) {
   const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) throw output_error(folder, errno);
   ::close(file);
-  ::unlink(probe.c_str());
+  remove_file(probe);
 }
 
 }  // namespace voussoir

@@ -16,6 +16,12 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 void write_file_and_keep(const std::filesystem::path& path, const std::filesystem::path& previous,
                          std::string_view content);
 
+// `to` becomes what `from` was
+void move_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
+// Temporary files of programs that were killed; the caller knows that no other program writes to the folder.
+void remove_unfinished_files(const std::filesystem::path& folder);
+
 // a file that need not be there
 void remove_file(const std::filesystem::path& path);
 

@@ -1,7 +1,6 @@
 #include "core/scene/scene_text.hpp"
 
 #include <fstream>
-#include <sstream>
 
 #include "core/scene/scene_error.hpp"
 
@@ -16,11 +15,12 @@ std::string file_text(const std::filesystem::path& file) {
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error || size > largest_scene_file)
     throw SceneError(name + ": larger than 16 MB; a scene must be smaller, is this a scene file?");
+  // whole or refused: a stream copied to a stream would end quietly where reading fails
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream && size > 0) text << stream.rdbuf();
-  if (!stream) throw SceneError(name + ": cannot be read; check its permissions");
-  return text.str();
+  std::string text(size, '\0');
+  if (!stream.read(text.data(), static_cast<std::streamsize>(size)))
+    throw SceneError(name + ": cannot be read; check its permissions");
+  return text;
 }
 
 }  // namespace voussoir
