@@ -84,7 +84,8 @@ void write_conduct(const fs::path& folder, const RunConduct& conduct) {
                                        {"program", build_name()},
                                        {"threads", conduct.threads},
                                        {"checkpoint_steps", conduct.checkpoint_steps},
-                                       {"checkpoint_seconds", conduct.checkpoint_seconds}};
+                                       {"checkpoint_seconds", conduct.checkpoint_seconds},
+                                       {"warnings", conduct.warnings}};
   write_file(folder / "run.json", json.dump(2) + "\n");
 }
 
@@ -94,7 +95,8 @@ RunConduct read_conduct(const fs::path& folder) {
     const nlohmann::json json = nlohmann::json::parse(content_of(path));
     if (json.at("schema") != "voussoir.run" || json.at("schema_version") != conduct_version)
       throw BadInput(fmt::format("'{}' was written by another version of this program", path.string()));
-    const RunConduct conduct{json.at("threads"), json.at("checkpoint_steps"), json.at("checkpoint_seconds")};
+    const RunConduct conduct{json.at("threads"), json.at("checkpoint_steps"), json.at("checkpoint_seconds"),
+                             json.at("warnings")};
     if (conduct.threads < 1 || conduct.threads > most_threads || conduct.checkpoint_steps < 0 ||
         !(conduct.checkpoint_seconds >= 0))
       throw BadInput(

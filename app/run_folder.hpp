@@ -37,8 +37,9 @@ class FolderLock {
 // how a run is carried out; its results do not depend on it
 struct RunConduct {
   int threads = 1;
-  long long checkpoint_steps = 0;   // between checkpoints; 0: steps do not matter
-  double checkpoint_seconds = 300;  // wall clock between checkpoints; 0: time does not matter
+  long long checkpoint_steps = 0;     // between checkpoints; 0: steps do not matter
+  double checkpoint_seconds = 300;    // wall clock between checkpoints; 0: time does not matter
+  std::vector<std::string> warnings;  // what looked implausible in the scene as it was given, with its lines
 };
 
 // throws OutputError

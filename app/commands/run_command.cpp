@@ -37,14 +37,14 @@ void refuse_to_overwrite(const fs::path& folder) {
                     folder.string()));
 }
 
-RunRecord record_of(const LoadedScene& scene, const std::vector<std::string>& warnings, int threads) {
+RunRecord record_of(const LoadedScene& scene, const RunConduct& conduct) {
   RunRecord record;
-  record.warnings = warnings;
+  record.warnings = conduct.warnings;
   record.title = scene.title;
   record.dimension = scene.dimension;
   record.input_hash = scene.hash;
   record.features = features();
-  record.threads = threads;
+  record.threads = conduct.threads;
   return record;
 }
 
@@ -81,7 +81,6 @@ void print_warnings(const std::vector<std::string>& warnings) {
 struct Errand {
   fs::path folder;
   RunConduct conduct;
-  std::vector<std::string> warnings;
   bool quiet = false;
 };
 
@@ -156,8 +155,7 @@ ExitCode carry_out_prepared(const LoadedScene& scene, const Prepared<Dim>& prepa
   // results.json comes last: where it is, everything is
   const Results& results = progress.results;
   write_history_csv(errand.folder / "history.csv", results.history);
-  write_results_json(errand.folder / "results.json", results,
-                     record_of(scene, errand.warnings, errand.conduct.threads));
+  write_results_json(errand.folder / "results.json", results, record_of(scene, errand.conduct));
   remove_checkpoints(errand.folder);
   if (!errand.quiet) {
     print_warnings(results.warnings);
@@ -198,8 +196,8 @@ ExitCode run_command(const RunArguments& arguments) {
   if (arguments.checkpoint_steps) conduct.checkpoint_steps = *arguments.checkpoint_steps;
   if (arguments.checkpoint_seconds) conduct.checkpoint_seconds = *arguments.checkpoint_seconds;
   const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides, conduct.threads);
-  const std::vector<std::string> warnings = assess(scene).warnings;
-  if (!arguments.quiet) print_warnings(warnings);
+  conduct.warnings = assess(scene).warnings;
+  if (!arguments.quiet) print_warnings(conduct.warnings);
 
   // the folder is ours alone, and says what is run before the first step
   const fs::path folder = results_folder(arguments);
@@ -208,7 +206,7 @@ ExitCode run_command(const RunArguments& arguments) {
   remove_old_run(folder);
   write_file(folder / "scene.toml", scene.text);
   write_conduct(folder, conduct);
-  return carry_out(scene, {folder, conduct, warnings, arguments.quiet});
+  return carry_out(scene, {folder, conduct, arguments.quiet});
 }
 
 ExitCode resume_command(const ResumeArguments& arguments) {
@@ -229,7 +227,7 @@ ExitCode resume_command(const ResumeArguments& arguments) {
   RunConduct conduct = read_conduct(folder);
   if (arguments.threads) conduct.threads = *arguments.threads;
   const LoadedScene scene = load_scene(folder / "scene.toml", {}, conduct.threads);
-  return carry_out(scene, {folder, conduct, assess(scene).warnings, arguments.quiet});
+  return carry_out(scene, {folder, conduct, arguments.quiet});
 }
 
 }  // namespace voussoir

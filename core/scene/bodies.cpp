@@ -39,8 +39,66 @@ std::vector<Vector<Dim>> corners(const BlockSpec& block, const Vector<Dim>& orig
   return points;
 }
 
+// a point that the scene states on a solid, and where
 template <int Dim>
-Polytope<Dim> checked(const BlockResult<Dim>& result, const Node& node, const std::string& path, const char* what) {
+struct StatedPoint {
+  Vector<Dim> point;
+  std::string path;
+};
+
+template <int Dim>
+std::vector<StatedPoint<Dim>> stated_points(const Scene& scene) {
+  std::vector<StatedPoint<Dim>> points;
+  const auto add = [&](const std::vector<double>& point, const std::string& path) {
+    points.push_back({to_vector<Dim>(point), path});
+  };
+  const auto add_box = [&](const BoxSpec& box, const Subject& subject) {
+    add(box.min, key_path(subject.path, "box.min"));
+    add(box.max, key_path(subject.path, "box.max"));
+  };
+  if (scene.domain && scene.domain->box) add_box(*scene.domain->box, scene.domain->subject);
+  if (scene.domain)
+    for (const DomainPlaneSpec& p : scene.domain->planes)
+      add(p.plane.point, key_path(p.subject.path, "point"));
+  for (const BlockSpec& block : scene.blocks) {
+    for (const std::vector<double>& v : block.vertices)
+      add(v, key_path(block.subject.path, "vertices"));
+    if (block.box) add_box(*block.box, block.subject);
+    for (const BlockPlaneSpec& p : block.planes) {
+      const Vector<Dim> normal = to_vector<Dim>(p.normal);
+      if (p.point)
+        add(*p.point, key_path(p.subject.path, "point"));
+      else
+        points.push_back(
+            {Vector<Dim>(*p.offset / normal.squaredNorm() * normal), key_path(p.subject.path, "normal and offset")});
+    }
+  }
+  return points;
+}
+
+template <int Dim>
+Vector<Dim> middle(const std::vector<Vector<Dim>>& points) {
+  if (points.empty()) return Vector<Dim>::Zero();
+  Vector<Dim> low = points.front(), high = points.front();
+  for (const Vector<Dim>& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return low + 0.5 * (high - low);
+}
+
+// the statement to look at when something lies far from everything else
+template <int Dim>
+std::string farthest_statement(const Scene& scene) {
+  const std::vector<StatedPoint<Dim>> points = stated_points<Dim>(scene);
+  const auto size = [](const StatedPoint<Dim>& p) { return p.point.cwiseAbs().maxCoeff(); };
+  return std::max_element(points.begin(), points.end(), [&](const auto& p, const auto& q) { return size(p) < size(q); })
+      ->path;
+}
+
+template <int Dim>
+Polytope<Dim> checked(const Scene& scene, const BlockResult<Dim>& result, const Node& node, const std::string& path,
+                      const char* what) {
   switch (result.status) {
     case BlockStatus::ok:
       return result.part;
@@ -58,13 +116,14 @@ Polytope<Dim> checked(const BlockResult<Dim>& result, const Node& node, const st
       refuse(node, path,
              std::string("the ") + what +
                  " lies so far from the middle of the scene that its coordinates round by more than 1e-6 of its size; "
-                 "bring the solids together, or make it larger");
+                 "bring the solids together, or make it larger (the largest coordinate is that of " +
+                 farthest_statement<Dim>(scene) + ")");
     case BlockStatus::bad_plane:
       refuse(node, path + "." + std::to_string(result.plane + 1), "is not a plane; give a normal that is not zero");
   }
   refuse(node, path,
          std::string("the ") + what +
-             " has no volume, or is thinner than 1e-8 of its length; move its planes or corners apart");
+             " has no volume, or is thinner than 1e-8 of its length; move its planes (offset, point) or corners apart");
 }
 
 template <int Dim>
@@ -86,7 +145,7 @@ void check_corners(const BlockSpec& block, const std::vector<Vector<Dim>>& point
 }
 
 template <int Dim>
-Polytope<Dim> make_hull(const BlockSpec& block, const Vector<Dim>& origin) {
+Polytope<Dim> make_hull(const Scene& scene, const BlockSpec& block, const Vector<Dim>& origin) {
   const Node& node = *block.subject.node->find("vertices");
   const std::string path = key_path(block.subject.path, "vertices");
   const std::vector<Vector<Dim>> points = corners<Dim>(block, origin);
@@ -96,49 +155,10 @@ Polytope<Dim> make_hull(const BlockSpec& block, const Vector<Dim>& origin) {
   const HalfSpaces<Dim> planes = hull_planes<Dim>(points);
   if (planes.empty()) refuse(node, path, flat);
   const BlockResult<Dim> result = make_block<Dim>(planes, std::vector<int>(planes.size(), no_joint));
+  if (result.status == BlockStatus::far) checked<Dim>(scene, result, node, path, "block");
   if (result.status != BlockStatus::ok) refuse(node, path, flat);
   check_corners<Dim>(block, points, result.part);
   return result.part;
-}
-
-template <int Dim>
-struct Bounds {
-  std::vector<Vector<Dim>> points;
-  void add(const std::vector<double>& point) { points.push_back(to_vector<Dim>(point)); }
-  void add(const BoxSpec& box) {
-    add(box.min);
-    add(box.max);
-  }
-  Vector<Dim> centre() const {
-    if (points.empty()) return Vector<Dim>::Zero();
-    Vector<Dim> low = points.front(), high = points.front();
-    for (const Vector<Dim>& p : points) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    return low + 0.5 * (high - low);
-  }
-};
-
-// the middle of every point that is stated on a solid
-template <int Dim>
-Vector<Dim> middle_of_stated_points(const Scene& scene) {
-  Bounds<Dim> bounds;
-  if (scene.domain && scene.domain->box) bounds.add(*scene.domain->box);
-  if (scene.domain)
-    for (const DomainPlaneSpec& p : scene.domain->planes)
-      bounds.add(p.plane.point);
-  for (const BlockSpec& block : scene.blocks) {
-    for (const std::vector<double>& v : block.vertices)
-      bounds.add(v);
-    if (block.box) bounds.add(*block.box);
-    for (const BlockPlaneSpec& p : block.planes) {
-      const Vector<Dim> normal = to_vector<Dim>(p.normal);
-      bounds.points.push_back(p.point ? to_vector<Dim>(*p.point)
-                                      : Vector<Dim>(*p.offset / normal.squaredNorm() * normal));
-    }
-  }
-  return bounds.centre();
 }
 
 bool has_planes(const Scene& scene) {
@@ -162,21 +182,26 @@ HalfSpace<2> to_half_space(const PlaneSpec& plane, const Vector<2>& origin) {
 
 template <int Dim>
 Vector<Dim> find_origin(const Scene& scene) {
-  const Vector<Dim> first = middle_of_stated_points<Dim>(scene);
+  std::vector<Vector<Dim>> points;
+  for (const StatedPoint<Dim>& p : stated_points<Dim>(scene))
+    points.push_back(p.point);
+  const Vector<Dim> first = middle<Dim>(points);
   if (!has_planes(scene)) return first;
+
   // the points of planes may lie anywhere on them: a second look at the solids they make
-  Bounds<Dim> bounds;
+  points.clear();
   const auto add = [&](const Polytope<Dim>& part) {
-    bounds.points.insert(bounds.points.end(), part.vertices.begin(), part.vertices.end());
+    points.insert(points.end(), part.vertices.begin(), part.vertices.end());
   };
-  if (scene.domain) add(make_domain<Dim>(*scene.domain, first));
+  if (scene.domain) add(make_domain<Dim>(scene, first));
   for (const BlockSpec& block : scene.blocks)
-    add(make_solid<Dim>(block, first));
-  return first + bounds.centre();
+    add(make_solid<Dim>(scene, block, first));
+  return first + middle<Dim>(points);
 }
 
 template <int Dim>
-Polytope<Dim> make_domain(const DomainSpec& domain, const Vector<Dim>& origin) {
+Polytope<Dim> make_domain(const Scene& scene, const Vector<Dim>& origin) {
+  const DomainSpec& domain = *scene.domain;
   HalfSpaces<Dim> planes;
   if (domain.box) planes = box_planes<Dim>(*domain.box, origin);
   for (const DomainPlaneSpec& spec : domain.planes) {
@@ -184,26 +209,26 @@ Polytope<Dim> make_domain(const DomainSpec& domain, const Vector<Dim>& origin) {
     planes.push_back(spec.keep_below ? plane : HalfSpace<Dim>{-plane.normal, -plane.offset});
   }
   const BlockResult<Dim> result = make_block<Dim>(planes, std::vector<int>(planes.size(), no_joint));
-  return checked<Dim>(result, *domain.subject.node, domain.subject.path, "domain");
+  return checked<Dim>(scene, result, *domain.subject.node, domain.subject.path, "domain");
 }
 
 template <int Dim>
-Polytope<Dim> make_solid(const BlockSpec& block, const Vector<Dim>& origin) {
-  if (block.subject.node->find("vertices")) return make_hull<Dim>(block, origin);
+Polytope<Dim> make_solid(const Scene& scene, const BlockSpec& block, const Vector<Dim>& origin) {
+  if (block.subject.node->find("vertices")) return make_hull<Dim>(scene, block, origin);
   HalfSpaces<Dim> planes;
   if (block.box) planes = box_planes<Dim>(*block.box, origin);
   for (const BlockPlaneSpec& plane : block.planes)
     planes.push_back(to_half_space<Dim>(plane, origin));
   const BlockResult<Dim> result = make_block<Dim>(planes, std::vector<int>(planes.size(), no_joint));
   const char* key = block.box ? "box" : "planes";
-  return checked<Dim>(result, *block.subject.node->find(key), key_path(block.subject.path, key), "block");
+  return checked<Dim>(scene, result, *block.subject.node->find(key), key_path(block.subject.path, key), "block");
 }
 
 template Vector<2> find_origin<2>(const Scene&);
 template Vector<3> find_origin<3>(const Scene&);
-template Polytope<2> make_domain<2>(const DomainSpec&, const Vector<2>&);
-template Polytope<3> make_domain<3>(const DomainSpec&, const Vector<3>&);
-template Polytope<2> make_solid<2>(const BlockSpec&, const Vector<2>&);
-template Polytope<3> make_solid<3>(const BlockSpec&, const Vector<3>&);
+template Polytope<2> make_domain<2>(const Scene&, const Vector<2>&);
+template Polytope<3> make_domain<3>(const Scene&, const Vector<3>&);
+template Polytope<2> make_solid<2>(const Scene&, const BlockSpec&, const Vector<2>&);
+template Polytope<3> make_solid<3>(const Scene&, const BlockSpec&, const Vector<3>&);
 
 }  // namespace voussoir

@@ -19,10 +19,10 @@ HalfSpace<Dim> to_half_space(const PlaneSpec& plane, const Vector<Dim>& origin);
 template <int Dim>
 Vector<Dim> find_origin(const Scene& scene);
 
-// Both throw SceneError on what is open, empty or flat.
+// The scene's domain, and one of its blocks. Both throw SceneError on what is open, empty, flat or far.
 template <int Dim>
-Polytope<Dim> make_domain(const DomainSpec& domain, const Vector<Dim>& origin);
+Polytope<Dim> make_domain(const Scene& scene, const Vector<Dim>& origin);
 template <int Dim>
-Polytope<Dim> make_solid(const BlockSpec& block, const Vector<Dim>& origin);
+Polytope<Dim> make_solid(const Scene& scene, const BlockSpec& block, const Vector<Dim>& origin);
 
 }  // namespace voussoir

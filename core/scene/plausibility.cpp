@@ -178,7 +178,7 @@ template <int Dim>
 void judge_domain(const Scene& scene, const Model<Dim>& model, Warnings& warnings) {
   if (!scene.domain || scene.domain->planes.empty()) return;
   constexpr double on_plane = 1e-9;  // of the domain's extent: far above the rounding of its corners
-  const Polytope<Dim> domain = make_domain<Dim>(*scene.domain, model.origin);
+  const Polytope<Dim> domain = make_domain<Dim>(scene, model.origin);
   for (const DomainPlaneSpec& spec : scene.domain->planes) {
     const HalfSpace<Dim> plane = to_half_space<Dim>(spec.plane, model.origin);
     const bool bounds = std::any_of(domain.vertices.begin(), domain.vertices.end(), [&](const Vector<Dim>& v) {

@@ -76,7 +76,7 @@ void add_domain(const Scene& scene, Model<Dim>& model) {
   SlicingLimits limits;
   limits.smallest_inscribed_radius = scene.smallest_inscribed_radius;
   SlicingCounters counters;
-  std::vector<Polytope<Dim>> parts = slice<Dim>(make_domain<Dim>(*scene.domain, model.origin), cuts, limits, counters);
+  std::vector<Polytope<Dim>> parts = slice<Dim>(make_domain<Dim>(scene, model.origin), cuts, limits, counters);
   if (counters.given_up)
     refuse(top_of(scene), "joints",
            "cut the domain into more than " + std::to_string(limits.most_blocks) +
@@ -101,7 +101,7 @@ void add_blocks(const Scene& scene, Model<Dim>& model) {
   std::map<std::string, std::vector<Polytope<Dim>>> parts;
   for (const BlockSpec& block : scene.blocks)
     parts[block.part_of.empty() ? block.name : owner_of(scene, block).name].push_back(
-        make_solid<Dim>(block, model.origin));
+        make_solid<Dim>(scene, block, model.origin));
   for (const BlockSpec& block : scene.blocks) {
     if (!block.part_of.empty()) continue;
     model.bodies.push_back(make_body<Dim>(std::move(parts[block.name]), density_of(scene, block.density)));
