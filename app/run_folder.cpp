@@ -82,6 +82,7 @@ void write_conduct(const fs::path& folder, const RunConduct& conduct) {
   const nlohmann::ordered_json json = {{"schema", "voussoir.run"},
                                        {"schema_version", conduct_version},
                                        {"program", build_name()},
+                                       {"scene_hash", conduct.scene_hash},
                                        {"threads", conduct.threads},
                                        {"checkpoint_steps", conduct.checkpoint_steps},
                                        {"checkpoint_seconds", conduct.checkpoint_seconds},
@@ -95,8 +96,8 @@ RunConduct read_conduct(const fs::path& folder) {
     const nlohmann::json json = nlohmann::json::parse(content_of(path));
     if (json.at("schema") != "voussoir.run" || json.at("schema_version") != conduct_version)
       throw BadInput(fmt::format("'{}' was written by another version of this program", path.string()));
-    const RunConduct conduct{json.at("threads"), json.at("checkpoint_steps"), json.at("checkpoint_seconds"),
-                             json.at("warnings")};
+    const RunConduct conduct{json.at("scene_hash"), json.at("threads"), json.at("checkpoint_steps"),
+                             json.at("checkpoint_seconds"), json.at("warnings")};
     if (conduct.threads < 1 || conduct.threads > most_threads || conduct.checkpoint_steps < 0 ||
         !(conduct.checkpoint_seconds >= 0))
       throw BadInput(

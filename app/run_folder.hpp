@@ -34,8 +34,9 @@ class FolderLock {
   int file_;
 };
 
-// how a run is carried out; its results do not depend on it
+// what is run, and how: the results depend on the scene alone
 struct RunConduct {
+  std::string scene_hash;  // LoadedScene::hash
   int threads = 1;
   long long checkpoint_steps = 0;     // between checkpoints; 0: steps do not matter
   double checkpoint_seconds = 300;    // wall clock between checkpoints; 0: time does not matter

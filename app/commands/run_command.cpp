@@ -196,6 +196,7 @@ ExitCode run_command(const RunArguments& arguments) {
   if (arguments.checkpoint_steps) conduct.checkpoint_steps = *arguments.checkpoint_steps;
   if (arguments.checkpoint_seconds) conduct.checkpoint_seconds = *arguments.checkpoint_seconds;
   const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides, conduct.threads);
+  conduct.scene_hash = scene.hash;
   conduct.warnings = assess(scene).warnings;
   if (!arguments.quiet) print_warnings(conduct.warnings);
 
@@ -227,6 +228,11 @@ ExitCode resume_command(const ResumeArguments& arguments) {
   RunConduct conduct = read_conduct(folder);
   if (arguments.threads) conduct.threads = *arguments.threads;
   const LoadedScene scene = load_scene(folder / "scene.toml", {}, conduct.threads);
+  if (scene.hash != conduct.scene_hash)
+    throw BadInput(
+        fmt::format("'{}' is not the scene that this run began with: put it back, or start again with "
+                    "'voussoir run'",
+                    (folder / "scene.toml").string()));
   return carry_out(scene, {folder, conduct, arguments.quiet});
 }
 

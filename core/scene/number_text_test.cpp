@@ -54,6 +54,7 @@ class CommaLocale {
 const std::pair<const char*, double> good_numbers[] = {
     {"0", 0},
     {"-0", 0},
+    {"-0.0", 0},
     {"+0.0", 0},
     {"1", 1},
     {"+1", 1},
@@ -100,6 +101,7 @@ TEST(Numbers, AreReadOrRefusedWhateverTheLocale) {
       const std::optional<double> read = number(text);
       ASSERT_TRUE(read) << text;
       EXPECT_EQ(*read, value) << text;
+      EXPECT_EQ(std::signbit(*read), value < 0) << text << ": a zero has no sign";
     }
     for (const char* text : bad_numbers)
       EXPECT_FALSE(number(text)) << text;

@@ -79,7 +79,7 @@ Node converted(const toml::node& from, const Document& document) {
     node.decimal = integer->flags() == toml::value_flags::none;
   } else if (const auto* number = from.as_floating_point()) {
     node.kind = Node::Kind::number;
-    node.number = number->get();
+    node.number = number->get() + 0.0;  // -0 is 0, or a scene would not read back to itself
     if (node.number == 0 && document.states_more_than_zero(from.source().begin))
       throw SceneError(
           place_text(node.place) +
