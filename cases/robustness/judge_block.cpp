@@ -160,7 +160,7 @@ Judgement judge_made(const HalfSpaces<3>& planes) {
   const double whole = to_double(exact::solid(input).volume);
   if (kept > whole * (1 + dropped_volume) + spread)
     return wrong(fmt::format("a needed plane was dropped: {:.3g}", kept / whole - 1));
-  if (kept > whole) judgement.verdict = Verdict::warned;
+  if (kept > whole + spread) judgement.verdict = Verdict::warned;  // more than planes moved by rounding lose
   return judgement;
 }
 

@@ -125,6 +125,18 @@ Eigen::Matrix<double, Dim + 1, 1> meeting_point(const Basis<Dim>& basis, const H
   return solution;
 }
 
+// whether the point lies on its tight planes, as far as rounding lets it
+template <int Dim>
+bool meets(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far,
+           const Eigen::Matrix<double, Dim + 1, 1>& solution, double coordinates) {
+  for (int k = 0; k <= Dim; ++k) {
+    const double residual = basis_plane(planes, basis.planes[k], far).normal.dot(solution.template head<Dim>()) +
+                            solution[Dim] - basis.offsets[k];
+    if (!(std::abs(residual) <= violation_rounding * (std::abs(basis.offsets[k]) + coordinates))) return false;
+  }
+  return true;
+}
+
 // What the multipliers prove by weak duality whatever rounding did to them, for all x within the reach and with
 // negative ones left out: s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ.
 template <int Dim>
@@ -182,10 +194,10 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
       }
     }
     if (enter < 0) {
-      result.status = FeasibilityStatus::optimal;
-      if (polished) break;
-      // updates lose digits: the answer is taken from a fresh inverse of the final basis
-      if (!factorise(basis, planes, far)) break;
+      // updates lose digits: the answer is taken from a fresh inverse of the final basis, and where there is none, of
+      // planes that pivoting let come too near to dependent, it is no answer
+      if (polished && meets(basis, planes, far, solution, coordinates)) result.status = FeasibilityStatus::optimal;
+      if (polished || !factorise(basis, planes, far)) break;
       polished = true;
       continue;
     }
@@ -208,8 +220,9 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
   }
 
   // A degenerate start (two opposite faces carry all) can end with multipliers that are negative by more than rounding,
-  // which would shift the value by as much: then the far planes start anew.
-  if (request.start && *std::min_element(result.multipliers.begin(), result.multipliers.end()) < negative_multiplier) {
+  // which would shift the value by as much, or nowhere: then the far planes start anew.
+  const double least = *std::min_element(result.multipliers.begin(), result.multipliers.end());
+  if (request.start && (least < negative_multiplier || result.status == FeasibilityStatus::iteration_limit)) {
     const int spent = result.pivots;
     result = solve_feasibility<Dim>(planes, {nullptr, request.stop_above, request.tolerance});
     result.pivots += spent;

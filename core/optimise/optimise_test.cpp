@@ -312,5 +312,32 @@ TEST(AnalyticCentre, PowersOfTwoScaleItExactly) {
   }
 }
 
+// Two blocks between parallel joints, corner in corner by 1e-13 m, turned by 1e-10: pivoting from one block's own basis
+// comes to two pairs of opposite faces, which are dependent. What was read from their stale inverse was no answer.
+TEST(Feasibility, ADependentBasisIsLeftForAFreshStart) {
+  const HalfSpaces<3> planes{
+      {{-0x1.fe0d3b41815a2p-1, -0x1.194f4cfc107e4p-54, -0x1.64fd6b8c281p-4}, 0x1.fe0d3b41815a3p-2},
+      {{-0x1.1d06c968d9e19p-3, -0x1.3a6704e715ff1p-57, -0x1.fb046a930947ap-1}, 0x1.fb046a9309478p-2},
+      {{-0x0p+0, -0x1.f838b8c811c17p-1, -0x1.63a1a7e0b738cp-3}, 0x1.f838b8c811c15p-2},
+      {{0x0p+0, 0x1.f838b8c811c17p-1, 0x1.63a1a7e0b738cp-3}, 0x1.f838b8c811c18p-2},
+      {{0x1.1d06c968d9e19p-3, 0x1.3a6704e715ff1p-57, 0x1.fb046a930947ap-1}, 0x1.fb046a930947cp-2},
+      {{0x1.fe0d3b41815a2p-1, 0x1.194f4cfc107e4p-54, 0x1.64fd6b8c281p-4}, 0x1.fe0d3b41815a2p-2},
+      {{-0x1.fe0d3b4143818p-1, 0x1.baf8301fcf7ap-35, -0x1.64fd6ba23f4e3p-4}, 0x1.fe0d3b45063d8p-2},
+      {{-0x1.1d06c95ddf14fp-3, 0x1.c107147efa63fp-33, -0x1.fb046a936c09bp-1}, 0x1.7c434febeae3cp+0},
+      {{0x1.9f7e81cd101cp-36, -0x1.f838b8c7c4c87p-1, -0x1.63a1a7e7895aep-3}, -0x1.f838b8c66c9c8p-2},
+      {{0x1.2189defdd8061p-35, 0x1p+0, 0x1.bb447cd1cabeap-33}, 0x1.ce103451b5c5p+0},
+      {{0x1.1d06c95ddf14fp-3, -0x1.c107147efa63fp-33, 0x1.fb046a936c09bp-1}, -0x1.fb046a8999002p-2},
+      {{0x1.fe0d3b4143818p-1, -0x1.baf8301fcf7ap-35, 0x1.64fd6ba23f4e3p-4}, 0x1.fe0d3b3dfc76ep-2},
+  };
+  const std::array<int, 4> own{0, 2, 1, 3};
+  const FeasibilityResult<3> answer = solve_feasibility<3>(planes, {&own, -4.9e-14, 4.9e-16});
+  const FeasibilityResult<3> cold = solve_feasibility<3>(planes, {});
+  EXPECT_EQ(answer.status, FeasibilityStatus::optimal);
+  constexpr double rounding = 2e-15;  // m, of coordinates of 1 m
+  EXPECT_NEAR(answer.value, cold.value, rounding);
+  for (const HalfSpace<3>& plane : planes)
+    EXPECT_LT(signed_distance<3>(plane, answer.point), answer.value + rounding);
+}
+
 }  // namespace
 }  // namespace voussoir

@@ -153,6 +153,10 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
     result.status = BlockStatus::open;
     return result;
   }
+  if (ball.status == FeasibilityStatus::iteration_limit) {
+    result.status = BlockStatus::flat;  // faces too nearly parallel for the program
+    return result;
+  }
   if (!holds_ball(planes, ball)) {
     result.status = BlockStatus::empty;
     return result;
