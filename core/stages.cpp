@@ -33,6 +33,12 @@ double smallest_size(const Model<Dim>& model) {
   return std::isfinite(smallest) ? smallest : 0;
 }
 
+// N
+template <int Dim>
+Vector<Dim> weight(const Model<Dim>& model, const State<Dim>& state, std::size_t body) {
+  return model.bodies[body].mass * state.schedule.gravity_factor * model.gravity;
+}
+
 // how far any point of a body may have moved since the candidates were listed
 template <int Dim>
 double moved(const Body<Dim>& body, const Placement<Dim>& then, const Motion<Dim>& now) {
@@ -288,7 +294,7 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
 template <int Dim>
 void sum_loads(const Model<Dim>& model, State<Dim>& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    state.loads[b].force = model.bodies[b].mass * state.schedule.gravity_factor * model.gravity;
+    state.loads[b].force = weight(model, state, b);
     state.loads[b].moment.setZero();
   }
   for (const Contact<Dim>& c : state.contacts) {
@@ -326,10 +332,10 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
     if (model.bodies[b].fixed) continue;
     const KickEnergy<Dim> kick =
         advance(model.bodies[b], state.loads[b], settings.damping.local, times, state.motions[b]);
-    const Vector<Dim> weight = model.bodies[b].mass * state.schedule.gravity_factor * model.gravity;
+    const Vector<Dim> gravity = weight(model, state, b);
     energy.kinetic += kick.kinetic;
-    book(energy.flows, weight.dot(kick.path_before), kick.load_before, kick.damping_before);
-    book(after, weight.dot(kick.path_after), kick.load_after, kick.damping_after);
+    book(energy.flows, gravity.dot(kick.path_before), kick.load_before, kick.damping_before);
+    book(after, gravity.dot(kick.path_after), kick.load_after, kick.damping_after);
   }
   balance(energy);
   energy.flows.gravity += after.gravity;

@@ -6,11 +6,11 @@
 #include <limits>
 #include <numbers>
 
+#include "core/checkpoint/fields.hpp"
 #include "core/floating_point_traps.hpp"
 #include "core/run.hpp"
 #include "core/slicing/slice.hpp"
 #include "core/state_hash.hpp"
-#include "core/testing/bytes.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir {

@@ -168,8 +168,7 @@ int parse_and_act(int argument_count, char** arguments) {
   program.footer(
       "Exit codes: 0 done, 1 a goal was not reached, 2 bad input, 3 the folder is in use by another run, 4 numerical "
       "failure, 5 a result could not be written, 6 disk full, 7 folder not writable, 8 not enough memory, 128 + n "
-      "ended by signal n (with a "
-      "checkpoint).");
+      "ended by signal n (with a checkpoint).");
 
   Action action;
   RunArguments run;

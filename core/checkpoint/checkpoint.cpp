@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstring>
 #include <istream>
-#include <sstream>
 #include <streambuf>
 
 #include "core/checkpoint/fields.hpp"
@@ -41,14 +40,6 @@ struct Bytes : std::streambuf {
   }
   std::size_t consumed() const { return static_cast<std::size_t>(gptr() - eback()); }
 };
-
-template <class T>
-void append(std::string& bytes, const T& object) {
-  std::ostringstream stream(std::ios::binary);
-  cereal::BinaryOutputArchive archive(stream);
-  archive(object);
-  bytes += stream.view();
-}
 
 // the bytes between magic and seal, once the seal has proved them whole
 std::string_view unseal(std::string_view bytes) {
@@ -90,12 +81,11 @@ std::string build_name() {
 
 template <int Dim>
 std::string checkpoint_bytes(const Progress<Dim>& progress, const std::string& scene_hash) {
-  std::string payload;
-  append(payload, progress);
+  const std::string payload = bytes_of(progress);
   std::string bytes(magic);
   bytes.append(reinterpret_cast<const char*>(&order_mark), sizeof order_mark);
-  append(bytes,
-         Header{checkpoint_format, Dim, progress.state.counters.steps, scene_hash, build_name(), payload.size()});
+  bytes +=
+      bytes_of(Header{checkpoint_format, Dim, progress.state.counters.steps, scene_hash, build_name(), payload.size()});
   bytes += payload;
   bytes += fingerprint(bytes);
   return bytes;

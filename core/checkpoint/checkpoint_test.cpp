@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/checkpoint/fields.hpp"
 #include "core/simulate.hpp"
-#include "core/testing/bytes.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir {

@@ -2,12 +2,16 @@
 // added there and not here does not compile.
 #pragma once
 
+#include <cereal/archives/binary.hpp>
 #include <cereal/cereal.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/optional.hpp>
 #include <cereal/types/string.hpp>
 #include <cereal/types/utility.hpp>
 #include <cereal/types/vector.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
 
 #include "core/progress.hpp"
 
@@ -164,6 +168,15 @@ void serialize(Archive& archive, Progress<Dim>& p) {
          results] = p;
   archive(state, stage, stage_under_way, stage_began, steps_before, run, reduction, record, next_frame, frames,
           results);
+}
+
+// every bit of it: two objects are the same when these are equal
+template <class T>
+std::string bytes_of(const T& object) {
+  std::ostringstream stream(std::ios::binary);
+  cereal::BinaryOutputArchive archive(stream);
+  archive(object);
+  return std::move(stream).str();
 }
 
 }  // namespace voussoir

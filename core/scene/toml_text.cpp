@@ -22,8 +22,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cfenv>
 #include <vector>
+
+#include "core/floating_point_traps.hpp"
 
 namespace voussoir {
 namespace {
@@ -93,18 +94,6 @@ Node converted(const toml::node& from, const Document& document) {
   return node;
 }
 
-// "1e400" overflows inside the library on its way to a parse error: no trap may spring meanwhile
-class WithoutTraps {
- public:
-  WithoutTraps() { std::feholdexcept(&environment); }
-  ~WithoutTraps() { std::fesetenv(&environment); }
-  WithoutTraps(const WithoutTraps&) = delete;
-  WithoutTraps& operator=(const WithoutTraps&) = delete;
-
- private:
-  std::fenv_t environment;
-};
-
 // What a text claims, before anything is allocated for it. Keys of very many parts would nest tables until the stack
 // ends (the library limits nested values only); and every value needs a comma, an equals sign or a bracket.
 void limit_size(std::string_view text, const std::string& source) {
@@ -155,7 +144,7 @@ std::string repair_hint(std::string_view description) {
 
 Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>& source) {
   limit_size(text, *source);
-  const WithoutTraps guard;
+  const WithoutTraps without_traps;  // "1e400" overflows inside the library on its way to a parse error
   try {
     Node root = converted(toml::parse(text, std::string_view(*source)), {text, source});
     root.place.line = 1;
@@ -169,7 +158,7 @@ Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>&
 Node parse_toml_value(std::string_view text, const Place& place) {
   const auto source = std::make_shared<const std::string>(place_text(place));
   limit_size(text, *source);
-  const WithoutTraps guard;
+  const WithoutTraps without_traps;  // "1e400" overflows inside the library on its way to a parse error
   Node value;
   try {
     // a line break would start another key; overrides are one line
