@@ -37,7 +37,7 @@ void resolve(benchmark::State& state, double depth, bool warm) {
   for (auto _ : state) {
     if (!warm)
       for (Contact<3>& c : work.contacts)
-        c.warm = {};
+        c.proof = {};
     narrow_phase<3>(work.pairs, settings, solvers, work.slots, counters);
     benchmark::DoNotOptimize(work.contacts.data());
   }

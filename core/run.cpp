@@ -67,6 +67,8 @@ const char* name(ContactStatus status) {
       return "apart";
     case ContactStatus::separated:
       return "separated";
+    case ContactStatus::undecided:
+      return "undecided";
     case ContactStatus::touching:
       return "touching";
     case ContactStatus::lp_not_converged:

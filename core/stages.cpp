@@ -105,18 +105,18 @@ template <int Dim>
 void forget(Contact<Dim>& contact) {
   contact.history = {};
   contact.force.setZero();
-  contact.warm.point_known = false;
+  if (contact.proof.kind == ProofKind::interior_point) contact.proof = {};
 }
 
 template <int Dim>
-void resolve(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, bool per_area,
+void resolve(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, Stage last,
              Contact<Dim>& contact, KernelCounters& counters) {
   // what the candidates' skin has added leaves no trace: the result is the same for any skin
   if (!meet(state.bounds[contact.part_a], state.bounds[contact.part_b])) {
     if (contact.status == ContactStatus::apart) return;
     contact.status = ContactStatus::apart;
     contact.area_rated = -1;
-    contact.warm.basis_known = false;
+    contact.proof = {};
     forget(contact);
     return;
   }
@@ -128,7 +128,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, const State<Dim>
                        axes,
                        axes.transpose() * matrix(state.motions[b].rotation),
                        axes.transpose() * between(model, state, a, b),
-                       per_area};
+                       last};
   Contact<Dim>* const slot = &contact;
   narrow_phase<Dim>(std::span(&pair, 1), settings.contact, model.solvers, std::span(&slot, 1), counters);
   if (contact.touching()) {
@@ -144,6 +144,8 @@ void add(Counters& total, const KernelCounters& k) {
   total.lp_solves += k.lp_solves;
   total.lp_pivots += k.lp_pivots;
   total.newton_iterations += k.newton_iterations;
+  total.undecided += k.undecided;
+  total.areas += k.areas;
   total.normal_fallbacks += k.normal_fallbacks;
   total.deep_overlaps += k.deep_overlaps;
 }
@@ -211,14 +213,14 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
 template <int Dim>
 void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const int count = static_cast<int>(state.contacts.size()), parts = static_cast<int>(model.parts.size());
-  const bool per_area = needs_area(model);
+  const Stage last = needs_area(model) ? Stage::area : Stage::overlap;
   state.bounds.resize(model.parts.size());
   KernelCounters total;
   if (settings.threads == 1) {
     for (int i = 0; i < parts; ++i)
       state.bounds[i] = bounds(model, state, i, 0);
     for (Contact<Dim>& c : state.contacts)
-      resolve(model, settings, state, per_area, c, total);
+      resolve(model, settings, state, last, c, total);
     add(state.counters, total);
   } else {
     Counters& counters = state.counters;
@@ -231,7 +233,7 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
         attempt(failure, [&] { state.bounds[i] = bounds(model, state, i, 0); });
 #pragma omp for schedule(static)
       for (int i = 0; i < count; ++i)
-        attempt(failure, [&] { resolve(model, settings, state, per_area, state.contacts[i], own); });
+        attempt(failure, [&] { resolve(model, settings, state, last, state.contacts[i], own); });
 #pragma omp critical
       add(counters, own);
     }

@@ -49,6 +49,8 @@ struct Counters {
   long long lp_solves = 0;
   long long lp_pivots = 0;
   long long newton_iterations = 0;
+  long long areas = 0;
+  long long undecided = 0;         // pairs nearer to touching than rounding can tell
   long long unconverged = 0;       // contacts without an answer: the run fails
   long long normal_fallbacks = 0;  // normals taken from a face or from the LP's multipliers
   long long deep_overlaps = 0;     // overlaps beyond the potential particle's radius

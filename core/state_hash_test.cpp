@@ -81,7 +81,7 @@ void expect_that_bookkeeping_does_not_show() {
   changed.state.contacts.pop_back();
   changed.state.contacts[0].joint = 7;
   changed.state.contacts[0].properties = 3;
-  changed.state.contacts[0].warm = {};
+  changed.state.contacts[0].proof = {};
   changed.state.contacts[0].area_rated = 1;
   changed.state.built.clear();
   changed.state.counters = {};

@@ -133,7 +133,8 @@ template <int Dim>
 void require_sound(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<Dim>& rotation,
                    const Vector<Dim>& offset, const Contact<Dim>& contact) {
   const ContactStatus status = contact.status;
-  require(status == ContactStatus::separated || status == ContactStatus::touching || status == ContactStatus::no_normal,
+  require(status == ContactStatus::separated || status == ContactStatus::undecided ||
+              status == ContactStatus::touching || status == ContactStatus::no_normal,
           "every pair converges");
   if (!contact.touching()) return;
   const ContactGeometry<Dim>& g = contact.geometry;

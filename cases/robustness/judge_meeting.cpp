@@ -104,7 +104,7 @@ Decision decide(const Meeting& meeting, const FeasibilityResult<3>& lp, const Sc
   const double error = std::max(value.low.get_d() - lp.value, lp.value - value.high.get_d());
   j = by_share(std::max(error, 0.0) / band, "the LP's value is off");
   if (j.verdict == Verdict::wrong) return decision;
-  const bool touching = status > ContactStatus::separated;  // or its stages failed
+  const bool touching = status > ContactStatus::undecided;  // or its stages failed
   if ((high >= -band && low <= band) || (!touching && value.high < 0 && low >= -band))
     j.verdict = Verdict::warned;  // undecided, or an overlap below the stated tolerance
   else if (touching != (high < 0))
@@ -218,7 +218,7 @@ Judgements judge_meeting(const Meeting& meeting) {
   const Decision decision = decide(meeting, lp, scene);
   of(all, Kernel::decision) = decision.judgement;
   const ContactStatus status = decision.contact.status;
-  if (status <= ContactStatus::separated || status == ContactStatus::lp_not_converged) return all;
+  if (status <= ContactStatus::undecided || status == ContactStatus::lp_not_converged) return all;
 
   // stage by stage, each judged on what it was given
   const CentreResult<3> centre =

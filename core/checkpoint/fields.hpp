@@ -75,15 +75,15 @@ void serialize(Archive& archive, JointState<Dim>& j) {
 }
 
 template <class Archive, int Dim>
-void serialize(Archive& archive, WarmStart<Dim>& w) {
-  auto& [point_known, point, basis_known, basis] = w;
-  archive(point_known, point, basis_known, basis);
+void serialize(Archive& archive, Proof<Dim>& p) {
+  auto& [kind, margin, point, axis, support, basis, section, section_size] = p;
+  archive(kind, margin, point, axis, support, basis, section, section_size);
 }
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, Contact<Dim>& c) {
-  auto& [part_a, part_b, sub, joint, properties, status, geometry, history, warm, force, area_rated] = c;
-  archive(part_a, part_b, sub, joint, properties, status, geometry, history, warm, force, area_rated);
+  auto& [part_a, part_b, sub, joint, properties, status, geometry, history, proof, force, area_rated] = c;
+  archive(part_a, part_b, sub, joint, properties, status, geometry, history, proof, force, area_rated);
 }
 
 template <class Archive>
@@ -94,8 +94,8 @@ void serialize(Archive& archive, Schedule& s) {
 
 template <class Archive>
 void serialize(Archive& archive, Counters& c) {
-  auto& [steps, evaluations, solves, pivots, iterations, unconverged, fallbacks, deep, builds] = c;
-  archive(steps, evaluations, solves, pivots, iterations, unconverged, fallbacks, deep, builds);
+  auto& [steps, evaluations, solves, pivots, iterations, areas, undecided, unconverged, fallbacks, deep, builds] = c;
+  archive(steps, evaluations, solves, pivots, iterations, areas, undecided, unconverged, fallbacks, deep, builds);
 }
 
 template <class Archive>

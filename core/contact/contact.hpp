@@ -1,4 +1,5 @@
-// A contact between two convex parts, split by lifetime: geometry (this step), joint state (history), warm start.
+// A contact between two convex parts, split by lifetime: geometry (this step), joint state (history), proof (what
+// decided it, and the next start).
 #pragma once
 
 #include <array>
@@ -8,9 +9,10 @@
 namespace voussoir {
 
 enum class ContactStatus {
-  apart,  // their boxes do not meet: not looked at
-  separated,
-  touching,
+  apart,                 // their boxes do not meet: not looked at
+  separated,             // proven
+  undecided,             // nearer to touching than rounding can tell, at most 64 ulp of the pair's size: no contact
+  touching,              // proven
   lp_not_converged,      // the LP hit its iteration limit
   centre_not_converged,  // Newton hit its limit or met a singular system
   no_normal,             // neither potential nor multipliers gave a direction
@@ -36,13 +38,25 @@ struct JointState {
   double dashpot = 0;                             // N: its share of the normal force, of the step before
 };
 
-// where the kernel starts next time; a new contact starts cold
+enum class ProofKind {
+  none,
+  interior_point,   // `point` lies inside both parts by at least `margin`
+  separating_axis,  // nothing of A lies beyond `support` along `axis`, nothing of B before support + margin
+  multipliers       // the LP's optimum is at least `margin`, by its multipliers (weak duality)
+};
+
+// What proves the answer, its own rounding included, and where the kernel starts next time. In the frame of the first
+// body. A new contact has none and starts cold.
 template <int Dim>
-struct WarmStart {
-  bool point_known = false;
-  Vector<Dim> point = Vector<Dim>::Zero();  // frame of the first body, m
-  bool basis_known = false;
-  std::array<int, Dim + 1> basis{};  // of the last LP that separated the parts
+struct Proof {
+  ProofKind kind = ProofKind::none;
+  double margin = 0;                         // m, positive
+  Vector<Dim> point = Vector<Dim>::Zero();   // m
+  Vector<Dim> axis = Vector<Dim>::Zero();    // unit: the axis that separates the parts, or the contact's normal
+  double support = 0;                        // m
+  std::array<int, Dim + 1> basis{};          // multipliers: the planes that have them, A's first
+  std::array<unsigned short, 12> section{};  // interior point: the planes that bound the section, in cyclic order
+  int section_size = 0;                      // 0: unknown, or too many
 };
 
 template <int Dim>
@@ -53,7 +67,7 @@ struct Contact {
   ContactStatus status = ContactStatus::apart;
   ContactGeometry<Dim> geometry;
   JointState<Dim> history;
-  WarmStart<Dim> warm;
+  Proof<Dim> proof;
   Vector<Dim> force = Vector<Dim>::Zero();  // N on the second body
   double area_rated = -1;                   // m²: the area the time step was last chosen for; negative: not yet
 

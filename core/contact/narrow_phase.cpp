@@ -80,8 +80,9 @@ struct Resolver {
     if (lp.status == FeasibilityStatus::separated_early ||
         (lp.status == FeasibilityStatus::optimal && lp.value >= limit)) {
       contact.status = ContactStatus::separated;
-      contact.warm.basis_known = true;
-      contact.warm.basis = lp.basis;
+      contact.proof.kind = ProofKind::multipliers;
+      contact.proof.margin = lp.value;
+      contact.proof.basis = lp.basis;
       return false;
     }
     if (lp.status != FeasibilityStatus::optimal) {
@@ -96,18 +97,18 @@ struct Resolver {
   bool establish_cold() {
     const std::array<int, Dim + 1> own = pair.a->basis;
     // the basis that separated the parts last time often still does; if not, the contact starts as any new one would
-    if (contact.warm.basis_known && !solve_lp(contact.warm.basis)) return false;
-    contact.warm.basis_known = false;
+    if (contact.proof.kind == ProofKind::multipliers && !solve_lp(contact.proof.basis)) return false;
+    contact.proof = {};
     return solve_lp(own);
   }
 
   // overlap is proven by the old contact point when it still lies inside, else by the LP
   bool establish() {
-    if (contact.warm.point_known && settings.point == ContactPoint::analytic_centre) {
-      start = contact.warm.point - origin;
+    if (contact.proof.kind == ProofKind::interior_point && settings.point == ContactPoint::analytic_centre) {
+      start = contact.proof.point - origin;
       if (smallest_slack<Dim>(planes, start) > decided) return true;
     }
-    contact.warm.point_known = false;
+    if (contact.proof.kind == ProofKind::interior_point) contact.proof = {};
     return establish_cold();
   }
 
@@ -156,14 +157,14 @@ struct Resolver {
     if (overlap > settings.potential_radius * size) ++counters.deep_overlaps;
 
     ContactGeometry<Dim>& geometry = contact.geometry;
-    if (pair.needs_area)
+    if (pair.last == Stage::area)
       geometry.area = section_area<Dim>(planes, point, normal, 4 * std::min(pair.a->radius, pair.b->radius));
     geometry.overlap = overlap;
     geometry.face_a = face_a;
     geometry.face_b = face_b - faces_a;
     geometry.normal = pair.axes * normal;
     geometry.point = pair.axes * (point + origin);
-    contact.warm = {true, point + origin, false, {}};
+    contact.proof = {ProofKind::interior_point, smallest_slack<Dim>(planes, point), point + origin, normal};
   }
 };
 

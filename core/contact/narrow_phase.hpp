@@ -11,25 +11,44 @@
 
 namespace voussoir {
 
+// how far a pair is resolved; each stage contains those before it
+enum class Stage {
+  decision,  // touching or not, and what proves it
+  point,     // and where
+  overlap,   // and in which direction, how far, between which faces
+  area       // and how wide
+};
+
 // Two parts as the first one sees them. Positions were subtracted before, so nothing depends on where the pair lies.
 template <int Dim>
 struct Pair {
   const Polytope<Dim>* a = nullptr;
   const Polytope<Dim>* b = nullptr;
-  Matrix<Dim> axes;        // frame of the first body -> world
-  Matrix<Dim> rotation;    // frame of the second body -> frame of the first
-  Vector<Dim> offset;      // centroid of the second body in the frame of the first, m
-  bool needs_area = true;  // whether the joint's law works per area
+  Matrix<Dim> axes;      // frame of the first body -> world
+  Matrix<Dim> rotation;  // frame of the second body -> frame of the first
+  Vector<Dim> offset;    // centroid of the second body in the frame of the first, m
+  Stage last = Stage::area;
 };
 
 // work done by the kernel, summed into the state's counters
 struct KernelCounters {
-  long long evaluations = 0, lp_solves = 0, lp_pivots = 0, newton_iterations = 0, normal_fallbacks = 0;
-  long long deep_overlaps = 0;
+  long long evaluations = 0;  // pairs looked at
+  long long axis_hits = 0;    // still separated by the axis of the step before
+  long long point_hits = 0;   // still touching at the point of the step before
+  long long cold_starts = 0;  // resolved from nothing
+  long long undecided = 0;    // nearer to touching than rounding can tell
+  long long lp_solves = 0;
+  long long lp_pivots = 0;
+  long long newton_iterations = 0;
+  long long centre_fallbacks = 0;  // Newton failed, Ipopt answered
+  long long areas = 0;
+  long long normal_fallbacks = 0;  // normals taken from a face or from the LP's multipliers
+  long long deep_overlaps = 0;     // overlaps beyond the potential particle's radius
 };
 
-// Resolves each pair into the contact at the same place: status, geometry and warm start. A contact that touched before
-// starts from its old point; a new one starts cold, so its result depends on the pair alone. History is not touched.
+// Resolves each pair into the contact at the same place: status, geometry and proof. A contact that has a proof starts
+// from it; a new one starts cold, so its result depends on the pair alone. A pair gives the same bits alone and in any
+// batch. History is not touched.
 template <int Dim>
 void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& settings, const Solvers<Dim>& solvers,
                   std::span<Contact<Dim>* const> contacts, KernelCounters& counters);

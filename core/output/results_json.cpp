@@ -55,6 +55,8 @@ Json counters_json(const Counters& counters) {
           {"lp_solves", counters.lp_solves},
           {"lp_pivots", counters.lp_pivots},
           {"newton_iterations", counters.newton_iterations},
+          {"areas", counters.areas},
+          {"undecided", counters.undecided},
           {"unconverged", counters.unconverged},
           {"normal_fallbacks", counters.normal_fallbacks},
           {"deep_overlaps", counters.deep_overlaps},
