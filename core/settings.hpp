@@ -18,9 +18,9 @@ struct ContactSettings {
   CentreSolver centre = CentreSolver::own;
   ContactPoint point = ContactPoint::analytic_centre;
 
-  // two parts touch when the LP's optimum lies below -tolerance times the smaller inscribed radius; below 64 ulp the
-  // sign is rounding, far above it contacts are found late
-  double tolerance = 1e-13;
+  // two parts touch when they overlap by more than this times the smaller inscribed radius, and by more than rounding
+  // hides (at most 64 ulp of the pair's size); far above that, contacts are found late
+  double tolerance = 0;
 
   // radius r of the inner potential particle that rounds the normal at edges, times the smaller inscribed radius; must
   // exceed the largest overlap; large values tilt the normal of face contacts near an edge

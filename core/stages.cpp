@@ -120,7 +120,6 @@ void resolve(const Model<Dim>& model, const Settings& settings, const State<Dim>
     forget(contact);
     return;
   }
-  ++counters.evaluations;
   const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
   const Matrix<Dim> axes = matrix(state.motions[a].rotation);
   const Pair<Dim> pair{&model.polytope(contact.part_a),

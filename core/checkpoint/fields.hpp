@@ -76,8 +76,8 @@ void serialize(Archive& archive, JointState<Dim>& j) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, Proof<Dim>& p) {
-  auto& [kind, margin, point, axis, support, basis, section, section_size] = p;
-  archive(kind, margin, point, axis, support, basis, section, section_size);
+  auto& [kind, margin, point, axis, tangent, support, basis, section, section_size] = p;
+  archive(kind, margin, point, axis, tangent, support, basis, section, section_size);
 }
 
 template <class Archive, int Dim>

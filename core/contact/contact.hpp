@@ -50,13 +50,14 @@ enum class ProofKind {
 template <int Dim>
 struct Proof {
   ProofKind kind = ProofKind::none;
-  double margin = 0;                         // m, positive
-  Vector<Dim> point = Vector<Dim>::Zero();   // m
-  Vector<Dim> axis = Vector<Dim>::Zero();    // unit: the axis that separates the parts, or the contact's normal
-  double support = 0;                        // m
-  std::array<int, Dim + 1> basis{};          // multipliers: the planes that have them, A's first
-  std::array<unsigned short, 12> section{};  // interior point: the planes that bound the section, in cyclic order
-  int section_size = 0;                      // 0: unknown, or too many
+  double margin = 0;                          // m, positive
+  Vector<Dim> point = Vector<Dim>::Zero();    // m
+  Vector<Dim> axis = Vector<Dim>::Zero();     // unit: the axis that separates the parts, or the contact's normal
+  Vector<Dim> tangent = Vector<Dim>::Zero();  // interior point, 3-D: with `axis` it spans what is thin
+  double support = 0;                         // m
+  std::array<int, Dim + 1> basis{};           // multipliers: the planes that have them, A's first
+  std::array<unsigned short, 12> section{};   // interior point: the planes that bound the section, in cyclic order
+  int section_size = 0;                       // 0: unknown, or too many
 };
 
 template <int Dim>

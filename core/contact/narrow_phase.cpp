@@ -3,293 +3,144 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "core/contact/general_road.hpp"
+#include "core/contact/kernel/kernel.hpp"
+#include "core/optimise/solvers.hpp"
 
 namespace voussoir {
 namespace {
 
-// gradients that differ by less give no direction
-constexpr double parallel_gradients = 1e-6;
+// rounding of a vertex's projection on an axis, as a share of the coordinates: two rotations and a sum
+constexpr double projection_rounding = 8 * std::numeric_limits<double>::epsilon();
 
-// an LP value nearer to zero than this share of the coordinates has the sign of their rounding
-constexpr double undecided = 4 * std::numeric_limits<double>::epsilon();
-
+// nothing of the part lies beyond this along the axis
 template <int Dim>
-double smallest_slack(const HalfSpaces<Dim>& planes, const Vector<Dim>& point) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const HalfSpace<Dim>& p : planes)
-    least = std::min(least, -signed_distance(p, point));
-  return least;
+double support(const Polytope<Dim>& part, const Vector<Dim>& axis) {
+  double most = -std::numeric_limits<double>::max();
+  for (const Vector<Dim>& v : part.vertices)
+    most = std::max(most, v.dot(axis));
+  return most + part.vertex_error + projection_rounding * part.radius;
 }
 
-// Σ over A's planes of λ a: the direction that separates the parts, or nearly does
+// how far the second part stays behind a plane of the first's frame, rounding included
 template <int Dim>
-Vector<Dim> separating_axis(const HalfSpaces<Dim>& planes, int faces_a, const FeasibilityResult<Dim>& lp) {
-  Vector<Dim> axis = Vector<Dim>::Zero();
-  for (int k = 0; k <= Dim; ++k)
-    if (lp.basis[k] >= 0 && lp.basis[k] < faces_a) axis += lp.multipliers[k] * planes[lp.basis[k]].normal;
-  const double length = axis.norm();
-  return length > parallel_gradients ? Vector<Dim>(axis / length) : Vector<Dim>(Vector<Dim>::Zero());
+double gap_behind(const Pair<Dim>& pair, const Vector<Dim>& axis, double support_a) {
+  const Polytope<Dim>& b = *pair.b;
+  const Vector<Dim> seen = pair.rotation.transpose() * axis;
+  double least = std::numeric_limits<double>::max();
+  for (const Vector<Dim>& v : b.vertices)
+    least = std::min(least, v.dot(seen));
+  const double distance = pair.offset.dot(axis);
+  return (least + distance - support_a) - b.vertex_error -
+         projection_rounding * (b.radius + std::abs(distance) + pair.offset.norm() + std::abs(support_a));
 }
 
-// one part's share of the normal: its unit gradient, or the normal of its nearest face where the gradient is zero
 template <int Dim>
-Vector<Dim> potential_direction(std::span<const HalfSpace<Dim>> faces, const Vector<Dim>& point, double radius,
-                                bool& fallback) {
-  Vector<Dim> gradient = Vector<Dim>::Zero();
-  double nearest = std::numeric_limits<double>::infinity();
-  int face = 0;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const double slack = -signed_distance(faces[i], point);
-    if (slack < radius) gradient += (radius - slack) * faces[i].normal;
-    if (slack < nearest) {
-      nearest = slack;
-      face = static_cast<int>(i);
-    }
-  }
-  const double length = gradient.norm();
-  if (length > parallel_gradients * radius) return gradient / length;
-  fallback = true;
-  return faces[face].normal;
+void set_apart(Contact<Dim>& contact) {
+  if (contact.status != ContactStatus::separated) contact.geometry = {};
+  contact.status = ContactStatus::separated;
 }
 
-// what one pair needs; kept between calls so that the step allocates nothing
+// whether the axis, unit and in the first body's frame, separates the parts
 template <int Dim>
-struct Resolver {
-  const Pair<Dim>& pair;
-  const ContactSettings& settings;
-  const Solvers<Dim>& solvers;
-  Contact<Dim>& contact;
-  KernelCounters& counters;
-  HalfSpaces<Dim>& planes;
+bool separates(const Pair<Dim>& pair, const Vector<Dim>& axis, double support_a, Contact<Dim>& contact) {
+  const double gap = gap_behind(pair, axis, support_a);
+  if (!(gap > 0)) return false;
+  set_apart(contact);
+  contact.proof.kind = ProofKind::separating_axis;
+  contact.proof.margin = gap;
+  contact.proof.axis = axis;
+  contact.proof.support = support_a;
+  return true;
+}
 
-  Vector<Dim> origin;  // of the local frame, in the first body's frame: the centre of the smaller part
-  double size;         // the smaller inscribed radius, m
-  double decided;      // m: overlaps beyond it are overlaps
-  int faces_a;
-  Vector<Dim> start;
-  FeasibilityResult<Dim> lp;
-  bool lp_solved = false;
-
-  // true when the parts overlap; otherwise the contact's status is set
-  bool solve_lp(const std::array<int, Dim + 1>& basis) {
-    const double limit = -decided;
-    const FeasibilityRequest<Dim> request{&basis, limit, 1e-15 * size};
-    lp = solvers.feasibility(planes, request);
-    ++counters.lp_solves;
-    counters.lp_pivots += lp.pivots;
-    if (lp.status == FeasibilityStatus::separated_early ||
-        (lp.status == FeasibilityStatus::optimal && lp.value >= limit)) {
-      contact.status = ContactStatus::separated;
-      contact.proof.kind = ProofKind::multipliers;
-      contact.proof.margin = lp.value;
-      contact.proof.basis = lp.basis;
-      return false;
-    }
-    if (lp.status != FeasibilityStatus::optimal) {
-      contact.status = ContactStatus::lp_not_converged;
-      return false;
-    }
-    lp_solved = true;
-    start = lp.point;
-    return true;
+// nothing is known of the pair, or what was known no longer holds
+template <int Dim>
+void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const Solvers<Dim>& solvers,
+                  KernelCounters& counters) {
+  const Pair<Dim>& pair = *task.pair;
+  Contact<Dim>& contact = *task.contact;
+  contact.proof = {};
+  ++counters.cold_starts;
+  const Vector<Dim> between = pair.offset + pair.rotation * pair.b->centre - pair.a->centre;
+  const double distance = between.norm();
+  if (distance > 0) {
+    const Vector<Dim> axis = between / distance;
+    if (separates(pair, axis, support(*pair.a, axis), contact)) return;
   }
-
-  bool establish_cold() {
-    const std::array<int, Dim + 1> own = pair.a->basis;
-    // the basis that separated the parts last time often still does; if not, the contact starts as any new one would
-    if (contact.proof.kind == ProofKind::multipliers && !solve_lp(contact.proof.basis)) return false;
-    contact.proof = {};
-    return solve_lp(own);
+  contact.geometry = {};
+  resolve_new(task, {settings.newton_tolerance, settings.newton_limit}, counters);
+  if (!task.answered) return resolve_generally(pair, settings, solvers, contact, counters);
+  if (contact.status == ContactStatus::separated) {
+    // the plane between them is cheaper to check next time than the multipliers
+    const Vector<Dim> axis = contact.proof.axis;
+    separates(pair, axis, support(*pair.a, axis), contact);
   }
+}
 
-  // overlap is proven by the old contact point when it still lies inside, else by the LP
-  bool establish() {
-    if (contact.proof.kind == ProofKind::interior_point && settings.point == ContactPoint::analytic_centre) {
-      start = contact.proof.point - origin;
-      if (smallest_slack<Dim>(planes, start) > decided) return true;
-    }
-    if (contact.proof.kind == ProofKind::interior_point) contact.proof = {};
-    return establish_cold();
-  }
+template <int Dim>
+bool kernel_suits(const ContactSettings& settings, const Solvers<Dim>& solvers) {
+  return settings.point == ContactPoint::analytic_centre && solvers.feasibility == &solve_feasibility<Dim> &&
+         solvers.centre == &solve_analytic_centre<Dim>;
+}
 
-  bool find_point(Vector<Dim>& point) {
-    if (settings.point == ContactPoint::chebyshev) {
-      point = start;
-      return true;
-    }
-    CentreResult<Dim> centre = solvers.centre(planes, {start, settings.newton_tolerance, settings.newton_limit});
-    counters.newton_iterations += centre.iterations;
-    if (centre.status != CentreStatus::converged && !lp_solved) {
-      // a warm start can be unlucky; a cold one is the definition
-      if (!establish_cold()) return false;
-      centre = solvers.centre(planes, {start, settings.newton_tolerance, settings.newton_limit});
-      counters.newton_iterations += centre.iterations;
-    }
-    point = centre.point;
-    if (centre.status == CentreStatus::converged) return true;
-    contact.status = ContactStatus::centre_not_converged;
-    return false;
-  }
-
-  bool find_normal(const Vector<Dim>& point, Vector<Dim>& normal) {
-    bool fallback = false;
-    const bool found = contact_normal<Dim>(planes, faces_a, point, settings.potential_radius * size, normal, fallback);
-    if (fallback || !found) ++counters.normal_fallbacks;
-    if (found) return true;
-    if (!lp_solved && !establish_cold()) return false;
-    normal = separating_axis(planes, faces_a, lp);
-    if (normal.isZero(0)) contact.status = ContactStatus::no_normal;  // one part deep inside the other
-    return !normal.isZero(0);
-  }
-
-  void resolve() {
-    contact.geometry = {};
-    Vector<Dim> point, normal;
-    double overlap = 0;
-    int face_a = -1, face_b = -1;
-    contact.status = ContactStatus::separated;
-    if (!establish() || !find_point(point) || !find_normal(point, normal)) return;
-    if (!overlap_along<Dim>(planes, faces_a, point, normal, overlap, face_a, face_b)) {
-      contact.status = ContactStatus::no_face;
-      return;
-    }
-    contact.status = ContactStatus::touching;
-    if (overlap > settings.potential_radius * size) ++counters.deep_overlaps;
-
-    ContactGeometry<Dim>& geometry = contact.geometry;
-    if (pair.last == Stage::area)
-      geometry.area = section_area<Dim>(planes, point, normal, 4 * std::min(pair.a->radius, pair.b->radius));
-    geometry.overlap = overlap;
-    geometry.face_a = face_a;
-    geometry.face_b = face_b - faces_a;
-    geometry.normal = pair.axes * normal;
-    geometry.point = pair.axes * (point + origin);
-    contact.proof = {ProofKind::interior_point, smallest_slack<Dim>(planes, point), point + origin, normal};
-  }
-};
+// pairs of equal size side by side: a register is as slow as its largest pair
+template <int Dim>
+void sort_by_size(std::vector<KernelTask<Dim>>& tasks) {
+  const auto smaller = [](const KernelTask<Dim>& s, const KernelTask<Dim>& t) {
+    const std::size_t a = s.pair->a->faces.size(), b = t.pair->a->faces.size();
+    return a != b ? a < b : s.pair->b->faces.size() < t.pair->b->faces.size();
+  };
+  if (!std::is_sorted(tasks.begin(), tasks.end(), smaller)) std::sort(tasks.begin(), tasks.end(), smaller);
+}
 
 }  // namespace
 
 template <int Dim>
-void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>& planes) {
-  planes.clear();
-  for (const HalfSpace<Dim>& f : pair.a->faces)
-    planes.push_back(moved_origin<Dim>(f, origin));
-  const Vector<Dim> shift = origin - pair.offset;
-  for (const HalfSpace<Dim>& f : pair.b->faces) {
-    const Vector<Dim> normal = pair.rotation * f.normal;
-    planes.push_back({normal, f.offset - normal.dot(shift)});
-  }
-}
-
-template <int Dim>
-bool contact_normal(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, double radius,
-                    Vector<Dim>& normal, bool& fallback) {
-  const std::span<const HalfSpace<Dim>> all(planes);
-  const Vector<Dim> difference = potential_direction<Dim>(all.first(faces_a), point, radius, fallback) -
-                                 potential_direction<Dim>(all.subspan(faces_a), point, radius, fallback);
-  const double length = difference.norm();
-  if (!(length > parallel_gradients)) return false;
-  normal = difference / length;
-  return true;
-}
-
-template <int Dim>
-bool overlap_along(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, const Vector<Dim>& normal,
-                   double& overlap, int& face_a, int& face_b) {
-  double forward = std::numeric_limits<double>::infinity(), backward = forward;
-  face_a = face_b = -1;
-  for (int i = 0; i < static_cast<int>(planes.size()); ++i) {
-    const double slope = i < faces_a ? planes[i].normal.dot(normal) : -planes[i].normal.dot(normal);
-    if (!(slope > 0)) continue;
-    const double distance = -signed_distance(planes[i], point) / slope;
-    double& best = i < faces_a ? forward : backward;
-    if (distance < best) {
-      best = distance;
-      (i < faces_a ? face_a : face_b) = i;
-    }
-  }
-  overlap = forward + backward;
-  return face_a >= 0 && face_b >= 0;
-}
-
-template <>
-double section_area(const HalfSpaces<2>& planes, const Vector<2>& point, const Vector<2>& normal, double reach) {
-  const Vector<2> along = perpendicular(normal);
-  double low = -reach, high = reach;
-  for (const HalfSpace<2>& p : planes) {
-    const double slope = p.normal.dot(along), slack = -signed_distance(p, point);
-    if (slope > 0) high = std::min(high, slack / slope);
-    if (slope < 0) low = std::max(low, slack / slope);
-  }
-  return std::max(high - low, 0.0);
-}
-
-template <>
-double section_area(const HalfSpaces<3>& planes, const Vector<3>& point, const Vector<3>& normal, double reach) {
-  static thread_local std::vector<Vector<2>> polygon, clipped;
-  const Vector<3> t1 = perpendicular(normal), t2 = normal.cross(t1);
-  polygon.assign({{-reach, -reach}, {reach, -reach}, {reach, reach}, {-reach, reach}});
-
-  // Sutherland-Hodgman in the section's plane: {y : q·y <= slack}
-  for (const HalfSpace<3>& p : planes) {
-    const Vector<2> q(p.normal.dot(t1), p.normal.dot(t2));
-    const double slack = -signed_distance(p, point);
-    clipped.clear();
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Vector<2>&here = polygon[k], &next = polygon[(k + 1) % polygon.size()];
-      const double inside_here = slack - q.dot(here), inside_next = slack - q.dot(next);
-      if (inside_here >= 0) clipped.push_back(here);
-      if ((inside_here > 0 && inside_next < 0) || (inside_here < 0 && inside_next > 0))
-        clipped.push_back(here + inside_here / (inside_here - inside_next) * (next - here));
-    }
-    std::swap(polygon, clipped);
-  }
-
-  double twice = 0;
-  for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
-    const Vector<2> u = polygon[k] - polygon[0], v = polygon[k + 1] - polygon[0];
-    twice += u[0] * v[1] - u[1] * v[0];
-  }
-  return 0.5 * std::abs(twice);
-}
-
-template <int Dim>
 void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& settings, const Solvers<Dim>& solvers,
                   std::span<Contact<Dim>* const> contacts, KernelCounters& counters) {
-  static thread_local HalfSpaces<Dim> planes;
+  static thread_local std::vector<KernelTask<Dim>> standing;
+  standing.clear();
+  counters.evaluations += static_cast<long long>(pairs.size());
+  const bool fast = kernel_suits(settings, solvers);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Pair<Dim>& pair = pairs[i];
-    const bool a_smaller = pair.a->radius < pair.b->radius;
-    const Vector<Dim> origin = a_smaller ? pair.a->centre : Vector<Dim>(pair.offset + pair.rotation * pair.b->centre);
-    assemble<Dim>(pair, origin, planes);
+    Contact<Dim>& contact = *contacts[i];
+    if (!fast) {
+      resolve_generally(pair, settings, solvers, contact, counters);
+      continue;
+    }
+    const Proof<Dim>& proof = contact.proof;
     const double size = std::min(pair.a->inscribed_radius, pair.b->inscribed_radius);
-    const double coordinates = origin.norm() + (origin - pair.offset).norm() + std::min(pair.a->radius, pair.b->radius);
-    Resolver<Dim>{.pair = pair,
-                  .settings = settings,
-                  .solvers = solvers,
-                  .contact = *contacts[i],
-                  .counters = counters,
-                  .planes = planes,
-                  .origin = origin,
-                  .size = size,
-                  .decided = std::max(settings.tolerance * size, undecided * coordinates),
-                  .faces_a = static_cast<int>(pair.a->faces.size()),
-                  .start = {},
-                  .lp = {}}
-        .resolve();
+    KernelTask<Dim> task{&pair, &contact, settings.potential_radius * size, settings.tolerance * size};
+    // the plane that separated them still does
+    if (proof.kind == ProofKind::separating_axis && separates(pair, Vector<Dim>(proof.axis), proof.support, contact)) {
+      ++counters.axis_hits;
+      continue;
+    }
+    // the point that was inside both still is: they go on together, below
+    if (proof.kind == ProofKind::interior_point) {
+      standing.push_back(task);
+      continue;
+    }
+    resolve_cold(task, settings, solvers, counters);
+  }
+
+  sort_by_size(standing);
+  resolve_standing<Dim>(standing, {settings.newton_tolerance, settings.newton_limit}, counters);
+  for (KernelTask<Dim>& task : standing) {
+    if (task.answered)
+      ++counters.point_hits;
+    else
+      resolve_cold(task, settings, solvers, counters);
   }
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \
-  template void narrow_phase<Dim>(std::span<const Pair<Dim>>, const ContactSettings&, const Solvers<Dim>&,             \
-                                  std::span<Contact<Dim>* const>, KernelCounters&);                                    \
-  template void assemble<Dim>(const Pair<Dim>&, const Vector<Dim>&, HalfSpaces<Dim>&);                                 \
-  template bool contact_normal<Dim>(const HalfSpaces<Dim>&, int, const Vector<Dim>&, double, Vector<Dim>&, bool&);     \
-  template bool overlap_along<Dim>(const HalfSpaces<Dim>&, int, const Vector<Dim>&, const Vector<Dim>&, double&, int&, \
-                                   int&);
-VOUSSOIR_INSTANTIATE(2)
-VOUSSOIR_INSTANTIATE(3)
-#undef VOUSSOIR_INSTANTIATE
+template void narrow_phase<2>(std::span<const Pair<2>>, const ContactSettings&, const Solvers<2>&,
+                              std::span<Contact<2>* const>, KernelCounters&);
+template void narrow_phase<3>(std::span<const Pair<3>>, const ContactSettings&, const Solvers<3>&,
+                              std::span<Contact<3>* const>, KernelCounters&);
 
 }  // namespace voussoir

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace voussoir {
 namespace {
@@ -126,6 +127,7 @@ Polytope<Dim> moved_origin(Polytope<Dim> part, const Vector<Dim>& shift) {
   }
   part.mass = moved_origin<Dim>(part.mass, shift);
   part.centre -= shift;
+  part.vertex_error = find_vertex_error(part);
   return part;
 }
 
@@ -143,6 +145,53 @@ double inertia_tensor(const MassProperties<2>& mass) {
 
 template MassProperties<2> integrate<2>(const std::vector<Vector<2>>&, const std::vector<std::vector<int>>&);
 template MassProperties<3> integrate<3>(const std::vector<Vector<3>>&, const std::vector<std::vector<int>>&);
+// The distance of the hull of unit vectors from the origin, from below, by Gilbert's method: it nears the hull's point
+// closest to the origin, and every iterate bounds the distance.
+template <int Dim>
+double distance_of_hull(const std::vector<Vector<Dim>>& vectors) {
+  constexpr int most_iterations = 64;
+  constexpr double good_enough = 0.5;
+  Vector<Dim> x = Vector<Dim>::Zero();
+  for (const Vector<Dim>& v : vectors)
+    x += v / static_cast<double>(vectors.size());
+  double bound = 0;
+  for (int k = 0; k < most_iterations; ++k) {
+    const double length = x.norm();
+    if (!(length > 0)) return 0;
+    const Vector<Dim>* least = &vectors.front();
+    for (const Vector<Dim>& v : vectors)
+      if (v.dot(x) < least->dot(x)) least = &v;
+    bound = std::max(bound, least->dot(x) / length);
+    if (bound >= good_enough * length) break;
+    const Vector<Dim> towards = *least - x;
+    x += std::clamp(-x.dot(towards) / towards.squaredNorm(), 0.0, 1.0) * towards;
+  }
+  return bound;
+}
+
+// At the corner where w·x is largest, w = Σ μ a over its faces, and w·x = Σ μ d exceeds w·v by at most Σ μ times the
+// largest slack of the computed corner v; Σ μ is at most one over the distance of the normals' hull from the origin.
+template <int Dim>
+double find_vertex_error(const Polytope<Dim>& part) {
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  std::vector<std::vector<Vector<Dim>>> normals(part.vertices.size());
+  std::vector<double> slack(part.vertices.size(), 0);
+  for (std::size_t f = 0; f < part.faces.size(); ++f)
+    for (const int v : part.loops[f]) {
+      normals[v].push_back(part.faces[f].normal);
+      slack[v] = std::max(slack[v], std::abs(signed_distance(part.faces[f], part.vertices[v])));
+    }
+  double worst = 0;
+  for (std::size_t v = 0; v < part.vertices.size(); ++v) {
+    const double distance = normals[v].empty() ? 0 : distance_of_hull<Dim>(normals[v]);
+    if (!(distance > rounding)) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, (slack[v] + rounding * part.vertices[v].norm()) / distance);
+  }
+  return worst;
+}
+
+template double find_vertex_error<2>(const Polytope<2>&);
+template double find_vertex_error<3>(const Polytope<3>&);
 template MassProperties<2> moved_origin<2>(const MassProperties<2>&, const Vector<2>&);
 template MassProperties<3> moved_origin<3>(const MassProperties<3>&, const Vector<3>&);
 template Polytope<2> moved_origin<2>(Polytope<2>, const Vector<2>&);

@@ -27,6 +27,8 @@ struct Polytope {
   Vector<Dim> centre = Vector<Dim>::Zero();  // its centre, m
   double radius = 0;                         // largest distance of a vertex from the body's origin, m
   std::array<int, Dim + 1> basis{};          // faces that touch the inscribed ball: the LP's start
+  Eigen::Matrix<double, Dim + 1, Dim + 1> basis_inverse;  // of the columns (normal, 1) of these faces
+  double vertex_error = 0;  // m: no point of the half-spaces lies farther outside the vertices' hull than this
 };
 
 // the order of solids, whatever order they were given in: by centroid, then volume
@@ -47,6 +49,11 @@ MassProperties<Dim> integrate(const std::vector<Vector<Dim>>& vertices, const st
 // the same mass properties seen from an origin moved by `shift`
 template <int Dim>
 MassProperties<Dim> moved_origin(const MassProperties<Dim>& mass, const Vector<Dim>& shift);
+
+// How far the half-spaces may reach beyond the hull of the vertices computed from them, m: at a sharp corner the rounding
+// of its planes moves it a long way.
+template <int Dim>
+double find_vertex_error(const Polytope<Dim>& part);
 
 // area (2-D: length) of a face
 template <int Dim>

@@ -125,6 +125,13 @@ Eigen::Matrix<double, Dim + 1, 1> meeting_point(const Basis<Dim>& basis, const H
   return solution;
 }
 
+template <int Dim>
+void record(const Basis<Dim>& basis, FeasibilityResult<Dim>& result) {
+  result.basis = basis.planes;
+  for (int k = 0; k <= Dim; ++k)
+    result.multipliers[k] = basis.multipliers()[k];
+}
+
 // whether the point lies on its tight planes, as far as rounding lets it
 template <int Dim>
 bool meets(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far,
@@ -137,23 +144,21 @@ bool meets(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far,
   return true;
 }
 
-// What the multipliers prove by weak duality whatever rounding did to them, for all x within the reach and with
-// negative ones left out: s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ.
+}  // namespace
+
 template <int Dim>
-double proven_bound(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far, double reach) {
+double proven_bound(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& result, double reach) {
   Vector<Dim> residual = Vector<Dim>::Zero();
   double sum = 0, offsets = 0;
   for (int k = 0; k <= Dim; ++k) {
-    const double lambda = std::max(basis.multipliers()[k], 0.0);
-    const HalfSpace<Dim> p = basis_plane(planes, basis.planes[k], far);
+    const double lambda = std::max(result.multipliers[k], 0.0);
+    const HalfSpace<Dim> p = basis_plane(planes, result.basis[k], 1000 * reach);
     residual += lambda * p.normal;
     offsets += lambda * p.offset;
     sum += lambda;
   }
   return -(offsets + residual.norm() * reach) / sum;
 }
-
-}  // namespace
 
 template <int Dim>
 FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request) {
@@ -175,9 +180,12 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
     result.value = -solution[Dim];
 
     // every basis is dual feasible, so its value is a lower bound; tiny pivots can spoil it, hence the proof
-    if (result.value > request.stop_above && proven_bound<Dim>(basis, planes, far, reach) > request.stop_above) {
-      result.status = FeasibilityStatus::separated_early;
-      break;
+    if (result.value > request.stop_above) {
+      record(basis, result);
+      if (proven_bound<Dim>(planes, result, reach) > request.stop_above) {
+        result.status = FeasibilityStatus::separated_early;
+        break;
+      }
     }
 
     // the most violated plane enters; after many pivots the first violated one, which cannot cycle
@@ -211,13 +219,11 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
     polished = false;
   }
 
-  result.basis = basis.planes;
-  for (int k = 0; k <= Dim; ++k) {
-    result.multipliers[k] = basis.multipliers()[k];
+  record(basis, result);
+  for (int k = 0; k <= Dim; ++k)
     if (basis.planes[k] < 0 && result.multipliers[k] > multiplier_rounding &&
         result.status == FeasibilityStatus::optimal)
       result.status = FeasibilityStatus::unbounded;
-  }
 
   // A degenerate start (two opposite faces carry all) can end with multipliers that are negative by more than rounding,
   // which would shift the value by as much, or nowhere: then the far planes start anew.
@@ -230,6 +236,8 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
   return result;
 }
 
+template double proven_bound<2>(const HalfSpaces<2>&, const FeasibilityResult<2>&, double);
+template double proven_bound<3>(const HalfSpaces<3>&, const FeasibilityResult<3>&, double);
 template FeasibilityResult<1> solve_feasibility<1>(const HalfSpaces<1>&, const FeasibilityRequest<1>&);
 template FeasibilityResult<2> solve_feasibility<2>(const HalfSpaces<2>&, const FeasibilityRequest<2>&);
 template FeasibilityResult<3> solve_feasibility<3>(const HalfSpaces<3>&, const FeasibilityRequest<3>&);

@@ -33,6 +33,11 @@ struct FeasibilityRequest {
 template <int Dim>
 FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request);
 
+// What the multipliers prove by weak duality whatever rounding did to them, negative ones left out:
+// s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ for all x within the reach (m). The planes count as exact.
+template <int Dim>
+double proven_bound(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& result, double reach);
+
 template <int Dim>
 using FeasibilitySolver = FeasibilityResult<Dim>(const HalfSpaces<Dim>&, const FeasibilityRequest<Dim>&);
 

@@ -1,5 +1,6 @@
 #include "core/slicing/block.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -108,6 +109,12 @@ BlockStatus describe(Polytope<Dim>& part) {
   part.inscribed_radius = -ball.value;
   part.centre = ball.point;
   part.basis = ball.basis;
+  Eigen::Matrix<double, Dim + 1, Dim + 1> columns;
+  for (int k = 0; k <= Dim; ++k) {
+    if (ball.basis[k] < 0) return BlockStatus::open;
+    columns.col(k) << part.faces[ball.basis[k]].normal, 1;
+  }
+  part.basis_inverse = columns.inverse();
   Surface<Dim> surface = surface_around(part.faces, ball);
   if (const BlockStatus status = judge(surface, part.inscribed_radius); status != BlockStatus::ok) return status;
 
@@ -129,6 +136,7 @@ BlockStatus describe(Polytope<Dim>& part) {
     part.radius = std::max(part.radius, v.norm());
   }
   part.mass = moved_origin<Dim>(part.mass, -ball.point);
+  part.vertex_error = find_vertex_error(part);
   return BlockStatus::ok;
 }
 

@@ -1,0 +1,320 @@
+#include "core/contact/general_road.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/contact/kernel/workspace.hpp"
+
+namespace voussoir {
+namespace {
+
+template <int Dim>
+double smallest_slack(const HalfSpaces<Dim>& planes, const Vector<Dim>& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const HalfSpace<Dim>& p : planes)
+    least = std::min(least, -signed_distance(p, point));
+  return least;
+}
+
+// Σ over A's planes of λ a: the direction that separates the parts, or nearly does
+template <int Dim>
+Vector<Dim> separating_axis(const HalfSpaces<Dim>& planes, int faces_a, const FeasibilityResult<Dim>& lp) {
+  Vector<Dim> axis = Vector<Dim>::Zero();
+  for (int k = 0; k <= Dim; ++k)
+    if (lp.basis[k] >= 0 && lp.basis[k] < faces_a) axis += lp.multipliers[k] * planes[lp.basis[k]].normal;
+  const double length = axis.norm();
+  return length > parallel_gradients ? Vector<Dim>(axis / length) : Vector<Dim>(Vector<Dim>::Zero());
+}
+
+// one part's share of the normal: its unit gradient, or the normal of its nearest face where the gradient is zero
+template <int Dim>
+Vector<Dim> potential_direction(std::span<const HalfSpace<Dim>> faces, const Vector<Dim>& point, double radius,
+                                bool& fallback) {
+  Vector<Dim> gradient = Vector<Dim>::Zero();
+  double nearest = std::numeric_limits<double>::infinity();
+  int face = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const double slack = -signed_distance(faces[i], point);
+    if (slack < radius) gradient += (radius - slack) * faces[i].normal;
+    if (slack < nearest) {
+      nearest = slack;
+      face = static_cast<int>(i);
+    }
+  }
+  const double length = gradient.norm();
+  if (length > parallel_gradients * radius) return gradient / length;
+  fallback = true;
+  return faces[face].normal;
+}
+
+// what one pair needs; kept between calls so that the step allocates nothing
+template <int Dim>
+struct Resolver {
+  const Pair<Dim>& pair;
+  const ContactSettings& settings;
+  const Solvers<Dim>& solvers;
+  Contact<Dim>& contact;
+  KernelCounters& counters;
+  HalfSpaces<Dim>& planes;
+
+  Vector<Dim> origin;  // of the local frame, in the first body's frame: the centre of the smaller part
+  double size;         // the smaller inscribed radius, m
+  double tolerance;    // m
+  double reach;        // m: no point of both parts lies farther from the origin
+  double rounding;     // m: of a slack
+  int faces_a;
+  Vector<Dim> start;
+  FeasibilityResult<Dim> lp;
+  bool lp_solved = false;
+
+  // true when the parts overlap; otherwise the contact's status is set
+  bool solve_lp(const std::array<int, Dim + 1>& basis) {
+    const FeasibilityRequest<Dim> request{&basis, rounding, rounding / 64};
+    lp = solvers.feasibility(planes, request);
+    ++counters.lp_solves;
+    counters.lp_pivots += lp.pivots;
+    const bool answered = lp.status == FeasibilityStatus::optimal || lp.status == FeasibilityStatus::separated_early;
+    if (!answered) {
+      contact.status = ContactStatus::lp_not_converged;
+      return false;
+    }
+    start = lp.point;
+    if (const double bound = proven_bound<Dim>(planes, lp, reach) - rounding; bound > 0) {
+      contact.status = ContactStatus::separated;
+      contact.proof.kind = ProofKind::multipliers;
+      contact.proof.margin = bound;
+      contact.proof.basis = lp.basis;
+      return false;
+    }
+    if (!(smallest_slack<Dim>(planes, start) > rounding + tolerance)) {
+      contact.status = ContactStatus::undecided;
+      contact.proof = {};
+      ++counters.undecided;
+      return false;
+    }
+    lp_solved = true;
+    return true;
+  }
+
+  bool establish_cold() {
+    // the basis that separated the parts last time often still does; if not, the contact starts as any new one would
+    if (contact.proof.kind == ProofKind::multipliers) {
+      const std::array<int, Dim + 1> old = contact.proof.basis;
+      if (!solve_lp(old)) return false;
+    }
+    contact.proof = {};
+    return solve_lp(pair.a->basis);
+  }
+
+  // overlap is proven by the old contact point when it still lies inside, else by the LP
+  bool establish() {
+    if (contact.proof.kind == ProofKind::interior_point && settings.point == ContactPoint::analytic_centre) {
+      start = contact.proof.point - origin;
+      if (smallest_slack<Dim>(planes, start) > rounding + tolerance) return true;
+    }
+    if (contact.proof.kind == ProofKind::interior_point) contact.proof = {};
+    return establish_cold();
+  }
+
+  bool find_point(Vector<Dim>& point) {
+    if (settings.point == ContactPoint::chebyshev) {
+      point = start;
+      return true;
+    }
+    CentreResult<Dim> centre = solvers.centre(planes, {start, settings.newton_tolerance, settings.newton_limit});
+    counters.newton_iterations += centre.iterations;
+    if (centre.status != CentreStatus::converged && !lp_solved) {
+      // a warm start can be unlucky; a cold one is the definition
+      if (!establish_cold()) return false;
+      centre = solvers.centre(planes, {start, settings.newton_tolerance, settings.newton_limit});
+      counters.newton_iterations += centre.iterations;
+    }
+    point = centre.point;
+    if (centre.status == CentreStatus::converged) return true;
+    contact.status = ContactStatus::centre_not_converged;
+    return false;
+  }
+
+  bool find_normal(const Vector<Dim>& point, Vector<Dim>& normal) {
+    bool fallback = false;
+    const bool found = contact_normal<Dim>(planes, faces_a, point, settings.potential_radius * size, normal, fallback);
+    if (fallback || !found) ++counters.normal_fallbacks;
+    if (found) return true;
+    if (!lp_solved && !establish_cold()) return false;
+    normal = separating_axis(planes, faces_a, lp);
+    if (normal.isZero(0)) contact.status = ContactStatus::no_normal;  // one part deep inside the other
+    return !normal.isZero(0);
+  }
+
+  // the centre of a region as thin as the rounding may round to its outside: the LP's point is as good
+  bool keep_inside(Vector<Dim>& point) {
+    const auto margin = [&] { return smallest_slack<Dim>(planes, point) - rounding; };
+    if (!(margin() > 0)) {
+      if (!lp_solved && !establish_cold()) return false;
+      point = start;
+    }
+    contact.proof = {.kind = ProofKind::interior_point, .margin = margin(), .point = point + origin};
+    contact.geometry.point = pair.axes * contact.proof.point;
+    return true;
+  }
+
+  void resolve() {
+    contact.geometry = {};
+    Vector<Dim> point, normal;
+    double overlap = 0;
+    int face_a = -1, face_b = -1;
+    contact.status = ContactStatus::separated;
+    if (!establish()) return;
+    point = start;
+    if (pair.last > Stage::decision && !find_point(point)) return;
+    if (!keep_inside(point)) return;
+    contact.status = ContactStatus::touching;
+    if (pair.last <= Stage::point) return;
+    if (!find_normal(point, normal)) return;
+    if (!overlap_along<Dim>(planes, faces_a, point, normal, overlap, face_a, face_b)) {
+      contact.status = ContactStatus::no_face;
+      return;
+    }
+    if (overlap > settings.potential_radius * size) ++counters.deep_overlaps;
+    ContactGeometry<Dim>& geometry = contact.geometry;
+    if (pair.last == Stage::area) {
+      ++counters.areas;
+      geometry.area = section_area<Dim>(planes, point, normal, 4 * std::min(pair.a->radius, pair.b->radius));
+    }
+    geometry.overlap = overlap;
+    geometry.face_a = face_a;
+    geometry.face_b = face_b - faces_a;
+    geometry.normal = pair.axes * normal;
+    contact.proof.axis = normal;
+    contact.proof.tangent = perpendicular(normal);
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>& planes) {
+  planes.clear();
+  for (const HalfSpace<Dim>& f : pair.a->faces)
+    planes.push_back(moved_origin<Dim>(f, origin));
+  const Vector<Dim> shift = origin - pair.offset;
+  for (const HalfSpace<Dim>& f : pair.b->faces) {
+    const Vector<Dim> normal = pair.rotation * f.normal;
+    planes.push_back({normal, f.offset - normal.dot(shift)});
+  }
+}
+
+template <int Dim>
+bool contact_normal(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, double radius,
+                    Vector<Dim>& normal, bool& fallback) {
+  const std::span<const HalfSpace<Dim>> all(planes);
+  const Vector<Dim> difference = potential_direction<Dim>(all.first(faces_a), point, radius, fallback) -
+                                 potential_direction<Dim>(all.subspan(faces_a), point, radius, fallback);
+  const double length = difference.norm();
+  if (!(length > parallel_gradients)) return false;
+  normal = difference / length;
+  return true;
+}
+
+template <int Dim>
+bool overlap_along(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, const Vector<Dim>& normal,
+                   double& overlap, int& face_a, int& face_b) {
+  double forward = std::numeric_limits<double>::infinity(), backward = forward;
+  face_a = face_b = -1;
+  for (int i = 0; i < static_cast<int>(planes.size()); ++i) {
+    const double slope = i < faces_a ? planes[i].normal.dot(normal) : -planes[i].normal.dot(normal);
+    if (!(slope > 0)) continue;
+    const double distance = -signed_distance(planes[i], point) / slope;
+    double& best = i < faces_a ? forward : backward;
+    if (distance < best) {
+      best = distance;
+      (i < faces_a ? face_a : face_b) = i;
+    }
+  }
+  overlap = forward + backward;
+  return face_a >= 0 && face_b >= 0;
+}
+
+template <>
+double section_area(const HalfSpaces<2>& planes, const Vector<2>& point, const Vector<2>& normal, double reach) {
+  const Vector<2> along = perpendicular(normal);
+  double low = -reach, high = reach;
+  for (const HalfSpace<2>& p : planes) {
+    const double slope = p.normal.dot(along), slack = -signed_distance(p, point);
+    if (slope > 0) high = std::min(high, slack / slope);
+    if (slope < 0) low = std::max(low, slack / slope);
+  }
+  return std::max(high - low, 0.0);
+}
+
+template <>
+double section_area(const HalfSpaces<3>& planes, const Vector<3>& point, const Vector<3>& normal, double reach) {
+  static thread_local std::vector<Vector<2>> polygon, clipped;
+  const Vector<3> t1 = perpendicular(normal), t2 = normal.cross(t1);
+  polygon.assign({{-reach, -reach}, {reach, -reach}, {reach, reach}, {-reach, reach}});
+
+  // Sutherland-Hodgman in the section's plane: {y : q·y <= slack}
+  for (const HalfSpace<3>& p : planes) {
+    const Vector<2> q(p.normal.dot(t1), p.normal.dot(t2));
+    const double slack = -signed_distance(p, point);
+    clipped.clear();
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Vector<2>&here = polygon[k], &next = polygon[(k + 1) % polygon.size()];
+      const double inside_here = slack - q.dot(here), inside_next = slack - q.dot(next);
+      if (inside_here >= 0) clipped.push_back(here);
+      if ((inside_here > 0 && inside_next < 0) || (inside_here < 0 && inside_next > 0))
+        clipped.push_back(here + inside_here / (inside_here - inside_next) * (next - here));
+    }
+    std::swap(polygon, clipped);
+  }
+
+  double twice = 0;
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+    const Vector<2> u = polygon[k] - polygon[0], v = polygon[k + 1] - polygon[0];
+    twice += u[0] * v[1] - u[1] * v[0];
+  }
+  return 0.5 * std::abs(twice);
+}
+
+template <int Dim>
+void resolve_generally(const Pair<Dim>& pair, const ContactSettings& settings, const Solvers<Dim>& solvers,
+                       Contact<Dim>& contact, KernelCounters& counters) {
+  static thread_local HalfSpaces<Dim> planes;
+  const bool a_smaller = pair.a->radius < pair.b->radius;
+  const Vector<Dim> origin = a_smaller ? pair.a->centre : Vector<Dim>(pair.offset + pair.rotation * pair.b->centre);
+  assemble<Dim>(pair, origin, planes);
+  const double size = std::min(pair.a->inscribed_radius, pair.b->inscribed_radius);
+  const double reach = 2 * std::min(pair.a->radius, pair.b->radius);
+  const double coordinates =
+      std::max(pair.a->radius, pair.b->radius) + origin.norm() + (origin - pair.offset).norm() + reach;
+  Resolver<Dim>{.pair = pair,
+                .settings = settings,
+                .solvers = solvers,
+                .contact = contact,
+                .counters = counters,
+                .planes = planes,
+                .origin = origin,
+                .size = size,
+                .tolerance = settings.tolerance * size,
+                .reach = reach,
+                .rounding = slack_rounding * coordinates,
+                .faces_a = static_cast<int>(pair.a->faces.size()),
+                .start = {},
+                .lp = {}}
+      .resolve();
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \
+  template void resolve_generally<Dim>(const Pair<Dim>&, const ContactSettings&, const Solvers<Dim>&, Contact<Dim>&,   \
+                                       KernelCounters&);                                                               \
+  template void assemble<Dim>(const Pair<Dim>&, const Vector<Dim>&, HalfSpaces<Dim>&);                                 \
+  template bool contact_normal<Dim>(const HalfSpaces<Dim>&, int, const Vector<Dim>&, double, Vector<Dim>&, bool&);     \
+  template bool overlap_along<Dim>(const HalfSpaces<Dim>&, int, const Vector<Dim>&, const Vector<Dim>&, double&, int&, \
+                                   int&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

@@ -1,0 +1,236 @@
+// A pair of which nothing is known: the dual simplex decides whether it touches (Eq. 3.27), and from its point a
+// primal-dual method goes most of the way to the analytic centre: from the corner where the simplex ends, Newton alone
+// would double its distance to the faces at every step.
+#if defined(VOUSSOIR_FIRST_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef VOUSSOIR_FIRST_INL
+#undef VOUSSOIR_FIRST_INL
+#else
+#define VOUSSOIR_FIRST_INL
+#endif
+
+#include <Eigen/Core>
+
+#include "core/contact/kernel/standing_inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace voussoir {
+namespace HWY_NAMESPACE {
+
+// Tight planes of the dual simplex. With C = columns (a_i, 1), C λ = (0, …, 0, 1) and (x, -s) C = d.
+template <int Dim>
+struct TightPlanes {
+  static constexpr int size = Dim + 1;
+  int planes[size];  // padded numbers
+  double inverse[size][size], offsets[size];
+};
+
+template <int Dim>
+HWY_INLINE Components<double, Dim> normal_of(const Meeting<OnePair, Dim>& m, int plane) {
+  Components<double, Dim> n;
+  for (int k = 0; k < Dim; ++k)
+    n[k] = m.at.normal[k][plane];
+  return n;
+}
+
+// the plane most violated at x, and by how much
+template <int Dim>
+HWY_INLINE void most_violated(const Meeting<OnePair, Dim>& m, const Components<double, Dim>& x, double& value,
+                              int& plane) {
+  using L = OnePair;
+  const Components<L::Wide, Dim> at = m.wide(x);
+  L::Wide best = L::wide(-std::numeric_limits<double>::max()), where = L::wide(0);
+  for (int slot = 0; slot < m.quads; ++slot) {
+    const L::Wide here = dot(m.normals(slot), at) - L::load(m.at.slack, slot);
+    const auto higher = here > best;
+    best = select(higher, here, best);
+    where = select(higher, L::slot_numbers(slot), where);
+  }
+  double number;
+  L::most_of(best, where, value, number);
+  plane = static_cast<int>(number);
+}
+
+// x and -s where the tight planes meet
+template <int Dim>
+HWY_INLINE void meet(const TightPlanes<Dim>& t, Components<double, Dim>& x, double& s) {
+  constexpr int size = TightPlanes<Dim>::size;
+  double y[size];
+  for (int j = 0; j < size; ++j) {
+    y[j] = t.offsets[0] * t.inverse[0][j];
+    for (int k = 1; k < size; ++k)
+      y[j] = y[j] + t.offsets[k] * t.inverse[k][j];
+  }
+  for (int j = 0; j < Dim; ++j)
+    x[j] = y[j];
+  s = -y[Dim];
+}
+
+// the entering plane takes the place of the first tight plane to lose its multiplier
+template <int Dim>
+HWY_INLINE bool exchange(TightPlanes<Dim>& t, int plane, const Components<double, Dim>& normal, double offset) {
+  constexpr int size = TightPlanes<Dim>::size;
+  double mu[size];
+  int leave = -1;
+  double least = std::numeric_limits<double>::max();
+  for (int k = 0; k < size; ++k) {
+    mu[k] = t.inverse[k][0] * normal[0];
+    for (int j = 1; j < Dim; ++j)
+      mu[k] = mu[k] + t.inverse[k][j] * normal[j];
+    mu[k] = mu[k] + t.inverse[k][Dim];
+    if (mu[k] <= smallest_exchange) continue;
+    const double ratio = larger(t.inverse[k][Dim], 0) / mu[k];
+    if (ratio < least || (ratio == least && leave >= 0 && mu[k] > mu[leave])) {
+      least = ratio;
+      leave = k;
+    }
+  }
+  if (leave < 0) return false;
+  const double scale = 1 / mu[leave];
+  for (int j = 0; j < size; ++j)
+    t.inverse[leave][j] *= scale;
+  for (int k = 0; k < size; ++k)
+    if (k != leave)
+      for (int j = 0; j < size; ++j)
+        t.inverse[k][j] -= mu[k] * t.inverse[leave][j];
+  t.planes[leave] = plane;
+  t.offsets[leave] = offset;
+  return true;
+}
+
+// Σ over A's planes of λ a: it separates the parts, or nearly does
+template <int Dim>
+HWY_INLINE Components<double, Dim> axis_of(const Meeting<OnePair, Dim>& m, const TightPlanes<Dim>& t) {
+  Components<double, Dim> axis{};
+  for (int k = 0; k <= Dim; ++k)
+    if (t.planes[k] < m.quads_a * planes_per_quad)
+      axis = axis + scaled(larger(t.inverse[k][Dim], 0), normal_of(m, t.planes[k]));
+  return axis;
+}
+
+// What the multipliers prove by weak duality whatever rounding did to them: s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ.
+template <int Dim>
+HWY_INLINE double proven_bound(const Meeting<OnePair, Dim>& m, const TightPlanes<Dim>& t, double reach) {
+  Components<double, Dim> residual{};
+  double sum = 0, offsets = 0;
+  for (int k = 0; k <= Dim; ++k) {
+    const double lambda = larger(t.inverse[k][Dim], 0);
+    residual = residual + scaled(lambda, normal_of(m, t.planes[k]));
+    offsets += lambda * t.offsets[k];
+    sum += lambda;
+  }
+  return -(offsets + size_of(residual) * reach) / sum - m.rounding - slack_rounding * reach;
+}
+
+enum class Decision { unknown, separated, touching };
+
+template <int Dim>
+HWY_INLINE Decision decide(const Meeting<OnePair, Dim>& m, TightPlanes<Dim>& t, double reach,
+                           Components<double, Dim>& x, double& bound, int& pivots) {
+  for (pivots = 0; pivots < most_exchanges; ++pivots) {
+    double s, worst;
+    int plane;
+    meet(t, x, s);
+    if (s > 0) {
+      bound = proven_bound(m, t, reach);
+      if (bound > 0) return Decision::separated;
+    }
+    most_violated(m, x, worst, plane);
+    const double rounding = m.rounding + 2 * slack_rounding * size_of(x);
+    // well inside, or as far inside as there is
+    if (worst < -(rounding + m.tolerance) && (worst <= well_inside * s || worst - s <= rounding))
+      return Decision::touching;
+    if (worst - s <= rounding) return Decision::unknown;
+    if (std::find(t.planes, t.planes + Dim + 1, plane) != t.planes + Dim + 1) return Decision::unknown;
+    if (!exchange(t, plane, normal_of(m, plane), m.at.slack[plane])) return Decision::unknown;
+  }
+  return Decision::unknown;
+}
+
+// the plane that is thinnest seen across the axis: largest tangential part of its normal over its slack at x
+template <int Dim>
+HWY_INLINE Components<double, Dim> thinnest_across(const Meeting<OnePair, Dim>& m, const Components<double, Dim>& axis,
+                                                   const Components<double, Dim>& x) {
+  using L = OnePair;
+  const Components<L::Wide, Dim> direction = m.wide(axis), at = m.wide(x);
+  L::Wide best = L::wide(0), where = L::wide(0);
+  for (int slot = 0; slot < m.quads; ++slot) {
+    const Components<L::Wide, Dim> n = m.normals(slot);
+    const L::Wide along = dot(n, direction), slack = L::load(m.at.slack, slot) - dot(n, at);
+    const L::Wide here = (L::wide(1) - along * along) / (slack * slack);
+    const auto thinner = here > best;
+    best = select(thinner, here, best);
+    where = select(thinner, L::slot_numbers(slot), where);
+  }
+  double value, number;
+  L::most_of(best, where, value, number);
+  const Components<double, Dim> n = normal_of(m, static_cast<int>(number));
+  const Components<double, Dim> across = n - scaled(dot(n, axis), axis);
+  const double length = root(dot(across, across));
+  return length > 0 ? scaled(1 / length, across) : across;
+}
+
+// the plane with the smallest slack at x, its normal seen from A to B
+template <int Dim>
+HWY_INLINE Components<double, Dim> nearest_face(const Meeting<OnePair, Dim>& m, const Components<double, Dim>& x) {
+  double value;
+  int plane;
+  most_violated(m, x, value, plane);
+  const Components<double, Dim> n = normal_of(m, plane);
+  return plane < m.quads_a * planes_per_quad ? n : scaled(-1.0, n);
+}
+
+// Primal-dual steps (weights z/s in place of 1/s²) until Newton would converge.
+template <int Dim>
+HWY_INLINE int approach_centre(Meeting<OnePair, Dim>& m) {
+  using L = OnePair;
+  constexpr int sums_count = Dim + Dim * (Dim + 1) / 2;
+  for (int slot = 0; slot < m.quads; ++slot)
+    L::store(L::wide(1) / L::load(m.at.slack, slot), m.at.multiplier, slot);
+  for (int k = 0; k < Dim; ++k)
+    m.moved[k] = 0;
+  int iterations = 0;
+  for (; iterations < most_approaches; ++iterations) {
+    double sums[sums_count];
+    L::sum<sums_count>(0, m.quads, sums, [&](int slot, L::Wide(&acc)[sums_count]) HWY_ATTR {
+      const L::Wide inverse = L::wide(1) / L::load(m.at.slack, slot);
+      const Components<L::Wide, Dim> n = m.normals(slot), p = scaled(inverse, n);
+      for (int k = 0; k < Dim; ++k)
+        L::store(p[k], m.at.scaled[k], slot);
+      accumulate(p, scaled(L::load(m.at.multiplier, slot), n), acc);
+    });
+    Components<double, Dim> step;
+    double decrement2;
+    bool solved;
+    newton_direction<OnePair, Dim>(sums, step, decrement2, solved);
+    if (!solved) return -1;
+    if (decrement2 < full_step_decrement2) break;
+
+    const Components<L::Wide, Dim> direction = m.wide(step);
+    L::Wide primal = L::wide(0), dual = primal;
+    for (int slot = 0; slot < m.quads; ++slot) {
+      const L::Wide z = L::load(m.at.multiplier, slot), inverse = L::wide(1) / L::load(m.at.slack, slot);
+      const L::Wide along = dot(m.scaled_normals(slot), direction);  // relative loss of slack
+      primal = larger(primal, along);
+      // relative loss of the multiplier: Δz = 1/s - z + z (a·Δx)/s
+      dual = larger(dual, (L::wide(1) - inverse / z) - along);
+    }
+    const double most_primal = L::most(primal), most_dual = L::most(dual);
+    const double slack_step = most_primal > near_boundary ? near_boundary / most_primal : 1;
+    const double multiplier_step = most_dual > near_boundary ? near_boundary / most_dual : 1;
+    const L::Wide ds = L::wide(slack_step), dz = L::wide(multiplier_step);
+    for (int slot = 0; slot < m.quads; ++slot) {
+      const L::Wide s = L::load(m.at.slack, slot), z = L::load(m.at.multiplier, slot);
+      const L::Wide along = dot(m.scaled_normals(slot), direction);
+      L::store(z + dz * (L::wide(1) / s - z + z * along), m.at.multiplier, slot);
+      L::store(s - ds * dot(m.normals(slot), direction), m.at.slack, slot);
+    }
+    for (int k = 0; k < Dim; ++k)
+      m.moved[k] = m.moved[k] + slack_step * step[k];
+  }
+  return iterations;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace voussoir
+HWY_AFTER_NAMESPACE();
+#endif

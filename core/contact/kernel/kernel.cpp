@@ -1,0 +1,319 @@
+#include "core/contact/kernel/kernel.hpp"
+
+// one compilation for each instruction set that is worth its size
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/contact/kernel/kernel.cpp"
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "core/contact/kernel/first_inl.hpp"
+#include "core/contact/kernel/standing_inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace voussoir {
+namespace HWY_NAMESPACE {
+
+Workspace& workspace() {
+  static thread_local Workspace own;
+  return own;
+}
+
+int quads_of(int planes) {
+  return (planes + planes_per_quad - 1) / planes_per_quad;
+}
+
+template <int Dim>
+const double* rows_of(const Polytope<Dim>& part) {
+  return reinterpret_cast<const double*>(part.faces.data());
+}
+
+// numbers of planes: the parts' faces, A's first, and the padded planes
+int padded(int plane, int count_a, int quads_a) {
+  return plane < count_a ? plane : plane - count_a + quads_a * planes_per_quad;
+}
+int unpadded(int plane, int count_a, int quads_a) {
+  return plane < count_a ? plane : plane + count_a - quads_a * planes_per_quad;
+}
+
+// tasks of one register, field by field
+template <class L, int Dim>
+struct Columns {
+  static constexpr int count = Dim * Dim + 4 * Dim + 4;
+  alignas(64) double x[count][L::width];
+
+  void fill(int lane, const KernelTask<Dim>& task, bool real) {
+    int f = 0;
+    const Pair<Dim>& pair = *task.pair;
+    const Proof<Dim>& proof = task.contact->proof;
+    for (int i = 0; i < Dim; ++i)
+      for (int j = 0; j < Dim; ++j)
+        x[f++][lane] = pair.rotation(i, j);
+    for (const Vector<Dim>* v : {&pair.offset, &proof.point, &proof.axis, &proof.tangent})
+      for (int k = 0; k < Dim; ++k)
+        x[f++][lane] = (*v)[k];
+    x[f++][lane] = std::max(pair.a->radius, pair.b->radius);
+    x[f++][lane] = task.tolerance;
+    x[f++][lane] = task.potential_radius;
+    x[f++][lane] = real;
+  }
+};
+
+template <class L, int Dim>
+HWY_INLINE void begin(Meeting<L, Dim>& m, const Columns<L, Dim>& in) {
+  int f = 0;
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j)
+      m.rotation[i][j] = L::pick(in.x[f++]);
+  for (Components<typename L::Real, Dim>* v : {&m.offset, &m.point, &m.axis, &m.tangent})
+    for (int k = 0; k < Dim; ++k)
+      (*v)[k] = L::pick(in.x[f++]);
+  m.reach = L::pick(in.x[f++]);
+  m.tolerance = L::pick(in.x[f++]);
+  m.potential_radius = L::pick(in.x[f++]);
+  m.good = L::picked(in.x[f++]);
+}
+
+template <class L, int Dim>
+struct Results {
+  alignas(64) double point[Dim][L::width], axis[Dim][L::width], overlap[L::width], area[L::width], face_a[L::width],
+      face_b[L::width], margin[L::width], iterations[L::width], good[L::width];
+
+  HWY_INLINE explicit Results(const Meeting<L, Dim>& m) {
+    const Components<typename L::Real, Dim> normal = from_frame(m.frame, m.normal);
+    for (int k = 0; k < Dim; ++k) {
+      L::put(m.point[k], point[k]);
+      L::put(normal[k], axis[k]);
+    }
+    L::put(m.overlap, overlap);
+    L::put(m.area, area);
+    L::put(m.face_a, face_a);
+    L::put(m.face_b, face_b);
+    L::put(m.least - m.rounding, margin);
+    L::put(m.iterations, iterations);
+    L::put(select(m.good, L::real(1), L::real(0)), good);
+  }
+
+  // into the task's contact, in world axes
+  void deliver(int lane, KernelTask<Dim>& task, const SectionList& list, int quads_a, KernelCounters& counters) const {
+    const Pair<Dim>& pair = *task.pair;
+    counters.newton_iterations += static_cast<long long>(iterations[lane]);
+    if (good[lane] == 0) return;
+    task.answered = true;
+    Contact<Dim>& contact = *task.contact;
+    Proof<Dim>& proof = contact.proof;
+    contact.status = ContactStatus::touching;
+    proof.kind = ProofKind::interior_point;
+    proof.margin = margin[lane];
+    for (int k = 0; k < Dim; ++k)
+      proof.point[k] = point[k][lane];
+    ContactGeometry<Dim>& geometry = contact.geometry;
+    geometry.point = pair.axes * proof.point;
+    if (pair.last < Stage::overlap) return;
+    for (int k = 0; k < Dim; ++k)
+      proof.axis[k] = axis[k][lane];
+    geometry.normal = pair.axes * proof.axis;
+    geometry.overlap = overlap[lane];
+    geometry.face_a = static_cast<int>(face_a[lane]);
+    geometry.face_b = static_cast<int>(face_b[lane]);
+    if (overlap[lane] > task.potential_radius) ++counters.deep_overlaps;
+    geometry.area = area[lane];
+    if (pair.last < Stage::area) return;
+    ++counters.areas;
+    const int count_a = static_cast<int>(pair.a->faces.size());
+    proof.section_size = list.size;
+    for (int k = 0; k < list.size; ++k) {
+      const int plane = unpadded(list.planes[k], count_a, quads_a);
+      if (plane > std::numeric_limits<unsigned short>::max()) proof.section_size = 0;
+      proof.section[k] = static_cast<unsigned short>(plane);
+    }
+  }
+};
+
+template <int Dim>
+void recall_section(const KernelTask<Dim>& task, int quads_a, SectionList& list) {
+  const Proof<Dim>& proof = task.contact->proof;
+  const int count_a = static_cast<int>(task.pair->a->faces.size());
+  list.size = proof.section_size;
+  for (int k = 0; k < list.size; ++k)
+    list.planes[k] = padded(proof.section[k], count_a, quads_a);
+}
+
+// as many tasks as the register holds pairs, or fewer
+template <class L, int Dim>
+void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters) {
+  Meeting<L, Dim> m;
+  Columns<L, Dim> in;
+  SectionList lists[L::width];
+  int count_a = 0, count_b = 0;
+  Stage last = Stage::decision;
+  for (int lane = 0; lane < L::width; ++lane) {
+    const bool real = lane < static_cast<int>(tasks.size());
+    const KernelTask<Dim>& task = tasks[real ? lane : 0];
+    in.fill(lane, task, real);
+    const Polytope<Dim>&a = *task.pair->a, &b = *task.pair->b;
+    m.a.rows[lane] = rows_of(a);
+    m.b.rows[lane] = rows_of(b);
+    m.a.count[lane] = static_cast<int>(a.faces.size());
+    m.b.count[lane] = static_cast<int>(b.faces.size());
+    count_a = std::max(count_a, m.a.count[lane]);
+    count_b = std::max(count_b, m.b.count[lane]);
+    last = std::max(last, task.pair->last);
+  }
+  m.quads_a = quads_of(count_a);
+  m.quads = m.quads_a + quads_of(count_b);
+  for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane)
+    recall_section(tasks[lane], m.quads_a, lists[lane]);
+  m.at = workspace().arrays<Dim>(m.quads * planes_per_quad * L::width);
+  begin(m, in);
+  resolve_from_point(m, last, options.newton_tolerance, options.newton_limit, lists);
+  const Results<L, Dim> results(m);
+  for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane)
+    results.deliver(lane, tasks[lane], lists[lane], m.quads_a, counters);
+}
+
+template <int Dim>
+HWY_NOINLINE void standing(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters) {
+  constexpr std::size_t width = ManyPairs::width;
+  while (tasks.size() > 1) {
+    const std::size_t count = std::min(width, tasks.size());
+    standing_group<ManyPairs, Dim>(tasks.first(count), options, counters);
+    tasks = tasks.subspan(count);
+  }
+  if (!tasks.empty()) standing_group<OnePair, Dim>(tasks, options, counters);
+}
+
+template <int Dim>
+HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, KernelCounters& counters) {
+  const Pair<Dim>& pair = *task.pair;
+  Contact<Dim>& contact = *task.contact;
+  Proof<Dim>& proof = contact.proof;
+  proof = {};
+  const Polytope<Dim>&a = *pair.a, &b = *pair.b;
+  Meeting<OnePair, Dim> m;
+  Columns<OnePair, Dim> in;
+  const bool a_smaller = a.radius < b.radius;
+  proof.point = a_smaller ? a.centre : Vector<Dim>(pair.offset + pair.rotation * b.centre);
+  in.fill(0, task, true);
+  begin(m, in);
+  m.a = {{rows_of(a)}, {static_cast<int>(a.faces.size())}};
+  m.b = {{rows_of(b)}, {static_cast<int>(b.faces.size())}};
+  m.quads_a = quads_of(m.a.count[0]);
+  m.quads = m.quads_a + quads_of(m.b.count[0]);
+  m.at = workspace().arrays<Dim>(m.quads * planes_per_quad);
+
+  // the LP in A's axes, seen from the centre of the smaller part
+  for (int i = 0; i < Dim; ++i)
+    for (int k = 0; k < Dim; ++k)
+      m.frame[i][k] = i == k;
+  assemble_planes(m);
+  TightPlanes<Dim> tight;
+  for (int k = 0; k <= Dim; ++k) {
+    if (a.basis[k] < 0) return;
+    tight.planes[k] = a.basis[k];
+    tight.offsets[k] = m.at.slack[a.basis[k]];
+    for (int j = 0; j <= Dim; ++j)
+      tight.inverse[k][j] = a.basis_inverse(k, j);
+  }
+  Components<double, Dim> x;
+  double bound = 0;
+  int pivots = 0;
+  const Decision decision = decide(m, tight, 4 * std::min(a.radius, b.radius), x, bound, pivots);
+  ++counters.lp_solves;
+  counters.lp_pivots += pivots;
+  if (decision == Decision::unknown) return;
+
+  Components<double, Dim> axis = axis_of(m, tight);
+  const double length = root(dot(axis, axis));
+  axis = length > parallel_gradients ? scaled(1 / length, axis) : nearest_face(m, x);
+  for (int k = 0; k < Dim; ++k)
+    proof.axis[k] = axis[k];
+  if (decision == Decision::separated) {
+    task.answered = true;
+    contact.status = ContactStatus::separated;
+    proof.kind = ProofKind::multipliers;
+    proof.margin = bound;
+    for (int k = 0; k <= Dim; ++k)
+      proof.basis[k] = unpadded(tight.planes[k], m.a.count[0], m.quads_a);
+    return;
+  }
+
+  m.axis = axis;
+  m.tangent = thinnest_across(m, axis, x);
+  m.point = m.point + x;
+  SectionList list;
+  if (pair.last > Stage::decision) {
+    build_frame(m);
+    assemble_planes(m);
+    if (none(m.good) || !(m.least > m.rounding)) return;
+    const int approaches = approach_centre(m);
+    if (approaches < 0) return;
+    counters.newton_iterations += approaches;
+
+    // from here the axes fit to where the point is now
+    const Components<double, Dim> origin{};
+    axis = nearest_face(m, origin);
+    const Components<double, Dim> tangent = thinnest_across(m, axis, origin);
+    m.point = m.point + from_frame(m.frame, m.moved);
+    m.axis = from_frame(m.frame, axis);
+    m.tangent = from_frame(m.frame, tangent);
+  }
+  for (int k = 0; k < Dim; ++k)
+    proof.tangent[k] = m.tangent[k];
+  resolve_from_point(m, pair.last, options.newton_tolerance, options.newton_limit, &list);
+  const Results<OnePair, Dim> results(m);
+  results.deliver(0, task, list, m.quads_a, counters);
+}
+
+void Standing2(std::span<KernelTask<2>> t, const KernelOptions& o, KernelCounters& c) {
+  standing<2>(t, o, c);
+}
+void Standing3(std::span<KernelTask<3>> t, const KernelOptions& o, KernelCounters& c) {
+  standing<3>(t, o, c);
+}
+void First2(KernelTask<2>& t, const KernelOptions& o, KernelCounters& c) {
+  first<2>(t, o, c);
+}
+void First3(KernelTask<3>& t, const KernelOptions& o, KernelCounters& c) {
+  first<3>(t, o, c);
+}
+int Width() {
+  return ManyPairs::width;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace voussoir
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace voussoir {
+
+HWY_EXPORT(Standing2);
+HWY_EXPORT(Standing3);
+HWY_EXPORT(First2);
+HWY_EXPORT(First3);
+HWY_EXPORT(Width);
+
+int kernel_width() {
+  return HWY_DYNAMIC_DISPATCH(Width)();
+}
+
+template <>
+void resolve_standing<2>(std::span<KernelTask<2>> tasks, const KernelOptions& options, KernelCounters& counters) {
+  HWY_DYNAMIC_DISPATCH(Standing2)(tasks, options, counters);
+}
+template <>
+void resolve_standing<3>(std::span<KernelTask<3>> tasks, const KernelOptions& options, KernelCounters& counters) {
+  HWY_DYNAMIC_DISPATCH(Standing3)(tasks, options, counters);
+}
+template <>
+void resolve_new<2>(KernelTask<2>& task, const KernelOptions& options, KernelCounters& counters) {
+  HWY_DYNAMIC_DISPATCH(First2)(task, options, counters);
+}
+template <>
+void resolve_new<3>(KernelTask<3>& task, const KernelOptions& options, KernelCounters& counters) {
+  HWY_DYNAMIC_DISPATCH(First3)(task, options, counters);
+}
+
+}  // namespace voussoir
+#endif

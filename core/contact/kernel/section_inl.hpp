@@ -1,0 +1,190 @@
+// The section of the overlap region by the contact plane: the polygon {y : q·y <= 1}, given by scaled planes q. Its
+// corners lie on consecutive planes of a cyclic list, which is kept from step to step; where it no longer holds, the
+// list is found anew.
+#if defined(VOUSSOIR_SECTION_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef VOUSSOIR_SECTION_INL
+#undef VOUSSOIR_SECTION_INL
+#else
+#define VOUSSOIR_SECTION_INL
+#endif
+
+#include <algorithm>
+
+#include "core/contact/kernel/lanes_inl.hpp"
+#include "core/contact/kernel/workspace.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace voussoir {
+namespace HWY_NAMESPACE {
+
+// Areas from the lists of each pair; `known` where the list still holds: each corner lies between its planes and inside
+// all the others.
+template <class L>
+HWY_INLINE void section_area_of(const double* q0, const double* q1, int quads, const SectionList* lists,
+                                const typename L::Bool& good, typename L::Real& area, typename L::Bool& known) {
+  using Real = typename L::Real;
+  using Wide = typename L::Wide;
+  constexpr int most = std::tuple_size_v<decltype(SectionList::planes)>;
+  const Real zero = L::real(0), one = L::real(1);
+  int longest = 0;
+  double listed[L::width];
+  for (int lane = 0; lane < L::width; ++lane) {
+    longest = std::max(longest, lists[lane].size);
+    listed[lane] = lists[lane].size > 2;
+  }
+  area = zero;
+  known = both(good, L::picked(listed));
+  if (none(known)) return;
+
+  // planes of the lists; short ones end with their first plane again and again
+  Real a0[most + 1], a1[most + 1];
+  double more[most + 1][L::width];
+  for (int k = 0; k <= longest; ++k) {
+    double x[L::width], y[L::width];
+    for (int lane = 0; lane < L::width; ++lane) {
+      const SectionList& list = lists[lane];
+      const int plane = list.planes[k < list.size ? k : 0];
+      x[lane] = q0[plane * L::width + lane];
+      y[lane] = q1[plane * L::width + lane];
+      more[k][lane] = k < list.size;
+    }
+    a0[k] = L::pick(x);
+    a1[k] = L::pick(y);
+  }
+
+  Real c0[most + 1], c1[most + 1];
+  for (int k = 0; k < longest; ++k) {
+    const Real turn = a0[k] * a1[k + 1] - a1[k] * a0[k + 1];
+    const auto here = L::picked(more[k]);
+    const auto convex = turn > zero;
+    known = but_not(known, but_not(here, convex));
+    const Real inverse = one / select(convex, turn, one);
+    c0[k] = select(here, (a1[k + 1] - a1[k]) * inverse, c0[0]);
+    c1[k] = select(here, (a0[k] - a0[k + 1]) * inverse, c1[0]);
+  }
+  c0[longest] = c0[0];
+  c1[longest] = c1[0];
+  if (none(known)) return;
+
+  Wide highest = L::wide(0.0);
+  for (int k = 0; k < longest; ++k) {
+    const Wide x = L::wide(c0[k]), y = L::wide(c1[k]);
+    for (int slot = 0; slot < quads * L::slots_per_quad; ++slot)
+      highest = larger(highest, L::load(q0, slot) * x + L::load(q1, slot) * y);
+  }
+  known = both(known, L::most(highest) < L::real(1 + corner_tolerance));
+  for (int k = 0; k < longest; ++k)
+    area = area + (c0[k] * c1[k + 1] - c1[k] * c0[k + 1]);
+  area = L::real(0.5) * area;
+}
+
+// the plane with the largest q·y
+HWY_INLINE void highest_plane(const double* q0, const double* q1, int quads, double y0, double y1, double& value,
+                              int& plane) {
+  using L = OnePair;
+  const L::Wide x = L::wide(y0), y = L::wide(y1);
+  L::Wide best = L::wide(-std::numeric_limits<double>::max()), where = L::wide(0);
+  for (int slot = 0; slot < quads; ++slot) {
+    const L::Wide here = L::load(q0, slot) * x + L::load(q1, slot) * y;
+    const auto higher = here > best;
+    best = select(higher, here, best);
+    where = select(higher, L::slot_numbers(slot), where);
+  }
+  double number;
+  L::most_of(best, where, value, number);
+  plane = static_cast<int>(number);
+}
+
+// Finds the cyclic list from nothing: four extreme planes, then at each corner the plane that cuts it off, until none
+// does. False when there are more than most_corners, or rounding hides which planes bound the section.
+HWY_INLINE bool find_section(const double* q0, const double* q1, int quads, int (&list)[most_corners], int& size,
+                             double& area) {
+  const double directions[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+  size = 0;
+  double value;
+  int plane;
+  for (const auto& d : directions) {
+    highest_plane(q0, q1, quads, d[0], d[1], value, plane);
+    if (std::find(list, list + size, plane) == list + size) list[size++] = plane;
+  }
+  double c0[most_corners], c1[most_corners];
+  for (int k = 0; k < size;) {
+    const int a = list[k], b = list[k + 1 == size ? 0 : k + 1];
+    const double turn = q0[a] * q1[b] - q1[a] * q0[b];
+    bool cut;
+    if (turn > 0) {
+      const double inverse = 1 / turn;
+      c0[k] = (q1[b] - q1[a]) * inverse;
+      c1[k] = (q0[a] - q0[b]) * inverse;
+      highest_plane(q0, q1, quads, c0[k], c1[k], value, plane);
+      cut = value >= 1 + corner_tolerance;
+    } else {
+      // half a turn or more between the two: some plane lies there, or the section is open
+      highest_plane(q0, q1, quads, -q1[a], q0[a], value, plane);
+      if (!(value > 0)) return false;
+      cut = true;
+    }
+    if (!cut) {
+      ++k;
+      continue;
+    }
+    if (size == most_corners || std::find(list, list + size, plane) != list + size) return false;
+    std::copy_backward(list + k + 1, list + size, list + size + 1);
+    list[k + 1] = plane;
+    ++size;
+  }
+  if (size < 3) return false;
+  // the same list however it was found: it begins with its smallest number
+  const int first = static_cast<int>(std::min_element(list, list + size) - list);
+  std::rotate(list, list + first, list + size);
+  std::rotate(c0, c0 + first, c0 + size);
+  std::rotate(c1, c1 + first, c1 + size);
+  area = 0;
+  for (int k = 0; k < size; ++k) {
+    const int next = k + 1 == size ? 0 : k + 1;
+    area = area + (c0[k] * c1[next] - c1[k] * c0[next]);
+  }
+  area = 0.5 * area;
+  return true;
+}
+
+// new lists for the pairs in `wanted`, one at a time
+template <class L, int Dim>
+HWY_INLINE void rebuild_sections(const Arrays<Dim>& at, int quads, SectionList* lists, const typename L::Bool& wanted,
+                                 typename L::Real& area, typename L::Bool& good) {
+  if (none(wanted)) return;
+  double found[L::width], areas[L::width], failed[L::width];
+  L::put(area, areas);
+  L::put(select(wanted, L::real(1), L::real(0)), found);
+  for (int lane = 0; lane < L::width; ++lane) {
+    failed[lane] = 0;
+    if (found[lane] == 0) continue;
+    const double *q0 = at.scaled[0], *q1 = at.scaled[1];
+    if constexpr (!L::one_pair) {
+      // slacks and normals are done with: room for one pair's planes
+      const int count = quads * planes_per_quad;
+      for (int i = 0; i < count; ++i) {
+        at.slack[i] = q0[i * L::width + lane];
+        at.multiplier[i] = q1[i * L::width + lane];
+      }
+      q0 = at.slack;
+      q1 = at.multiplier;
+    }
+    int list[most_corners], size;
+    lists[lane].size = 0;
+    if (!find_section(q0, q1, quads, list, size, areas[lane])) {
+      failed[lane] = 1;
+      areas[lane] = 0;
+    } else if (size <= static_cast<int>(lists[lane].planes.size())) {
+      std::copy(list, list + size, lists[lane].planes.begin());
+      lists[lane].size = size;
+    }
+  }
+  area = L::pick(areas);
+  good = but_not(good, L::picked(failed));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace voussoir
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,379 @@
+// A contact from a point known to lie inside both parts: Newton to the analytic centre, normal, overlap, area.
+// Written once for both ways to fill a register (lanes_inl.hpp).
+//
+// All of it works in the contact frame: origin at the start, axes along the old normal and the next-thinnest direction.
+// There the Hessian is graded and factorising it top down loses nothing, however thin the region is (the thesis' 3.3.6
+// without its scaling factors).
+#if defined(VOUSSOIR_STANDING_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef VOUSSOIR_STANDING_INL
+#undef VOUSSOIR_STANDING_INL
+#else
+#define VOUSSOIR_STANDING_INL
+#endif
+
+#include <limits>
+
+#include "core/contact/kernel/lanes_inl.hpp"
+#include "core/contact/kernel/section_inl.hpp"
+#include "core/contact/kernel/workspace.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace voussoir {
+namespace HWY_NAMESPACE {
+
+// ---- what one register's worth of pairs needs -----------------------------------------------------------------------
+
+template <class L, int Dim>
+struct Meeting {
+  using Real = typename L::Real;
+  using Wide = typename L::Wide;
+  using Bool = typename L::Bool;
+
+  Sources<L::width> a, b;  // planes as the parts store them
+  int quads_a = 0, quads = 0;
+  Arrays<Dim> at;
+
+  Components<Real, Dim> rotation[Dim], offset;  // rows; B's frame -> A's
+  Components<Real, Dim> point, axis, tangent;   // A's frame
+  Components<Real, Dim> frame[Dim];             // rows: normal, tangent, binormal
+  Real reach;                                   // m, the larger of the parts' radii
+  Real tolerance, potential_radius;
+  Bool good;
+
+  Real rounding;                 // m, of a slack
+  Components<Real, Dim> moved;   // contact frame
+  Real least;                    // smallest slack
+  Components<Real, Dim> normal;  // contact frame
+  Real overlap, area, face_a, face_b, iterations;
+
+  HWY_INLINE Components<Wide, Dim> wide(const Components<Real, Dim>& x) const {
+    Components<Wide, Dim> r;
+    for (int k = 0; k < Dim; ++k)
+      r[k] = L::wide(x[k]);
+    return r;
+  }
+  HWY_INLINE Components<Wide, Dim> normals(int slot) const {
+    Components<Wide, Dim> r;
+    for (int k = 0; k < Dim; ++k)
+      r[k] = L::load(at.normal[k], slot);
+    return r;
+  }
+  HWY_INLINE Components<Wide, Dim> scaled_normals(int slot) const {
+    Components<Wide, Dim> r;
+    for (int k = 0; k < Dim; ++k)
+      r[k] = L::load(at.scaled[k], slot);
+    return r;
+  }
+};
+
+template <class Real>
+HWY_INLINE Real size_of(const Components<Real, 2>& x) {
+  return larger(x[0], -x[0]) + larger(x[1], -x[1]);
+}
+template <class Real>
+HWY_INLINE Real size_of(const Components<Real, 3>& x) {
+  return larger(x[0], -x[0]) + larger(x[1], -x[1]) + larger(x[2], -x[2]);
+}
+
+// Σ x_k row_k
+template <class Real, int Dim>
+HWY_INLINE Components<Real, Dim> from_frame(const Components<Real, Dim> (&rows)[Dim], const Components<Real, Dim>& x) {
+  Components<Real, Dim> r = scaled(x[0], rows[0]);
+  for (int k = 1; k < Dim; ++k)
+    r = r + scaled(x[k], rows[k]);
+  return r;
+}
+
+// ---- the stages -----------------------------------------------------------------------------------------------------
+
+template <class L, int Dim>
+HWY_INLINE void build_frame(Meeting<L, Dim>& m) {
+  using Real = typename L::Real;
+  m.frame[0] = m.axis;
+  if constexpr (Dim == 2) {
+    m.frame[1] = {-m.axis[1], m.axis[0]};
+  } else {
+    Components<Real, 3> binormal = cross_product(m.axis, m.tangent);
+    const Real length2 = dot(binormal, binormal);
+    m.good = both(m.good, length2 > L::real(smallest_binormal2));
+    const Real inverse = L::real(1) / root(select(m.good, length2, L::real(1)));
+    m.frame[2] = scaled(inverse, binormal);
+    m.frame[1] = cross_product(m.frame[2], m.frame[0]);
+  }
+}
+
+// Planes in the contact frame and their slacks at the start; the slacks in each part's own frame, to full accuracy.
+template <class L, int Dim>
+HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
+  using Real = typename L::Real;
+  using Wide = typename L::Wide;
+  const Components<Real, Dim> from_b = m.point - m.offset;
+  Components<Real, Dim> point_b, columns[Dim], frame_b[Dim];
+  for (int k = 0; k < Dim; ++k)
+    for (int j = 0; j < Dim; ++j)
+      columns[k][j] = m.rotation[j][k];
+  for (int k = 0; k < Dim; ++k)
+    point_b[k] = dot(columns[k], from_b);
+  for (int i = 0; i < Dim; ++i)
+    for (int k = 0; k < Dim; ++k)
+      frame_b[i][k] = dot(m.frame[i], columns[k]);
+
+  Wide least = L::wide(std::numeric_limits<double>::max());
+  const auto part = [&](const Sources<L::width>& source, int first, int last, const Components<Real, Dim>& origin,
+                        const Components<Real, Dim>(&rows)[Dim]) HWY_ATTR {
+    const Components<Wide, Dim> x = m.wide(origin);
+    Components<Wide, Dim> turn[Dim];
+    for (int i = 0; i < Dim; ++i)
+      turn[i] = m.wide(rows[i]);
+    for (int slot = first * L::slots_per_quad; slot < last * L::slots_per_quad; ++slot) {
+      Components<Wide, Dim> n;
+      Wide d;
+      load_planes<L, Dim>(source, slot - first * L::slots_per_quad, n, d);
+      const Wide slack = d - dot(n, x);
+      least = smaller(least, slack);
+      L::store(slack, m.at.slack, slot);
+      for (int i = 0; i < Dim; ++i)
+        L::store(dot(turn[i], n), m.at.normal[i], slot);
+    }
+  };
+  part(m.a, 0, m.quads_a, m.point, m.frame);
+  part(m.b, m.quads_a, m.quads, point_b, frame_b);
+  m.least = L::least(least);
+  m.rounding = L::real(slack_rounding) * (m.reach + L::real(2) * (size_of(m.point) + size_of(from_b)));
+}
+
+// Newton's direction of -Σ log s in a graded frame, and its decrement²; `solved` where the system has full rank.
+template <class L, int Dim>
+HWY_INLINE void newton_direction(const typename L::Real (&sums)[Dim + Dim * (Dim + 1) / 2],
+                                 Components<typename L::Real, Dim>& step, typename L::Real& decrement2,
+                                 typename L::Bool& solved) {
+  using Real = typename L::Real;
+  const Real one = L::real(1), zero = L::real(0), tiny = L::real(smallest_pivot);
+  if constexpr (Dim == 2) {
+    const Real g0 = sums[0], g1 = sums[1], h00 = sums[2], h01 = sums[3], h11 = sums[4];
+    solved = h00 > zero;
+    const Real i0 = one / select(solved, h00, one), l1 = h01 * i0, d1 = h11 - l1 * h01;
+    solved = both(solved, d1 > tiny * h11);
+    const Real i1 = one / select(solved, d1, one), y0 = -g0, y1 = -g1 - l1 * y0;
+    step[1] = y1 * i1;
+    step[0] = y0 * i0 - l1 * step[1];
+    decrement2 = y0 * y0 * i0 + y1 * y1 * i1;
+  } else {
+    const Real g0 = sums[0], g1 = sums[1], g2 = sums[2], h00 = sums[3], h01 = sums[4], h02 = sums[5], h11 = sums[6],
+               h12 = sums[7], h22 = sums[8];
+    solved = h00 > zero;
+    const Real i0 = one / select(solved, h00, one), l1 = h01 * i0, l2 = h02 * i0, d1 = h11 - l1 * h01;
+    solved = both(solved, d1 > tiny * h11);
+    const Real i1 = one / select(solved, d1, one), c = h12 - l2 * h01, l21 = c * i1, d2 = h22 - l2 * h02 - l21 * c;
+    solved = both(solved, d2 > tiny * h22);
+    const Real i2 = one / select(solved, d2, one), y0 = -g0, y1 = -g1 - l1 * y0, y2 = -g2 - l2 * y0 - l21 * y1;
+    step[2] = y2 * i2;
+    step[1] = y1 * i1 - l21 * step[2];
+    step[0] = y0 * i0 - l1 * step[1] - l2 * step[2];
+    decrement2 = y0 * y0 * i0 + y1 * y1 * i1 + y2 * y2 * i2;
+  }
+}
+
+// one slot's share of the gradient, Σ p, and of the Hessian, Σ wp pᵀ
+template <class Wide, int K>
+HWY_INLINE void accumulate(const Components<Wide, 2>& p, const Components<Wide, 2>& wp, Wide (&acc)[K]) {
+  acc[0] = acc[0] + p[0];
+  acc[1] = acc[1] + p[1];
+  acc[2] = acc[2] + wp[0] * p[0];
+  acc[3] = acc[3] + wp[0] * p[1];
+  acc[4] = acc[4] + wp[1] * p[1];
+}
+template <class Wide, int K>
+HWY_INLINE void accumulate(const Components<Wide, 3>& p, const Components<Wide, 3>& wp, Wide (&acc)[K]) {
+  acc[0] = acc[0] + p[0];
+  acc[1] = acc[1] + p[1];
+  acc[2] = acc[2] + p[2];
+  acc[3] = acc[3] + wp[0] * p[0];
+  acc[4] = acc[4] + wp[0] * p[1];
+  acc[5] = acc[5] + wp[0] * p[2];
+  acc[6] = acc[6] + wp[1] * p[1];
+  acc[7] = acc[7] + wp[1] * p[2];
+  acc[8] = acc[8] + wp[2] * p[2];
+}
+
+// Damped Newton until the decrement before the last step was below the tolerance. Pairs that are done stand still.
+template <class L, int Dim>
+HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
+  using Real = typename L::Real;
+  using Wide = typename L::Wide;
+  using Bool = typename L::Bool;
+  constexpr int sums_count = Dim + Dim * (Dim + 1) / 2;
+  const Real zero = L::real(0), one = L::real(1), enough = L::real(tolerance * tolerance);
+  for (int k = 0; k < Dim; ++k)
+    m.moved[k] = zero;
+  m.iterations = zero;
+  Bool moving = m.good;
+  for (int i = 0; i < limit && !none(moving); ++i) {
+    Real sums[sums_count];
+    L::template sum<sums_count>(0, m.quads, sums, [&](int slot, Wide(&acc)[sums_count]) HWY_ATTR {
+      const Wide inverse = L::wide(1.0) / L::where(m.good, L::load(m.at.slack, slot), 1);
+      const Components<Wide, Dim> p = scaled(inverse, m.normals(slot));
+      for (int k = 0; k < Dim; ++k)
+        L::store(p[k], m.at.scaled[k], slot);
+      accumulate(p, p, acc);
+    });
+    Components<Real, Dim> step;
+    Real decrement2;
+    Bool solved;
+    newton_direction<L, Dim>(sums, step, decrement2, solved);
+    m.good = but_not(m.good, but_not(moving, solved));
+    moving = both(moving, solved);
+
+    // a full step when it is safe, else the largest whose slacks provably stay positive
+    const Bool full = decrement2 < L::real(full_step_decrement2);
+    Real length = one;
+    if (!none(but_not(moving, full))) {
+      const Components<Wide, Dim> direction = m.wide(step);
+      Wide most = L::wide(0.0);
+      for (int slot = 0; slot < m.quads * L::slots_per_quad; ++slot)
+        most = larger(most, dot(m.scaled_normals(slot), direction));
+      length = select(full, one, one / (one + L::most(most)));
+    }
+    m.iterations = m.iterations + select(moving, one, zero);
+    for (int k = 0; k < Dim; ++k) {
+      step[k] = select(moving, length * step[k], zero);
+      m.moved[k] = m.moved[k] + step[k];
+    }
+    const Components<Wide, Dim> shift = m.wide(step);
+    Wide least = L::wide(std::numeric_limits<double>::max());
+    for (int slot = 0; slot < m.quads * L::slots_per_quad; ++slot) {
+      const Wide slack = L::load(m.at.slack, slot) - dot(m.normals(slot), shift);
+      L::store(slack, m.at.slack, slot);
+      least = smaller(least, slack);
+    }
+    m.least = select(moving, L::least(least), m.least);
+    const Bool inside = m.least > zero;
+    const Bool done = both(moving, decrement2 < enough);
+    m.good = both(m.good, inside);
+    moving = both(but_not(moving, done), inside);
+  }
+  m.good = but_not(m.good, moving);
+}
+
+// Unit gradients of the two inner potentials Σ <r - s>² at the point, their difference (Eqs 3.31-3.35); the overlap
+// along it and the faces that end it (Eq. 3.36).
+template <class L, int Dim>
+HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
+  using Real = typename L::Real;
+  using Wide = typename L::Wide;
+  const Real zero = L::real(0), one = L::real(1);
+  const Wide radius = L::wide(m.potential_radius);
+  Components<Real, Dim> unit[2];
+  for (int part = 0; part < 2; ++part) {
+    Real gradient[Dim];
+    L::template sum<Dim>(part ? m.quads_a : 0, part ? m.quads : m.quads_a, gradient,
+                         [&](int slot, Wide(&acc)[Dim]) HWY_ATTR {
+                           const Wide slack = L::load(m.at.slack, slot);
+                           const Wide inverse = L::wide(1.0) / L::where(m.good, slack, 1);
+                           const Wide depth = larger(radius - slack, L::wide(0.0));
+                           const Components<Wide, Dim> n = m.normals(slot);
+                           for (int k = 0; k < Dim; ++k) {
+                             L::store(n[k] * inverse, m.at.scaled[k], slot);
+                             acc[k] = acc[k] + depth * n[k];
+                           }
+                         });
+    Components<Real, Dim> g;
+    for (int k = 0; k < Dim; ++k)
+      g[k] = gradient[k];
+    const Real length = root(dot(g, g));
+    m.good = both(m.good, length > L::real(parallel_gradients) * m.potential_radius);
+    unit[part] = scaled(one / select(m.good, length, one), g);
+  }
+  const Components<Real, Dim> difference = unit[0] - unit[1];
+  const Real length = root(dot(difference, difference));
+  m.good = both(m.good, length > L::real(parallel_gradients));
+  m.normal = scaled(one / select(m.good, length, one), difference);
+
+  const Components<Wide, Dim> n = m.wide(m.normal);
+  Real steepest[2], face[2];
+  for (int part = 0; part < 2; ++part) {
+    Wide best = L::wide(0.0), where = L::wide(-1.0);
+    const int first = part ? m.quads_a : 0, last = part ? m.quads : m.quads_a;
+    for (int slot = first * L::slots_per_quad; slot < last * L::slots_per_quad; ++slot) {
+      const Wide along = dot(m.scaled_normals(slot), n), slope = part ? -along : along;
+      const auto steeper = slope > best;
+      best = select(steeper, slope, best);
+      where = select(steeper, L::slot_numbers(slot - first * L::slots_per_quad), where);
+    }
+    L::most_of(best, where, steepest[part], face[part]);
+    m.good = both(m.good, steepest[part] > zero);
+  }
+  m.overlap = one / select(m.good, steepest[0], one) + one / select(m.good, steepest[1], one);
+  m.face_a = face[0];
+  m.face_b = face[1];
+}
+
+// Scaled normals in the contact plane: the section is {y : q·y <= 1}. They replace the first two scaled normals.
+template <class L>
+HWY_INLINE void project(Meeting<L, 3>& m) {
+  using Real = typename L::Real;
+  using Wide = typename L::Wide;
+  // axes of the plane by Duff et al. (2017), close to the frame's own when the normal is
+  const Real sign = with_sign_of(L::real(1), m.normal[0]);
+  const Real x = m.normal[1], y = m.normal[2];
+  const Real a = L::real(-1) / (sign + m.normal[0]), b = x * y * a;
+  const Components<Wide, 3> first = m.wide({-(sign * x), L::real(1) + sign * x * x * a, sign * b});
+  const Components<Wide, 3> second = m.wide({-y, b, sign + y * y * a});
+  for (int slot = 0; slot < m.quads * L::slots_per_quad; ++slot) {
+    const Components<Wide, 3> p = m.scaled_normals(slot);
+    L::store(dot(p, first), m.at.scaled[0], slot);
+    L::store(dot(p, second), m.at.scaled[1], slot);
+  }
+}
+
+template <class L>
+HWY_INLINE void measure_area(Meeting<L, 2>& m, SectionList*) {
+  using Wide = typename L::Wide;
+  const Wide along0 = L::wide(-m.normal[1]), along1 = L::wide(m.normal[0]);
+  Wide forward = L::wide(0.0), backward = forward;
+  for (int slot = 0; slot < m.quads * L::slots_per_quad; ++slot) {
+    const Components<Wide, 2> p = m.scaled_normals(slot);
+    const Wide slope = p[0] * along0 + p[1] * along1;
+    forward = larger(forward, slope);
+    backward = larger(backward, -slope);
+  }
+  using Real = typename L::Real;
+  const Real zero = L::real(0), one = L::real(1), f = L::most(forward), b = L::most(backward);
+  m.good = both(m.good, both(f > zero, b > zero));
+  m.area = one / select(m.good, f, one) + one / select(m.good, b, one);
+}
+
+template <class L>
+HWY_INLINE void measure_area(Meeting<L, 3>& m, SectionList* lists) {
+  project(m);
+  typename L::Bool known;
+  section_area_of<L>(m.at.scaled[0], m.at.scaled[1], m.quads, lists, m.good, m.area, known);
+  rebuild_sections<L>(m.at, m.quads, lists, but_not(m.good, known), m.area, m.good);
+}
+
+// everything from the start on; the results of pairs that are not good mean nothing
+template <class L, int Dim>
+HWY_INLINE void resolve_from_point(Meeting<L, Dim>& m, Stage last, double tolerance, int limit, SectionList* lists) {
+  using Real = typename L::Real;
+  build_frame(m);
+  assemble_planes(m);
+  for (int k = 0; k < Dim; ++k)
+    m.moved[k] = m.normal[k] = L::real(0);
+  m.iterations = m.overlap = m.area = m.face_a = m.face_b = L::real(0);
+  m.good = both(m.good, m.least > m.rounding + m.tolerance);
+  if (last == Stage::decision || none(m.good)) return;
+  find_centre(m, tolerance, limit);
+  m.rounding = m.rounding + L::real(4 * slack_rounding) * size_of(m.moved);
+  m.good = both(m.good, m.least > m.rounding);
+  const Components<Real, Dim> shift = from_frame(m.frame, m.moved);
+  m.point = m.point + shift;
+  if (last == Stage::point || none(m.good)) return;
+  measure_overlap(m);
+  if (last == Stage::overlap || none(m.good)) return;
+  measure_area(m, lists);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace voussoir
+HWY_AFTER_NAMESPACE();
+#endif
