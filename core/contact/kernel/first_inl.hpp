@@ -38,15 +38,9 @@ HWY_INLINE void most_violated(const Meeting<OnePair, Dim>& m, const Components<d
                               int& plane) {
   using L = OnePair;
   const Components<L::Wide, Dim> at = m.wide(x);
-  L::Wide best = L::wide(-std::numeric_limits<double>::max()), where = L::wide(0);
-  for (int slot = 0; slot < m.quads; ++slot) {
-    const L::Wide here = dot(m.normals(slot), at) - L::load(m.at.slack, slot);
-    const auto higher = here > best;
-    best = select(higher, here, best);
-    where = select(higher, L::slot_numbers(slot), where);
-  }
   double number;
-  L::most_of(best, where, value, number);
+  const auto violation = [&](int slot) HWY_ATTR { return dot(m.normals(slot), at) - L::load(m.at.slack, slot); };
+  find_largest<L>(0, m.quads, -std::numeric_limits<double>::max(), violation, value, number);
   plane = static_cast<int>(number);
 }
 
@@ -152,17 +146,13 @@ HWY_INLINE Components<double, Dim> thinnest_across(const Meeting<OnePair, Dim>& 
                                                    const Components<double, Dim>& x) {
   using L = OnePair;
   const Components<L::Wide, Dim> direction = m.wide(axis), at = m.wide(x);
-  L::Wide best = L::wide(0), where = L::wide(0);
-  for (int slot = 0; slot < m.quads; ++slot) {
+  double value, number;
+  const auto thinness = [&](int slot) HWY_ATTR {
     const Components<L::Wide, Dim> n = m.normals(slot);
     const L::Wide along = dot(n, direction), slack = L::load(m.at.slack, slot) - dot(n, at);
-    const L::Wide here = (L::wide(1) - along * along) / (slack * slack);
-    const auto thinner = here > best;
-    best = select(thinner, here, best);
-    where = select(thinner, L::slot_numbers(slot), where);
-  }
-  double value, number;
-  L::most_of(best, where, value, number);
+    return (L::wide(1) - along * along) / (slack * slack);
+  };
+  find_largest<L>(0, m.quads, -1, thinness, value, number);
   const Components<double, Dim> n = normal_of(m, static_cast<int>(number));
   const Components<double, Dim> across = n - scaled(dot(n, axis), axis);
   const double length = root(dot(across, across));
@@ -193,6 +183,7 @@ HWY_INLINE int approach_centre(Meeting<OnePair, Dim>& m) {
     double sums[sums_count];
     L::sum<sums_count>(0, m.quads, sums, [&](int slot, L::Wide(&acc)[sums_count]) HWY_ATTR {
       const L::Wide inverse = L::wide(1) / L::load(m.at.slack, slot);
+      L::store(inverse, m.at.inverse, slot);
       const Components<L::Wide, Dim> n = m.normals(slot), p = scaled(inverse, n);
       for (int k = 0; k < Dim; ++k)
         L::store(p[k], m.at.scaled[k], slot);
@@ -208,7 +199,7 @@ HWY_INLINE int approach_centre(Meeting<OnePair, Dim>& m) {
     const Components<L::Wide, Dim> direction = m.wide(step);
     L::Wide primal = L::wide(0), dual = primal;
     for (int slot = 0; slot < m.quads; ++slot) {
-      const L::Wide z = L::load(m.at.multiplier, slot), inverse = L::wide(1) / L::load(m.at.slack, slot);
+      const L::Wide z = L::load(m.at.multiplier, slot), inverse = L::load(m.at.inverse, slot);
       const L::Wide along = dot(m.scaled_normals(slot), direction);  // relative loss of slack
       primal = larger(primal, along);
       // relative loss of the multiplier: Δz = 1/s - z + z (a·Δx)/s
@@ -221,7 +212,7 @@ HWY_INLINE int approach_centre(Meeting<OnePair, Dim>& m) {
     for (int slot = 0; slot < m.quads; ++slot) {
       const L::Wide s = L::load(m.at.slack, slot), z = L::load(m.at.multiplier, slot);
       const L::Wide along = dot(m.scaled_normals(slot), direction);
-      L::store(z + dz * (L::wide(1) / s - z + z * along), m.at.multiplier, slot);
+      L::store(z + dz * (L::load(m.at.inverse, slot) - z + z * along), m.at.multiplier, slot);
       L::store(s - ds * dot(m.normals(slot), direction), m.at.slack, slot);
     }
     for (int k = 0; k < Dim; ++k)

@@ -3,7 +3,9 @@
 // one compilation for each instruction set that is worth its size
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/contact/kernel/kernel.cpp"
+#ifndef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#endif
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -14,7 +14,7 @@
 #include <hwy/highway.h>
 
 #include <cmath>
-#include <cstring>
+#include <limits>
 
 #include "core/contact/kernel/workspace.hpp"
 
@@ -220,39 +220,54 @@ struct OnePair {
   }
   // pairs that failed have left already: nothing to replace
   static HWY_INLINE const Wide& where(bool, const Wide& x, double) { return x; }
-  static HWY_INLINE Wide slot_numbers(int slot) {
-    double n[planes_per_quad];
-    for (int k = 0; k < planes_per_quad; ++k)
-      n[k] = slot * planes_per_quad + k;
+  // numbers of the planes in slot 0, and how far those of the next are
+  static HWY_INLINE Wide first_numbers() {
+    static constexpr double n[planes_per_quad] = {0, 1, 2, 3};
     return load(n, 0);
   }
-  static HWY_INLINE double add_up(const Wide& x) {
-    double p[planes_per_quad];
-    store(x, p, 0);
-    return (p[0] + p[1]) + (p[2] + p[3]);
+  static constexpr double numbers_apart = planes_per_quad;
+  // (0+1)+(2+3) of each
+  template <int K>
+  static HWY_INLINE void add_up(const Wide (&x)[K], double (&out)[K]) {
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (tag_lanes == planes_per_quad) {
+      // four at a time, turned so that they are added side by side
+      const Tag d;
+      double sums[K + planes_per_quad];
+      for (int k = 0; k < K; k += planes_per_quad) {
+        const auto last = [&](int i) { return x[k + i < K ? k + i : K - 1].v[0]; };
+        const auto a = last(0), b = last(1), c = last(2), e = last(3);
+        const auto ab = hn::Add(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b));
+        const auto ce = hn::Add(hn::InterleaveLower(d, c, e), hn::InterleaveUpper(d, c, e));
+        hn::StoreU(hn::Add(hn::ConcatLowerLower(d, ce, ab), hn::ConcatUpperUpper(d, ce, ab)), d, sums + k);
+      }
+      for (int k = 0; k < K; ++k)
+        out[k] = sums[k];
+      return;
+    }
+#endif
+    for (int k = 0; k < K; ++k) {
+      double p[planes_per_quad];
+      store(x[k], p, 0);
+      out[k] = (p[0] + p[1]) + (p[2] + p[3]);
+    }
   }
   static HWY_INLINE double least(const Wide& x) {
-    double p[planes_per_quad];
-    store(x, p, 0);
-    return smaller(smaller(p[0], p[1]), smaller(p[2], p[3]));
+    hn::Vec<Tag> r = x.v[0];
+    for (int k = 1; k < registers; ++k)
+      r = hn::Min(r, x.v[k]);
+    return hn::GetLane(hn::MinOfLanes(Tag(), r));
   }
   static HWY_INLINE double most(const Wide& x) {
-    double p[planes_per_quad];
-    store(x, p, 0);
-    return larger(larger(p[0], p[1]), larger(p[2], p[3]));
+    hn::Vec<Tag> r = x.v[0];
+    for (int k = 1; k < registers; ++k)
+      r = hn::Max(r, x.v[k]);
+    return hn::GetLane(hn::MaxOfLanes(Tag(), r));
   }
   // the largest, and of equal ones the first
   static HWY_INLINE void most_of(const Wide& x, const Wide& number, double& value, double& where) {
-    double p[planes_per_quad], n[planes_per_quad];
-    store(x, p, 0);
-    store(number, n, 0);
-    value = p[0];
-    where = n[0];
-    for (int k = 1; k < planes_per_quad; ++k) {
-      const bool better = p[k] > value || (p[k] == value && n[k] < where);
-      value = better ? p[k] : value;
-      where = better ? n[k] : where;
-    }
+    value = most(x);
+    where = least(select(x < wide(value), wide(std::numeric_limits<double>::max()), number));
   }
   // add(slot, sums) over the quads [first, last)
   template <int K, class F>
@@ -262,8 +277,7 @@ struct OnePair {
       acc[k] = wide(0);
     for (int q = first; q < last; ++q)
       add(q, acc);
-    for (int k = 0; k < K; ++k)
-      out[k] = add_up(acc[k]);
+    add_up<K>(acc, out);
   }
 };
 
@@ -290,7 +304,8 @@ struct ManyPairs {
   static HWY_INLINE Wide where(const Bool& good, const Wide& x, double otherwise) {
     return select(good, x, wide(otherwise));
   }
-  static HWY_INLINE Wide slot_numbers(int slot) { return wide(slot); }
+  static HWY_INLINE Wide first_numbers() { return wide(0); }
+  static constexpr double numbers_apart = 1;
   static HWY_INLINE const Real& least(const Wide& x) { return x; }
   static HWY_INLINE const Real& most(const Wide& x) { return x; }
   static HWY_INLINE void most_of(const Wide& x, const Wide& number, Real& value, Real& where) {
@@ -298,71 +313,104 @@ struct ManyPairs {
     where = number;
   }
   template <int K, class F>
-  static HWY_INLINE void sum(int first, int last, Wide (&out)[K], const F& add) {
-    Wide even[K];
+  static HWY_INLINE void sum_stride(int first, int last, int stride, Wide (&out)[K], const F& add) {
+    Wide acc[K];
     for (int k = 0; k < K; ++k)
-      even[k] = out[k] = wide(0);
-    for (int stride = 0; stride < planes_per_quad; ++stride) {
-      Wide acc[K];
-      for (int k = 0; k < K; ++k)
-        acc[k] = wide(0);
-      for (int q = first; q < last; ++q)
-        add(q * planes_per_quad + stride, acc);
+      acc[k] = wide(0);
+    for (int q = first; q < last; ++q)
+      add(q * planes_per_quad + stride, acc);
+    for (int k = 0; k < K; ++k)
+      out[k] = acc[k];
+  }
+  template <int K, class F>
+  static HWY_INLINE void sum(int first, int last, Wide (&out)[K], const F& add) {
+    for (int half = 0; half < planes_per_quad; half += 2) {
+      Wide even[K], odd[K];
+      sum_stride<K>(first, last, half, even, add);
+      sum_stride<K>(first, last, half + 1, odd, add);
       for (int k = 0; k < K; ++k) {
-        if (stride == 0 || stride == 2) even[k] = acc[k];
-        if (stride == 1) out[k] = even[k] + acc[k];
-        if (stride == 3) out[k] = out[k] + (even[k] + acc[k]);
+        const Wide both = even[k] + odd[k];
+        out[k] = half == 0 ? both : out[k] + both;
       }
     }
   }
 };
 
+// The largest of value(slot) over the quads [first, last) and the number of its plane among theirs; of equal ones the
+// first. Nothing above the floor: the number is -1.
+template <class L, class F>
+HWY_INLINE void find_largest(int first, int last, double floor, const F& value, typename L::Real& largest,
+                             typename L::Real& where) {
+  using Wide = typename L::Wide;
+  Wide best = L::wide(floor), place = L::wide(-1.0), number = L::first_numbers();
+  const Wide apart = L::wide(static_cast<double>(L::numbers_apart));
+  for (int slot = first * L::slots_per_quad; slot < last * L::slots_per_quad; ++slot) {
+    const Wide here = value(slot);
+    const auto better = here > best;
+    best = select(better, here, best);
+    place = select(better, number, place);
+    number = number + apart;
+  }
+  L::most_of(best, place, largest, where);
+}
+
 // ---- planes as the parts store them: rows of normal and offset
 // -------------------------------------------------------
 
-template <class D>
-HWY_INLINE void load_rows(D d, const double* rows, Components<hn::Vec<D>, 3>& n, hn::Vec<D>& offset) {
-  hn::LoadInterleaved4(d, rows, n[0], n[1], n[2], offset);
-}
-template <class D>
-HWY_INLINE void load_rows(D d, const double* rows, Components<hn::Vec<D>, 2>& n, hn::Vec<D>& offset) {
-  if constexpr (row_length<2> == 4) {
-    hn::Vec<D> unused;
-    hn::LoadInterleaved4(d, rows, n[0], n[1], offset, unused);
+// rows to columns: as many rows as the tag has lanes, four numbers each
+template <class V>
+struct Columns4 {
+  V c[4];
+};
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Columns4<V> transpose(D d, const double* const* rows) {
+  Columns4<V> r;
+#if HWY_TARGET == HWY_SCALAR
+  for (int k = 0; k < 4; ++k)
+    r.c[k] = hn::Set(d, rows[0][k]);
+#else
+  if constexpr (D::kPrivateN == 2) {
+    const V a = hn::LoadU(d, rows[0]), b = hn::LoadU(d, rows[1]);
+    const V e = hn::LoadU(d, rows[0] + 2), f = hn::LoadU(d, rows[1] + 2);
+    r.c[0] = hn::InterleaveLower(d, a, b);
+    r.c[1] = hn::InterleaveUpper(d, a, b);
+    r.c[2] = hn::InterleaveLower(d, e, f);
+    r.c[3] = hn::InterleaveUpper(d, e, f);
+  } else if constexpr (D::kPrivateN == 4) {
+    const V low0 = hn::LoadU(d, rows[0]), low1 = hn::LoadU(d, rows[1]), low2 = hn::LoadU(d, rows[2]),
+            low3 = hn::LoadU(d, rows[3]);
+    const V even01 = hn::InterleaveLower(d, low0, low1), odd01 = hn::InterleaveUpper(d, low0, low1);
+    const V even23 = hn::InterleaveLower(d, low2, low3), odd23 = hn::InterleaveUpper(d, low2, low3);
+    r.c[0] = hn::ConcatLowerLower(d, even23, even01);
+    r.c[1] = hn::ConcatLowerLower(d, odd23, odd01);
+    r.c[2] = hn::ConcatUpperUpper(d, even23, even01);
+    r.c[3] = hn::ConcatUpperUpper(d, odd23, odd01);
   } else {
-    hn::LoadInterleaved3(d, rows, n[0], n[1], offset);
+    const hn::Half<D> half;
+    const auto low = transpose(half, rows), high = transpose(half, rows + D::kPrivateN / 2);
+    for (int k = 0; k < 4; ++k)
+      r.c[k] = hn::Combine(d, high.c[k], low.c[k]);
   }
+#endif
+  return r;
 }
 
 template <class L, int Dim>
 HWY_INLINE void load_planes(const Sources<L::width>& source, int slot, Components<typename L::Wide, Dim>& n,
                             typename L::Wide& offset) {
-  constexpr int length = row_length<Dim>;
-  constexpr int rows = L::step;
-  alignas(64) double buffer[rows * length];
-  const double* from = buffer;
-  if constexpr (L::one_pair) {
-    const int first = slot * planes_per_quad, left = source.count[0] - first;
-    if (left >= planes_per_quad) {
-      from = source.rows[0] + first * length;
-    } else {
-      for (int k = 0; k < planes_per_quad; ++k)
-        std::memcpy(buffer + k * length, k < left ? source.rows[0] + (first + k) * length : padding_row<Dim>,
-                    length * sizeof(double));
-    }
-  } else {
-    for (int lane = 0; lane < L::width; ++lane)
-      std::memcpy(buffer + lane * length,
-                  slot < source.count[lane] ? source.rows[lane] + slot * length : padding_row<Dim>,
-                  length * sizeof(double));
+  static_assert(row_length<Dim> == 4);
+  const double* rows[L::step];
+  for (int k = 0; k < L::step; ++k) {
+    const int plane = L::one_pair ? slot * planes_per_quad + k : slot, lane = L::one_pair ? 0 : k;
+    rows[k] = plane < source.count[lane] ? source.rows[lane] + plane * 4 : padding_row<Dim>;
   }
   using Tag = typename L::Tag;
   constexpr int registers = sizeof(offset.v) / sizeof(offset.v[0]);
   for (int k = 0; k < registers; ++k) {
-    Components<hn::Vec<Tag>, Dim> part;
-    load_rows(Tag(), from + k * (rows / registers) * length, part, offset.v[k]);
+    const auto columns = transpose(Tag(), rows + k * (L::step / registers));
     for (int j = 0; j < Dim; ++j)
-      n[j].v[k] = part[j];
+      n[j].v[k] = columns.c[j];
+    offset.v[k] = columns.c[Dim];
   }
 }
 

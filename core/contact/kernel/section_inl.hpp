@@ -83,15 +83,9 @@ HWY_INLINE void highest_plane(const double* q0, const double* q1, int quads, dou
                               int& plane) {
   using L = OnePair;
   const L::Wide x = L::wide(y0), y = L::wide(y1);
-  L::Wide best = L::wide(-std::numeric_limits<double>::max()), where = L::wide(0);
-  for (int slot = 0; slot < quads; ++slot) {
-    const L::Wide here = L::load(q0, slot) * x + L::load(q1, slot) * y;
-    const auto higher = here > best;
-    best = select(higher, here, best);
-    where = select(higher, L::slot_numbers(slot), where);
-  }
   double number;
-  L::most_of(best, where, value, number);
+  const auto height = [&](int slot) HWY_ATTR { return L::load(q0, slot) * x + L::load(q1, slot) * y; };
+  find_largest<L>(0, quads, -std::numeric_limits<double>::max(), height, value, number);
   plane = static_cast<int>(number);
 }
 

@@ -292,15 +292,11 @@ HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
   const Components<Wide, Dim> n = m.wide(m.normal);
   Real steepest[2], face[2];
   for (int part = 0; part < 2; ++part) {
-    Wide best = L::wide(0.0), where = L::wide(-1.0);
-    const int first = part ? m.quads_a : 0, last = part ? m.quads : m.quads_a;
-    for (int slot = first * L::slots_per_quad; slot < last * L::slots_per_quad; ++slot) {
-      const Wide along = dot(m.scaled_normals(slot), n), slope = part ? -along : along;
-      const auto steeper = slope > best;
-      best = select(steeper, slope, best);
-      where = select(steeper, L::slot_numbers(slot - first * L::slots_per_quad), where);
-    }
-    L::most_of(best, where, steepest[part], face[part]);
+    const auto slope = [&](int slot) HWY_ATTR {
+      const Wide along = dot(m.scaled_normals(slot), n);
+      return part ? -along : along;
+    };
+    find_largest<L>(part ? m.quads_a : 0, part ? m.quads : m.quads_a, 0, slope, steepest[part], face[part]);
     m.good = both(m.good, steepest[part] > zero);
   }
   m.overlap = one / select(m.good, steepest[0], one) + one / select(m.good, steepest[1], one);

@@ -68,12 +68,13 @@ struct Arrays {
   double* scaled[Dim];  // normal / slack; later the section's planes
   double* slack;
   double* multiplier;
+  double* inverse;  // of the slack
 };
 
 // the section's planes in cyclic order, numbered as the padded planes are
 struct SectionList {
   int size = 0;
-  std::array<int, std::tuple_size_v<decltype(Proof<3>::section)>> planes{};
+  std::array<int, std::tuple_size_v<decltype(Proof<3>::section)>> planes;  // the first `size` of them
 };
 
 // grows, never shrinks: the step allocates nothing
@@ -82,7 +83,7 @@ struct Workspace {
 
   template <int Dim>
   Arrays<Dim> arrays(int count) {
-    const std::size_t needed = static_cast<std::size_t>(count) * (2 * Dim + 2);
+    const std::size_t needed = static_cast<std::size_t>(count) * (2 * Dim + 3);
     if (numbers.size() < needed) numbers.resize(needed);
     Arrays<Dim> a;
     double* next = numbers.data();
@@ -92,6 +93,7 @@ struct Workspace {
       a.scaled[k] = next;
     a.slack = next;
     a.multiplier = next + count;
+    a.inverse = next + 2 * count;
     return a;
   }
 };
