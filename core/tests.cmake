@@ -41,6 +41,12 @@ target_link_libraries(voussoir_exact_referee PUBLIC voussoir_core gmpxx gmp PRIV
 voussoir_test(unit.exact_referee LABEL unit SOURCES testing/exact_referee_test.cpp
   LIBS voussoir_exact_referee Boost::headers)
 
+
+# the contact kernel judged by it
+voussoir_test(unit.certainty LONG LABEL unit
+  SOURCES contact/certainty_test.cpp testing/pair_families.cpp testing/pair_judge.cpp
+  LIBS voussoir_exact_referee Boost::headers fmt::fmt)
+
 voussoir_test(unit.step LABEL unit
   SOURCES step_test.cpp energy_test.cpp state_hash_test.cpp reduction/reduction_test.cpp checkpoint/checkpoint_test.cpp
   LIBS voussoir_core cereal::cereal Boost::headers)
