@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/slicing/block.hpp"
+#include "core/testing/exact_contacts.hpp"
 #include "core/testing/workers.hpp"
 
 namespace voussoir::families {
@@ -36,8 +37,10 @@ template <int Dim>
 struct Scene {
   Pair<Dim> pair;
   Planes planes;
-  Rational value;  // s*
-  double size;     // m
+  Rational value;         // s*
+  bool answered = false;  // by the core's own program, cold and to its end, in the first body's frame
+  double answer = 0;      // its value, m
+  double size;            // m
   int faces_a, faces_b;
 
   Scene(const Case<Dim>& c, bool after)
@@ -51,7 +54,7 @@ struct Scene {
   }
 
   // The core's own program guesses the basis; exact arithmetic proves it, or cddlib starts from nothing.
-  Rational optimum() const {
+  Rational optimum() {
     HalfSpaces<Dim> assembled;
     assemble<Dim>(pair, Vector<Dim>::Zero(), assembled);
     const FeasibilityResult<Dim> guess = solve_feasibility<Dim>(assembled, {});
@@ -59,6 +62,8 @@ struct Scene {
     basis.fill(faces_a + faces_b);  // in the plane one of the lids, with a multiplier of 0
     std::copy(guess.basis.begin(), guess.basis.end(), basis.begin());
     const exact::ProgramBounds bounds = exact::feasibility_bounds(planes, basis);
+    answered = guess.status == FeasibilityStatus::optimal;
+    answer = guess.value;
     return bounds.proven && bounds.low == bounds.high ? bounds.low : exact::feasibility(planes).value;
   }
 
@@ -127,24 +132,21 @@ class Judge {
     }
   }
 
+  void program() {
+    if (!scene_.answered) return broken("the program has no answer", 0);
+    share("program's value", std::abs(Rational(Rational(scene_.answer) - scene_.value).get_d()), promised * scene_.size);
+  }
+
   void values(const ContactGeometry<Dim>& g) {
     count("values");
     share("length of the normal", std::abs(g.normal.norm() - 1), unit_length);
     const Point x = exact::point_of(g.point), n = exact::point_of(g.normal);
-    std::vector<Quad> distance;
-    std::vector<double> slope;
-    for (int i = 0; i < scene_.faces_a + scene_.faces_b; ++i) {
-      const exact::Plane& p = scene_.planes[i];
-      const Quad along = to_quad(exact::dot(p.normal, n));
-      slope.push_back(to_double(i < scene_.faces_a ? along : -along));
-      const Quad slack = to_quad(p.offset - exact::dot(p.normal, x));
-      distance.push_back(slope.back() > 0 ? slack / (i < scene_.faces_a ? along : -along) : 1e300);
-    }
+    const std::vector<Quad> distance = exact::distances_along(scene_.planes, scene_.faces_a, scene_.faces_b, x, n);
     const auto middle = distance.begin() + scene_.faces_a;
     const Quad end_a = *std::min_element(distance.begin(), middle), end_b = *std::min_element(middle, distance.end());
     share("overlap", std::abs(to_double(g.overlap - end_a - end_b)), promised * scene_.size);
-    face("face of A", g.face_a, scene_.faces_a, 0, end_a, distance, slope);
-    face("face of B", g.face_b, scene_.faces_b, scene_.faces_a, end_b, distance, slope);
+    face("face of A", g.face_a, scene_.faces_a, 0, end_a, distance);
+    face("face of B", g.face_b, scene_.faces_b, scene_.faces_a, end_b, distance);
     exact::Section section = exact::section(scene_.planes, x, n);
     if constexpr (Dim == 2) {
       section.area /= 2 * exact::lid_height(scene_.pair);
@@ -196,11 +198,9 @@ class Judge {
   }
 
   void face(const std::string& name, int number, int faces, int first, const Quad& end,
-            const std::vector<Quad>& distance, const std::vector<double>& slope) {
+            const std::vector<Quad>& distance) {
     if (number < 0 || number >= faces) return broken(name + ": none", number);
-    const int i = first + number;
-    const double excess = slope[i] > 0 ? to_double((distance[i] - end) * slope[i]) : 1e300;
-    share(name, excess, promised * scene_.size);
+    share(name, to_double(distance[first + number] - end), promised * scene_.size);
   }
 
   // in the plane: what the section gains at its two ends when every plane moves out by 1
@@ -347,6 +347,7 @@ std::vector<Finding> judge(const Case<Dim>& c, Tally& tally) {
                      warm = resolve<Dim>(after.pair, Stage::area, cold, tally);
   Judge<Dim> judge_cold(before, "cold, ", findings, tally), judge_decided(before, "decision only, ", findings, tally),
       judge_warm(after, "warm, ", findings, tally);
+  judge_cold.program();
   judge_cold.decision(cold, Stage::area);
   judge_decided.same_decision(decided, cold);
   if (!same_proof(decided, cold)) judge_decided.decision(decided, Stage::decision);

@@ -5,6 +5,7 @@
 //  - touching only where s* < 0, separated only where s* > 0, undecided only within 64 ulp of the size, nothing else;
 //  - a proof holds as it stands: an interior point lies `margin` inside every plane; nothing of A lies beyond `support`
 //    along a unit axis and nothing of B before support + margin; by multipliers s* >= margin; and margin > 0;
+//  - the program's value, cold and to its end, within 64 ulp of the size;
 //  - at the kernel's own point and normal: overlap within 64 ulp of the size, the faces those that end it (or nearer to
 //    that than 64 ulp), area within 1e-12 relative plus the first-order effect of 64 ulp on each plane's offset.
 #pragma once
