@@ -36,10 +36,18 @@ voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_t
   LIBS voussoir_core ${outside_solvers})
 
 # the exact referee: GPL, so a library of its own that only tests link
-add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exact_programs.cpp)
+add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exact_programs.cpp
+  testing/exact_contacts.cpp)
 target_link_libraries(voussoir_exact_referee PUBLIC voussoir_core gmpxx gmp PRIVATE voussoir_flags cddgmp)
 voussoir_test(unit.exact_referee LABEL unit SOURCES testing/exact_referee_test.cpp
   LIBS voussoir_exact_referee Boost::headers)
+
+
+# the contact kernel judged by it
+voussoir_test(unit.certainty LONG LABEL unit
+  SOURCES contact/certainty_test.cpp contact/centre_test.cpp contact/catalogue_test.cpp contact/symmetry_test.cpp
+    geometry/catalogue_test.cpp testing/pair_families.cpp testing/pair_judge.cpp
+  LIBS voussoir_exact_referee Boost::headers fmt::fmt)
 
 voussoir_test(unit.step LABEL unit
   SOURCES step_test.cpp energy_test.cpp state_hash_test.cpp reduction/reduction_test.cpp checkpoint/checkpoint_test.cpp

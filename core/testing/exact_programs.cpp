@@ -15,12 +15,58 @@ extern "C" {
 namespace voussoir::exact {
 namespace {
 
-Rational dot(const Point& a, const Point& b) {
+// ---- planes of whole numbers ----------------------------------------------------------------------------------------
+
+// Rationals multiplied by one number that makes them whole: sums and products then need no common divisors, which is
+// what rational arithmetic spends its time on.
+using Whole = mpz_class;
+using Row = std::array<Whole, 3>;
+
+struct WholePlanes {
+  Whole factor = 1;
+  std::vector<Row> normals;
+  std::vector<Whole> offsets;
+
+  explicit WholePlanes(const Planes& planes) {
+    for (const Plane& p : planes)
+      for (const Rational* q : {&p.normal[0], &p.normal[1], &p.normal[2], &p.offset})
+        mpz_lcm(factor.get_mpz_t(), factor.get_mpz_t(), q->get_den_mpz_t());
+    for (const Plane& p : planes) {
+      normals.push_back({times(p.normal[0], factor), times(p.normal[1], factor), times(p.normal[2], factor)});
+      offsets.push_back(times(p.offset, factor));
+    }
+  }
+  static Whole times(const Rational& q, const Whole& by) {
+    Whole result;
+    mpz_divexact(result.get_mpz_t(), by.get_mpz_t(), q.get_den_mpz_t());
+    return result * q.get_num();
+  }
+};
+
+Whole determinant(const Row& a, const Row& b, const Row& c) {
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+Whole dot(const Row& a, const Row& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-Rational determinant(const Point& a, const Point& b, const Point& c) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+Rational quotient(const Whole& numerator, const Whole& denominator) {
+  Rational q(numerator, denominator);
+  q.canonicalize();
+  return q;
+}
+
+// rows·x = right: x = result / determinant(rows)
+Row cramer(const std::array<Row, 3>& rows, const Row& right) {
+  Row x;
+  for (int k = 0; k < 3; ++k) {
+    std::array<Row, 3> replaced = rows;
+    for (int r = 0; r < 3; ++r)
+      replaced[r][k] = right[r];
+    x[k] = determinant(replaced[0], replaced[1], replaced[2]);
+  }
+  return x;
 }
 
 // ---- cddlib ---------------------------------------------------------------------------------------------------------
@@ -90,48 +136,87 @@ Program section_feasibility(const Planes& planes, const Plane& joint) {
   return solve(planes, &joint);
 }
 
+Rational support(const Planes& planes, const Point& direction) {
+  Matrix_ m(planes.size(), 4);
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    m.set(i, 0, planes[i].offset);
+    for (int k = 0; k < 3; ++k)
+      m.set(i, 1 + k, -planes[i].normal[k]);
+  }
+  m.p->objective = dd_LPmax;
+  for (int k = 0; k < 3; ++k)
+    mpq_set(m.p->rowvec[1 + k], direction[k].get_mpq_t());
+  dd_ErrorType error;
+  dd_LPPtr lp = dd_Matrix2LP(m.p, &error);
+  dd_LPSolve(lp, dd_DualSimplex, &error);
+  const bool optimal = error == dd_NoError && lp->LPS == dd_Optimal;
+  const Rational value = optimal ? Rational(lp->optvalue) : Rational(0);
+  dd_FreeLPData(lp);
+  if (!optimal) throw std::logic_error("the solid is empty or not closed");
+  return value;
+}
+
+std::optional<Rational> proven_support(const Planes& planes, const std::array<int, 3>& corner, const Point& direction) {
+  const WholePlanes whole(planes), ahead({{direction, 0}});
+  const Row& u = ahead.normals[0];
+  std::array<Row, 3> rows;
+  Row right;
+  for (int r = 0; r < 3; ++r) {
+    rows[r] = whole.normals[corner[r]];
+    right[r] = whole.offsets[corner[r]];
+  }
+  const Whole determinant_ = determinant(rows[0], rows[1], rows[2]);
+  const int sign = sgn(determinant_);
+  if (sign == 0) return {};
+  // no other point of the corner's cone lies farther: the direction is a positive sum of the three normals
+  for (int r = 0; r < 3; ++r) {
+    std::array<Row, 3> replaced = rows;
+    replaced[r] = u;
+    if (sgn(determinant(replaced[0], replaced[1], replaced[2])) * sign < 0) return {};
+  }
+  // and the corner belongs to the solid
+  const Row x = cramer(rows, right);
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    if (sgn(Whole(dot(whole.normals[i], x) - whole.offsets[i] * determinant_)) * sign > 0) return {};
+  return quotient(dot(u, x), determinant_ * ahead.factor);
+}
+
 ProgramBounds feasibility_bounds(const Planes& planes, const std::array<int, 4>& basis) {
-  // multipliers: Σ λ a = 0, Σ λ = 1, by the determinants of the other three normals
   for (const int b : basis)
     if (b < 0) return {};
-  std::array<Rational, 4> lambda;
-  Rational sum = 0;
+  const WholePlanes whole(planes);
+  // multipliers: Σ λ a = 0, by the determinants of the other three normals; their sum is left in the denominator
+  std::array<Whole, 4> lambda;
+  Whole sum = 0, low = 0;
   for (int k = 0; k < 4; ++k) {
     std::array<int, 3> others;
     for (int j = 0, place = 0; j < 4; ++j)
       if (j != k) others[place++] = basis[j];
-    lambda[k] = determinant(planes[others[0]].normal, planes[others[1]].normal, planes[others[2]].normal);
+    lambda[k] = determinant(whole.normals[others[0]], whole.normals[others[1]], whole.normals[others[2]]);
     if (k % 2) lambda[k] = -lambda[k];
     sum += lambda[k];
+    low -= lambda[k] * whole.offsets[basis[k]];
   }
   if (sgn(sum) == 0) return {};
-  ProgramBounds bounds{true, 0, 0};
-  for (int k = 0; k < 4; ++k) {
-    lambda[k] /= sum;
-    if (sgn(lambda[k]) < 0) return {};
-    bounds.low -= lambda[k] * planes[basis[k]].offset;
-  }
+  for (const Whole& l : lambda)
+    if (sgn(l) * sgn(sum) < 0) return {};
   // the point where the four hold with s = low: differences of their equations
-  const Plane& last = planes[basis[3]];
-  std::array<Point, 3> rows;
-  Point right, x;
+  std::array<Row, 3> rows;
+  Row right;
   for (int r = 0; r < 3; ++r) {
     for (int k = 0; k < 3; ++k)
-      rows[r][k] = planes[basis[r]].normal[k] - last.normal[k];
-    right[r] = planes[basis[r]].offset - last.offset;
+      rows[r][k] = whole.normals[basis[r]][k] - whole.normals[basis[3]][k];
+    right[r] = whole.offsets[basis[r]] - whole.offsets[basis[3]];
   }
-  const Rational whole = determinant(rows[0], rows[1], rows[2]);
-  if (sgn(whole) == 0) return {};
-  for (int k = 0; k < 3; ++k) {
-    std::array<Point, 3> replaced = rows;
-    for (int r = 0; r < 3; ++r)
-      replaced[r][k] = right[r];
-    x[k] = determinant(replaced[0], replaced[1], replaced[2]) / whole;
+  const Whole volume = determinant(rows[0], rows[1], rows[2]);  // the sum again, but for its sign
+  const Row x = cramer(rows, right);
+  Whole most = 0;  // of s - low, times |volume|
+  const Whole size = abs(volume), least = sgn(sum) * low;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const Whole excess = sgn(volume) * dot(whole.normals[i], x) - whole.offsets[i] * size - least;
+    if (excess > most) most = excess;
   }
-  bounds.high = bounds.low;
-  for (const Plane& p : planes)
-    bounds.high = std::max(bounds.high, Rational(dot(p.normal, x) - p.offset));
-  return bounds;
+  return {true, quotient(least, size * whole.factor), quotient(least + most, size * whole.factor)};
 }
 
 std::vector<Point> vertices(const Planes& planes) {

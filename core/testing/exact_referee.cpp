@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 namespace voussoir::exact {
-namespace {
 
 Rational dot(const Point& a, const Point& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -15,6 +14,12 @@ Rational dot(const Point& a, const Point& b) {
 Point point_of(const Vector<3>& v) {
   return {Rational(v[0]), Rational(v[1]), Rational(v[2])};
 }
+
+Point point_of(const Vector<2>& v) {
+  return {Rational(v[0]), Rational(v[1]), Rational(0)};
+}
+
+namespace {
 
 // ---- 113 bits -------------------------------------------------------------------------------------------------------
 
@@ -33,6 +38,7 @@ Quad quad(const Rational& q) {
 QuadVector quads(const Vector<3>& v) {
   return {v[0], v[1], v[2]};
 }
+using exact::dot;
 Quad dot(const QuadVector& a, const QuadVector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -188,8 +194,10 @@ const Rational beyond_everything = Rational(1e60);
 
 // The section's corners, counter-clockwise in (x_i, x_j). `own` is the place of the plane itself among the solid's, or
 // -1: of coincident planes only the first has a facet.
-Polygon section(const Chart& chart, const Planes& planes, const std::vector<Rounded>& rounded, int own) {
-  std::vector<Line> lines{
+// Corners name their lines.
+Polygon clipped_section(const Chart& chart, const Planes& planes, const std::vector<Rounded>& rounded, int own,
+                        std::vector<Line>& lines) {
+  lines = {
       {1, 0, beyond_everything}, {0, 1, beyond_everything}, {-1, 0, beyond_everything}, {0, -1, beyond_everything}};
   Polygon polygon{meet(lines, 0, 1), meet(lines, 1, 2), meet(lines, 2, 3), meet(lines, 3, 0)};
   for (int p = 0; p < static_cast<int>(planes.size()) && !polygon.empty(); ++p) {
@@ -227,11 +235,40 @@ Planes planes_of(const Pair<3>& pair, const Point& offset) {
     const Point own = point_of(f.normal);
     Plane p;
     for (int row = 0; row < 3; ++row)
-      p.normal[row] = dot(point_of(pair.rotation.row(row)), own);
+      p.normal[row] = dot(point_of(Vector<3>(pair.rotation.row(row))), own);
     p.offset = Rational(f.offset) + dot(p.normal, offset);
     result.push_back(std::move(p));
   }
   return result;
+}
+
+double lid_height(const Pair<2>& pair) {
+  return 4 * (pair.a->radius + pair.b->radius);
+}
+
+Planes planes_of(const Pair<2>& pair) {
+  Planes result;
+  for (const HalfSpace<2>& f : pair.a->faces)
+    result.push_back({point_of(f.normal), Rational(f.offset)});
+  for (const HalfSpace<2>& f : pair.b->faces) {
+    Plane p{{0, 0, 0}, Rational(f.offset)};
+    for (int row = 0; row < 2; ++row)
+      for (int k = 0; k < 2; ++k)
+        p.normal[row] += Rational(pair.rotation(row, k)) * Rational(f.normal[k]);
+    p.offset += dot(p.normal, point_of(pair.offset));
+    result.push_back(std::move(p));
+  }
+  const Rational height = lid_height(pair);
+  result.push_back({{0, 0, 1}, height});
+  result.push_back({{0, 0, -1}, height});
+  return result;
+}
+
+Rational least_slack(const Planes& planes, const Point& point) {
+  Rational least = planes.front().offset - dot(planes.front().normal, point);
+  for (const Plane& p : planes)
+    least = std::min(least, Rational(p.offset - dot(p.normal, point)));
+  return least;
 }
 
 Planes grown(Planes planes, double distance) {
@@ -240,19 +277,32 @@ Planes grown(Planes planes, double distance) {
   return planes;
 }
 
-Quad section_area(const Planes& planes, const Vector<3>& point, const Vector<3>& normal) {
-  const Point n = point_of(normal);
-  const Chart chart({n, dot(n, point_of(point))});
-  const Polygon polygon = section(chart, planes, rounded_planes(planes), -1);
-  if (polygon.size() < 3) return 0;
+Section section(const Planes& planes, const Point& point, const Point& n) {
+  const Chart chart({n, dot(n, point)});
+  std::vector<Line> lines;
+  const Polygon polygon = clipped_section(chart, planes, rounded_planes(planes), -1, lines);
+  if (polygon.size() < 3) return {};
   std::vector<std::array<Quad, 2>> corner;
   for (const Corner& c : polygon)
     corner.push_back({quad(c.u / c.w - polygon[0].u / polygon[0].w), quad(c.v / c.w - polygon[0].v / polygon[0].w)});
   Quad twice = 0;
   for (std::size_t k = 1; k + 1 < corner.size(); ++k)
     twice += corner[k][0] * corner[k + 1][1] - corner[k][1] * corner[k + 1][0];
-  const Quad stretch = root(quad(dot(n, n))) / quad(abs(n[chart.k]));
-  return (twice < 0 ? -twice : twice) / 2 * stretch;
+  const Quad length = root(quad(dot(n, n)));
+  Section result{(twice < 0 ? -twice : twice) / 2 * length / quad(abs(n[chart.k])), 0};
+  // in the chart an edge moves by |n_k|/|(α, β)| when its plane moves by 1, and areas are stretched by |n|/|n_k|
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    const Line& line = lines[polygon[k].second];
+    const auto &here = corner[k], &next = corner[(k + 1) % corner.size()];
+    const Quad u = next[0] - here[0], v = next[1] - here[1];
+    const Quad slope = quad(line.alpha * line.alpha + line.beta * line.beta);
+    result.sensitivity += root((u * u + v * v) / slope) * length;
+  }
+  return result;
+}
+
+Quad section_area(const Planes& planes, const Vector<3>& point, const Vector<3>& normal) {
+  return section(planes, point_of(point), point_of(normal)).area;
 }
 
 Solid solid(const Planes& planes) {
@@ -262,7 +312,8 @@ Solid solid(const Planes& planes) {
   const std::vector<Rounded> rounded = rounded_planes(planes);
   for (int f = 0; f < static_cast<int>(planes.size()); ++f) {
     const Chart chart(planes[f]);
-    const Polygon polygon = section(chart, planes, rounded, f);
+    std::vector<Line> lines;
+    const Polygon polygon = clipped_section(chart, planes, rounded, f, lines);
     if (polygon.size() < 3) continue;
     facets.emplace_back();
     for (const Corner& c : polygon)

@@ -8,6 +8,7 @@
 #include <gmpxx.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/contact/narrow_phase.hpp"
@@ -26,14 +27,22 @@ struct Plane {
 };
 using Planes = std::vector<Plane>;
 
-// the doubles themselves
+// the doubles themselves; a point of the plane has z = 0
 Planes planes_of(const HalfSpaces<3>& planes);
+Point point_of(const Vector<3>& point);
+Point point_of(const Vector<2>& point);
+Rational dot(const Point& a, const Point& b);
 
 // Both parts' planes in the first body's frame as the pair's doubles say, planes of A first: (R a)·x <= d + (R a)·o.
 Planes planes_of(const Pair<3>& pair);
 
 // the same with an offset that no double holds
 Planes planes_of(const Pair<3>& pair, const Point& offset);
+
+// A pair of the plane as prisms along z: planes of A, of B, then two lids |z| <= H = 4 (radius of A + radius of B). The
+// program's value, and x and y of every point asked for, are those of the plane; sections are 2 H times as large.
+Planes planes_of(const Pair<2>& pair);
+double lid_height(const Pair<2>& pair);
 
 // every half-space grown by the distance (negative: shrunk), taking normals for unit
 Planes grown(Planes planes, double distance);
@@ -50,6 +59,15 @@ Program feasibility(const Planes& planes);
 // the same over the points of a plane (the section that a joint would cut out, Boon 2013, Eq. 3.7)
 Program section_feasibility(const Planes& planes, const Plane& joint);
 
+// max direction·x over a closed, not empty solid
+Rational support(const Planes& planes, const Point& direction);
+
+// The same where a guessed corner, three of the planes, proves it; nothing where it does not. Far cheaper.
+std::optional<Rational> proven_support(const Planes& planes, const std::array<int, 3>& corner, const Point& direction);
+
+// min over the planes of d - a·x: how deep the point lies inside
+Rational least_slack(const Planes& planes, const Point& point);
+
 // Bounds of the program's minimum proven by a basis that someone guessed: 4 of the planes, multipliers and point by
 // Cramer's rule, then every plane checked. Cheap for thousands of planes, where cddlib is not. `proven` is false when
 // the basis proves no lower bound (singular or a negative multiplier).
@@ -64,7 +82,12 @@ std::vector<Point> vertices(const Planes& planes);
 
 // ---- sections and solids --------------------------------------------------------------------------------------------
 
-// Area of the section by the plane through the point normal to n; 0 when it is empty. The solid must be closed.
+// The section by the plane through the point normal to n; 0 when it is empty. The solid must be closed.
+struct Section {
+  Quad area = 0;
+  Quad sensitivity = 0;  // m: what the area gains when every plane moves out by 1 m, to first order
+};
+Section section(const Planes& planes, const Point& point, const Point& normal);
 Quad section_area(const Planes& planes, const Vector<3>& point, const Vector<3>& normal);
 
 struct Solid {

@@ -1,5 +1,6 @@
 // The referee itself against closed forms, against Euler and against its own second way to the same answer.
 #include "core/testing/exact_referee.hpp"
+#include "core/testing/exact_contacts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -90,6 +91,75 @@ TEST(ExactReferee, MeasuresSections) {
   EXPECT_NEAR(to_double(section_area(cube, {0, 0, 0.25}, Vector<3>(0, 0, 2))), 1, closed_form);
   EXPECT_EQ(to_double(section_area(cube, {0.5, 0, 0.5}, Vector<3>(1, 0, 1))), 0);  // touches an edge only
   EXPECT_EQ(to_double(section_area(cube, {0, 0, 3}, Vector<3>(0, 0, 1))), 0);
+}
+
+TEST(ExactReferee, KnowsWhatASectionGains) {
+  // a square of edge 1 gains 4 of its edges when its planes move out; along a diagonal plane two of them lean
+  const Planes cube = planes_of(shapes::cube<3>(0.5));
+  const Section square = section(cube, {0, 0, Rational(1, 4)}, {0, 0, 2});
+  EXPECT_NEAR(to_double(square.area), 1, closed_form);
+  EXPECT_NEAR(to_double(square.sensitivity), 4, closed_form);
+  const Section leaning = section(cube, {0, 0, 0}, {1, 0, 1});
+  EXPECT_NEAR(to_double(leaning.area), std::sqrt(2.0), closed_form);
+  // at two of its ends x and z meet at an edge: whichever bounds it, by sqrt(2); the other two ends are straight
+  EXPECT_NEAR(to_double(leaning.sensitivity), 4 * std::sqrt(2.0), closed_form);
+}
+
+TEST(ExactReferee, FindsHowFarASolidReaches) {
+  Random random(303);
+  const Planes cube = planes_of(shapes::cube<3>(0.5));
+  EXPECT_EQ(support(cube, {1, 2, -3}), Rational(3));
+  EXPECT_EQ(least_slack(cube, {0, Rational(1, 4), 0}), Rational(1, 4));
+  EXPECT_LT(least_slack(cube, {0, 1, 0}), Rational(0));
+  for (int i = 0; i < 20; ++i) {
+    const HalfSpaces<3> planes = shapes::random_planes<3>(random, 6, 1);
+    const Planes exactly = planes_of(planes);
+    const Point direction = point_of(shapes::direction<3>(random));
+    const Rational reach = support(exactly, direction);
+    int proofs = 0;
+    for (int a = 0; a < 12; ++a)
+      for (int b = a + 1; b < 12; ++b)
+        for (int c = b + 1; c < 12; ++c)
+          if (const std::optional<Rational> proven = proven_support(exactly, {a, b, c}, direction)) {
+            EXPECT_EQ(*proven, reach);
+            ++proofs;
+          }
+    EXPECT_EQ(proofs, 1);  // in general position one corner proves it
+  }
+}
+
+TEST(ExactReferee, APairInThePlaneIsAPrism) {
+  const Polytope<2> square = shapes::block<2>(shapes::cube<2>(0.5));
+  const Pair<2> pair{&square, &square, Matrix<2>::Identity(), Matrix<2>::Identity(), Vector<2>(0.25, 1 - 0x1p-40)};
+  const Planes planes = planes_of(pair);
+  EXPECT_EQ(feasibility(planes).value, Rational(-0x1p-41));
+  const Section middle = section(planes, {0, Rational(1, 2) - Rational(0x1p-41), 0}, {0, 1, 0});
+  EXPECT_NEAR(to_double(middle.area) / (2 * lid_height(pair)), 0.75, closed_form);
+}
+
+TEST(ExactReferee, ConvergesToTheCentreOfAThinOverlap) {
+  // two cubes share a box of 3/4 by 1/2 by 2^-30: its middle, its thickness, its section
+  const Polytope<3> cube = shapes::block<3>(shapes::cube<3>(0.5));
+  const double overlap = 0x1p-30;
+  const Pair<3> pair{&cube, &cube, Matrix<3>::Identity(), Matrix<3>::Identity(), Vector<3>(0.25, -0.5, 1 - overlap)};
+  const Point start{0, Rational(-1, 10), Rational(0.5) - Rational(overlap / 8)};
+  const auto contact = converged_contact(planes_of(pair), 6, 6, start, 0.01);
+  ASSERT_TRUE(contact);
+  // by symmetry
+  EXPECT_NEAR(to_double(contact->from_start[0]), 0.125, closed_form);
+  EXPECT_NEAR(to_double(contact->from_start[1]), -0.15, closed_form);
+  EXPECT_NEAR(to_double(contact->from_start[2]), -overlap * 3 / 8, 1e-9 * overlap);
+  EXPECT_NEAR(to_double(contact->overlap), overlap, 1e-20);
+  EXPECT_NEAR(to_double(contact->normal[2]), 1, closed_form);
+  EXPECT_NEAR(to_double(contact->section.area), 0.375, closed_form);
+  EXPECT_GT(to_double(contact->distance), 0.1);
+  // outside there is nothing to converge from
+  EXPECT_FALSE(converged_contact(planes_of(pair), 6, 6, {0, 0, 0}, 0.01));
+  // and from the centre itself it has nowhere to go
+  Point centre;
+  for (int k = 0; k < 3; ++k)
+    centre[k] = start[k] + Rational(to_double(contact->from_start[k]));
+  EXPECT_LT(to_double(converged_contact(planes_of(pair), 6, 6, centre, 0.01)->distance), 1e-6);
 }
 
 TEST(ExactReferee, ProvesBoundsFromABasis) {

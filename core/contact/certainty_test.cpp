@@ -1,0 +1,60 @@
+// Every answer of the contact kernel against exact arithmetic: decisions, what proves them, overlaps, faces, areas.
+// Rows L1, L2, L4-L7, L10 of the catalogue of extremes (L3 is below, L8 is slicing_test's MakeBlock.NamesWhatIsWrong,
+// L9 symmetry_test).
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/testing/contacts.hpp"
+#include "core/testing/pair_judge.hpp"
+
+namespace voussoir {
+namespace {
+
+using families::Tally;
+using shapes::Random;
+
+// cddlib works in processes of its own; the machine that judges changes has two cores
+constexpr int processes = 2;
+
+constexpr std::uint64_t seed = 20240;
+
+void print(const Tally& tally) {
+  for (const auto& [what, count] : tally.counts)
+    fmt::print("  {:9} {}\n", count, what);
+  for (const auto& [what, share] : tally.worst)
+    fmt::print("  {:9.3g} of the promise: {}\n", share, what);
+}
+
+template <int Dim>
+void expect_no_promise_broken(long long first, long long last) {
+  Tally tally;
+  const std::string broken = families::judge_all<Dim>(seed, first, last, processes, tally);
+  if (!broken.empty()) ADD_FAILURE() << broken;
+  if (!broken.empty() || last - first > 100'000) print(tally);
+  // every kind of answer was asked for, cold and warm
+  const long long cases = last - first;
+  for (const char* start : {"cold, ", "warm, "}) {
+    EXPECT_EQ(tally.counts[std::string(start) + "decisions"], cases);
+    EXPECT_GT(tally.counts[std::string(start) + "touching"], cases / 4);
+    EXPECT_GT(tally.counts[std::string(start) + "separated"], cases / 4);
+  }
+  EXPECT_GT(tally.counts["cold, values"], cases / 4);
+  EXPECT_GT(tally.counts["warm, values"], cases / 4);
+  EXPECT_EQ(tally.counts["centres by another solver"], 0);
+}
+
+TEST(Certainty, NoAnswerIsWrongAndEveryProofHolds3D) {
+  expect_no_promise_broken<3>(0, 14'000);
+}
+TEST(Certainty, NoAnswerIsWrongAndEveryProofHolds2D) {
+  expect_no_promise_broken<2>(0, 6'000);
+}
+TEST(Certainty, DISABLED_AMillionPairs3D) {
+  expect_no_promise_broken<3>(20'000, 770'000);
+}
+TEST(Certainty, DISABLED_AMillionPairs2D) {
+  expect_no_promise_broken<2>(20'000, 270'000);
+}
+
+}  // namespace
+}  // namespace voussoir

@@ -1,0 +1,31 @@
+// The fully converged contact of a pair: analytic centre by Newton's method in 113 bits on the exact planes, and the
+// normal, overlap and section that belong to it.
+#pragma once
+
+#include <optional>
+
+#include "core/testing/exact_referee.hpp"
+
+namespace voussoir::exact {
+
+struct ConvergedContact {
+  QuadVector from_start{};  // the centre, relative to the start
+  Quad distance = 0;    // of the start from it, in the metric of the barrier's Hessian there: along any direction the
+                        // start is off by no more than this share of the region
+  QuadVector normal{};  // unit; 0 when those of the parts are equal
+  Quad overlap = 0;     // along it
+  Section section;
+};
+
+// `planes`: those of A first, then those of B, then any that only close the solid. `radius` is the potential
+// particle's. Nothing when the start does not lie inside or Newton does not end.
+std::optional<ConvergedContact> converged_contact(const Planes& planes, int faces_a, int faces_b, const Point& start,
+                                                  double radius);
+
+// How far each plane of A lies ahead of the point along a normal, each plane of B behind it (Eq. 3.36); `no_end` for
+// planes that the search never meets.
+inline constexpr double no_end = 1e300;
+std::vector<Quad> distances_along(const Planes& planes, int faces_a, int faces_b, const Point& point,
+                                  const Point& normal);
+
+}  // namespace voussoir::exact

@@ -1,0 +1,45 @@
+// The kernel's whole answer to a pair, judged by exact arithmetic on the doubles that it was given.
+//
+// Promised, with the pair's size = radius of A + radius of B (Polytope::radius, about the bodies' centroids) and
+// 1 ulp = 2^-52:
+//  - touching only where s* < 0, separated only where s* > 0, undecided only within 64 ulp of the size, nothing else;
+//  - a proof holds as it stands: an interior point lies `margin` inside every plane; nothing of A lies beyond `support`
+//    along a unit axis and nothing of B before support + margin; by multipliers s* >= margin; and margin > 0;
+//  - the program's value, cold and to its end, within 64 ulp of the size;
+//  - at the kernel's own point and normal: overlap within 64 ulp of the size, the faces those that end it (or nearer to
+//    that than 64 ulp), area within 1e-12 relative plus the first-order effect of 64 ulp on each plane's offset.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/contact/narrow_phase.hpp"
+#include "core/testing/exact_referee.hpp"
+#include "core/testing/pair_families.hpp"
+
+namespace voussoir::families {
+
+// a promise that was broken, by name, and the figures
+struct Finding {
+  std::string promise, figures;
+};
+
+// what was asked and the largest errors, in units of what is promised
+struct Tally {
+  std::map<std::string, long long> counts;
+  std::map<std::string, double> worst;
+
+  void add(const Tally& other);
+};
+
+// The case cold, once to the decision and once to the area, then warm after its move.
+template <int Dim>
+std::vector<Finding> judge(const Case<Dim>& c, Tally& tally);
+
+// Judges cases `first` .. `last` - 1 of the seed in processes of their own. For every broken promise the text names how
+// often it was, the smallest case by seed and number, and that case without the faces that do not matter.
+template <int Dim>
+std::string judge_all(std::uint64_t seed, long long first, long long last, int processes, Tally& tally);
+
+}  // namespace voussoir::families
