@@ -64,6 +64,7 @@ struct Resolver {
   double tolerance;    // m
   double reach;        // m: no point of both parts lies farther from the origin
   double rounding;     // m: of a slack
+  double proven;       // m: margin of the proof that needs no second one; 0: none
   int faces_a;
   Vector<Dim> start;
   FeasibilityResult<Dim> lp;
@@ -110,6 +111,10 @@ struct Resolver {
 
   // overlap is proven by the old contact point when it still lies inside, else by the LP
   bool establish() {
+    if (proven > 0) {
+      start = contact.proof.point - origin;
+      return true;
+    }
     if (contact.proof.kind == ProofKind::interior_point && settings.point == ContactPoint::analytic_centre) {
       start = contact.proof.point - origin;
       if (smallest_slack<Dim>(planes, start) > rounding + tolerance) return true;
@@ -150,12 +155,13 @@ struct Resolver {
 
   // the centre of a region as thin as the rounding may round to its outside: the LP's point is as good
   bool keep_inside(Vector<Dim>& point) {
-    const auto margin = [&] { return smallest_slack<Dim>(planes, point) - rounding; };
-    if (!(margin() > 0)) {
-      if (!lp_solved && !establish_cold()) return false;
+    double margin = smallest_slack<Dim>(planes, point) - rounding;
+    if (!(margin > 0)) {
+      if (proven == 0 && !lp_solved && !establish_cold()) return false;
       point = start;
+      margin = proven > 0 ? proven : smallest_slack<Dim>(planes, point) - rounding;
     }
-    contact.proof = {.kind = ProofKind::interior_point, .margin = margin(), .point = point + origin};
+    contact.proof = {.kind = ProofKind::interior_point, .margin = margin, .point = point + origin};
     contact.geometry.point = pair.axes * contact.proof.point;
     return true;
   }
@@ -280,7 +286,7 @@ double section_area(const HalfSpaces<3>& planes, const Vector<3>& point, const V
 
 template <int Dim>
 void resolve_generally(const Pair<Dim>& pair, const ContactSettings& settings, const Solvers<Dim>& solvers,
-                       Contact<Dim>& contact, KernelCounters& counters) {
+                       Contact<Dim>& contact, bool fresh, KernelCounters& counters) {
   static thread_local HalfSpaces<Dim> planes;
   const bool a_smaller = pair.a->radius < pair.b->radius;
   const Vector<Dim> origin = a_smaller ? pair.a->centre : Vector<Dim>(pair.offset + pair.rotation * pair.b->centre);
@@ -300,6 +306,7 @@ void resolve_generally(const Pair<Dim>& pair, const ContactSettings& settings, c
                 .tolerance = settings.tolerance * size,
                 .reach = reach,
                 .rounding = slack_rounding * coordinates,
+                .proven = fresh ? contact.proof.margin : 0,
                 .faces_a = static_cast<int>(pair.a->faces.size()),
                 .start = {},
                 .lp = {}}
@@ -308,7 +315,7 @@ void resolve_generally(const Pair<Dim>& pair, const ContactSettings& settings, c
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \
   template void resolve_generally<Dim>(const Pair<Dim>&, const ContactSettings&, const Solvers<Dim>&, Contact<Dim>&,   \
-                                       KernelCounters&);                                                               \
+                                       bool, KernelCounters&);                                                               \
   template void assemble<Dim>(const Pair<Dim>&, const Vector<Dim>&, HalfSpaces<Dim>&);                                 \
   template bool contact_normal<Dim>(const HalfSpaces<Dim>&, int, const Vector<Dim>&, double, Vector<Dim>&, bool&);     \
   template bool overlap_along<Dim>(const HalfSpaces<Dim>&, int, const Vector<Dim>&, const Vector<Dim>&, double&, int&, \

@@ -6,9 +6,10 @@
 
 namespace voussoir {
 
-// as narrow_phase, for one pair
+// As narrow_phase, for one pair. A proof by an interior point that holds at this very pose (`fresh`) is not questioned:
+// the pair touches, whatever this road's own rounding can tell.
 template <int Dim>
 void resolve_generally(const Pair<Dim>& pair, const ContactSettings& settings, const Solvers<Dim>& solvers,
-                       Contact<Dim>& contact, KernelCounters& counters);
+                       Contact<Dim>& contact, bool fresh, KernelCounters& counters);
 
 }  // namespace voussoir

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "core/contact/general_road.hpp"
@@ -72,7 +73,10 @@ void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const 
   }
   contact.geometry = {};
   resolve_new(task, {settings.newton_tolerance, settings.newton_limit}, counters);
-  if (!task.answered) return resolve_generally(pair, settings, solvers, contact, counters);
+  if (!task.answered) {
+    const bool fresh = contact.proof.kind == ProofKind::interior_point;
+    return resolve_generally(pair, settings, solvers, contact, fresh, counters);
+  }
   if (contact.status == ContactStatus::separated) {
     // the plane between them is cheaper to check next time than the multipliers
     const Vector<Dim> axis = contact.proof.axis;
@@ -86,14 +90,14 @@ bool kernel_suits(const ContactSettings& settings, const Solvers<Dim>& solvers) 
          solvers.centre == &solve_analytic_centre<Dim>;
 }
 
-// pairs of equal size side by side: a register is as slow as its largest pair
+// pairs that need the same work side by side: a register is as slow as its largest pair
 template <int Dim>
-void sort_by_size(std::vector<KernelTask<Dim>>& tasks) {
-  const auto smaller = [](const KernelTask<Dim>& s, const KernelTask<Dim>& t) {
-    const std::size_t a = s.pair->a->faces.size(), b = t.pair->a->faces.size();
-    return a != b ? a < b : s.pair->b->faces.size() < t.pair->b->faces.size();
+void sort_by_work(std::vector<KernelTask<Dim>>& tasks) {
+  const auto key = [](const KernelTask<Dim>& t) {
+    return std::tuple(t.pair->last, t.pair->a->faces.size(), t.pair->b->faces.size());
   };
-  if (!std::is_sorted(tasks.begin(), tasks.end(), smaller)) std::sort(tasks.begin(), tasks.end(), smaller);
+  const auto less = [&](const KernelTask<Dim>& s, const KernelTask<Dim>& t) { return key(s) < key(t); };
+  if (!std::is_sorted(tasks.begin(), tasks.end(), less)) std::sort(tasks.begin(), tasks.end(), less);
 }
 
 }  // namespace
@@ -109,7 +113,7 @@ void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
     const Pair<Dim>& pair = pairs[i];
     Contact<Dim>& contact = *contacts[i];
     if (!fast) {
-      resolve_generally(pair, settings, solvers, contact, counters);
+      resolve_generally(pair, settings, solvers, contact, false, counters);
       continue;
     }
     const Proof<Dim>& proof = contact.proof;
@@ -128,7 +132,7 @@ void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
     resolve_cold(task, settings, solvers, counters);
   }
 
-  sort_by_size(standing);
+  sort_by_work(standing);
   resolve_standing<Dim>(standing, {settings.newton_tolerance, settings.newton_limit}, counters);
   for (KernelTask<Dim>& task : standing) {
     if (task.answered)

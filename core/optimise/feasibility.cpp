@@ -15,6 +15,9 @@ constexpr double multiplier_rounding = 1e-11;
 // for ever
 constexpr double violation_rounding = 16 * std::numeric_limits<double>::epsilon();
 
+// an entering plane takes a multiplier only by more than rounding
+constexpr double pivot_rounding = 1024 * std::numeric_limits<double>::epsilon();
+
 // each gains the digits that the inverse has
 constexpr int refinement_steps = 3;
 
@@ -87,11 +90,13 @@ Basis<Dim> start_basis(const HalfSpaces<Dim>& planes, const FeasibilityRequest<D
 
 // the tight plane that leaves when the plane (column) enters: the first to lose its multiplier
 template <int Dim>
-int leaving(const Basis<Dim>& basis, const Eigen::Matrix<double, Dim + 1, 1>& mu) {
+int leaving(const Basis<Dim>& basis, const Eigen::Matrix<double, Dim + 1, 1>& mu,
+            const Eigen::Matrix<double, Dim + 1, 1>& column) {
   int leave = -1;
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= Dim; ++k) {
-    if (mu[k] <= multiplier_rounding) continue;
+    // what its own rounding could have made
+    if (mu[k] <= pivot_rounding * basis.inverse.row(k).cwiseAbs().dot(column.cwiseAbs())) continue;
     const double ratio = std::max(basis.multipliers()[k], 0.0) / mu[k];
     // of equal ratios the far planes go first, then the largest pivot
     if (ratio < best || (ratio == best && mu[k] > mu[leave])) {
@@ -213,7 +218,7 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
     Eigen::Matrix<double, Dim + 1, 1> column;
     column << planes[enter].normal, 1;
     const Eigen::Matrix<double, Dim + 1, 1> mu = basis.inverse * column;
-    const int leave = leaving<Dim>(basis, mu);
+    const int leave = leaving<Dim>(basis, mu, column);
     if (leave < 0) break;  // impossible in exact arithmetic: sum(mu) = 1
     pivot<Dim>(basis, leave, enter, planes[enter].offset, mu);
     polished = false;

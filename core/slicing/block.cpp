@@ -102,6 +102,41 @@ BlockStatus judge(const Surface<Dim>& surface, double inscribed_radius) {
   return solid ? BlockStatus::ok : BlockStatus::flat;
 }
 
+// Where fewer faces carry the inscribed ball than the LP has tight planes, as two opposite ones do, the rest of the
+// basis is free: the faces most independent of the others take those places.
+template <int Dim>
+void complete_basis(Polytope<Dim>& part) {
+  using Column = Eigen::Matrix<double, Dim + 1, 1>;
+  const auto column = [&](std::size_t f) {
+    Column c;
+    c << part.faces[f].normal, 1;
+    return c;
+  };
+  std::vector<Column> directions;  // orthonormal
+  const auto remainder = [&](Column c) {
+    for (int sweep = 0; sweep < 2; ++sweep)
+      for (const Column& d : directions)
+        c -= d.dot(c) * d;
+    return c;
+  };
+  for (const int f : part.basis)
+    if (f >= 0) directions.push_back(remainder(column(f)).normalized());
+  for (int& place : part.basis) {
+    if (place >= 0) continue;
+    double largest = 0;
+    for (std::size_t f = 0; f < part.faces.size(); ++f)
+      if (const double left = remainder(column(f)).norm(); left > largest) {
+        largest = left;
+        place = static_cast<int>(f);
+      }
+    directions.push_back(remainder(column(place)).normalized());
+  }
+  Eigen::Matrix<double, Dim + 1, Dim + 1> columns;
+  for (int k = 0; k <= Dim; ++k)
+    columns.col(k) = column(part.basis[k]);
+  part.basis_inverse = columns.inverse();
+}
+
 // all that follows from a part's faces
 template <int Dim>
 BlockStatus describe(Polytope<Dim>& part) {
@@ -109,12 +144,7 @@ BlockStatus describe(Polytope<Dim>& part) {
   part.inscribed_radius = -ball.value;
   part.centre = ball.point;
   part.basis = ball.basis;
-  Eigen::Matrix<double, Dim + 1, Dim + 1> columns;
-  for (int k = 0; k <= Dim; ++k) {
-    if (ball.basis[k] < 0) return BlockStatus::open;
-    columns.col(k) << part.faces[ball.basis[k]].normal, 1;
-  }
-  part.basis_inverse = columns.inverse();
+  complete_basis(part);
   Surface<Dim> surface = surface_around(part.faces, ball);
   if (const BlockStatus status = judge(surface, part.inscribed_radius); status != BlockStatus::ok) return status;
 

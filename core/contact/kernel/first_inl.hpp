@@ -62,16 +62,19 @@ HWY_INLINE void meet(const TightPlanes<Dim>& t, Components<double, Dim>& x, doub
 // the entering plane takes the place of the first tight plane to lose its multiplier
 template <int Dim>
 HWY_INLINE bool exchange(TightPlanes<Dim>& t, int plane, const Components<double, Dim>& normal, double offset) {
-  constexpr int size = TightPlanes<Dim>::size;
-  double mu[size];
+  constexpr int size_of_column = TightPlanes<Dim>::size;
+  double mu[size_of_column];
   int leave = -1;
   double least = std::numeric_limits<double>::max();
-  for (int k = 0; k < size; ++k) {
-    mu[k] = t.inverse[k][0] * normal[0];
-    for (int j = 1; j < Dim; ++j)
-      mu[k] = mu[k] + t.inverse[k][j] * normal[j];
-    mu[k] = mu[k] + t.inverse[k][Dim];
-    if (mu[k] <= smallest_exchange) continue;
+  for (int k = 0; k < size_of_column; ++k) {
+    double size = 0;
+    mu[k] = 0;
+    for (int j = 0; j < size_of_column; ++j) {
+      const double term = t.inverse[k][j] * (j < Dim ? normal[j] : 1);
+      mu[k] += term;
+      size += larger(term, -term);
+    }
+    if (mu[k] <= exchange_rounding * size) continue;
     const double ratio = larger(t.inverse[k][Dim], 0) / mu[k];
     if (ratio < least || (ratio == least && leave >= 0 && mu[k] > mu[leave])) {
       least = ratio;
@@ -80,11 +83,11 @@ HWY_INLINE bool exchange(TightPlanes<Dim>& t, int plane, const Components<double
   }
   if (leave < 0) return false;
   const double scale = 1 / mu[leave];
-  for (int j = 0; j < size; ++j)
+  for (int j = 0; j < size_of_column; ++j)
     t.inverse[leave][j] *= scale;
-  for (int k = 0; k < size; ++k)
+  for (int k = 0; k < size_of_column; ++k)
     if (k != leave)
-      for (int j = 0; j < size; ++j)
+      for (int j = 0; j < size_of_column; ++j)
         t.inverse[k][j] -= mu[k] * t.inverse[leave][j];
   t.planes[leave] = plane;
   t.offsets[leave] = offset;

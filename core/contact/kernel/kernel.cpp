@@ -141,14 +141,13 @@ void recall_section(const KernelTask<Dim>& task, int quads_a, SectionList& list)
     list.planes[k] = padded(proof.section[k], count_a, quads_a);
 }
 
-// as many tasks as the register holds pairs, or fewer
+// as many tasks as the register holds pairs, or fewer, all to be resolved to the same stage
 template <class L, int Dim>
 void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters) {
   Meeting<L, Dim> m;
   Columns<L, Dim> in;
   SectionList lists[L::width];
   int count_a = 0, count_b = 0;
-  Stage last = Stage::decision;
   for (int lane = 0; lane < L::width; ++lane) {
     const bool real = lane < static_cast<int>(tasks.size());
     const KernelTask<Dim>& task = tasks[real ? lane : 0];
@@ -160,7 +159,6 @@ void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& optio
     m.b.count[lane] = static_cast<int>(b.faces.size());
     count_a = std::max(count_a, m.a.count[lane]);
     count_b = std::max(count_b, m.b.count[lane]);
-    last = std::max(last, task.pair->last);
   }
   m.quads_a = quads_of(count_a);
   m.quads = m.quads_a + quads_of(count_b);
@@ -168,7 +166,7 @@ void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& optio
     recall_section(tasks[lane], m.quads_a, lists[lane]);
   m.at = workspace().arrays<Dim>(m.quads * planes_per_quad * L::width);
   begin(m, in);
-  resolve_from_point(m, last, options.newton_tolerance, options.newton_limit, lists);
+  resolve_from_point(m, tasks[0].pair->last, options.newton_tolerance, options.newton_limit, lists);
   const Results<L, Dim> results(m);
   for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane)
     results.deliver(lane, tasks[lane], lists[lane], m.quads_a, counters);
@@ -177,12 +175,16 @@ void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& optio
 template <int Dim>
 HWY_NOINLINE void standing(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters) {
   constexpr std::size_t width = ManyPairs::width;
-  while (tasks.size() > 1) {
-    const std::size_t count = std::min(width, tasks.size());
-    standing_group<ManyPairs, Dim>(tasks.first(count), options, counters);
+  while (!tasks.empty()) {
+    std::size_t count = 1;
+    while (count < std::min(width, tasks.size()) && tasks[count].pair->last == tasks[0].pair->last)
+      ++count;
+    if (count == 1)
+      standing_group<OnePair, Dim>(tasks.first(count), options, counters);
+    else
+      standing_group<ManyPairs, Dim>(tasks.first(count), options, counters);
     tasks = tasks.subspan(count);
   }
-  if (!tasks.empty()) standing_group<OnePair, Dim>(tasks, options, counters);
 }
 
 template <int Dim>
@@ -203,6 +205,8 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   m.quads_a = quads_of(m.a.count[0]);
   m.quads = m.quads_a + quads_of(m.b.count[0]);
   m.at = workspace().arrays<Dim>(m.quads * planes_per_quad);
+
+  proof.kind = ProofKind::none;
 
   // the LP in A's axes, seen from the centre of the smaller part
   for (int i = 0; i < Dim; ++i)
@@ -247,7 +251,11 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   if (pair.last > Stage::decision) {
     build_frame(m);
     assemble_planes(m);
-    if (none(m.good) || !(m.least > m.rounding)) return;
+    if (none(m.good) || !(m.least > m.rounding + m.tolerance)) return;
+    // what fails from here on has the LP's point to fall back on
+    proof.kind = ProofKind::interior_point;
+    proof.margin = m.least - m.rounding;
+    for (int k = 0; k < Dim; ++k) proof.point[k] = m.point[k];
     const int approaches = approach_centre(m);
     if (approaches < 0) return;
     counters.newton_iterations += approaches;

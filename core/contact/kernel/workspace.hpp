@@ -29,10 +29,10 @@ inline constexpr double smallest_pivot = 1e-12;
 inline constexpr double smallest_binormal2 = 1e-4;
 
 // a corner beyond a plane of the section by more is not a corner; rounding is 1e-16 in these scaled planes
-inline constexpr double corner_tolerance = 1e-12;
+inline constexpr double corner_tolerance = 1e-13;
 
-// an entering plane that takes less of a multiplier than this takes none
-inline constexpr double smallest_exchange = 1e-11;
+// an entering plane takes a multiplier only by more than rounding, as a share of the terms
+inline constexpr double exchange_rounding = 16 * std::numeric_limits<double>::epsilon();
 
 // pivots are 2 to 9; more means rounding turns in circles
 inline constexpr int most_exchanges = 60;
