@@ -58,6 +58,7 @@ std::string made_up_run(bool with_ipopt) {
       {"touch", single_warm, "overlap", 100, "decision certificate point normal overlap"},
       {"touch", single_cold, "overlap", 400, "decision certificate point normal overlap"},
       {"touch", own_lp, "lp", 100, "decision"},
+      {"touch", own_lp_warm, "lp", 125, "decision"},
       {"touch", own_centre, "centre", 200, "point"},
       {"touch", glpk_dual_cold, "lp", 4000, "decision"},
       {"touch", glpk_primal, "lp", 5000, "decision"},
@@ -139,7 +140,7 @@ TEST(ContactReport, WritesEveryMethodToTheFlatTable) {
   const std::vector<std::string> first(table[0].begin(), table[0].begin() + 7);
   EXPECT_EQ(first,
             (std::vector<std::string>{"shape", "state", "method", "stage", "median_ns", "ratio_to_ours", "delivers"}));
-  EXPECT_EQ(table.size(), 1u + 6 * 15);
+  EXPECT_EQ(table.size(), 1u + 6 * 16);
   for (std::size_t i = 1; i < table.size(); ++i) {
     ASSERT_EQ(table[i].size(), table[0].size());
     EXPECT_GT(std::stod(table[i][4]), 0);
@@ -156,7 +157,7 @@ TEST(ContactReport, ComparesGeometricMeansWithWhatIsRequired) {
   const std::string text = summary_tables(read_report(made_up_run(true)));
   // 2^0 … 2^4: their mean is 4
   EXPECT_EQ(table_line(text, "GLPK, its best warm form"),
-            "|GLPK,itsbestwarmform|10000|50(≥40)|25||certificate,point,normal,overlap,area|");
+            "|GLPK,itsbestwarmform|10000|50(≥40)|25|20|certificate,point,normal,overlap,area|");
   EXPECT_EQ(table_line(text, "GLPK, its best cold form"),
             "|GLPK,itsbestcoldform|16000|80|40|40(≥35)|certificate,point,normal,overlap,area|");
   EXPECT_EQ(table_line(text, "libccd GJK+EPA"), "|libccdGJK+EPA|3200|16(≥12)|8.0(≥7)|2.0|certificate,area|");

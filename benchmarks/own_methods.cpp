@@ -130,6 +130,7 @@ std::shared_ptr<Prepared> prepare_centre(const Workload& work) {
 // ---- the polyhedron by itself (Boon 2013, section 4.7) --------------------------------------------------------------
 
 constexpr double share_of_vertex = 0.95;  // of the way from the centroid to a vertex: where the thesis starts
+constexpr double clip_error = 1e-12;      // of volume and centroid, whose size is 1
 
 HalfSpaces<3> turned_planes(const Pair<3>& pair) {
   return shapes::placed<3>(pair.b->faces, pair.rotation, Vector<3>::Zero());
@@ -155,8 +156,10 @@ std::shared_ptr<Prepared> prepare_solid_centroid(const Workload& work) {
   for (const Pair<3>& pair : work.pairs)
     regions.push_back(turned_planes(pair));
   const Polytope<3> around = box(Vector<3>::Constant(1));
-  return prepared_query(pairs_per_workload, [regions, around, clipper = Clipper()](std::size_t i) mutable {
-    return clipper.clip(around, regions[i]).volume > 0;
+  return prepared_query(pairs_per_workload, [&work, regions, around, clipper = Clipper()](std::size_t i) mutable {
+    // the polyhedron itself must come out, and its centroid lies at 0
+    const Overlap found = clipper.clip(around, regions[i]);
+    return std::abs(found.volume - work.pairs[i].b->mass.volume) < clip_error && found.centroid.norm() < clip_error;
   });
 }
 

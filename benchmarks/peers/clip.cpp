@@ -6,6 +6,13 @@
 #include "benchmarks/peers/peers.hpp"
 
 namespace voussoir::benchmarks {
+namespace {
+
+// m, for parts of about 1: what lies in the plane within rounding is kept. Without it, corners where more than three
+// planes meet fall on either side by chance, faces are left more than once, and the region does not close.
+constexpr double in_plane = 1e-13;
+
+}  // namespace
 
 Overlap Clipper::clip(const Polytope<3>& part, const HalfSpaces<3>& planes) {
   vertices_ = part.vertices;
@@ -26,12 +33,12 @@ bool Clipper::cut_by(const HalfSpace<3>& plane) {
   bool any_kept = false, any_lost = false;
   for (const int v : alive_) {
     distances_[v] = signed_distance(plane, vertices_[v]);
-    (distances_[v] > 0 ? any_lost : any_kept) = true;
+    (distances_[v] > in_plane ? any_lost : any_kept) = true;
   }
   if (!any_lost) return true;
   if (!any_kept) return false;
 
-  std::erase_if(alive_, [this](int v) { return distances_[v] > 0; });
+  std::erase_if(alive_, [this](int v) { return distances_[v] > in_plane; });
   cuts_.clear();
   section_edges_.clear();
   next_count_ = 0;
@@ -50,7 +57,7 @@ bool Clipper::cut_by(const HalfSpace<3>& plane) {
 }
 
 bool Clipper::hit(const Loop& loop) const {
-  return std::any_of(loop.begin(), loop.end(), [this](int v) { return distances_[v] > 0; });
+  return std::any_of(loop.begin(), loop.end(), [this](int v) { return distances_[v] > in_plane; });
 }
 
 void Clipper::cut_loop(const Loop& loop, Loop& left) {
@@ -58,7 +65,7 @@ void Clipper::cut_loop(const Loop& loop, Loop& left) {
   int leaves = -1, enters = -1;
   for (std::size_t k = 0; k < loop.size(); ++k) {
     const int here = loop[k], next = loop[k + 1 < loop.size() ? k + 1 : 0];
-    const bool kept = distances_[here] <= 0, next_kept = distances_[next] <= 0;
+    const bool kept = distances_[here] <= in_plane, next_kept = distances_[next] <= in_plane;
     if (kept) left.push_back(here);
     if (kept && !next_kept) left.push_back(leaves = vertex_on(here, next));
     if (!kept && next_kept) left.push_back(enters = vertex_on(next, here));
@@ -71,7 +78,7 @@ void Clipper::cut_loop(const Loop& loop, Loop& left) {
 int Clipper::vertex_on(int kept, int lost) {
   for (const Cut& cut : cuts_)
     if (cut.kept == kept && cut.lost == lost) return cut.vertex;
-  const double share = distances_[kept] / (distances_[kept] - distances_[lost]);
+  const double inside = std::min(distances_[kept], 0.0), share = inside / (inside - distances_[lost]);
   vertices_.push_back(vertices_[kept] + share * (vertices_[lost] - vertices_[kept]));
   alive_.push_back(static_cast<int>(vertices_.size()) - 1);
   cuts_.push_back({kept, lost, static_cast<int>(vertices_.size()) - 1});
