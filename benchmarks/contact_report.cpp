@@ -45,9 +45,11 @@ Row read_row(const json& entry) {
   row.method = parts[2];
   row.stage = parts[3];
   row.delivers = entry.at("label").get<std::string>();
-  row.pairs = static_cast<int>(finite(entry, "pairs"));
   row.wrong = static_cast<int>(finite(entry, "wrong"));
-  row.median_ns = finite(entry, "real_time") / std::max(row.pairs, 1);
+  // each thread has its share of the pairs, and Google Benchmark has divided by their number already
+  const int pairs_of_thread = static_cast<int>(finite(entry, "pairs"));
+  row.pairs = pairs_of_thread * entry.value("threads", 1);
+  row.median_ns = finite(entry, "real_time") / std::max(pairs_of_thread, 1);
   if (!(row.median_ns > 0)) throw std::runtime_error(fmt::format("{}: no time", name));
   row.planes = finite(entry, "planes");
   row.vertices = finite(entry, "vertices");

@@ -119,19 +119,22 @@ TEST(ContactReport, ReadsTheMediansOfARun) {
   EXPECT_NE(report.origin.find("medians of 3"), std::string::npos);
 }
 
+// the excerpt with every occurrence of a text replaced
+std::string altered(const std::string& from, const std::string& to) {
+  std::string text = excerpt;
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
 TEST(ContactReport, RefusesWhatIsNoResult) {
-  const auto altered = [](const std::string& from, const std::string& to) {
-    std::string text = excerpt;
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-      text.replace(at, from.size(), to);
-    return text;
-  };
   EXPECT_THROW(read_report("{"), std::runtime_error);
   EXPECT_THROW(read_report("{}"), std::runtime_error);
   EXPECT_THROW(read_report(altered("\"median\"", "\"mean\"")), std::runtime_error);
   EXPECT_THROW(read_report(altered("\"real_time\": 2.0e6", "\"real_time\": 0")), std::runtime_error);
   EXPECT_THROW(read_report(altered("\"real_time\": 2.0e6", "\"real_time\": nan")), std::runtime_error);
   EXPECT_THROW(read_report(altered("batched warm 1 %", "batched cold")), std::runtime_error);
+  EXPECT_EQ(read_report(altered("\"threads\": 1", "\"threads\": 2")).rows[0].pairs, 2000);
   EXPECT_EQ(own_wrong_decisions(read_report(altered("\"newton\": 2.5", "\"wrong\": 2"))), 2);
 }
 

@@ -16,7 +16,7 @@ constexpr double small_optimum = 0.5e-4, large_optimum = 0.5e-2, face_overlap = 
 constexpr std::array<double, 2> moves = {1e-6, 1e-5};
 constexpr int bisections = 50;
 
-// a box cut by random joints at 0.6 to 1 of its half width, scaled to circumradius 0.5
+// a box with random joints at half to five sixths of its half width cut off, scaled to circumradius 0.5
 Polytope<3> joint_cut_block(Random& random) {
   while (true) {
     const HalfSpaces<3> planes = shapes::random_planes<3>(random, shapes::integer(random, fewest_faces, 40), 0.5);
