@@ -11,7 +11,7 @@ help:
 	@echo "make test-long           the long tests"
 	@echo "make coverage            line coverage of the core's rooms by the unit tests (build-coverage)"
 	@echo "make reports             figures, studies and the verification manual: $(BUILD)/reports/index.html"
-	@echo "make benchmark           time the kernels"
+	@echo "make benchmark           time the kernels and their peers (VOUSSOIR_BENCHMARK=quick: in a minute)"
 	@echo "make run SCENE=file      run one scene (OUT=folder SET='key=value …')"
 
 packages:
@@ -36,9 +36,11 @@ coverage: packages
 	@cmake/coverage.sh $(CURDIR) $(CURDIR)/build-coverage $(JOBS)
 
 reports: build
+	@cmake --build $(BUILD) --parallel $(JOBS) --target benchmarks
 	@cmake/make_reports.sh $(BUILD) $(JOBS)
 
-benchmark: build
+benchmark: configure
+	@cmake --build $(BUILD) --parallel $(JOBS) --target benchmarks
 	@cmake/run_benchmarks.sh $(BUILD)
 
 run: build

@@ -19,7 +19,7 @@ void three_sets(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0));
   for (int set = 0; set < 3; ++set)
     for (int i = 0; i < n; ++i) {
-      const Vector<3> normal = (Vector<3>::Unit(set) + 0.05 * direction(random)).normalized();
+      const Vector<3> normal = (Vector<3>::Unit(set) + 0.05 * shapes::direction<3>(random)).normalized();
       cuts.push_back({{normal, (i + 1.0) / (n + 1) - 0.5}, static_cast<int>(cuts.size())});
     }
   std::size_t blocks = 0;

@@ -53,6 +53,29 @@ for plan in "$source"/cases/*/study.toml; do
       --out "$out" --style "$source/reports" || failures+=("report on the study of $name")
 done
 
+# the contact kernel is timed again when it or a peer's harness has changed; `make benchmark` times it at length
+benchmarks=$reports/benchmarks
+bench=$build/benchmarks/bench_contact
+if [ ! -x "$bench" ]; then
+  echo "contact kernel: not timed, Google Benchmark is not installed"
+elif [ -s "$benchmarks/contact.csv" ] && [ "$(cat "$benchmarks/contact.key" 2>/dev/null)" = "$(sha256sum <"$bench")" ]; then
+  echo "contact kernel: unchanged"
+else
+  echo "contact kernel: timing"
+  mkdir -p "$benchmarks"
+  if ! VOUSSOIR_BENCHMARK=quick "$source/cmake/run_benchmarks.sh" "$build" >"$benchmarks/quick.log" 2>&1; then
+    tail -n 5 "$benchmarks/quick.log"
+    failures+=("contact kernel (log: $shown/reports/benchmarks/quick.log)")
+  fi
+fi
+for figure in contact_planes contact_vertices; do
+  # a figure whose methods were not all built has no data
+  [ -s "$benchmarks/$figure.csv" ] || continue
+  (cd "$benchmarks" && "$source/reports/draw.sh" "$source/reports/$figure.gp" "$reports/figures/$figure.svg")
+  status=$?
+  [ $status -eq 0 ] || [ $status -eq 77 ] || failures+=("figure $figure")
+done
+
 echo "manual"
 rm -f "$reports/scene_keys.md"
 if [ -x "$program" ] && ! "$program" docs >"$reports/scene_keys.md"; then

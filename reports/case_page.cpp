@@ -46,16 +46,12 @@ struct Page {
   // a figure is looked for among the case's and the study's; its caption is HTML already
   std::string show_figure(const std::string& stem, const std::string& caption) {
     shown.insert(stem);
-    for (const fs::path& folder : {folders.build / "reports" / "figures", study_folder()}) {
-      const fs::path path = folder / (stem + ".svg");
-      if (!fs::exists(path)) continue;
-      try {
-        return figure(inline_svg(path, slug(name + "-" + stem)), caption);
-      } catch (const std::runtime_error& problem) {
-        return say_missing(problem.what());
-      }
+    try {
+      return drawn_figure({folders.build / "reports" / "figures", study_folder()}, stem, slug(name + "-" + stem),
+                          caption);
+    } catch (const std::runtime_error& problem) {
+      return say_missing(problem.what());
     }
-    return say_missing(fmt::format("The figure {} was not drawn.", stem));
   }
 
   std::string render(const std::string& markdown, int heading_shift, bool leave_out_title) {

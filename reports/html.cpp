@@ -146,4 +146,12 @@ std::string figure(const std::string& content, const std::string& caption) {
                      caption.empty() ? "" : fmt::format("<figcaption>{}</figcaption>", caption));
 }
 
+std::string drawn_figure(const std::vector<std::filesystem::path>& folders, const std::string& stem,
+                         const std::string& prefix, const std::string& caption) {
+  for (const std::filesystem::path& folder : folders)
+    if (const auto path = folder / (stem + ".svg"); std::filesystem::exists(path))
+      return figure(inline_svg(path, prefix), caption);
+  throw std::runtime_error(fmt::format("The figure {} was not drawn.", stem));
+}
+
 }  // namespace voussoir::reports

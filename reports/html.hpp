@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace voussoir::reports {
 
@@ -35,5 +36,10 @@ std::string inline_svg(const std::filesystem::path& path, const std::string& pre
 
 // <figure> with an optional caption (HTML).
 std::string figure(const std::string& content, const std::string& caption);
+
+// The drawing <stem>.svg of the first of some folders that holds it, in a <figure>; `prefix` as for inline_svg. Throws
+// std::runtime_error when there is none, or it holds no drawing.
+std::string drawn_figure(const std::vector<std::filesystem::path>& folders, const std::string& stem,
+                         const std::string& prefix, const std::string& caption);
 
 }  // namespace voussoir::reports

@@ -9,6 +9,7 @@
 
 #include "reports/case_page.hpp"
 #include "reports/html.hpp"
+#include "reports/kernel_page.hpp"
 #include "reports/verdict_tables.hpp"
 #include "verification/verdicts.hpp"
 
@@ -29,7 +30,9 @@ std::string navigation(const Verdicts& verdicts) {
       "<li><a href=\"#top\">What this is</a></li>\n<li><a href=\"#verdicts\">Verdicts</a></li>\n</ul>\n";
   text += "<p>Cases</p><ul>\n" + cases + "</ul>\n";
   if (!open.empty()) text += "<p>Not yet modelled</p><ul>\n" + open + "</ul>\n";
-  return text + "<p>Reference</p><ul>\n<li><a href=\"#scene-keys\">Scene keys</a></li>\n</ul></nav>\n";
+  return text +
+         "<p>Speed</p><ul>\n<li><a href=\"#contact-kernel\">The contact "
+         "kernel</a></li>\n</ul>\n<p>Reference</p><ul>\n<li><a href=\"#scene-keys\">Scene keys</a></li>\n</ul></nav>\n";
 }
 
 // commits of the rows that differ from the build's: results of another state of the source
@@ -70,7 +73,7 @@ std::string manual(const Folders& folders, const Verdicts& verdicts, const fs::p
           "</section>\n";
   for (const CaseStatus& status : verdicts.cases)
     text += case_page(folders, verdicts, status, missing);
-  return text + scene_keys(keys, missing) + "</main>\n</body></html>\n";
+  return text + kernel_page(folders, missing) + scene_keys(keys, missing) + "</main>\n</body></html>\n";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "reports/case_page.hpp"
 #include "reports/html.hpp"
+#include "reports/kernel_page.hpp"
 #include "reports/verdict_tables.hpp"
 
 namespace voussoir::reports {
@@ -85,6 +86,27 @@ TEST(CasePage, ShowsWhatThereIsAndNamesWhatIsNot) {
   EXPECT_EQ(missing.size(), 2u);  // no README.md, no check
   missing.clear();
   EXPECT_TRUE(holds(case_page(folders, verdicts, {"tunnel", CaseState::not_modelled}, missing), "not yet modelled"));
+}
+
+TEST(KernelPage, ShowsTheRunAndNamesWhatIsMissing) {
+  const fs::path root = fs::path(testing::TempDir()) / "voussoir_kernel_page_test";
+  fs::remove_all(root);
+  const Folders folders{root, root / "build"};
+  write_atomically(root / "reports/contact_kernel.md", "# Kernel\n\n## Result\n\n![Time.](contact_planes.svg)\n");
+  std::vector<std::string> missing;
+  std::string page = kernel_page(folders, missing);
+  EXPECT_EQ(missing.size(), 3u);  // a figure and two tables
+  EXPECT_TRUE(holds(page, "The figure contact_planes was not drawn."));
+
+  write_atomically(root / "build/reports/figures/contact_planes.svg", svg);
+  write_atomically(root / "build/reports/benchmarks/contact_summary.md", "| peer | ns |\n|---|--:|\n| libccd | 42 |\n");
+  write_atomically(root / "build/reports/benchmarks/contact_times.md", "### Near\n");
+  missing.clear();
+  page = kernel_page(folders, missing);
+  EXPECT_TRUE(missing.empty());
+  EXPECT_TRUE(holds(page, "id=\"contact-kernel\""));
+  EXPECT_TRUE(holds(page, "<figcaption>Time.</figcaption>"));
+  EXPECT_TRUE(holds(page, "<td align=\"right\">42</td>"));
 }
 
 }  // namespace

@@ -1,0 +1,195 @@
+// The kernel and its two programs, timed on the workloads' pairs.
+#include "benchmarks/method.hpp"
+#include "benchmarks/peers/clip.hpp"
+
+namespace voussoir::benchmarks {
+namespace {
+
+using Contacts = std::vector<Contact<3>>;
+
+// ---- the kernel -----------------------------------------------------------------------------------------------------
+
+// What a query works on. All methods share it, because only one is run at a time: what differs is copied in before.
+struct Desk {
+  std::vector<Pair<3>> pairs;
+  Contacts contacts = Contacts(pairs_per_workload);
+  std::vector<Contact<3>*> slots;
+
+  Desk() : pairs(pairs_per_workload) {
+    for (Contact<3>& c : contacts)
+      slots.push_back(&c);
+  }
+};
+
+Desk& desk() {
+  static Desk only;
+  return only;
+}
+
+void call_kernel(std::size_t first, std::size_t count, bool batched, KernelCounters& counters) {
+  static const ContactSettings settings;
+  static const Solvers<3> solvers;
+  const std::span<const Pair<3>> pairs = std::span<const Pair<3>>(desk().pairs).subspan(first, count);
+  const std::span<Contact<3>* const> slots = std::span<Contact<3>* const>(desk().slots).subspan(first, count);
+  if (batched)
+    narrow_phase<3>(pairs, settings, solvers, slots, counters);
+  else
+    for (std::size_t i = 0; i < count; ++i)
+      narrow_phase<3>(pairs.subspan(i, 1), settings, solvers, slots.subspan(i, 1), counters);
+}
+
+void lay_out(const std::vector<Pair<3>>& pairs, const Contacts& contacts, Stage last, std::size_t first,
+             std::size_t count) {
+  for (std::size_t i = first; i < first + count; ++i) {
+    desk().pairs[i] = pairs[i];
+    desk().pairs[i].last = last;
+    desk().contacts[i] = contacts[i];
+  }
+}
+
+// the contacts as the step before left them: resolved from cold at the previous poses, to the same stage
+std::shared_ptr<const Contacts> contacts_before(const Workload& work, Stage last, int move) {
+  Contacts start(pairs_per_workload);
+  if (move >= 0) {
+    KernelCounters counters;
+    lay_out(work.previous[move], start, last, 0, pairs_per_workload);
+    call_kernel(0, pairs_per_workload, true, counters);
+    start = desk().contacts;
+  }
+  return std::make_shared<const Contacts>(std::move(start));
+}
+
+constexpr int cold = -1, near_move = 0, far_move = 1;
+
+Method kernel(const char* name, Stage last, int move, bool batched, int threads = 1) {
+  static const char* const stages[] = {"decision", "point", "overlap", "area"};
+  static const char* const delivers[] = {"decision certificate", "decision certificate point",
+                                         "decision certificate point normal overlap",
+                                         "decision certificate point normal overlap area"};
+  Method method;
+  method.name = name;
+  method.stage = stages[static_cast<int>(last)];
+  method.delivers = delivers[static_cast<int>(last)];
+  // where nothing touches, every stage ends with the decision
+  method.applies = last == Stage::decision ? any_pair : overlapping;
+  method.threads = threads;
+  method.prepare = [=](const Workload& work) {
+    const auto start = contacts_before(work, last, move);
+    auto prepared = std::make_shared<Prepared>();
+    prepared->counters = std::make_shared<KernelCounters>();
+    prepared->restore = [&work, start, last](std::size_t first, std::size_t count) {
+      lay_out(work.pairs, *start, last, first, count);
+    };
+    prepared->resolve = [batched, counters = prepared->counters](std::size_t first, std::size_t count) {
+      KernelCounters mine;  // of this thread
+      call_kernel(first, count, batched, mine);
+      if (first == 0) *counters = mine;
+    };
+    prepared->touching = [](std::size_t i) { return desk().contacts[i].touching(); };
+    return prepared;
+  };
+  return method;
+}
+
+// ---- its two programs alone -----------------------------------------------------------------------------------------
+
+using Basis = std::array<int, 4>;
+
+// the planes are assembled within the time: every solver needs them
+FeasibilityResult<3> run_lp(const Pair<3>& pair, const Basis& start, HalfSpaces<3>& planes) {
+  assemble<3>(pair, 0.5 * pair.offset, planes);
+  FeasibilityRequest<3> request;
+  request.start = &start;
+  return solve_feasibility<3>(planes, request);
+}
+
+std::shared_ptr<Prepared> prepare_lp(const Workload& work, bool warm) {
+  std::vector<Basis> starts;
+  HalfSpaces<3> planes;
+  for (std::size_t i = 0; i < pairs_per_workload; ++i)
+    starts.push_back(warm ? run_lp(work.previous[near_move][i], work.pairs[i].a->basis, planes).basis
+                          : work.pairs[i].a->basis);
+  return prepared_query(pairs_per_workload, [&work, starts, planes](std::size_t i) mutable {
+    return run_lp(work.pairs[i], starts[i], planes).value < 0;
+  });
+}
+
+std::shared_ptr<Prepared> prepare_centre(const Workload& work) {
+  std::vector<Vector<3>> starts;
+  HalfSpaces<3> planes;
+  for (const Pair<3>& pair : work.pairs)
+    starts.push_back(run_lp(pair, pair.a->basis, planes).point);
+  return prepared_query(pairs_per_workload, [&work, starts, planes](std::size_t i) mutable {
+    assemble<3>(work.pairs[i], 0.5 * work.pairs[i].offset, planes);
+    CentreRequest<3> request;
+    request.start = starts[i];
+    return solve_analytic_centre<3>(planes, request).status == CentreStatus::converged;
+  });
+}
+
+// ---- the polyhedron by itself (Boon 2013, section 4.7) --------------------------------------------------------------
+
+constexpr double share_of_vertex = 0.95;  // of the way from the centroid to a vertex: where the thesis starts
+constexpr double clip_error = 1e-12;      // of volume and centroid, whose size is 1
+
+HalfSpaces<3> turned_planes(const Pair<3>& pair) {
+  return shapes::placed<3>(pair.b->faces, pair.rotation, Vector<3>::Zero());
+}
+
+std::shared_ptr<Prepared> prepare_solid_centre(const Workload& work, bool feasible_start) {
+  std::vector<HalfSpaces<3>> regions;
+  std::vector<Vector<3>> starts;
+  for (std::size_t i = 0; i < pairs_per_workload; ++i) {
+    const Pair<3>& pair = work.pairs[i];
+    regions.push_back(turned_planes(pair));
+    starts.push_back(share_of_vertex * (pair.rotation * pair.b->vertices[i % pair.b->vertices.size()]));
+  }
+  return prepared_query(pairs_per_workload, [regions, starts, feasible_start](std::size_t i) {
+    CentreRequest<3> request;
+    request.start = feasible_start ? starts[i] : solve_feasibility<3>(regions[i], {}).point;
+    return solve_analytic_centre<3>(regions[i], request).status == CentreStatus::converged;
+  });
+}
+
+std::shared_ptr<Prepared> prepare_solid_centroid(const Workload& work) {
+  std::vector<HalfSpaces<3>> regions;
+  for (const Pair<3>& pair : work.pairs)
+    regions.push_back(turned_planes(pair));
+  const Polytope<3> around = box(Vector<3>::Constant(1));
+  return prepared_query(pairs_per_workload, [&work, regions, around, clipper = Clipper()](std::size_t i) mutable {
+    // the polyhedron itself must come out, and its centroid lies at 0
+    const Overlap found = clipper.clip(around, regions[i]);
+    return std::abs(found.volume - work.pairs[i].b->mass.volume) < clip_error && found.centroid.norm() < clip_error;
+  });
+}
+
+}  // namespace
+
+std::vector<Method> own_methods() {
+  std::vector<Method> list;
+  for (const Stage last : {Stage::decision, Stage::point, Stage::overlap, Stage::area}) {
+    list.push_back(kernel(single_cold, last, cold, false));
+    list.push_back(kernel(single_warm, last, near_move, false));
+    list.push_back(kernel(batched_cold, last, cold, true));
+    list.push_back(kernel(batched_warm, last, near_move, true));
+  }
+  for (const Stage last : {Stage::overlap, Stage::area}) {
+    list.push_back(kernel(single_warm_far, last, far_move, false));
+    list.push_back(kernel(batched_warm_far, last, far_move, true));
+  }
+  for (const Stage last : {Stage::decision, Stage::area})
+    list.push_back(kernel(batched_warm_threads, last, near_move, true, 2));
+
+  list.push_back({own_lp, "lp", "decision", any_pair, [](const Workload& work) { return prepare_lp(work, false); }});
+  list.push_back(
+      {own_lp_warm, "lp", "decision", any_pair, [](const Workload& work) { return prepare_lp(work, true); }});
+  list.push_back({own_centre, "centre", "point", overlapping, prepare_centre});
+  list.push_back(
+      {solid_centre, "centre", "point", solid, [](const Workload& work) { return prepare_solid_centre(work, true); }});
+  list.push_back({solid_lp_and_centre, "centre", "point", solid,
+                  [](const Workload& work) { return prepare_solid_centre(work, false); }});
+  list.push_back({solid_centroid, "centre", "point", solid, prepare_solid_centroid});
+  return list;
+}
+
+}  // namespace voussoir::benchmarks

@@ -1,0 +1,16 @@
+// What people would use instead of the kernel. Each library in one file, built only if it is found; none is ever linked
+// to the core. They run as shipped: cold, except where a name says warm; bodies and shapes are made beforehand.
+#pragma once
+
+#include "benchmarks/method.hpp"
+
+namespace voussoir::benchmarks {
+
+std::vector<Method> glpk_methods();    // decision: the feasibility program
+std::vector<Method> ipopt_methods();   // point: the analytic centre
+std::vector<Method> ccd_methods();     // GJK, expanding polytope, Minkowski portals
+std::vector<Method> fcl_methods();     // collide with a contact, by its libccd solver
+std::vector<Method> bullet_methods();  // in double precision, margins 0
+std::vector<Method> clip_methods();    // the overlap polyhedron itself
+
+}  // namespace voussoir::benchmarks

@@ -1,0 +1,13 @@
+#pragma once
+// The page on the contact kernel's speed: contact_kernel.md, its figures, and the tables of the last benchmark.
+#include <string>
+#include <vector>
+
+#include "reports/case_page.hpp"
+
+namespace voussoir::reports {
+
+// What could not be shown is named on the page, and in `missing`, one sentence each.
+std::string kernel_page(const Folders& folders, std::vector<std::string>& missing);
+
+}  // namespace voussoir::reports
