@@ -11,12 +11,13 @@ namespace {
 // multipliers below this are zero but for rounding
 constexpr double multiplier_rounding = 1e-11;
 
+// The same, against the terms it is summed from. The search passes over multipliers that it takes for rounding; where a
+// true one was among them, it is left negative, and the search is repeated with this.
+constexpr double pivot_rounding = 64 * std::numeric_limits<double>::epsilon();
+
 // a plane violated by no more than this share of the coordinates holds: on rounding alone, degenerate bases would pivot
 // for ever
 constexpr double violation_rounding = 16 * std::numeric_limits<double>::epsilon();
-
-// an entering plane takes a multiplier only by more than rounding
-constexpr double pivot_rounding = 1024 * std::numeric_limits<double>::epsilon();
 
 // each gains the digits that the inverse has
 constexpr int refinement_steps = 3;
@@ -90,13 +91,11 @@ Basis<Dim> start_basis(const HalfSpaces<Dim>& planes, const FeasibilityRequest<D
 
 // the tight plane that leaves when the plane (column) enters: the first to lose its multiplier
 template <int Dim>
-int leaving(const Basis<Dim>& basis, const Eigen::Matrix<double, Dim + 1, 1>& mu,
-            const Eigen::Matrix<double, Dim + 1, 1>& column) {
+int leaving(const Basis<Dim>& basis, const Eigen::Matrix<double, Dim + 1, 1>& mu, bool fine) {
   int leave = -1;
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= Dim; ++k) {
-    // what its own rounding could have made
-    if (mu[k] <= pivot_rounding * basis.inverse.row(k).cwiseAbs().dot(column.cwiseAbs())) continue;
+    if (mu[k] <= (fine ? pivot_rounding * basis.inverse.row(k).cwiseAbs().sum() : multiplier_rounding)) continue;
     const double ratio = std::max(basis.multipliers()[k], 0.0) / mu[k];
     // of equal ratios the far planes go first, then the largest pivot
     if (ratio < best || (ratio == best && mu[k] > mu[leave])) {
@@ -149,24 +148,8 @@ bool meets(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far,
   return true;
 }
 
-}  // namespace
-
 template <int Dim>
-double proven_bound(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& result, double reach) {
-  Vector<Dim> residual = Vector<Dim>::Zero();
-  double sum = 0, offsets = 0;
-  for (int k = 0; k <= Dim; ++k) {
-    const double lambda = std::max(result.multipliers[k], 0.0);
-    const HalfSpace<Dim> p = basis_plane(planes, result.basis[k], 1000 * reach);
-    residual += lambda * p.normal;
-    offsets += lambda * p.offset;
-    sum += lambda;
-  }
-  return -(offsets + residual.norm() * reach) / sum;
-}
-
-template <int Dim>
-FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request) {
+FeasibilityResult<Dim> search(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request, bool fine) {
   const int count = static_cast<int>(planes.size());
   const double reach =
       10 * (largest_offset(planes) + std::numeric_limits<double>::min());  // of what the planes enclose
@@ -218,7 +201,7 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
     Eigen::Matrix<double, Dim + 1, 1> column;
     column << planes[enter].normal, 1;
     const Eigen::Matrix<double, Dim + 1, 1> mu = basis.inverse * column;
-    const int leave = leaving<Dim>(basis, mu, column);
+    const int leave = leaving<Dim>(basis, mu, fine);
     if (leave < 0) break;  // impossible in exact arithmetic: sum(mu) = 1
     pivot<Dim>(basis, leave, enter, planes[enter].offset, mu);
     polished = false;
@@ -229,14 +212,44 @@ FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const Fe
     if (basis.planes[k] < 0 && result.multipliers[k] > multiplier_rounding &&
         result.status == FeasibilityStatus::optimal)
       result.status = FeasibilityStatus::unbounded;
+  return result;
+}
 
-  // A degenerate start (two opposite faces carry all) can end with multipliers that are negative by more than rounding,
-  // which would shift the value by as much, or nowhere: then the far planes start anew.
+// a basis with a multiplier that is negative by more than rounding bounds nothing: the value is shifted by as much
+template <int Dim>
+bool answered(const FeasibilityResult<Dim>& result) {
   const double least = *std::min_element(result.multipliers.begin(), result.multipliers.end());
-  if (request.start && (least < negative_multiplier || result.status == FeasibilityStatus::iteration_limit)) {
+  return least >= negative_multiplier && result.status != FeasibilityStatus::iteration_limit;
+}
+
+}  // namespace
+
+template <int Dim>
+double proven_bound(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& result, double reach) {
+  Vector<Dim> residual = Vector<Dim>::Zero();
+  double sum = 0, offsets = 0;
+  for (int k = 0; k <= Dim; ++k) {
+    const double lambda = std::max(result.multipliers[k], 0.0);
+    const HalfSpace<Dim> p = basis_plane(planes, result.basis[k], 1000 * reach);
+    residual += lambda * p.normal;
+    offsets += lambda * p.offset;
+    sum += lambda;
+  }
+  return -(offsets + residual.norm() * reach) / sum;
+}
+
+template <int Dim>
+FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request) {
+  FeasibilityResult<Dim> result = search(planes, request, false);
+  if (answered(result)) return result;
+  // A degenerate start (two opposite faces carry all) can end so, or nowhere, and so can faces that are nearly
+  // parallel: then the far planes start anew, first with an eye for small multipliers.
+  const FeasibilityRequest<Dim> afresh{nullptr, request.stop_above, request.tolerance};
+  for (const bool fine : {true, false}) {
     const int spent = result.pivots;
-    result = solve_feasibility<Dim>(planes, {nullptr, request.stop_above, request.tolerance});
+    result = search(planes, afresh, fine);
     result.pivots += spent;
+    if (answered(result)) break;
   }
   return result;
 }

@@ -339,5 +339,21 @@ TEST(Feasibility, ADependentBasisIsLeftForAFreshStart) {
     EXPECT_LT(signed_distance<3>(plane, answer.point), answer.value + rounding);
 }
 
+// Two squares corner in corner by 1e-13 m, turned by 1e-13: the multiplier of the side face, 5e-14, passed for rounding
+// and went below zero, and squares that overlap were called apart by a value 1e-13 too high.
+TEST(Feasibility, ASmallMultiplierIsNotRounding) {
+  const HalfSpaces<2> planes{
+      {{-0x1p+0, -0x0p+0}, 0x1.7ffffffffffa4p+1},  {{-0x0p+0, -0x1p+0}, 0x1.0921a29a6fc8bp+0},
+      {{0x0p+0, 0x1p+0}, 0x1.edbcbacb206eap-1},    {{0x1p+0, 0x0p+0}, -0x1.ffffffffffe8ep-1},
+      {{-0x1p+0, -0x1.c37688e7c8adep-44}, 0x1p+0}, {{0x1.c37688e7c8adep-44, -0x1p+0}, 0x1p+0},
+      {{-0x1.c37688e7c8adep-44, 0x1p+0}, 0x1p+0},  {{0x1p+0, 0x1.c37688e7c8adep-44}, 0x1p+0},
+  };
+  const FeasibilityResult<2> answer = solve_feasibility<2>(planes, {});
+  ASSERT_EQ(answer.status, FeasibilityStatus::optimal);
+  EXPECT_NEAR(answer.value, static_cast<double>(oracle::feasibility<2>(planes)), 2e-15);  // rounding of 1 m
+  for (const double multiplier : answer.multipliers)
+    EXPECT_GE(multiplier, -2e-15);
+}
+
 }  // namespace
 }  // namespace voussoir

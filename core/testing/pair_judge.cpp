@@ -134,7 +134,8 @@ class Judge {
 
   void program() {
     if (!scene_.answered) return broken("the program has no answer", 0);
-    share("program's value", std::abs(Rational(Rational(scene_.answer) - scene_.value).get_d()), promised * scene_.size);
+    share("program's value", std::abs(Rational(Rational(scene_.answer) - scene_.value).get_d()),
+          promised * scene_.size);
   }
 
   void values(const ContactGeometry<Dim>& g) {
@@ -200,6 +201,7 @@ class Judge {
   void face(const std::string& name, int number, int faces, int first, const Quad& end,
             const std::vector<Quad>& distance) {
     if (number < 0 || number >= faces) return broken(name + ": none", number);
+    if (distance[first + number] == Quad(exact::no_end)) return broken(name + ": never met along the normal", number);
     share(name, to_double(distance[first + number] - end), promised * scene_.size);
   }
 

@@ -32,7 +32,7 @@ inline constexpr double smallest_binormal2 = 1e-4;
 inline constexpr double corner_tolerance = 1e-13;
 
 // an entering plane takes a multiplier only by more than rounding, as a share of the terms
-inline constexpr double exchange_rounding = 16 * std::numeric_limits<double>::epsilon();
+inline constexpr double exchange_rounding = 1024 * std::numeric_limits<double>::epsilon();
 
 // pivots are 2 to 9; more means rounding turns in circles
 inline constexpr int most_exchanges = 60;
