@@ -128,8 +128,8 @@ TEST_F(Program, QuietSaysNothing) {
 
 TEST_F(Program, OutsideSolversAgreeOrSayThatTheyAreMissing) {
   ASSERT_EQ(run("run " + cubes_ + "--out own").code, 0);
-  const std::pair<std::string, std::string> choices[] = {{"glpk", "contact.lp=glpk"},
-                                                         {"ipopt", "contact.centre=ipopt"}};
+  const std::pair<std::string, std::string> choices[] = {
+      {"glpk", "contact.lp=glpk"}, {"ipopt", "contact.centre=ipopt"}, {"ipopt", "contact.centre=ipopt_scaled"}};
   for (const auto& [name, built_in] : features()) {
     for (const auto& [solver, setting] : choices) {
       if (solver != name) continue;

@@ -15,7 +15,8 @@ voussoir_test(unit.extremes LONG LABEL unit
   LIBS voussoir_core Boost::headers fmt::fmt)
 
 voussoir_test(unit.contact LABEL unit
-  SOURCES contact/contact_test.cpp contact/thin_contact_test.cpp contact/broad_phase_test.cpp
+  SOURCES contact/contact_test.cpp contact/thin_contact_test.cpp contact/overlap_region_test.cpp
+    contact/broad_phase_test.cpp
   LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.scene LABEL unit

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/contact/bracketing.hpp"
+#include "core/contact/overlap_region.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -104,7 +107,7 @@ struct Resolver {
 
   // overlap is proven by the old contact point when it still lies inside, else by the LP
   bool establish() {
-    if (contact.proof.kind == ProofKind::interior_point && settings.point == ContactPoint::analytic_centre) {
+    if (contact.proof.kind == ProofKind::interior_point && settings.point != ContactPoint::chebyshev) {
       start = contact.proof.point - origin;
       if (smallest_slack<Dim>(planes, start) > decided) return true;
     }
@@ -112,18 +115,36 @@ struct Resolver {
     return establish_cold();
   }
 
+  bool find_centroid(Vector<Dim>& point) {
+    OverlapRegion<Dim> region;
+    const bool found = overlap_region<Dim>(planes, start, region);
+    point = region.centroid;
+    if (!found) contact.status = ContactStatus::centre_not_converged;
+    return found;
+  }
+
+  CentreResult<Dim> search_centre(CentreSolverFunction<Dim>& solver) {
+    const CentreResult<Dim> centre =
+        solver(planes, {start, settings.newton_tolerance, settings.newton_limit, contact.proof.axis});
+    counters.newton_iterations += centre.iterations;
+    return centre;
+  }
+
   bool find_point(Vector<Dim>& point) {
     if (settings.point == ContactPoint::chebyshev) {
       point = start;
       return true;
     }
-    CentreResult<Dim> centre = solvers.centre(planes, {start, settings.newton_tolerance, settings.newton_limit});
-    counters.newton_iterations += centre.iterations;
+    if (settings.point == ContactPoint::centroid) return find_centroid(point);
+    CentreResult<Dim> centre = search_centre(*solvers.centre);
     if (centre.status != CentreStatus::converged && !lp_solved) {
       // a warm start can be unlucky; a cold one is the definition
       if (!establish_cold()) return false;
-      centre = solvers.centre(planes, {start, settings.newton_tolerance, settings.newton_limit});
-      counters.newton_iterations += centre.iterations;
+      centre = search_centre(*solvers.centre);
+    }
+    if (centre.status != CentreStatus::converged && solvers.rescue) {
+      centre = search_centre(*solvers.rescue);
+      ++counters.centre_fallbacks;
     }
     point = centre.point;
     if (centre.status == CentreStatus::converged) return true;
@@ -149,7 +170,9 @@ struct Resolver {
     int face_a = -1, face_b = -1;
     contact.status = ContactStatus::separated;
     if (!establish() || !find_point(point) || !find_normal(point, normal)) return;
-    if (!overlap_along<Dim>(planes, faces_a, point, normal, overlap, face_a, face_b)) {
+    const auto search =
+        settings.overlap == OverlapSearch::bracketing ? &overlap_by_bracketing<Dim> : &overlap_along<Dim>;
+    if (!search(planes, faces_a, point, normal, overlap, face_a, face_b)) {
       contact.status = ContactStatus::no_face;
       return;
     }
