@@ -34,7 +34,7 @@ foreach(solver voussoir_glpk voussoir_ipopt)
   endif()
 endforeach()
 voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_test.cpp
-  LIBS voussoir_core ${outside_solvers})
+  LIBS voussoir_core ${outside_solvers} Boost::headers)
 
 # the exact referee: GPL, so a library of its own that only tests link
 add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exact_programs.cpp)

@@ -21,6 +21,16 @@ using Ipopt::Number;
 
 constexpr double ipopt_tolerance = 1e-10;  // of the scaled problem, whose slacks start at 1
 
+// Newton's step from the answer may change no slack by more than this share, beyond the rounding of the slacks
+constexpr double accepted_step = 1e-9;
+constexpr double roundings = 16;  // operations behind a slack and a step, in units of rounding
+
+// far from the centre the start's slacks are poor units; from the first answer they are good ones
+constexpr int passes = 3;
+
+// squared sine of the angle between normals that are opposite but for rounding
+constexpr double opposite = 1e-34;
+
 // Boon (2013), Eqs 3.38 and 3.49: minimise -sum log t_i subject to t_i + g_i·y = t_i0, t_i > 0. Here t_i is plane i's
 // slack over its unit u_i, t_i0 its value at the start, y the step from the start in units along axes of any direction.
 template <int Dim>
@@ -31,9 +41,9 @@ struct SlackProgram {
 };
 
 template <int Dim>
-bool slacks_at_start(const HalfSpaces<Dim>& planes, const Vector<Dim>& start, std::vector<double>& slacks) {
+bool slacks_of(const HalfSpaces<Dim>& planes, const Vector<Dim>& point, std::vector<double>& slacks) {
   for (const HalfSpace<Dim>& plane : planes) {
-    slacks.push_back(-signed_distance(plane, start));
+    slacks.push_back(-signed_distance(plane, point));
     if (!std::isfinite(slacks.back()) || !plane.normal.allFinite() || slacks.back() <= 0) return false;
   }
   return true;
@@ -53,6 +63,7 @@ SlackProgram<Dim> make_program(const HalfSpaces<Dim>& planes, const std::vector<
 // how far the region reaches from the start along a direction and against it: to the first plane either way
 struct Room {
   double ahead = std::numeric_limits<double>::infinity(), behind = ahead;
+  double width() const { return ahead + behind; }
 };
 
 template <int Dim>
@@ -84,13 +95,25 @@ Matrix<Dim> fitted_axes(const HalfSpaces<Dim>& planes, const std::vector<double>
   return axes;
 }
 
+// of all planes' normals the one along which the region is thinnest at the start
+template <int Dim>
+Vector<Dim> thinnest(const HalfSpaces<Dim>& planes, const std::vector<double>& slacks) {
+  Vector<Dim> normal = planes.front().normal;
+  double least = std::numeric_limits<double>::infinity();
+  for (const HalfSpace<Dim>& plane : planes)
+    if (const double width = room_along<Dim>(planes, slacks, plane.normal).width(); width < least) {
+      least = width;
+      normal = plane.normal;
+    }
+  return normal;
+}
+
 // Q D of Eqs 3.45-3.52; the overlap of the step before, h, is taken at the start
 template <int Dim>
-Matrix<Dim> contact_axes(const HalfSpaces<Dim>& planes, const std::vector<double>& slacks, Vector<Dim> normal) {
-  if (normal.isZero(0)) normal = planes[std::min_element(slacks.begin(), slacks.end()) - slacks.begin()].normal;
+Matrix<Dim> contact_axes(const HalfSpaces<Dim>& planes, const std::vector<double>& slacks, const Vector<Dim>& known) {
+  const Vector<Dim> normal = known.isZero(0) ? thinnest<Dim>(planes, slacks) : known;
   Matrix<Dim> axes = aligning_rotation(normal);
-  const Room room = room_along<Dim>(planes, slacks, normal);
-  const double overlap = room.ahead + room.behind;
+  const double overlap = room_along<Dim>(planes, slacks, normal).width();
   if (std::isfinite(overlap)) axes.col(Dim - 1) *= overlap;
   return axes;
 }
@@ -219,8 +242,9 @@ CentreStatus status_of(Ipopt::ApplicationReturnStatus status) {
   }
 }
 
+// one solve from `result.point`
 template <int Dim>
-void solve(const SlackProgram<Dim>& program, const CentreRequest<Dim>& request, CentreResult<Dim>& result) {
+void solve(const SlackProgram<Dim>& program, int limit, CentreResult<Dim>& result) {
   // one call at a time in the whole program; the application is made once, its options cost more than a solve
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
@@ -229,11 +253,24 @@ void solve(const SlackProgram<Dim>& program, const CentreRequest<Dim>& request, 
   result.status = CentreStatus::singular;
   if (!IsValid(application)) return;
 
-  application->Options()->SetIntegerValue("max_iter", request.limit);
+  application->Options()->SetIntegerValue("max_iter", limit);
   const Ipopt::SmartPtr<SlackForm<Dim>> slack_form = new SlackForm<Dim>(program);
   result.status = status_of(application->OptimizeTNLP(GetRawPtr(slack_form)));
-  if (IsValid(application->Statistics())) result.iterations = application->Statistics()->IterationCount();
-  if (result.status == CentreStatus::converged) result.point = request.start + program.axes * slack_form->solution();
+  if (IsValid(application->Statistics())) result.iterations += application->Statistics()->IterationCount();
+  if (result.status == CentreStatus::converged) result.point += program.axes * slack_form->solution();
+}
+
+// Ipopt's error measure is blind to what its scaling hides: an answer counts when Newton would leave it where it is
+template <int Dim>
+bool is_centre(const HalfSpaces<Dim>& planes, const std::vector<double>& slacks, const Vector<Dim>& point) {
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> rows(planes.size(), Dim);
+  double rounding = 0;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) = planes[i].normal.transpose() / slacks[i];
+    rounding = std::max(rounding, (std::abs(planes[i].offset) + point.norm()) / slacks[i]);
+  }
+  const Vector<Dim> step = rows.colPivHouseholderQr().solve(-Eigen::VectorXd::Ones(rows.rows()));
+  return (rows * step).norm() <= accepted_step + roundings * std::numeric_limits<double>::epsilon() * rounding;
 }
 
 enum class Scaling { fitted, contact, none };
@@ -242,16 +279,23 @@ template <int Dim>
 CentreResult<Dim> solve_scaled(const HalfSpaces<Dim>& planes, const CentreRequest<Dim>& request, Scaling scaling) {
   CentreResult<Dim> result;
   result.point = request.start;
-  std::vector<double> slacks;
-  if (!slacks_at_start<Dim>(planes, request.start, slacks)) {
-    result.status = CentreStatus::start_not_interior;
-    return result;
+  for (int pass = 0; pass <= passes; ++pass) {
+    std::vector<double> slacks;
+    if (!slacks_of<Dim>(planes, result.point, slacks)) {
+      result.status = pass == 0 ? CentreStatus::start_not_interior : CentreStatus::singular;
+      return result;
+    }
+    if (pass > 0 && is_centre<Dim>(planes, slacks, result.point)) return result;
+    if (pass == passes) break;
+    Matrix<Dim> axes = Matrix<Dim>::Identity();
+    if (scaling == Scaling::fitted) axes = fitted_axes<Dim>(planes, slacks);
+    if (scaling == Scaling::contact) axes = contact_axes<Dim>(planes, slacks, request.normal);
+    const std::vector<double> metres(planes.size(), 1.0);
+    solve<Dim>(make_program<Dim>(planes, slacks, scaling == Scaling::none ? metres : slacks, axes),
+               request.limit - result.iterations, result);
+    if (result.status != CentreStatus::converged) return result;
   }
-  Matrix<Dim> axes = Matrix<Dim>::Identity();
-  if (scaling == Scaling::fitted) axes = fitted_axes<Dim>(planes, slacks);
-  if (scaling == Scaling::contact) axes = contact_axes<Dim>(planes, slacks, request.normal);
-  const std::vector<double> metres(planes.size(), 1.0);
-  solve<Dim>(make_program<Dim>(planes, slacks, scaling == Scaling::none ? metres : slacks, axes), request, result);
+  result.status = CentreStatus::singular;
   return result;
 }
 
@@ -268,7 +312,7 @@ Matrix<3> aligning_rotation(const Vector<3>& n) {
   // there (x² + y²)/(1 - n·z) is the same
   const double across = n[0] * n[0] + n[1] * n[1];
   Eigen::Quaterniond turn(n[2] > 0 ? 1 + n[2] : across / (1 - n[2]), -n[1], n[0], 0);
-  if (turn.vec().isZero(0) && n[2] < 0) turn = Eigen::Quaterniond(0, 1, 0, 0);
+  if (n[2] < 0 && across < opposite) turn = Eigen::Quaterniond(0, 1, 0, 0);
   return turn.normalized().toRotationMatrix();
 }
 

@@ -7,15 +7,17 @@
 
 namespace voussoir {
 
-// As solve_analytic_centre, except that `tolerance` is not used: Ipopt's own error measure is brought below 1e-10.
-// A start that is not strictly inside, or not finite, gives start_not_interior; any other failure gives singular.
-// Axes and units are fitted to the region's shape as the start sees it, and slacks are in units of their start.
+// As solve_analytic_centre, except that `tolerance` is not used: Ipopt's own error measure is brought below 1e-10, and
+// from the answer Newton's step must change no slack by more than 1e-9 of it, beyond rounding; else it is solved again
+// from there, at most three times. A start that is not strictly inside, or not finite, gives start_not_interior; any
+// other failure gives singular. Axes and units are fitted to the region's shape as the start sees it, and slacks are in
+// units of their start.
 template <int Dim>
 CentreResult<Dim> solve_analytic_centre_ipopt(const HalfSpaces<Dim>& planes, const CentreRequest<Dim>& request);
 
 // The same in the thesis' scaling, Eqs 3.39-3.52: one axis along the contact normal, in units of the overlap along it
 // at the start; the others in m; slacks in units of their start. Without `normal` in the request, that of the plane
-// nearest to the start takes its place.
+// along which the region is thinnest takes its place.
 template <int Dim>
 CentreResult<Dim> solve_analytic_centre_ipopt_scaled(const HalfSpaces<Dim>& planes, const CentreRequest<Dim>& request);
 
