@@ -117,7 +117,8 @@ struct Resolver {
 
   bool find_centroid(Vector<Dim>& point) {
     OverlapRegion<Dim> region;
-    const bool found = overlap_region<Dim>(planes, start, region);
+    // in a region as thin as the coordinates' rounding the centroid may round to the outside
+    const bool found = overlap_region<Dim>(planes, start, region) && smallest_slack<Dim>(planes, region.centroid) > 0;
     point = region.centroid;
     if (!found) contact.status = ContactStatus::centre_not_converged;
     return found;
@@ -144,7 +145,7 @@ struct Resolver {
     }
     if (centre.status != CentreStatus::converged && solvers.rescue) {
       centre = search_centre(*solvers.rescue);
-      ++counters.centre_fallbacks;
+      counters.centre_fallbacks += centre.status == CentreStatus::converged;
     }
     point = centre.point;
     if (centre.status == CentreStatus::converged) return true;

@@ -1,4 +1,5 @@
-// The region that two parts share, as a solid: its centroid is the contact point of those who clip (Boon 2013, 4.6).
+// The region that two parts share, as a solid: its centroid is the contact point of those who clip (Boon 2013, 4.7 and
+// 4.11).
 #pragma once
 
 #include "core/geometry/half_space.hpp"

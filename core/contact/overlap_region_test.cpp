@@ -256,7 +256,9 @@ TEST(Rescue, AnswersWhenTheSearchForTheCentreFails) {
 
   // a rescue that fails too leaves a named failure
   failing.rescue = &fails;
-  EXPECT_EQ(resolve(failing, {}).contact.status, ContactStatus::centre_not_converged);
+  const Outcome<3> lost = resolve(failing, {});
+  EXPECT_EQ(lost.contact.status, ContactStatus::centre_not_converged);
+  EXPECT_EQ(lost.counters.centre_fallbacks, 0);
 }
 
 }  // namespace
