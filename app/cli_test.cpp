@@ -135,9 +135,9 @@ TEST_F(Program, ExchangeablePartsAgreeOrSayThatTheyAreMissing) {
                                                          {"", "contact.point=centroid"},
                                                          {"", "contact.overlap=bracketing"}};
   for (const auto& [needs, choice] : choices) {
-    const auto parts = features();
-    const bool built_in =
-        std::none_of(parts.begin(), parts.end(), [&](const auto& part) { return part.first == needs && !part.second; });
+    bool built_in = true;
+    for (const auto& [part, is_there] : features())
+      if (part == needs) built_in = is_there;
     const std::string folder = choice.substr(choice.find('=') + 1);
     const Ended ended = run("run " + cubes_ + "--out " + folder + " --set " + choice);
     if (built_in) {

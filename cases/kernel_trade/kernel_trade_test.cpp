@@ -66,8 +66,8 @@ void write_tables(const std::vector<Measured>& all) {
                                                   {Family::warm, "warm"},
                                                   {Family::plain_double, "plain_double"},
                                                   {Family::plain_float, "plain_float"}};
-  for (const auto& [family, name] : files)
-    write_settings(name, all, [&](const Measured& m) { return m.family == family && m.failed < m.pairs; });
+  for (const auto& file : files)
+    write_settings(file.second, all, [&](const Measured& m) { return m.family == file.first && m.failed < m.pairs; });
   write_settings("lp_tolerance", all,
                  [](const Measured& m) { return m.family == Family::lp_tolerance && m.failed == 0; });
   write_settings("front_warm", all, [](const Measured& m) { return m.on_front && m.family == Family::warm; });
