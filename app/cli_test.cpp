@@ -126,20 +126,25 @@ TEST_F(Program, QuietSaysNothing) {
   expect_one_line(run("run " + cubes_ + "--out short --quiet --set stage.settle.step_limit=5"), 1, "incomplete");
 }
 
-TEST_F(Program, OutsideSolversAgreeOrSayThatTheyAreMissing) {
+TEST_F(Program, ExchangeablePartsAgreeOrSayThatTheyAreMissing) {
   ASSERT_EQ(run("run " + cubes_ + "--out own").code, 0);
+  // what must be built in, and the choice
   const std::pair<std::string, std::string> choices[] = {{"glpk", "contact.lp=glpk"},
-                                                         {"ipopt", "contact.centre=ipopt"}};
-  for (const auto& [name, built_in] : features()) {
-    for (const auto& [solver, setting] : choices) {
-      if (solver != name) continue;
-      const Ended ended = run("run " + cubes_ + "--out " + name + " --set " + setting);
-      if (built_in) {
-        EXPECT_EQ(ended.code, 0) << ended.err;
-        EXPECT_NEAR(settlement(name), settlement("own"), 1e-9);
-      } else {
-        expect_one_line(ended, 2, "is not built in");
-      }
+                                                         {"ipopt", "contact.centre=ipopt"},
+                                                         {"ipopt", "contact.centre=ipopt_scaled"},
+                                                         {"", "contact.point=centroid"},
+                                                         {"", "contact.overlap=bracketing"}};
+  for (const auto& [needs, choice] : choices) {
+    bool built_in = true;
+    for (const auto& [part, is_there] : features())
+      if (part == needs) built_in = is_there;
+    const std::string folder = choice.substr(choice.find('=') + 1);
+    const Ended ended = run("run " + cubes_ + "--out " + folder + " --set " + choice);
+    if (built_in) {
+      EXPECT_EQ(ended.code, 0) << ended.err;
+      EXPECT_NEAR(settlement(folder), settlement("own"), 1e-9);
+    } else {
+      expect_one_line(ended, 2, "is not built in");
     }
   }
 }

@@ -26,14 +26,17 @@ void use_glpk([[maybe_unused]] Solvers<Dim>& solvers) {
 #endif
 }
 
+// Ipopt as chosen, and where it is built in also for what our own search leaves unanswered
 template <int Dim>
-void use_ipopt([[maybe_unused]] Solvers<Dim>& solvers) {
+void use_ipopt([[maybe_unused]] CentreSolver chosen, [[maybe_unused]] Solvers<Dim>& solvers) {
 #ifdef VOUSSOIR_HAS_IPOPT
-  solvers.centre = &solve_analytic_centre_ipopt<Dim>;
+  if (chosen == CentreSolver::own) solvers.rescue = &solve_analytic_centre_ipopt<Dim>;
+  if (chosen == CentreSolver::ipopt) solvers.centre = &solve_analytic_centre_ipopt<Dim>;
+  if (chosen == CentreSolver::ipopt_scaled) solvers.centre = &solve_analytic_centre_ipopt_scaled<Dim>;
 #else
-  throw BadInput(
-      "contact.centre = \"ipopt\": Ipopt is not built in; configure with -DVOUSSOIR_WITH_IPOPT=ON, or write centre = "
-      "\"own\"");
+  if (chosen != CentreSolver::own)
+    throw BadInput(
+        "contact.centre: Ipopt is not built in; configure with -DVOUSSOIR_WITH_IPOPT=ON, or write centre = \"own\"");
 #endif
 }
 
@@ -41,7 +44,7 @@ template <int Dim>
 Prepared<Dim> prepare_to_run(const Scene& scene, int threads) {
   Prepared<Dim> prepared = prepare<Dim>(scene);
   if (prepared.settings.contact.lp == LpSolver::glpk) use_glpk(prepared.model.solvers);
-  if (prepared.settings.contact.centre == CentreSolver::ipopt) use_ipopt(prepared.model.solvers);
+  use_ipopt(prepared.settings.contact.centre, prepared.model.solvers);
   prepared.settings.threads = threads;
   return prepared;
 }

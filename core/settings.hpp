@@ -10,13 +10,15 @@
 namespace voussoir {
 
 enum class LpSolver { own, glpk };
-enum class CentreSolver { own, ipopt };
-enum class ContactPoint { analytic_centre, chebyshev };
+enum class CentreSolver { own, ipopt, ipopt_scaled };
+enum class ContactPoint { analytic_centre, centroid, chebyshev };
+enum class OverlapSearch { closed_form, bracketing };
 
 struct ContactSettings {
   LpSolver lp = LpSolver::own;
   CentreSolver centre = CentreSolver::own;
   ContactPoint point = ContactPoint::analytic_centre;
+  OverlapSearch overlap = OverlapSearch::closed_form;
 
   // two parts touch when they overlap by more than this times the smaller inscribed radius, and by more than rounding
   // hides (at most 64 ulp of the pair's size); far above that, contacts are found late

@@ -49,6 +49,7 @@ struct Counters {
   long long lp_solves = 0;
   long long lp_pivots = 0;
   long long newton_iterations = 0;
+  long long centre_fallbacks = 0;  // Newton failed, Ipopt answered
   long long areas = 0;
   long long undecided = 0;         // pairs nearer to touching than rounding can tell
   long long unconverged = 0;       // contacts without an answer: the run fails

@@ -15,7 +15,8 @@ voussoir_test(unit.extremes LONG LABEL unit
   LIBS voussoir_core Boost::headers fmt::fmt)
 
 voussoir_test(unit.contact LABEL unit
-  SOURCES contact/contact_test.cpp contact/thin_contact_test.cpp contact/broad_phase_test.cpp
+  SOURCES contact/contact_test.cpp contact/thin_contact_test.cpp contact/overlap_region_test.cpp
+    contact/broad_phase_test.cpp
   LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.scene LABEL unit
@@ -33,7 +34,7 @@ foreach(solver voussoir_glpk voussoir_ipopt)
   endif()
 endforeach()
 voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_test.cpp
-  LIBS voussoir_core ${outside_solvers})
+  LIBS voussoir_core ${outside_solvers} Boost::headers)
 
 # the exact referee: GPL, so a library of its own that only tests link
 add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exact_programs.cpp

@@ -195,6 +195,16 @@ std::string inactive(const Prepared<Dim>& prepared) {
   return fmt::format("{}", fmt::join(list, ", "));
 }
 
+std::string solvers_text(const ContactSettings& contact) {
+  const char* point = contact.point == ContactPoint::chebyshev  ? "Chebyshev"
+                      : contact.point == ContactPoint::centroid ? "centroid"
+                      : contact.centre == CentreSolver::own     ? "analytic centre (own)"
+                      : contact.centre == CentreSolver::ipopt   ? "analytic centre (Ipopt)"
+                                                                : "analytic centre (Ipopt, thesis' scaling)";
+  return fmt::format("linear program {}, contact point {}, overlap by {}", contact.lp == LpSolver::own ? "own" : "GLPK",
+                     point, contact.overlap == OverlapSearch::closed_form ? "closed form" : "bracketing");
+}
+
 template <int Dim>
 void print_active(const Prepared<Dim>& prepared) {
   const Settings& settings = prepared.settings;
@@ -202,11 +212,7 @@ void print_active(const Prepared<Dim>& prepared) {
   print_joints(prepared.model);
   line("gravity", vector_text<Dim>(prepared.model.gravity) + " m/s²");
   line("damping", damping_text(settings.damping));
-  line("solvers",
-       fmt::format("linear program {}, contact point {}", settings.contact.lp == LpSolver::own ? "own" : "GLPK",
-                   settings.contact.point == ContactPoint::chebyshev ? "Chebyshev"
-                   : settings.contact.centre == CentreSolver::own    ? "analytic centre (own)"
-                                                                     : "analytic centre (Ipopt)"));
+  line("solvers", solvers_text(settings.contact));
   print_stages(prepared.stages);
   print_monitors(prepared);
   line("not active", inactive(prepared));

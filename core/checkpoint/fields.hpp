@@ -94,8 +94,10 @@ void serialize(Archive& archive, Schedule& s) {
 
 template <class Archive>
 void serialize(Archive& archive, Counters& c) {
-  auto& [steps, evaluations, solves, pivots, iterations, areas, undecided, unconverged, fallbacks, deep, builds] = c;
-  archive(steps, evaluations, solves, pivots, iterations, areas, undecided, unconverged, fallbacks, deep, builds);
+  auto& [steps, evaluations, solves, pivots, iterations, rescues, areas, undecided, unconverged, fallbacks, deep,
+         builds] = c;
+  archive(steps, evaluations, solves, pivots, iterations, rescues, areas, undecided, unconverged, fallbacks, deep,
+          builds);
 }
 
 template <class Archive>

@@ -5,10 +5,15 @@
 #include <limits>
 #include <vector>
 
+#include "core/contact/bracketing.hpp"
 #include "core/contact/kernel/workspace.hpp"
+#include "core/contact/overlap_region.hpp"
 
 namespace voussoir {
 namespace {
+
+// regions thinner than this many roundings of a slack have no centre that could be told from its surroundings
+constexpr double hardly_thicker = 4096;
 
 template <int Dim>
 double smallest_slack(const HalfSpaces<Dim>& planes, const Vector<Dim>& point) {
@@ -115,7 +120,7 @@ struct Resolver {
       start = contact.proof.point - origin;
       return true;
     }
-    if (contact.proof.kind == ProofKind::interior_point && settings.point == ContactPoint::analytic_centre) {
+    if (contact.proof.kind == ProofKind::interior_point && settings.point != ContactPoint::chebyshev) {
       start = contact.proof.point - origin;
       if (smallest_slack<Dim>(planes, start) > rounding + tolerance) return true;
     }
@@ -123,21 +128,38 @@ struct Resolver {
     return establish_cold();
   }
 
-  bool find_point(Vector<Dim>& point) {
-    if (settings.point == ContactPoint::chebyshev) {
-      point = start;
-      return true;
-    }
-    CentreResult<Dim> centre = solvers.centre(planes, {start, settings.newton_tolerance, settings.newton_limit});
+  bool find_centroid(Vector<Dim>& point) {
+    OverlapRegion<Dim> region;
+    if (!overlap_region<Dim>(planes, start, region)) return false;
+    point = region.centroid;
+    return smallest_slack<Dim>(planes, point) > 0;
+  }
+
+  bool search_centre(CentreSolverFunction<Dim>& solver, Vector<Dim>& point) {
+    const CentreResult<Dim> centre =
+        solver(planes, {start, settings.newton_tolerance, settings.newton_limit, contact.proof.axis});
     counters.newton_iterations += centre.iterations;
-    if (centre.status != CentreStatus::converged && !lp_solved) {
-      // a warm start can be unlucky; a cold one is the definition
-      if (!establish_cold()) return false;
-      centre = solvers.centre(planes, {start, settings.newton_tolerance, settings.newton_limit});
-      counters.newton_iterations += centre.iterations;
-    }
     point = centre.point;
-    if (centre.status == CentreStatus::converged) return true;
+    return centre.status == CentreStatus::converged;
+  }
+
+  bool find_centre(Vector<Dim>& point) {
+    if (search_centre(*solvers.centre, point)) return true;
+    // a warm start can be unlucky; a cold one is the definition
+    if (proven == 0 && !lp_solved && (!establish_cold() || search_centre(*solvers.centre, point))) return lp_solved;
+    if (!solvers.rescue || !search_centre(*solvers.rescue, point)) return false;
+    ++counters.centre_fallbacks;
+    return true;
+  }
+
+  bool find_point(Vector<Dim>& point) {
+    point = start;
+    if (settings.point == ContactPoint::chebyshev) return true;
+    if (settings.point == ContactPoint::centroid ? find_centroid(point) : find_centre(point)) return true;
+    if (contact.status == ContactStatus::undecided) return false;
+    // where the coordinates can hardly tell one side of the region from the other, any point of it will do
+    point = start;
+    if (smallest_slack<Dim>(planes, start) < hardly_thicker * rounding) return true;
     contact.status = ContactStatus::centre_not_converged;
     return false;
   }
@@ -147,7 +169,7 @@ struct Resolver {
     const bool found = contact_normal<Dim>(planes, faces_a, point, settings.potential_radius * size, normal, fallback);
     if (fallback || !found) ++counters.normal_fallbacks;
     if (found) return true;
-    if (!lp_solved && !establish_cold()) return false;
+    if (!lp_solved) lp = solvers.feasibility(planes, {&pair.a->basis, rounding, rounding / 64});
     normal = separating_axis(planes, faces_a, lp);
     if (normal.isZero(0)) contact.status = ContactStatus::no_normal;  // one part deep inside the other
     return !normal.isZero(0);
@@ -179,7 +201,9 @@ struct Resolver {
     contact.status = ContactStatus::touching;
     if (pair.last <= Stage::point) return;
     if (!find_normal(point, normal)) return;
-    if (!overlap_along<Dim>(planes, faces_a, point, normal, overlap, face_a, face_b)) {
+    const auto search =
+        settings.overlap == OverlapSearch::bracketing ? &overlap_by_bracketing<Dim> : &overlap_along<Dim>;
+    if (!search(planes, faces_a, point, normal, overlap, face_a, face_b)) {
       contact.status = ContactStatus::no_face;
       return;
     }
@@ -315,7 +339,7 @@ void resolve_generally(const Pair<Dim>& pair, const ContactSettings& settings, c
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \
   template void resolve_generally<Dim>(const Pair<Dim>&, const ContactSettings&, const Solvers<Dim>&, Contact<Dim>&,   \
-                                       bool, KernelCounters&);                                                               \
+                                       bool, KernelCounters&);                                                         \
   template void assemble<Dim>(const Pair<Dim>&, const Vector<Dim>&, HalfSpaces<Dim>&);                                 \
   template bool contact_normal<Dim>(const HalfSpaces<Dim>&, int, const Vector<Dim>&, double, Vector<Dim>&, bool&);     \
   template bool overlap_along<Dim>(const HalfSpaces<Dim>&, int, const Vector<Dim>&, const Vector<Dim>&, double&, int&, \

@@ -19,6 +19,9 @@ struct CentreRequest {
   Vector<Dim> start;        // strictly inside, m
   double tolerance = 1e-5;  // on the Newton decrement before the last step
   int limit = 200;
+
+  // unit: the contact's normal, where it is known from the step before; zero: unknown. Only Ipopt's scaling looks at it
+  Vector<Dim> normal = Vector<Dim>::Zero();
 };
 
 // Damped Newton from the start as origin, in axes fitted to the thin directions of the region, slacks updated

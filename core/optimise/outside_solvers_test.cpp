@@ -1,12 +1,15 @@
 // The outside solvers against closed forms and against ours. Built with what is available: each half stands by itself.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "core/contact/narrow_phase.hpp"
 #include "core/optimise/analytic_centre.hpp"
 #include "core/optimise/feasibility.hpp"
+#include "core/testing/shapes.hpp"
 #ifdef VOUSSOIR_HAS_GLPK
 #include "core/optimise/glpk.hpp"
 #endif
@@ -143,6 +146,140 @@ TEST(Ipopt, AgreesWithOurSolver) {
     ASSERT_EQ(theirs.status, CentreStatus::converged);
     ASSERT_EQ(ours.status, CentreStatus::converged);
     EXPECT_LT((theirs.point - ours.point).norm(), 1e-8);
+  }
+}
+
+// ---- the thesis' scaling --------------------------------------------------------------------------------------------
+
+template <int Dim>
+void expect_aligned(const Vector<Dim>& n) {
+  const Matrix<Dim> turn = aligning_rotation(n);
+  EXPECT_LT((turn.col(Dim - 1) - n).norm(), 1e-15) << n.transpose();
+  EXPECT_LT((turn * turn.transpose() - Matrix<Dim>::Identity()).norm(), 4e-15) << n.transpose();
+  EXPECT_NEAR(turn.determinant(), 1, 4e-15);
+}
+
+TEST(AligningRotation, TakesTheLastAxisToTheNormalAlsoWhereTheyAreOpposite) {
+  // 10^-k from z and from -z, down to angles whose squares vanish
+  for (int k = 0; k <= 300; k += k < 20 ? 1 : 20)
+    for (const double up : {1.0, -1.0})
+      for (const double along : {0.0, 1.0, 2.5, 4.0}) {
+        const double angle = std::pow(10.0, -k), s = std::sin(angle);
+        expect_aligned<3>({s * std::cos(along), s * std::sin(along), up * std::cos(angle)});
+      }
+  expect_aligned<3>({0, 0, -1});
+  expect_aligned<3>({0, 0, 1});
+  expect_aligned<3>({1, 0, 0});
+  for (int k = 0; k < 64; ++k)
+    expect_aligned<2>({std::cos(0.1 * k), std::sin(0.1 * k)});
+  expect_aligned<2>({0, -1});
+}
+
+// a block on another, face on face: the upper one is turned about the vertical and reaches `overlap` into the lower one
+HalfSpaces<3> face_on_face(std::mt19937& random, double overlap) {
+  std::uniform_real_distribution<double> angle(0, 6), side(-0.3, 0.3);
+  HalfSpaces<3> planes = box<3>({0, 0, -0.5}, {0.5, 0.5, 0.5});
+  const Matrix<3> about_z = Eigen::AngleAxisd(angle(random), Vector<3>::UnitZ()).toRotationMatrix();
+  const Vector<3> middle(side(random), side(random), 0.5 - overlap);
+  for (const HalfSpace<3>& p : box<3>({0, 0, 0}, {0.4, 0.4, 0.5})) {
+    const Vector<3> normal = about_z * p.normal;
+    planes.push_back({normal, p.offset + normal.dot(middle)});
+  }
+  return planes;
+}
+
+// how much any slack changes from one point to the other, as a share of it
+double apart(const HalfSpaces<3>& planes, const Vector<3>& from, const Vector<3>& to) {
+  double share = 0;
+  for (const HalfSpace<3>& p : planes)
+    share = std::max(share, std::abs(p.normal.dot(to - from)) / -signed_distance(p, from));
+  return share;
+}
+
+// Iterations per solve for 20 face-on-face pairs, mean of overlaps 1e-2 to 1e-10 (in brackets: of the thinnest):
+//   start                       thesis' scaling   unscaled, Eq. 3.38
+//   1 % of the block away           4.5 (4.5)         7.4 (12)
+//   the LP's point, a corner         24 (38)         10.7 (10)
+// The scaling is made for starts near the centre; there it needs no more iterations however thin the overlap is.
+TEST(IpoptScaling, FindsOurCentreFaceOnFaceAndSavesIterationsFromAWarmStart) {
+  const int pairs = 5;
+  for (const double overlap : {1e-2, 1e-6, 1e-10}) {
+    std::mt19937 random(20133);
+    int scaled = 0, unscaled = 0;
+    const double rounding = 4 * std::numeric_limits<double>::epsilon() / overlap;
+    for (int trial = 0; trial < pairs; ++trial) {
+      const HalfSpaces<3> planes = face_on_face(random, overlap);
+      CentreRequest<3> cold = request_from<3>(solve_feasibility<3>(planes, {}).point);
+      cold.tolerance = 1e-9;
+      const CentreResult<3> ours = solve_analytic_centre<3>(planes, cold);
+      ASSERT_EQ(ours.status, CentreStatus::converged);
+      CentreRequest<3> warm = request_from<3>(ours.point + Vector<3>(0.01, 0.02, 0.01 * overlap));
+
+      for (const Vector<3>& normal : {Vector<3>(Vector<3>::UnitZ()), Vector<3>(Vector<3>::Zero())}) {
+        warm.normal = cold.normal = normal;
+        const CentreResult<3> near = solve_analytic_centre_ipopt_scaled<3>(planes, warm),
+                              far = solve_analytic_centre_ipopt_scaled<3>(planes, cold);
+        ASSERT_EQ(near.status, CentreStatus::converged);
+        ASSERT_EQ(far.status, CentreStatus::converged);
+        EXPECT_LT(apart(planes, ours.point, near.point), 1e-8);
+        EXPECT_LT(apart(planes, ours.point, far.point), 1e-8 + rounding);
+        scaled = std::max(scaled, near.iterations);
+      }
+      unscaled = std::max(unscaled, solve_analytic_centre_ipopt_unscaled<3>(planes, warm).iterations);
+      EXPECT_LT(apart(planes, ours.point, solve_analytic_centre_ipopt<3>(planes, warm).point), 1e-8);
+    }
+    EXPECT_LE(scaled, 5) << "overlap " << overlap;
+    EXPECT_GE(unscaled, scaled) << "overlap " << overlap;
+  }
+}
+
+TEST(IpoptScaling, FindsOurCentreInAnyDirectionAndInThePlane) {
+  std::mt19937 random(20134);
+  for (int trial = 0; trial < 20; ++trial) {
+    const HalfSpaces<3> planes = random_region(random);
+    CentreRequest<3> request = request_from<3>({0, 0, 0});
+    request.tolerance = 1e-9;
+    request.normal = planes[6].normal;
+    const CentreResult<3> ours = solve_analytic_centre<3>(planes, request),
+                          theirs = solve_analytic_centre_ipopt_scaled<3>(planes, request);
+    ASSERT_EQ(theirs.status, CentreStatus::converged);
+    EXPECT_LT(apart(planes, ours.point, theirs.point), 1e-8);
+  }
+  const HalfSpaces<2> flat = box<2>({3, -2}, {0.5, 1e-6});
+  const CentreResult<2> result = solve_analytic_centre_ipopt_scaled<2>(flat, request_from<2>({3.2, -2 + 5e-7}));
+  ASSERT_EQ(result.status, CentreStatus::converged);
+  EXPECT_LT(std::abs(result.point[0] - 3), 1e-8);
+  EXPECT_LT(std::abs(result.point[1] + 2), 1e-8 * 1e-6 + 1e-15);
+}
+
+// newton_limit reaches Ipopt as well: what took too long is no answer
+TEST(Ipopt, StopsAtTheLimit) {
+  CentreRequest<2> request = request_from<2>({3.4, -1.8});
+  request.limit = 1;
+  EXPECT_EQ(solve_analytic_centre_ipopt<2>(box<2>({3, -2}, {0.5, 0.25}), request).status,
+            CentreStatus::iteration_limit);
+}
+
+CentreResult<3> fails(const HalfSpaces<3>&, const CentreRequest<3>& request) {
+  return {CentreStatus::singular, request.start, 0};
+}
+
+// the failure is injected: our own search has none to offer
+TEST(Ipopt, RescuesAContactWhoseCentreWasNotFound) {
+  const Polytope<3> cube = shapes::block<3>(box<3>({0, 0, 0}, {0.5, 0.5, 0.5}));
+  for (const double overlap : {1e-2, 1e-8}) {
+    const Pair<3> pair{&cube, &cube, Matrix<3>::Identity(), Matrix<3>::Identity(), {0.2, 0.3, 1 - overlap}};
+    const Solvers<3> own, failing{.centre = &fails, .rescue = &solve_analytic_centre_ipopt<3>};
+    Contact<3> expected, rescued;
+    Contact<3>*to_expected = &expected, *to_rescued = &rescued;
+    KernelCounters counters;
+    narrow_phase<3>(std::span(&pair, 1), {}, own, std::span(&to_expected, 1), counters);
+    EXPECT_EQ(counters.centre_fallbacks, 0);
+    narrow_phase<3>(std::span(&pair, 1), {}, failing, std::span(&to_rescued, 1), counters);
+    EXPECT_EQ(counters.centre_fallbacks, 1);
+    ASSERT_TRUE(rescued.touching());
+    EXPECT_LT((rescued.geometry.point - expected.geometry.point).norm(), 1e-7);
+    EXPECT_NEAR(rescued.geometry.overlap, expected.geometry.overlap, 1e-15);
   }
 }
 

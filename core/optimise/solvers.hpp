@@ -10,6 +10,9 @@ template <int Dim>
 struct Solvers {
   FeasibilitySolver<Dim>* feasibility = &solve_feasibility<Dim>;
   CentreSolverFunction<Dim>* centre = &solve_analytic_centre<Dim>;
+
+  // asked once more when `centre` has failed from a cold start; null: the contact then has no answer
+  CentreSolverFunction<Dim>* rescue = nullptr;
 };
 
 }  // namespace voussoir

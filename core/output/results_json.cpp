@@ -55,6 +55,7 @@ Json counters_json(const Counters& counters) {
           {"lp_solves", counters.lp_solves},
           {"lp_pivots", counters.lp_pivots},
           {"newton_iterations", counters.newton_iterations},
+          {"centre_fallbacks", counters.centre_fallbacks},
           {"areas", counters.areas},
           {"undecided", counters.undecided},
           {"unconverged", counters.unconverged},

@@ -158,10 +158,18 @@ Settings read_settings(const Subject& scene) {
   if (const auto table = child(scene, "contact")) {
     ContactSettings& contact = settings.contact;
     read_choice(*table, "lp", {{"own", LpSolver::own}, {"glpk", LpSolver::glpk}}, contact.lp);
-    read_choice(*table, "centre", {{"own", CentreSolver::own}, {"ipopt", CentreSolver::ipopt}}, contact.centre);
+    read_choice(
+        *table, "centre",
+        {{"own", CentreSolver::own}, {"ipopt", CentreSolver::ipopt}, {"ipopt_scaled", CentreSolver::ipopt_scaled}},
+        contact.centre);
     read_choice(*table, "point",
-                {{"analytic_centre", ContactPoint::analytic_centre}, {"chebyshev", ContactPoint::chebyshev}},
+                {{"analytic_centre", ContactPoint::analytic_centre},
+                 {"centroid", ContactPoint::centroid},
+                 {"chebyshev", ContactPoint::chebyshev}},
                 contact.point);
+    read_choice(*table, "overlap",
+                {{"closed_form", OverlapSearch::closed_form}, {"bracketing", OverlapSearch::bracketing}},
+                contact.overlap);
     read(*table, "tolerance", contact.tolerance);
     read(*table, "potential_radius", contact.potential_radius);
     read(*table, "newton_tolerance", contact.newton_tolerance);

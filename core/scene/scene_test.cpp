@@ -214,6 +214,9 @@ TEST(Set, ReachesTablesByNameNumberAndValuesNotInTheFile) {
   EXPECT_EQ(set("domain.box.max=[5, 4, 0]").domain->box->max[0], 5);
   EXPECT_EQ(set("contact.skin=0.3").settings.contact.skin, 0.3);
   EXPECT_EQ(set("contact.point=chebyshev").settings.contact.point, ContactPoint::chebyshev);
+  EXPECT_EQ(set("contact.point=centroid").settings.contact.point, ContactPoint::centroid);
+  EXPECT_EQ(set("contact.centre=ipopt_scaled").settings.contact.centre, CentreSolver::ipopt_scaled);
+  EXPECT_EQ(set("contact.overlap=bracketing").settings.contact.overlap, OverlapSearch::bracketing);
   EXPECT_EQ(set("title=two words").title, "two words");
   EXPECT_EQ(set("title=\"a = b\"").title, "a = b");
   EXPECT_EQ(set("fix.2.below=[\"A\"]").fix[1].selector.below, std::vector<std::string>{"A"});

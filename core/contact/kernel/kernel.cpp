@@ -255,7 +255,8 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
     // what fails from here on has the LP's point to fall back on
     proof.kind = ProofKind::interior_point;
     proof.margin = m.least - m.rounding;
-    for (int k = 0; k < Dim; ++k) proof.point[k] = m.point[k];
+    for (int k = 0; k < Dim; ++k)
+      proof.point[k] = m.point[k];
     const int approaches = approach_centre(m);
     if (approaches < 0) return;
     counters.newton_iterations += approaches;
