@@ -219,7 +219,8 @@ TEST(Bracketing, GivesTheKernelTheSameContact) {
     const Contact<3> closed = touch<3>(a, b, turn, offset).contact,
                      bracketed = touch<3>(a, b, turn, offset, {.overlap = OverlapSearch::bracketing}).contact;
     ASSERT_TRUE(closed.touching() && bracketed.touching());
-    EXPECT_NEAR(bracketed.geometry.overlap, closed.geometry.overlap, 1e-15);
+    // another search also finds the centre another way, each to Newton's tolerance
+    EXPECT_NEAR(bracketed.geometry.overlap, closed.geometry.overlap, point_tolerance * closed.geometry.overlap);
     EXPECT_EQ(bracketed.geometry.face_a, closed.geometry.face_a);
     EXPECT_EQ(bracketed.geometry.face_b, closed.geometry.face_b);
     compared += bracketed.geometry.overlap != closed.geometry.overlap;
@@ -252,7 +253,7 @@ TEST(Rescue, AnswersWhenTheSearchForTheCentreFails) {
   const Outcome<3> rescued = resolve(failing, {});
   ASSERT_TRUE(rescued.contact.touching());
   EXPECT_EQ(rescued.counters.centre_fallbacks, 1);
-  EXPECT_EQ(rescued.contact.geometry.point, own.contact.geometry.point);
+  EXPECT_LT((rescued.contact.geometry.point - own.contact.geometry.point).norm(), exact);
 
   // a rescue that fails too leaves a named failure
   failing.rescue = &fails;

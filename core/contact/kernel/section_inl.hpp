@@ -43,7 +43,7 @@ HWY_INLINE void section_area_of(const double* q0, const double* q1, int quads, c
     double x[L::width], y[L::width];
     for (int lane = 0; lane < L::width; ++lane) {
       const SectionList& list = lists[lane];
-      const int plane = list.planes[k < list.size ? k : 0];
+      const int plane = list.size > 0 ? list.planes[k < list.size ? k : 0] : 0;
       x[lane] = q0[plane * L::width + lane];
       y[lane] = q1[plane * L::width + lane];
       more[k][lane] = k < list.size;
@@ -54,13 +54,15 @@ HWY_INLINE void section_area_of(const double* q0, const double* q1, int quads, c
 
   Real c0[most + 1], c1[most + 1];
   for (int k = 0; k < longest; ++k) {
-    const Real turn = a0[k] * a1[k + 1] - a1[k] * a0[k + 1];
+    // through the difference: planes that are nearly parallel keep the corner on both of them
+    const Real d0 = a0[k + 1] - a0[k], d1 = a1[k + 1] - a1[k];
+    const Real turn = a0[k] * d1 - a1[k] * d0;
     const auto here = L::picked(more[k]);
     const auto convex = turn > zero;
     known = but_not(known, but_not(here, convex));
     const Real inverse = one / select(convex, turn, one);
-    c0[k] = select(here, (a1[k + 1] - a1[k]) * inverse, c0[0]);
-    c1[k] = select(here, (a0[k] - a0[k + 1]) * inverse, c1[0]);
+    c0[k] = select(here, d1 * inverse, c0[0]);
+    c1[k] = select(here, -d0 * inverse, c1[0]);
   }
   c0[longest] = c0[0];
   c1[longest] = c1[0];
@@ -104,12 +106,12 @@ HWY_INLINE bool find_section(const double* q0, const double* q1, int quads, int 
   double c0[most_corners], c1[most_corners];
   for (int k = 0; k < size;) {
     const int a = list[k], b = list[k + 1 == size ? 0 : k + 1];
-    const double turn = q0[a] * q1[b] - q1[a] * q0[b];
+    const double d0 = q0[b] - q0[a], d1 = q1[b] - q1[a], turn = q0[a] * d1 - q1[a] * d0;
     bool cut;
     if (turn > 0) {
       const double inverse = 1 / turn;
-      c0[k] = (q1[b] - q1[a]) * inverse;
-      c1[k] = (q0[a] - q0[b]) * inverse;
+      c0[k] = d1 * inverse;
+      c1[k] = -d0 * inverse;
       highest_plane(q0, q1, quads, c0[k], c1[k], value, plane);
       cut = value >= 1 + corner_tolerance;
     } else {
