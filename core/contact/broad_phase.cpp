@@ -22,26 +22,28 @@ constexpr int most_halvings = 40;
 template <int Dim>
 using Cell = std::array<std::int64_t, Dim>;
 
-// boxes of like size, no wider than a cell, each in the cell of its low corner
+// Boxes of like size, no wider than a cell, each in the cell of its low corner. Cells are numbered in rows along x,
+// rows in layers: what is near in space is near in memory. Strides are odd, so that numbers that wrap round spread.
 template <int Dim>
 struct Grid {
   int level = 0;       // cells are 2^level times those of level 0
   int count = 0;       // boxes
   double cell = 0;     // m
   Cell<Dim> spread{};  // the most cells that a box reaches up from its own
+  std::array<std::uint64_t, Dim> stride{};
 };
 
 template <int Dim>
 struct Entry {
-  Cell<Dim> cell;
-  int box, grid;
+  int number, grid;
+  Box<Dim> box;
 };
 
-// A search and its memory. All boxes of the grids lie in one table, by the hash of their cell.
+// A search and its memory. All boxes of the grids lie in one table, in the order of their cells' numbers modulo its
+// size: several cells may share a bucket.
 template <int Dim>
 struct PairSearch {
-  const std::vector<Box<Dim>>* boxes = nullptr;
-  Vector<Dim> origin;
+  Vector<Dim> origin, region;        // m: the lowest corner, and the extent, of all boxes
   double cell = 1;                   // m, of level 0
   int lowest = 0;                    // level
   std::vector<int> level;            // by box
@@ -83,31 +85,30 @@ Cell<Dim> cell_of(const Vector<Dim>& point, const Vector<Dim>& origin, double wi
   return cell;
 }
 
-// neighbours along x lie in neighbouring buckets, so that a row of cells is read in one go
 template <int Dim>
-std::uint32_t bucket_of(const Cell<Dim>& cell, int grid, std::uint32_t mask) {
-  std::uint64_t h = static_cast<std::uint64_t>(grid) * 0x9e3779b97f4a7c15u;
-  for (int k = 1; k < Dim; ++k)
-    h = (h ^ static_cast<std::uint64_t>(cell[k])) * 0xff51afd7ed558ccdu;
-  h ^= h >> 32;
-  return static_cast<std::uint32_t>(h + static_cast<std::uint64_t>(cell[0])) & mask;
+std::uint32_t bucket_of(const Grid<Dim>& grid, const Cell<Dim>& cell, std::uint32_t mask) {
+  std::uint64_t number = static_cast<std::uint64_t>(grid.level) * 0x9e3779b97f4a7c15u;
+  for (int k = 0; k < Dim; ++k)
+    number += grid.stride[k] * static_cast<std::uint64_t>(cell[k]);
+  return static_cast<std::uint32_t>(number) & mask;
 }
 
 // level 0 suits the median box; the lowest level still can count its cells
 template <int Dim>
-void choose_cells(PairSearch<Dim>& s) {
+void choose_cells(const std::vector<Box<Dim>>& boxes, PairSearch<Dim>& s) {
   s.extents.clear();
   Vector<Dim> low = Vector<Dim>::Zero(), high = Vector<Dim>::Zero();
-  for (const Box<Dim>& box : *s.boxes) {
+  for (const Box<Dim>& box : boxes) {
     if (!is_there(box) || !is_finite(box)) continue;
     low = s.extents.empty() ? box.low : Vector<Dim>(low.cwiseMin(box.low));
     high = s.extents.empty() ? box.high : Vector<Dim>(high.cwiseMax(box.high));
     s.extents.push_back(extent(box));
   }
   s.origin = low;
+  s.region = high - low;
   s.cell = 1;
   s.lowest = 0;
-  const double region = (high - low).maxCoeff();
+  const double region = s.region.maxCoeff();
   if (region == 0) return;
   const auto median = s.extents.begin() + static_cast<std::ptrdiff_t>(s.extents.size() / 2);
   std::nth_element(s.extents.begin(), median, s.extents.end());
@@ -125,10 +126,22 @@ int level_of(const PairSearch<Dim>& s, const Box<Dim>& box) {
   return std::max(s.lowest, power ? exponent - 1 : exponent);
 }
 
+template <int Dim>
+Grid<Dim> make_grid(const PairSearch<Dim>& s, int level) {
+  Grid<Dim> grid;
+  grid.level = level;
+  grid.cell = std::ldexp(s.cell, level);
+  std::uint64_t stride = 1;
+  for (int k = 0; k < Dim; ++k) {
+    grid.stride[k] = stride;
+    stride *= static_cast<std::uint64_t>(s.region[k] / grid.cell) / 2 * 2 + 3;
+  }
+  return grid;
+}
+
 // a grid for every size that is common; boxes of other sizes are alone
 template <int Dim>
-void choose_grids(PairSearch<Dim>& s) {
-  const std::vector<Box<Dim>>& boxes = *s.boxes;
+void choose_grids(const std::vector<Box<Dim>>& boxes, PairSearch<Dim>& s) {
   s.level.assign(boxes.size(), absent);
   s.grids.clear();
   s.alone.clear();
@@ -141,11 +154,7 @@ void choose_grids(PairSearch<Dim>& s) {
     const int level = s.level[i] = level_of(s, boxes[i]);
     auto place = std::lower_bound(s.grids.begin(), s.grids.end(), level,
                                   [](const Grid<Dim>& g, int wanted) { return g.level < wanted; });
-    if (place == s.grids.end() || place->level != level) {
-      place = s.grids.insert(place, Grid<Dim>{});
-      place->level = level;
-      place->cell = std::ldexp(s.cell, level);
-    }
+    if (place == s.grids.end() || place->level != level) place = s.grids.insert(place, make_grid(s, level));
     ++place->count;
   }
   std::erase_if(s.grids, [](const Grid<Dim>& g) { return g.count < few; });
@@ -159,10 +168,15 @@ int grid_of(const PairSearch<Dim>& s, int box) {
   return -1;
 }
 
+template <int Dim>
+std::uint32_t own_bucket(const PairSearch<Dim>& s, const Entry<Dim>& e, std::uint32_t mask) {
+  const Grid<Dim>& grid = s.grids[e.grid];
+  return bucket_of<Dim>(grid, cell_of<Dim>(e.box.low, s.origin, grid.cell), mask);
+}
+
 // every box into the bucket of its cell, by counting
 template <int Dim>
-void fill_table(PairSearch<Dim>& s) {
-  const std::vector<Box<Dim>>& boxes = *s.boxes;
+void fill_table(const std::vector<Box<Dim>>& boxes, PairSearch<Dim>& s) {
   s.filed.clear();
   for (int i = 0; i < static_cast<int>(boxes.size()); ++i) {
     if (s.level[i] == absent) continue;
@@ -176,7 +190,7 @@ void fill_table(PairSearch<Dim>& s) {
     const Cell<Dim> high = cell_of<Dim>(boxes[i].high, s.origin, grid.cell);
     for (int k = 0; k < Dim; ++k)
       grid.spread[k] = std::max(grid.spread[k], high[k] - low[k]);
-    s.filed.push_back({low, i, g});
+    s.filed.push_back({i, g, boxes[i]});
   }
 
   std::size_t buckets = 1;
@@ -186,71 +200,85 @@ void fill_table(PairSearch<Dim>& s) {
   // the end of each bucket, lowered to its begin as the boxes go in
   s.begin.assign(buckets + 1, 0);
   for (const Entry<Dim>& e : s.filed)
-    ++s.begin[bucket_of<Dim>(e.cell, e.grid, mask)];
+    ++s.begin[own_bucket(s, e, mask)];
   for (std::size_t b = 0; b < buckets; ++b)
     s.begin[b + 1] += s.begin[b];
   s.table.resize(s.filed.size());
   for (auto e = s.filed.rbegin(); e != s.filed.rend(); ++e)
-    s.table[--s.begin[bucket_of<Dim>(e->cell, e->grid, mask)]] = *e;
+    s.table[--s.begin[own_bucket(s, *e, mask)]] = *e;
 }
 
 template <int Dim>
-void try_pair(PairSearch<Dim>& s, int i, int j) {
-  const Box<Dim>&a = (*s.boxes)[i], &b = (*s.boxes)[j];
+void try_pair(PairSearch<Dim>& s, int i, const Box<Dim>& a, int j, const Box<Dim>& b) {
   if (a.body != b.body && !(a.fixed && b.fixed) && meet(a, b)) s.found.push_back(std::minmax(i, j));
 }
 
-// the boxes of one grid near a box of it, or of a finer one; within a grid each pair is met from both sides
+// the boxes of some neighbouring buckets; within a grid each pair is met from both sides
 template <int Dim>
-void try_grid(PairSearch<Dim>& s, int box, int own, int g) {
+void try_buckets(PairSearch<Dim>& s, const Entry<Dim>& e, int g, std::uint32_t first, std::uint32_t last) {
+  for (std::uint32_t i = s.begin[first]; i < s.begin[last + 1]; ++i) {
+    const Entry<Dim>& other = s.table[i];
+    if (other.grid == g && (g != e.grid || other.number > e.number))
+      try_pair(s, e.number, e.box, other.number, other.box);
+  }
+}
+
+// the boxes of one grid near a box of it, or of a finer one: row by row
+template <int Dim>
+void try_grid(PairSearch<Dim>& s, const Entry<Dim>& e, int g) {
   const Grid<Dim>& grid = s.grids[g];
   const std::uint32_t mask = static_cast<std::uint32_t>(s.begin.size() - 2);
-  Cell<Dim> from = cell_of<Dim>((*s.boxes)[box].low, s.origin, grid.cell);
-  const Cell<Dim> to = cell_of<Dim>((*s.boxes)[box].high, s.origin, grid.cell);
+  Cell<Dim> from = cell_of<Dim>(e.box.low, s.origin, grid.cell);
+  const Cell<Dim> to = cell_of<Dim>(e.box.high, s.origin, grid.cell);
   for (int k = 0; k < Dim; ++k)
     from[k] -= grid.spread[k];
-  Cell<Dim> cell = from;
+  const std::uint32_t length = static_cast<std::uint32_t>(std::min<std::int64_t>(to[0] - from[0], mask));
+  Cell<Dim> row = from;
   while (true) {
-    for (cell[0] = from[0]; cell[0] <= to[0]; ++cell[0]) {
-      const std::uint32_t bucket = bucket_of<Dim>(cell, g, mask);
-      for (std::uint32_t e = s.begin[bucket]; e < s.begin[bucket + 1]; ++e)
-        if ((g != own || s.table[e].box > box) && s.table[e].grid == g && s.table[e].cell == cell)
-          try_pair(s, box, s.table[e].box);
+    const std::uint32_t first = bucket_of<Dim>(grid, row, mask), last = (first + length) & mask;
+    if (first <= last) {
+      try_buckets(s, e, g, first, last);
+    } else {
+      try_buckets(s, e, g, first, mask);
+      try_buckets(s, e, g, 0, last);
     }
     int k = 1;
-    while (k < Dim && cell[k] == to[k]) {
-      cell[k] = from[k];
+    while (k < Dim && row[k] == to[k]) {
+      row[k] = from[k];
       ++k;
     }
     if (k == Dim) return;
-    ++cell[k];
+    ++row[k];
   }
 }
 
 // boxes of no grid meet any other
 template <int Dim>
-void try_alone(PairSearch<Dim>& s) {
+void try_alone(const std::vector<Box<Dim>>& boxes, PairSearch<Dim>& s) {
   for (std::size_t i = 0; i < s.alone.size(); ++i) {
+    const int a = s.alone[i];
     for (std::size_t j = i + 1; j < s.alone.size(); ++j)
-      try_pair(s, s.alone[i], s.alone[j]);
+      try_pair(s, a, boxes[a], s.alone[j], boxes[s.alone[j]]);
     for (const Entry<Dim>& e : s.filed)
-      try_pair(s, s.alone[i], e.box);
+      try_pair(s, a, boxes[a], e.number, e.box);
   }
 }
 
-// ascending order in O(pairs): by the first box by counting, then the few of each by the second
+// ascending order in O(pairs): by the first box by counting, then the few of each by the second; a pair may have been
+// found twice, in a bucket that serves two cells
 template <int Dim>
-void sort_pairs(PairSearch<Dim>& s, std::vector<std::pair<int, int>>& pairs) {
-  s.row.assign(s.boxes->size() + 1, 0);
+void sort_pairs(PairSearch<Dim>& s, std::size_t boxes, std::vector<std::pair<int, int>>& pairs) {
+  s.row.assign(boxes + 1, 0);
   for (const auto& p : s.found)
     ++s.row[p.first];
-  for (std::size_t i = 0; i + 1 < s.row.size(); ++i)
+  for (std::size_t i = 0; i < boxes; ++i)
     s.row[i + 1] += s.row[i];
   pairs.resize(s.found.size());
   for (const auto& p : s.found)
     pairs[--s.row[p.first]] = p;
-  for (std::size_t i = 0; i + 1 < s.row.size(); ++i)
+  for (std::size_t i = 0; i < boxes; ++i)
     std::sort(pairs.begin() + s.row[i], pairs.begin() + s.row[i + 1]);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
 }  // namespace
@@ -258,17 +286,16 @@ void sort_pairs(PairSearch<Dim>& s, std::vector<std::pair<int, int>>& pairs) {
 template <int Dim>
 void overlapping_pairs(const std::vector<Box<Dim>>& boxes, std::vector<std::pair<int, int>>& pairs) {
   static thread_local PairSearch<Dim> s;
-  s.boxes = &boxes;
   s.found.clear();
-  choose_cells(s);
-  choose_grids(s);
-  fill_table(s);
+  choose_cells(boxes, s);
+  choose_grids(boxes, s);
+  fill_table(boxes, s);
   // each box looks among its likes and among the larger
-  for (const Entry<Dim>& e : s.filed)
+  for (const Entry<Dim>& e : s.table)
     for (int g = e.grid; g < static_cast<int>(s.grids.size()); ++g)
-      try_grid(s, e.box, e.grid, g);
-  try_alone(s);
-  sort_pairs(s, pairs);
+      try_grid(s, e, g);
+  try_alone(boxes, s);
+  sort_pairs(s, boxes.size(), pairs);
 }
 
 template void overlapping_pairs<2>(const std::vector<Box<2>>&, std::vector<std::pair<int, int>>&);
