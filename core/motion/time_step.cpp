@@ -56,6 +56,7 @@ double stiffest_joint(const std::vector<JointProperties>& properties, double are
 // stiffest square frequency of a body: eigenvalue of M⁻¹K over its free freedoms
 template <int Dim>
 double largest_eigenvalue(const Body<Dim>& body, const Rotation<Dim>& rotation, const Stiffness<Dim>& k) {
+  if (k.isZero(0)) return 0;  // in flight
   Stiffness<Dim> mass = Stiffness<Dim>::Zero();
   mass.template topLeftCorner<Dim, Dim>() = body.mass * Matrix<Dim>::Identity();
   if constexpr (Dim == 3) {
