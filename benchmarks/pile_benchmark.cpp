@@ -17,10 +17,10 @@
 #include <functional>
 #include <new>
 
-#include "cases/free_fall/fall_scene.hpp"
 #include "core/scene/scene.hpp"
 #include "core/stages.hpp"
 #include "core/step.hpp"
+#include "core/testing/fall_scene.hpp"
 
 namespace {
 
@@ -67,10 +67,10 @@ struct Pile {
 
 // two hundred blocks that have fallen
 Pile settled_pile(int kind) {
-  cases::FallPlan plan;
+  shapes::FallPlan plan;
   plan.kinds = {kind};
   plan.blocks = pile_blocks;
-  Prepared<3> scene = prepare<3>(parse_scene(cases::fall_scene(plan, "pile"), "pile"));
+  Prepared<3> scene = prepare<3>(parse_scene(shapes::fall_scene(plan, "pile"), "pile"));
   Pile pile{std::move(scene.model), std::move(scene.state), scene.settings};
   while (pile.state.time < settling_time)
     step(pile.model, pile.settings, pile.state);
@@ -164,7 +164,7 @@ void run(const Pile& settled, int kind, int blocks, std::ofstream& csv) {
   Pile pile = side_by_side(settled, blocks / pile_blocks);
   const std::array<Times, 2> times = time_pile(pile, steps_of(blocks));
   const int contacts = touching(pile.state);
-  const std::string& shape = cases::regular_polyhedra[kind];
+  const std::string& shape = shapes::regular_polyhedra[kind];
   std::array<double, 2> whole{};
   for (std::size_t t = 0; t < 2; ++t) {
     for (const double ns : times[t])

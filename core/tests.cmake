@@ -42,5 +42,5 @@ voussoir_test(unit.exact_referee LABEL unit SOURCES testing/exact_referee_test.c
   LIBS voussoir_exact_referee Boost::headers)
 
 voussoir_test(unit.step LABEL unit
-  SOURCES step_test.cpp step_memory_test.cpp energy_test.cpp state_hash_test.cpp reduction/reduction_test.cpp checkpoint/checkpoint_test.cpp
+  SOURCES step_test.cpp testing/step_memory_test.cpp energy_test.cpp state_hash_test.cpp reduction/reduction_test.cpp checkpoint/checkpoint_test.cpp
   LIBS voussoir_core cereal::cereal Boost::headers)

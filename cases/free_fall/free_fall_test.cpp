@@ -6,11 +6,14 @@
 #include <sstream>
 
 #include "cases/film.hpp"
-#include "cases/free_fall/fall_scene.hpp"
+#include "core/testing/fall_scene.hpp"
 
 namespace voussoir::cases {
 namespace {
 
+using shapes::fall_scene;
+using shapes::FallPlan;
+using shapes::regular_polyhedra;
 using verification::Bound;
 using verification::CaseReport;
 using verification::Kind;

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace voussoir::cases {
+namespace voussoir::shapes {
 
 inline const std::vector<std::string> regular_polyhedra{"tetrahedron", "cube", "octahedron", "dodecahedron",
                                                         "icosahedron"};
@@ -102,7 +102,7 @@ inline std::string fall_blocks(const FallPlan& plan) {
 // The whole scene: two stages, `fall` without damping but that of the contacts, `rest` with local damping. README.md
 // gives the reasons for the numbers.
 inline std::string fall_scene(const FallPlan& plan, const std::string& title) {
-  return fmt::format(R"(# Made by cases/free_fall/fall_scene.hpp, which a test compares with this file.
+  return fmt::format(R"(# Made by core/testing/fall_scene.hpp, which a test compares with this file.
 title = "{}"
 dimension = 3
 gravity = [0, 0, -9.81]        # m/s2
@@ -147,4 +147,4 @@ frame_interval_s = 0.2
                      title, fall_blocks(plan));
 }
 
-}  // namespace voussoir::cases
+}  // namespace voussoir::shapes
