@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # run_benchmarks.sh BUILD: times the kernels; medians on the terminal, Google Benchmark's JSON in the build folder. The
 # contact kernel's peers take turns with it at random, so that a busy moment of the machine hits all alike.
+# Then whole steps of piles by stages, as a table and step.csv.
 # VOUSSOIR_BENCHMARK=quick: only the contact kernel, in less than a minute, for the manual.
 set -euo pipefail
 build=$1
@@ -21,6 +22,7 @@ else
     "$program" --benchmark_repetitions=9 --benchmark_min_time=0.05 --benchmark_report_aggregates_only=true \
                --benchmark_out="$out/$(basename "$program").json" --benchmark_out_format=json
   done
+  "$build/benchmarks/pile_benchmark" "$out"
 fi
 
 "$contact" "${options[@]}" --benchmark_enable_random_interleaving=true --benchmark_report_aggregates_only=true \

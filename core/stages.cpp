@@ -68,17 +68,12 @@ Box<Dim> bounds(const Model<Dim>& model, const State<Dim>& state, int part, doub
   return box;
 }
 
+// the boxes of all parts
 template <int Dim>
-std::vector<Box<Dim>> boxes(const Model<Dim>& model, const State<Dim>& state, double margin) {
-  std::vector<Box<Dim>> list;
+void bound_parts(const Model<Dim>& model, const State<Dim>& state, double margin, std::vector<Box<Dim>>& boxes) {
+  boxes.resize(model.parts.size());
   for (std::size_t part = 0; part < model.parts.size(); ++part)
-    list.push_back(bounds(model, state, static_cast<int>(part), margin));
-  return list;
-}
-
-template <int Dim>
-bool meet(const Box<Dim>& a, const Box<Dim>& b) {
-  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+    boxes[part] = bounds(model, state, static_cast<int>(part), margin);
 }
 
 // the joint a contact lies on: of the two faces' joints the later cut
@@ -188,10 +183,17 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
     stale = !model.bodies[b].fixed && moved(model.bodies[b], state.built[b], state.motions[b]) > 0.5 * skin;
   if (!stale) return;
 
+  // lists that keep their memory
+  static thread_local std::vector<Box<Dim>> boxes;
+  static thread_local std::vector<std::pair<int, int>> pairs;
+  static thread_local std::vector<Contact<Dim>> renewed;
+  bound_parts(model, state, candidate_reach * skin, boxes);
+  overlapping_pairs(boxes, pairs);
+
   // standing candidates keep their record: both lists are in ascending order
-  std::vector<Contact<Dim>> renewed;
+  renewed.clear();
   auto old = state.contacts.begin();
-  for (const auto& [a, b] : overlapping_pairs(boxes(model, state, candidate_reach * skin))) {
+  for (const auto& [a, b] : pairs) {
     while (old != state.contacts.end() && std::pair(old->part_a, old->part_b) < std::pair(a, b))
       ++old;
     if (old != state.contacts.end() && old->part_a == a && old->part_b == b) {
@@ -203,7 +205,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
     fresh.part_b = b;
     renewed.push_back(fresh);
   }
-  state.contacts = std::move(renewed);
+  std::swap(state.contacts, renewed);
   state.built.clear();
   for (const Motion<Dim>& m : state.motions)
     state.built.push_back({m.displacement, m.rotation});

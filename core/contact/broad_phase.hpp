@@ -1,4 +1,4 @@
-// Candidate pairs by bounding boxes: sort and sweep along the first axis.
+// Candidate pairs by bounding boxes: a hierarchy of grids, so that a box costs the same however many there are.
 #pragma once
 
 #include <utility>
@@ -10,13 +10,20 @@ namespace voussoir {
 
 template <int Dim>
 struct Box {
-  Vector<Dim> low, high;  // m
+  Vector<Dim> low, high;  // m; a box whose low lies above its high (an absent body's) meets none
   int body;               // parts of one body never meet
   bool fixed;             // nor do two fixed ones
 };
 
-// All pairs (i, j), i < j, whose boxes overlap, in ascending order.
+// whether two boxes have a point in common, their faces included
 template <int Dim>
-std::vector<std::pair<int, int>> overlapping_pairs(const std::vector<Box<Dim>>& boxes);
+bool meet(const Box<Dim>& a, const Box<Dim>& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
+// All pairs (i, j), i < j, whose boxes meet and that may touch, in ascending order; `pairs` keeps its memory.
+// O(boxes + pairs) for each power of two between the smallest and the largest boxes that occur in numbers.
+template <int Dim>
+void overlapping_pairs(const std::vector<Box<Dim>>& boxes, std::vector<std::pair<int, int>>& pairs);
 
 }  // namespace voussoir

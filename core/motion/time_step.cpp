@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -55,6 +56,7 @@ double stiffest_joint(const std::vector<JointProperties>& properties, double are
 // stiffest square frequency of a body: eigenvalue of M⁻¹K over its free freedoms
 template <int Dim>
 double largest_eigenvalue(const Body<Dim>& body, const Rotation<Dim>& rotation, const Stiffness<Dim>& k) {
+  if (k.isZero(0)) return 0;  // in flight
   Stiffness<Dim> mass = Stiffness<Dim>::Zero();
   mass.template topLeftCorner<Dim, Dim>() = body.mass * Matrix<Dim>::Identity();
   if constexpr (Dim == 3) {
@@ -63,14 +65,22 @@ double largest_eigenvalue(const Body<Dim>& body, const Rotation<Dim>& rotation, 
   } else {
     mass(Dim, Dim) = body.inertia[0];
   }
-  std::vector<int> free;
+  // of run-time size within fixed storage: no memory is asked for
+  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, freedoms<Dim>, freedoms<Dim>>;
+  std::array<int, freedoms<Dim>> free;
+  int count = 0;
   for (int i = 0; i < Dim; ++i)
-    if (body.free_translation[i]) free.push_back(i);
+    if (body.free_translation[i]) free[count++] = i;
   for (int i = 0; i < spin_freedoms<Dim>; ++i)
-    if (body.free_rotation[i]) free.push_back(Dim + i);
-  if (free.empty()) return 0;
-  const Eigen::MatrixXd stiffness = k(free, free), inertia = mass(free, free);
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, inertia, Eigen::EigenvaluesOnly)
+    if (body.free_rotation[i]) free[count++] = Dim + i;
+  if (count == 0) return 0;
+  Block stiffness(count, count), inertia(count, count);
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < count; ++j) {
+      stiffness(i, j) = k(free[i], free[j]);
+      inertia(i, j) = mass(free[i], free[j]);
+    }
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Block>(stiffness, inertia, Eigen::EigenvaluesOnly)
       .eigenvalues()
       .maxCoeff();
 }
@@ -87,8 +97,10 @@ void add(Stiffness<Dim>& k, double factor, const Matrix<Dim>& contact, const Vec
 template <int Dim>
 TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
                                     State<Dim>& state) {
-  std::vector<Stiffness<Dim>> stiffness(model.bodies.size(), Stiffness<Dim>::Zero());
-  std::vector<double> impact(model.bodies.size(), 0.0);  // N/m that may act at the radius
+  static thread_local std::vector<Stiffness<Dim>> stiffness;
+  static thread_local std::vector<double> impact;  // N/m that may act at the radius
+  stiffness.assign(model.bodies.size(), Stiffness<Dim>::Zero());
+  impact.assign(model.bodies.size(), 0);
 
   for (Contact<Dim>& c : state.contacts) {
     const int ia = model.parts[c.part_a].body, ib = model.parts[c.part_b].body;

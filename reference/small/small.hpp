@@ -82,4 +82,19 @@ std::array<double, 3> free_rotation(const FreeRotation& body, double time);
 // Period (s) of that motion, 4 K/lambda; +infinity on the separatrix, and for steady rotation, which has none.
 double free_rotation_period(const FreeRotation& body);
 
+// --- a block that falls over an edge which neither slips nor lifts
+
+struct FallOver {
+  double mass = 1;        // kg, > 0
+  double inertia = 1;     // kg m^2 about the edge, > 0
+  double arm = 1;         // m from the edge to the centroid, > 0
+  double start = 0.1;     // rad: lean of the arm off the vertical, at rest, 1e-6 <= start < pi
+  double gravity = 9.81;  // m/s^2, > 0
+};
+
+// Time (s) until the lean has grown to `lean` (rad, start <= lean <= pi): a pendulum from above. With k^2 = m g arm/I,
+// q = cos(start/2) and sin(b) = cos(lean/2)/q it is (K(q) - F(b, q))/k, F and K Legendre's elliptic integrals of the
+// first kind, incomplete and complete (Landau & Lifshitz 1976, Mechanics, section 11). Throws std::invalid_argument.
+double fall_over_time(const FallOver& block, double lean);
+
 }  // namespace voussoir::reference

@@ -269,4 +269,36 @@ TEST(FreeRotation, scaling_and_errors) {
   EXPECT_THROW(free_rotation({{1, 0, 1}, {1, 0, 0}}, 1), std::invalid_argument);
 }
 
+// --- falling over an edge
+
+TEST(FallOver, numerical_integration) {
+  for (const double start : {1e-3, 0.1, 1.0, 2.5})
+    for (const double lean : {start, 1.5 * start, 0.5 * (start + pi), pi}) {
+      if (lean > pi) continue;
+      const FallOver block{1200, 800, 0.7, start, 9.81};
+      const double rate = 1200 * 9.81 * 0.7 / 800;
+      // to the time the closed form gives, and back to the lean it started from
+      const auto end = integrate_ode(
+          [&](double, const double* y, double* slope) {
+            slope[0] = y[1];
+            slope[1] = rate * std::sin(y[0]);
+          },
+          {start, 0}, 0, fall_over_time(block, lean));
+      EXPECT_NEAR(end[0], lean, 1e-8) << start << " " << lean;
+    }
+}
+
+TEST(FallOver, limits) {
+  // a small lean grows like cosh; hanging, it is a quarter of a pendulum's swing of small amplitude
+  const FallOver block{3, 6, 2, 1e-4, 10};
+  const double rate = std::sqrt(3 * 10 * 2 / 6.0);
+  EXPECT_NEAR(fall_over_time(block, 5e-4), std::acosh(5.0) / rate, 1e-6);
+  EXPECT_NEAR(fall_over_time({3, 6, 2, pi - 1e-3, 10}, pi), pi / 2 / rate, 1e-6);
+  // the mass does not matter
+  EXPECT_NEAR(fall_over_time({6, 12, 2, 1e-4, 10}, 1), fall_over_time(block, 1), 1e-12);
+  EXPECT_THROW(fall_over_time(block, 1e-5), std::invalid_argument);
+  EXPECT_THROW(fall_over_time({3, 6, 2, 0, 10}, 1), std::invalid_argument);
+  EXPECT_THROW(fall_over_time({3, 0, 2, 1, 10}, 1), std::invalid_argument);
+}
+
 }  // namespace

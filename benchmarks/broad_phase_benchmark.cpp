@@ -1,0 +1,58 @@
+// The broad phase on boxes at constant density: the time per box shall not depend on how many there are.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "benchmarks/shapes.hpp"
+#include "core/contact/broad_phase.hpp"
+
+namespace voussoir::benchmarks {
+namespace {
+
+// some six neighbours each, as in a dense pile
+constexpr double boxes_per_unit = 0.8;
+
+// boxes of 1 m, give or take the turning of a block; `mixed`: of 0.1 to 1 m, more of the small
+std::vector<Box<3>> scattered(int count, bool mixed) {
+  Random random(4711);
+  const double side = std::cbrt(count / boxes_per_unit);
+  std::vector<Box<3>> boxes;
+  for (int i = 0; i < count; ++i) {
+    const double size = mixed ? std::pow(10, uniform(random, -1, 0)) : uniform(random, 0.8, 1);
+    Box<3> box{Vector<3>::Zero(), Vector<3>::Zero(), i, false};
+    for (int k = 0; k < 3; ++k) {
+      box.low[k] = uniform(random, 0, side);
+      box.high[k] = box.low[k] + size;
+    }
+    boxes.push_back(box);
+  }
+  // a pile stands on a plate
+  boxes.push_back({Vector<3>(-1, -1, -1), Vector<3>(side + 1, side + 1, 0), count, true});
+  return boxes;
+}
+
+void broad_phase(benchmark::State& state, bool mixed) {
+  const int count = static_cast<int>(state.range(0));
+  const std::vector<Box<3>> boxes = scattered(count, mixed);
+  std::vector<std::pair<int, int>> pairs;
+  for (auto _ : state) {
+    overlapping_pairs(boxes, pairs);
+    benchmark::DoNotOptimize(pairs.data());
+  }
+  state.counters["ns_per_box"] = benchmark::Counter(static_cast<double>(state.iterations()) * count * 1e-9,
+                                                    benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["pairs_per_box"] = static_cast<double>(pairs.size()) / count;
+}
+
+void equal(benchmark::State& state) {
+  broad_phase(state, false);
+}
+void mixed(benchmark::State& state) {
+  broad_phase(state, true);
+}
+
+BENCHMARK(equal)->RangeMultiplier(10)->Range(1000, 100'000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(mixed)->RangeMultiplier(10)->Range(1000, 100'000)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace voussoir::benchmarks

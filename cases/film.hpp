@@ -1,0 +1,116 @@
+// A scene run with its frames kept, and pictures of them: blocks as shaded faces that gnuplot fills back to front.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "app/run_scene.hpp"
+#include "cases/case_tools.hpp"
+
+namespace voussoir::cases {
+
+struct Film {
+  SceneRun run;
+  std::vector<State<3>> frames;  // the begin, then as the scene's output asks, the end of each stage among them
+
+  const Prepared<3>& scene() const { return std::get<Prepared<3>>(run.scene.prepared); }
+  const Model<3>& model() const { return scene().model; }
+  const State<3>& last() const { return frames.back(); }
+};
+
+// Runs a 3-D scene to its end and demands that it reached its goals.
+inline Film film(const std::filesystem::path& path, const std::vector<std::string>& overrides = {}, int threads = 1) {
+  Film film;
+  film.run.scene = load_scene(path, overrides, threads);
+  const Prepared<3>& scene = film.scene();
+  film.frames.push_back(scene.state);
+  Watcher<3> watcher;
+  watcher.frame = [&](const Model<3>&, const State<3>& state, double) { film.frames.push_back(state); };
+  Progress<3> progress = begin(scene);
+  simulate(scene, progress, watcher);
+  film.run.results = std::move(progress.results);
+  if (film.run.results.outcome != Outcome::done)
+    throw std::runtime_error(path.string() + ": " + film.run.results.message);
+  return film;
+}
+
+// corners of a body's parts where they are now, model coordinates, m
+inline std::vector<Vector<3>> corners(const Body<3>& body, const Motion<3>& motion) {
+  std::vector<Vector<3>> points;
+  for (const Polytope<3>& part : body.parts)
+    for (const Vector<3>& v : part.vertices)
+      points.push_back(body.reference + motion.displacement + matrix(motion.rotation) * v);
+  return points;
+}
+
+// parallel projection
+struct Camera {
+  double azimuth_deg = -60, height_deg = 20;  // where the eye stands, from x and from the horizontal
+  std::vector<std::string> hidden = {};       // bodies that are not drawn
+};
+
+// One picture as CSV: right_m, up_m, colour (rgb as a number); a face is a closed line, faces are parted by a blank
+// line and stand from back to front. Fixed bodies are grey, the others have a colour for each number of faces.
+inline void write_picture(const std::string& case_name, const std::string& file, const Model<3>& model,
+                          const State<3>& state, const Camera& camera) {
+  const double azimuth = camera.azimuth_deg * std::numbers::pi / 180,
+               height = camera.height_deg * std::numbers::pi / 180;
+  const Vector<3> eye(std::cos(height) * std::cos(azimuth), std::cos(height) * std::sin(azimuth), std::sin(height));
+  const Vector<3> right = Vector<3>::UnitZ().cross(eye).normalized(), up = eye.cross(right);
+  const Vector<3> light = (eye + 0.7 * up - 0.5 * right).normalized();
+
+  struct Face {
+    double depth;
+    std::uint32_t colour;
+    std::vector<Vector<3>> outline;
+  };
+  std::vector<Face> faces;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body<3>& body = model.bodies[b];
+    if (std::find(camera.hidden.begin(), camera.hidden.end(), body.name) != camera.hidden.end()) continue;
+    const Matrix<3> axes = matrix(state.motions[b].rotation);
+    const Vector<3> centroid = model.origin + body.reference + state.motions[b].displacement;
+    for (const Polytope<3>& part : body.parts)
+      for (std::size_t f = 0; f < part.faces.size(); ++f) {
+        const Vector<3> normal = axes * part.faces[f].normal;
+        if (normal.dot(eye) <= 0) continue;
+        Face face{centroid.dot(eye), 0, {}};
+        for (const int v : part.loops[f])
+          face.outline.push_back(centroid + axes * part.vertices[v]);
+        // Okabe and Ito's colours, by 4, 6, 8, 12 and 20 faces
+        const std::size_t count = part.faces.size();
+        const std::uint32_t base = body.fixed    ? (b % 2 ? 0xd0d0d0 : 0xb8b8a0)
+                                   : count <= 4  ? 0xd55e00
+                                   : count <= 6  ? 0x0072b2
+                                   : count <= 8  ? 0x009e73
+                                   : count <= 12 ? 0xcc79a7
+                                                 : 0xe69f00;
+        const double shade = 0.55 + 0.45 * std::max(0.0, normal.dot(light));
+        for (int shift = 0; shift < 24; shift += 8)
+          face.colour |= static_cast<std::uint32_t>(shade * ((base >> shift) & 0xff)) << shift;
+        if (body.fixed) face.depth -= 1e6;  // plates lie behind the blocks that stand on them
+        faces.push_back(face);
+      }
+  }
+  std::stable_sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.depth < b.depth; });
+
+  std::ofstream out(verification::case_output(case_name) / file);
+  out.precision(6);
+  out << "right_m,up_m,colour\n";
+  for (const Face& face : faces) {
+    for (std::size_t i = 0; i <= face.outline.size(); ++i) {
+      const Vector<3>& v = face.outline[i % face.outline.size()];
+      out << v.dot(right) << ',' << v.dot(up) << ',' << face.colour << '\n';
+    }
+    out << '\n';
+  }
+  if (!out) throw std::runtime_error("cannot write " + file);
+}
+
+}  // namespace voussoir::cases

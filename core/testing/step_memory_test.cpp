@@ -1,0 +1,57 @@
+// A step that keeps its neighbours asks for no memory, even while blocks move, meet and part.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "core/step.hpp"
+#include "core/testing/models.hpp"
+
+namespace {
+
+std::atomic<long long> allocations{0};
+
+}  // namespace
+
+// every allocation of the program is counted; not inlined, or the compiler takes malloc and delete for a mistake
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace voussoir {
+namespace {
+
+// blocks of a jointed box, at speeds that open and close its joints
+TEST(Step, AMovingPileAsksForNoMemory) {
+  const Model<3> model = shapes::model_of<3>(shapes::jointed_box());
+  Settings settings;
+  settings.contact.skin = 3;  // of the smallest inscribed radius: neighbours stay for as long as this test lasts
+  State<3> state = initial_state(model);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.bodies[b].fixed) state.motions[b].velocity = {2, 1.0 * static_cast<double>(b % 3), 3};  // m/s
+  for (int i = 0; i < 100; ++i)
+    step(model, settings, state);
+
+  const std::vector<double> frequency = state.frequency;
+  const long long builds = state.counters.neighbour_builds, made = allocations;
+  for (int i = 0; i < 200; ++i)
+    step(model, settings, state);
+  const long long asked = allocations - made;
+  EXPECT_EQ(asked, 0);
+  EXPECT_EQ(state.counters.neighbour_builds, builds);
+
+  // something must have happened: the time step was estimated anew, as it is when a pair meets or a contact grows
+  EXPECT_NE(state.frequency, frequency);
+}
+
+}  // namespace
+}  // namespace voussoir
