@@ -274,6 +274,12 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
     if (standing) {
       k.slip = (velocity + k.closing_speed * n) * dt;
       k.turn = spin_about(n, spin_a, spin_b) * dt;
+      // area that is lost takes its stress with it: the rest could not carry the force of a thousand times its size
+      if (k.area < c.history.area) {
+        const double left = k.area / c.history.area, stiffness = properties.shear_stiffness * c.history.area;
+        if (stiffness > 0) energy.flows.friction += 0.5 * c.history.shear_force.squaredNorm() / stiffness * (1 - left);
+        c.history.shear_force *= left;
+      }
       c.history.shear_force = carried(c.history.shear_force, c.history.normal, n, k.turn);
     }
 
@@ -292,6 +298,7 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
     c.history.normal = n;
     c.history.plastic_slip += answer.plastic_slip;
     c.history.dashpot = answer.dashpot;
+    c.history.area = k.area;
   }
 }
 

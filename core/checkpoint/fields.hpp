@@ -70,8 +70,8 @@ void serialize(Archive& archive, ContactGeometry<Dim>& g) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, JointState<Dim>& j) {
-  auto& [shear_force, normal, plastic_slip, dashpot] = j;
-  archive(shear_force, normal, plastic_slip, dashpot);
+  auto& [shear_force, normal, plastic_slip, dashpot, area] = j;
+  archive(shear_force, normal, plastic_slip, dashpot, area);
 }
 
 template <class Archive, int Dim>

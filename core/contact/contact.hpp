@@ -36,6 +36,7 @@ struct JointState {
   Vector<Dim> normal = Vector<Dim>::Zero();       // of the step before
   double plastic_slip = 0;                        // m, accumulated
   double dashpot = 0;                             // N: its share of the normal force, of the step before
+  double area = 0;                                // m², of the step before; 1 for a constant stiffness
 };
 
 enum class ProofKind {
