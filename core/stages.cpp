@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "core/contact/broad_phase.hpp"
@@ -55,7 +56,7 @@ Box<Dim> bounds(const Model<Dim>& model, const State<Dim>& state, int part, doub
   const Body<Dim>& body = model.bodies[id.body];
   Box<Dim> box{Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity), id.body, body.fixed};
   if (!body.present) return box;
-  const Matrix<Dim> axes = matrix(state.motions[id.body].rotation);
+  const Matrix<Dim>& axes = state.axes[id.body];
   for (const Vector<Dim>& v : body.parts[id.part].vertices) {
     const Vector<Dim> x = axes * v;
     box.low = box.low.cwiseMin(x);
@@ -97,44 +98,109 @@ bool needs_area(const Model<Dim>& model) {
 }
 
 template <int Dim>
-void forget(Contact<Dim>& contact) {
-  contact.history = {};
-  contact.force.setZero();
-  if (contact.proof.kind == ProofKind::interior_point) contact.proof = {};
+void find_axes(const Model<Dim>& model, State<Dim>& state) {
+  state.axes.resize(model.bodies.size());
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    state.axes[b] = matrix(state.motions[b].rotation);
+}
+
+// bounds on how far a rotation has turned, rad
+double turned_by(const Rotation<2>& from, const Rotation<2>& to) {
+  return std::abs(to.angle - from.angle);
+}
+double turned_by(const Rotation<3>& from, const Rotation<3>& to) {
+  // |Δq| = 2 sin(angle/4); beyond a quarter of a turn the bound is only the longest way round
+  constexpr double longest = 2 * std::numbers::pi;
+  const double chord = (to.quaternion.coeffs() - from.quaternion.coeffs()).norm();
+  return chord < 0.5 ? 2.1 * chord : longest;
+}
+
+// adds what each body has moved since the last step; rounded upwards, so that it bounds
+template <int Dim>
+void count_travels(const Model<Dim>& model, State<Dim>& state) {
+  constexpr double upwards = 1 + 4 * std::numeric_limits<double>::epsilon();
+  if (state.travels.size() != model.bodies.size()) {
+    state.travels.clear();
+    for (const Motion<Dim>& m : state.motions)
+      state.travels.push_back({{m.displacement, m.rotation}, 0});
+  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].fixed) continue;
+    const Motion<Dim>& now = state.motions[b];
+    Travel<Dim>& t = state.travels[b];
+    const double moved = (now.displacement - t.last.displacement).norm() +
+                         model.bodies[b].radius * turned_by(t.last.rotation, now.rotation);
+    if (moved > 0) t.distance = (t.distance + upwards * moved) * upwards;
+    t.last = {now.displacement, now.rotation};
+  }
 }
 
 template <int Dim>
-void resolve(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, Stage last,
-             Contact<Dim>& contact, KernelCounters& counters) {
-  // what the candidates' skin has added leaves no trace: the result is the same for any skin
-  if (!meet(state.bounds[contact.part_a], state.bounds[contact.part_b])) {
-    if (contact.status == ContactStatus::apart) return;
-    contact.status = ContactStatus::apart;
-    contact.area_rated = -1;
-    contact.proof = {};
-    forget(contact);
-    return;
-  }
-  const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
-  const Matrix<Dim> axes = matrix(state.motions[a].rotation);
-  const Pair<Dim> pair{&model.polytope(contact.part_a),
-                       &model.polytope(contact.part_b),
-                       axes,
-                       axes.transpose() * matrix(state.motions[b].rotation),
-                       axes.transpose() * between(model, state, a, b),
-                       last};
-  Contact<Dim>* const slot = &contact;
-  narrow_phase<Dim>(std::span(&pair, 1), settings.contact, model.solvers, std::span(&slot, 1), counters);
-  if (contact.touching()) {
-    contact.joint = joint_of(model, contact);
-    contact.properties = contact.joint == no_joint ? model.default_properties : model.joints[contact.joint].properties;
-    return;
-  }
+double travelled(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
+  return state.travels[model.parts[c.part_a].body].distance + state.travels[model.parts[c.part_b].body].distance;
+}
+
+template <int Dim>
+void forget(Contact<Dim>& contact) {
+  contact.history = {};
+  contact.force.setZero();
+}
+
+// what the candidates' skin has added leaves no trace: the result is the same for any skin
+template <int Dim>
+void set_apart(Contact<Dim>& contact) {
+  if (contact.status == ContactStatus::apart) return;
+  contact.status = ContactStatus::apart;
+  contact.area_rated = -1;
+  contact.proof = {};
+  contact.free_until = 0;
   forget(contact);
+}
+
+// the contacts [first, last) of the list, in one batch
+template <int Dim>
+void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& state, Stage stage, int first, int last,
+             KernelCounters& counters) {
+  static thread_local std::vector<Pair<Dim>> pairs;
+  static thread_local std::vector<Contact<Dim>*> waiting;
+  pairs.clear();
+  waiting.clear();
+  for (int i = first; i < last; ++i) {
+    Contact<Dim>& c = state.contacts[i];
+    if (!meet(state.bounds[c.part_a], state.bounds[c.part_b])) {
+      set_apart(c);
+      continue;
+    }
+    if (c.status == ContactStatus::separated && travelled(model, state, c) < c.free_until) {
+      ++counters.motion_skips;
+      continue;
+    }
+    const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
+    const Matrix<Dim>& axes = state.axes[a];
+    pairs.push_back({&model.polytope(c.part_a), &model.polytope(c.part_b), axes, axes.transpose() * state.axes[b],
+                     axes.transpose() * between(model, state, a, b), stage});
+    waiting.push_back(&c);
+  }
+  narrow_phase<Dim>(pairs, settings.contact, model.solvers, waiting, counters);
+
+  constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
+  for (Contact<Dim>* const c : waiting) {
+    if (c->touching()) {
+      c->joint = joint_of(model, *c);
+      c->properties = c->joint == no_joint ? model.default_properties : model.joints[c->joint].properties;
+      continue;
+    }
+    forget(*c);
+    c->free_until =
+        c->status == ContactStatus::separated ? (travelled(model, state, *c) + c->proof.margin) * downwards : 0;
+  }
 }
 
 void add(Counters& total, const KernelCounters& k) {
   total.contact_evaluations += k.evaluations;
+  total.motion_skips += k.motion_skips;
+  total.axis_hits += k.axis_hits;
+  total.cold_starts += k.cold_starts;
   total.lp_solves += k.lp_solves;
   total.lp_pivots += k.lp_pivots;
   total.newton_iterations += k.newton_iterations;
@@ -187,6 +253,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   static thread_local std::vector<Box<Dim>> boxes;
   static thread_local std::vector<std::pair<int, int>> pairs;
   static thread_local std::vector<Contact<Dim>> renewed;
+  find_axes(model, state);
   bound_parts(model, state, candidate_reach * skin, boxes);
   overlapping_pairs(boxes, pairs);
 
@@ -215,14 +282,18 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
 template <int Dim>
 void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const int count = static_cast<int>(state.contacts.size()), parts = static_cast<int>(model.parts.size());
-  const Stage last = needs_area(model) ? Stage::area : Stage::overlap;
+  const Stage stage = needs_area(model) ? Stage::area : Stage::overlap;
+  find_axes(model, state);
+  count_travels(model, state);
   state.bounds.resize(model.parts.size());
+  // batches that stay in the cache, and enough of them for every thread
+  const int batch = std::clamp(count / settings.threads + 1, 16, 256), batches = (count + batch - 1) / batch;
   KernelCounters total;
   if (settings.threads == 1) {
     for (int i = 0; i < parts; ++i)
       state.bounds[i] = bounds(model, state, i, 0);
-    for (Contact<Dim>& c : state.contacts)
-      resolve(model, settings, state, last, c, total);
+    for (int i = 0; i < batches; ++i)
+      resolve(model, settings, state, stage, i * batch, std::min(count, (i + 1) * batch), total);
     add(state.counters, total);
   } else {
     Counters& counters = state.counters;
@@ -234,8 +305,9 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
       for (int i = 0; i < parts; ++i)
         attempt(failure, [&] { state.bounds[i] = bounds(model, state, i, 0); });
 #pragma omp for schedule(static)
-      for (int i = 0; i < count; ++i)
-        attempt(failure, [&] { resolve(model, settings, state, last, state.contacts[i], own); });
+      for (int i = 0; i < batches; ++i)
+        attempt(failure,
+                [&] { resolve(model, settings, state, stage, i * batch, std::min(count, (i + 1) * batch), own); });
 #pragma omp critical
       add(counters, own);
     }

@@ -28,6 +28,13 @@ struct Placement {
   Rotation<Dim> rotation;
 };
 
+// how far any point of a body may have gone, all ways added up
+template <int Dim>
+struct Travel {
+  Placement<Dim> last;  // up to where it is counted
+  double distance = 0;  // m
+};
+
 // what the last step did to a body; rebuilt every step
 template <int Dim>
 struct Load {
@@ -46,6 +53,9 @@ struct Schedule {
 struct Counters {
   long long steps = 0;
   long long contact_evaluations = 0;  // pairs that went through the narrow phase
+  long long motion_skips = 0;         // separated pairs whose bodies have not moved enough to meet
+  long long axis_hits = 0;            // pairs still separated by the plane of the step before
+  long long cold_starts = 0;          // pairs resolved from nothing
   long long lp_solves = 0;
   long long lp_pivots = 0;
   long long newton_iterations = 0;
@@ -64,6 +74,8 @@ struct State {
   std::vector<Load<Dim>> loads;        // by body
   std::vector<Contact<Dim>> contacts;  // candidate pairs by (part a, part b); those that touch carry history
   std::vector<Placement<Dim>> built;   // where the bodies stood when the candidates were last listed
+  std::vector<Travel<Dim>> travels;    // by body
+  std::vector<Matrix<Dim>> axes;       // by body: its frame in world axes; rebuilt every step
   std::vector<Box<Dim>> bounds;        // by part; rebuilt every step
   std::vector<double> frequency;       // rad/s, by body: stiffest mode of the last time-step estimate
   Schedule schedule;

@@ -51,6 +51,12 @@ void serialize(Archive& archive, Placement<Dim>& p) {
 }
 
 template <class Archive, int Dim>
+void serialize(Archive& archive, Travel<Dim>& t) {
+  auto& [last, distance] = t;
+  archive(last, distance);
+}
+
+template <class Archive, int Dim>
 void serialize(Archive& archive, Load<Dim>& l) {
   auto& [force, moment] = l;
   archive(force, moment);
@@ -82,8 +88,8 @@ void serialize(Archive& archive, Proof<Dim>& p) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, Contact<Dim>& c) {
-  auto& [part_a, part_b, sub, joint, properties, status, geometry, history, proof, force, area_rated] = c;
-  archive(part_a, part_b, sub, joint, properties, status, geometry, history, proof, force, area_rated);
+  auto& [part_a, part_b, sub, joint, properties, status, geometry, history, proof, force, free_until, area_rated] = c;
+  archive(part_a, part_b, sub, joint, properties, status, geometry, history, proof, force, free_until, area_rated);
 }
 
 template <class Archive>
@@ -94,10 +100,10 @@ void serialize(Archive& archive, Schedule& s) {
 
 template <class Archive>
 void serialize(Archive& archive, Counters& c) {
-  auto& [steps, evaluations, solves, pivots, iterations, rescues, areas, undecided, unconverged, fallbacks, deep,
-         builds] = c;
-  archive(steps, evaluations, solves, pivots, iterations, rescues, areas, undecided, unconverged, fallbacks, deep,
-          builds);
+  auto& [steps, evaluations, skips, hits, colds, solves, pivots, iterations, rescues, areas, undecided, unconverged,
+         fallbacks, deep, builds] = c;
+  archive(steps, evaluations, skips, hits, colds, solves, pivots, iterations, rescues, areas, undecided, unconverged,
+          fallbacks, deep, builds);
 }
 
 template <class Archive>
@@ -116,9 +122,10 @@ void serialize(Archive& archive, EnergyLedger& e) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
-  auto& [motions, loads, contacts, built, bounds, frequency, schedule, time, time_step, step_allowed, energy,
-         counters] = s;
-  archive(motions, loads, contacts, built, bounds, frequency, schedule, time, time_step, step_allowed, energy,
+  // axes and bounds are rebuilt before they are read
+  auto& [motions, loads, contacts, built, travels, axes, bounds, frequency, schedule, time, time_step, step_allowed,
+         energy, counters] = s;
+  archive(motions, loads, contacts, built, travels, frequency, schedule, time, time_step, step_allowed, energy,
           counters);
 }
 

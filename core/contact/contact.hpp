@@ -71,6 +71,7 @@ struct Contact {
   JointState<Dim> history;
   Proof<Dim> proof;
   Vector<Dim> force = Vector<Dim>::Zero();  // N on the second body
+  double free_until = 0;                    // m: a separated pair cannot meet before its bodies' travels add up to this
   double area_rated = -1;                   // m²: the area the time step was last chosen for; negative: not yet
 
   bool touching() const { return status == ContactStatus::touching; }

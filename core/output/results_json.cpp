@@ -52,6 +52,9 @@ Json stages_json(const Results& results, NumberWriter& number) {
 Json counters_json(const Counters& counters) {
   return {{"steps", counters.steps},
           {"contact_evaluations", counters.contact_evaluations},
+          {"motion_skips", counters.motion_skips},
+          {"axis_hits", counters.axis_hits},
+          {"cold_starts", counters.cold_starts},
           {"lp_solves", counters.lp_solves},
           {"lp_pivots", counters.lp_pivots},
           {"newton_iterations", counters.newton_iterations},
