@@ -18,10 +18,10 @@ std::vector<Box<3>> scattered(int count, bool mixed) {
   const double side = std::cbrt(count / boxes_per_unit);
   std::vector<Box<3>> boxes;
   for (int i = 0; i < count; ++i) {
-    const double size = mixed ? std::pow(10, uniform(random, -1, 0)) : uniform(random, 0.8, 1);
+    const double size = mixed ? std::pow(10, shapes::uniform(random, -1, 0)) : shapes::uniform(random, 0.8, 1);
     Box<3> box{Vector<3>::Zero(), Vector<3>::Zero(), i, false};
     for (int k = 0; k < 3; ++k) {
-      box.low[k] = uniform(random, 0, side);
+      box.low[k] = shapes::uniform(random, 0, side);
       box.high[k] = box.low[k] + size;
     }
     boxes.push_back(box);

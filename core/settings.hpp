@@ -28,8 +28,8 @@ struct ContactSettings {
   // exceed the largest overlap; large values tilt the normal of face contacts near an edge
   double potential_radius = 0.02;
 
-  // Newton stops when its decrement before the step is below this; 1e-5 leaves 1e-9 of the overlap
-  double newton_tolerance = 1e-5;
+  // Newton stops when its decrement before the step is below this; 1e-3 leaves 1e-6 of overlap and area, 1e-5 1e-9
+  double newton_tolerance = 1e-3;
   int newton_limit = 200;
 
   // parts closer than this times the smallest inscribed radius are candidates; it changes the cost, never the result

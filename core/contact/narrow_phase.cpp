@@ -118,7 +118,8 @@ void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
     }
     const Proof<Dim>& proof = contact.proof;
     const double size = std::min(pair.a->inscribed_radius, pair.b->inscribed_radius);
-    KernelTask<Dim> task{&pair, &contact, settings.potential_radius * size, settings.tolerance * size};
+    KernelTask<Dim> task{&pair, &contact, settings.potential_radius * size, settings.tolerance * size,
+                         std::max(pair.a->radius, pair.b->radius)};
     // the plane that separated them still does
     if (proof.kind == ProofKind::separating_axis && separates(pair, Vector<Dim>(proof.axis), proof.support, contact)) {
       ++counters.axis_hits;

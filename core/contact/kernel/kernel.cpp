@@ -1,5 +1,8 @@
 #include "core/contact/kernel/kernel.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
 // one compilation for each instruction set that is worth its size
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/contact/kernel/kernel.cpp"
@@ -38,48 +41,63 @@ int unpadded(int plane, int count_a, int quads_a) {
   return plane < count_a ? plane : plane + count_a - quads_a * planes_per_quad;
 }
 
-// tasks of one register, field by field
-template <class L, int Dim>
-struct Columns {
-  static constexpr int count = Dim * Dim + 4 * Dim + 4;
-  alignas(64) double x[count][L::width];
+// what the records below hold side by side
+template <int Dim>
+constexpr bool records_are_dense() {
+  using Vectors = Vector<Dim>;
+  return offsetof(Pair<Dim>, offset) == offsetof(Pair<Dim>, rotation) + sizeof(Matrix<Dim>) &&
+         sizeof(Pair<Dim>) >= offsetof(Pair<Dim>, rotation) + (Dim == 3 ? 12 : 8) * sizeof(double) &&
+         offsetof(Proof<Dim>, axis) == offsetof(Proof<Dim>, point) + sizeof(Vectors) &&
+         offsetof(Proof<Dim>, tangent) == offsetof(Proof<Dim>, axis) + sizeof(Vectors) &&
+         sizeof(Proof<Dim>) >= offsetof(Proof<Dim>, point) + (Dim == 3 ? 12 : 8) * sizeof(double) &&
+         sizeof(Vectors) == Dim * sizeof(double) && sizeof(Matrix<Dim>) == Dim * sizeof(Vectors);
+}
 
-  void fill(int lane, const KernelTask<Dim>& task, bool real) {
-    int f = 0;
-    const Pair<Dim>& pair = *task.pair;
-    const Proof<Dim>& proof = task.contact->proof;
-    for (int i = 0; i < Dim; ++i)
-      for (int j = 0; j < Dim; ++j)
-        x[f++][lane] = pair.rotation(i, j);
-    for (const Vector<Dim>* v : {&pair.offset, &proof.point, &proof.axis, &proof.tangent})
-      for (int k = 0; k < Dim; ++k)
-        x[f++][lane] = (*v)[k];
-    x[f++][lane] = std::max(pair.a->radius, pair.b->radius);
-    x[f++][lane] = task.tolerance;
-    x[f++][lane] = task.potential_radius;
-    x[f++][lane] = real;
+// the tasks of one register; lanes beyond them repeat the first and are not good
+template <class L, int Dim>
+HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks) {
+  static_assert(records_are_dense<2>() && records_are_dense<3>());
+  using Real = typename L::Real;
+  const double *pairs[L::width], *proofs[L::width], *numbers[L::width];
+  double real[L::width];
+  for (int lane = 0; lane < L::width; ++lane) {
+    real[lane] = lane < static_cast<int>(tasks.size());
+    const KernelTask<Dim>& task = tasks[real[lane] != 0 ? lane : 0];
+    pairs[lane] = task.pair->rotation.data();
+    proofs[lane] = task.contact->proof.point.data();
+    numbers[lane] = &task.potential_radius;
+    const Polytope<Dim>&a = *task.pair->a, &b = *task.pair->b;
+    m.a.rows[lane] = rows_of(a);
+    m.b.rows[lane] = rows_of(b);
+    m.a.count[lane] = static_cast<int>(a.faces.size());
+    m.b.count[lane] = static_cast<int>(b.faces.size());
   }
-};
-
-template <class L, int Dim>
-HWY_INLINE void begin(Meeting<L, Dim>& m, const Columns<L, Dim>& in) {
-  int f = 0;
-  for (int i = 0; i < Dim; ++i)
-    for (int j = 0; j < Dim; ++j)
-      m.rotation[i][j] = L::pick(in.x[f++]);
-  for (Components<typename L::Real, Dim>* v : {&m.offset, &m.point, &m.axis, &m.tangent})
-    for (int k = 0; k < Dim; ++k)
-      (*v)[k] = L::pick(in.x[f++]);
-  m.reach = L::pick(in.x[f++]);
-  m.tolerance = L::pick(in.x[f++]);
-  m.potential_radius = L::pick(in.x[f++]);
-  m.good = L::picked(in.x[f++]);
+  Real pose[Dim * Dim + Dim], proof[3 * Dim], number[4];
+  load_records<L>(pairs, pose);
+  load_records<L>(proofs, proof);
+  load_records<L>(numbers, number);
+  for (int j = 0; j < Dim; ++j)
+    for (int i = 0; i < Dim; ++i)
+      m.rotation[i][j] = pose[j * Dim + i];
+  for (int k = 0; k < Dim; ++k) {
+    m.offset[k] = pose[Dim * Dim + k];
+    m.point[k] = proof[k];
+    m.axis[k] = proof[Dim + k];
+    m.tangent[k] = proof[2 * Dim + k];
+  }
+  m.potential_radius = number[0];
+  m.tolerance = number[1];
+  m.reach = number[2];
+  m.good = L::picked(real);
+  m.quads_a = quads_of(*std::max_element(m.a.count, m.a.count + L::width));
+  m.quads = m.quads_a + quads_of(*std::max_element(m.b.count, m.b.count + L::width));
+  m.at = workspace().arrays<Dim>(m.quads * planes_per_quad * L::width);
 }
 
 template <class L, int Dim>
 struct Results {
   alignas(64) double point[Dim][L::width], axis[Dim][L::width], overlap[L::width], area[L::width], face_a[L::width],
-      face_b[L::width], margin[L::width], iterations[L::width], good[L::width];
+      face_b[L::width], margin[L::width], iterations[L::width], good[L::width], fallback[L::width];
 
   HWY_INLINE explicit Results(const Meeting<L, Dim>& m) {
     const Components<typename L::Real, Dim> normal = from_frame(m.frame, m.normal);
@@ -94,6 +112,7 @@ struct Results {
     L::put(m.least - m.rounding, margin);
     L::put(m.iterations, iterations);
     L::put(select(m.good, L::real(1), L::real(0)), good);
+    L::put(select(m.fallback, L::real(1), L::real(0)), fallback);
   }
 
   // into the task's contact, in world axes
@@ -118,6 +137,7 @@ struct Results {
     geometry.overlap = overlap[lane];
     geometry.face_a = static_cast<int>(face_a[lane]);
     geometry.face_b = static_cast<int>(face_b[lane]);
+    counters.normal_fallbacks += fallback[lane] != 0;
     if (overlap[lane] > task.potential_radius) ++counters.deep_overlaps;
     geometry.area = area[lane];
     if (pair.last < Stage::area) return;
@@ -145,27 +165,10 @@ void recall_section(const KernelTask<Dim>& task, int quads_a, SectionList& list)
 template <class L, int Dim>
 void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters) {
   Meeting<L, Dim> m;
-  Columns<L, Dim> in;
   SectionList lists[L::width];
-  int count_a = 0, count_b = 0;
-  for (int lane = 0; lane < L::width; ++lane) {
-    const bool real = lane < static_cast<int>(tasks.size());
-    const KernelTask<Dim>& task = tasks[real ? lane : 0];
-    in.fill(lane, task, real);
-    const Polytope<Dim>&a = *task.pair->a, &b = *task.pair->b;
-    m.a.rows[lane] = rows_of(a);
-    m.b.rows[lane] = rows_of(b);
-    m.a.count[lane] = static_cast<int>(a.faces.size());
-    m.b.count[lane] = static_cast<int>(b.faces.size());
-    count_a = std::max(count_a, m.a.count[lane]);
-    count_b = std::max(count_b, m.b.count[lane]);
-  }
-  m.quads_a = quads_of(count_a);
-  m.quads = m.quads_a + quads_of(count_b);
+  begin<L, Dim>(m, tasks);
   for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane)
     recall_section(tasks[lane], m.quads_a, lists[lane]);
-  m.at = workspace().arrays<Dim>(m.quads * planes_per_quad * L::width);
-  begin(m, in);
   resolve_from_point(m, tasks[0].pair->last, options.newton_tolerance, options.newton_limit, lists);
   const Results<L, Dim> results(m);
   for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane)
@@ -195,18 +198,9 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   proof = {};
   const Polytope<Dim>&a = *pair.a, &b = *pair.b;
   Meeting<OnePair, Dim> m;
-  Columns<OnePair, Dim> in;
   const bool a_smaller = a.radius < b.radius;
   proof.point = a_smaller ? a.centre : Vector<Dim>(pair.offset + pair.rotation * b.centre);
-  in.fill(0, task, true);
-  begin(m, in);
-  m.a = {{rows_of(a)}, {static_cast<int>(a.faces.size())}};
-  m.b = {{rows_of(b)}, {static_cast<int>(b.faces.size())}};
-  m.quads_a = quads_of(m.a.count[0]);
-  m.quads = m.quads_a + quads_of(m.b.count[0]);
-  m.at = workspace().arrays<Dim>(m.quads * planes_per_quad);
-
-  proof.kind = ProofKind::none;
+  begin<OnePair, Dim>(m, std::span<const KernelTask<Dim>>(&task, 1));
 
   // the LP in A's axes, seen from the centre of the smaller part
   for (int i = 0; i < Dim; ++i)

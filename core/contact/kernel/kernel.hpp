@@ -15,6 +15,8 @@ struct KernelTask {
   Contact<Dim>* contact = nullptr;
   double potential_radius = 0;  // m
   double tolerance = 0;         // m: overlaps below it are none
+  double reach = 0;             // m: the larger of the parts' radii
+  double unused = 0;            // the four are loaded together
   bool answered = false;        // status, proof and geometry are set
 };
 

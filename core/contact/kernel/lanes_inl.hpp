@@ -395,6 +395,24 @@ HWY_INLINE Columns4<V> transpose(D d, const double* const* rows) {
   return r;
 }
 
+// The first Count doubles of a record of each pair; up to three more behind them are read and dropped.
+template <class L, int Count>
+HWY_INLINE void load_records(const double* const (&records)[L::width], typename L::Real (&out)[Count]) {
+  if constexpr (L::one_pair) {
+    for (int k = 0; k < Count; ++k)
+      out[k] = records[0][k];
+  } else {
+    for (int k = 0; k < Count; k += 4) {
+      const double* rows[L::width];
+      for (int lane = 0; lane < L::width; ++lane)
+        rows[lane] = records[lane] + k;
+      const auto columns = transpose(typename L::Tag(), rows);
+      for (int j = 0; j < 4 && k + j < Count; ++j)
+        out[k + j].v[0] = columns.c[j];
+    }
+  }
+}
+
 template <class L, int Dim>
 HWY_INLINE void load_planes(const Sources<L::width>& source, int slot, Components<typename L::Wide, Dim>& n,
                             typename L::Wide& offset) {

@@ -27,18 +27,18 @@ HWY_INLINE void section_area_of(const double* q0, const double* q1, int quads, c
   constexpr int most = std::tuple_size_v<decltype(SectionList::planes)>;
   const Real zero = L::real(0), one = L::real(1);
   int longest = 0;
-  double listed[L::width];
+  double sizes[L::width];
   for (int lane = 0; lane < L::width; ++lane) {
     longest = std::max(longest, lists[lane].size);
-    listed[lane] = lists[lane].size > 2;
+    sizes[lane] = lists[lane].size;
   }
   area = zero;
-  known = both(good, L::picked(listed));
+  const Real size = L::pick(sizes);
+  known = both(good, size > L::real(2));
   if (none(known)) return;
 
   // planes of the lists; short ones end with their first plane again and again
   Real a0[most + 1], a1[most + 1];
-  double more[most + 1][L::width];
   for (int k = 0; k <= longest; ++k) {
     double x[L::width], y[L::width];
     for (int lane = 0; lane < L::width; ++lane) {
@@ -46,7 +46,6 @@ HWY_INLINE void section_area_of(const double* q0, const double* q1, int quads, c
       const int plane = list.size > 0 ? list.planes[k < list.size ? k : 0] : 0;
       x[lane] = q0[plane * L::width + lane];
       y[lane] = q1[plane * L::width + lane];
-      more[k][lane] = k < list.size;
     }
     a0[k] = L::pick(x);
     a1[k] = L::pick(y);
@@ -57,7 +56,7 @@ HWY_INLINE void section_area_of(const double* q0, const double* q1, int quads, c
     // through the difference: planes that are nearly parallel keep the corner on both of them
     const Real d0 = a0[k + 1] - a0[k], d1 = a1[k + 1] - a1[k];
     const Real turn = a0[k] * d1 - a1[k] * d0;
-    const auto here = L::picked(more[k]);
+    const auto here = size > L::real(k);
     const auto convex = turn > zero;
     known = but_not(known, but_not(here, convex));
     const Real inverse = one / select(convex, turn, one);

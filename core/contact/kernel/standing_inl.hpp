@@ -39,6 +39,7 @@ struct Meeting {
   Real reach;                                   // m, the larger of the parts' radii
   Real tolerance, potential_radius;
   Bool good;
+  Bool fallback;  // a face's normal stood in for a gradient
 
   Real rounding;                 // m, of a slack
   Components<Real, Dim> moved;   // contact frame
@@ -255,12 +256,32 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
   m.good = but_not(m.good, moving);
 }
 
+// the normal of the part's face with the smallest slack
+template <class L, int Dim>
+HWY_INLINE Components<typename L::Real, Dim> nearest_normal(const Meeting<L, Dim>& m, int part) {
+  const int first = part ? m.quads_a : 0, last = part ? m.quads : m.quads_a;
+  typename L::Real value, number;
+  const auto closeness = [&](int slot) HWY_ATTR { return -L::load(m.at.slack, slot); };
+  find_largest<L>(first, last, -std::numeric_limits<double>::max(), closeness, value, number);
+  double faces[L::width], normal[Dim][L::width];
+  L::put(number, faces);
+  Components<typename L::Real, Dim> n;
+  for (int k = 0; k < Dim; ++k) {
+    for (int lane = 0; lane < L::width; ++lane)
+      normal[k][lane] = m.at.normal[k][(first * planes_per_quad + static_cast<int>(faces[lane])) * L::width + lane];
+    n[k] = L::pick(normal[k]);
+  }
+  return n;
+}
+
 // Unit gradients of the two inner potentials Σ <r - s>² at the point, their difference (Eqs 3.31-3.35); the overlap
-// along it and the faces that end it (Eq. 3.36).
+// along it and the faces that end it (Eq. 3.36). Where a gradient vanishes, deeper than r in the part, the normal of
+// its nearest face stands in.
 template <class L, int Dim>
 HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
+  using Bool = typename L::Bool;
   const Real zero = L::real(0), one = L::real(1);
   const Wide radius = L::wide(m.potential_radius);
   Components<Real, Dim> unit[2];
@@ -281,8 +302,14 @@ HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
     for (int k = 0; k < Dim; ++k)
       g[k] = gradient[k];
     const Real length = root(dot(g, g));
-    m.good = both(m.good, length > L::real(parallel_gradients) * m.potential_radius);
-    unit[part] = scaled(one / select(m.good, length, one), g);
+    const Bool steep = length > L::real(parallel_gradients) * m.potential_radius;
+    unit[part] = scaled(one / select(steep, length, one), g);
+    if (const Bool flat = but_not(m.good, steep); !none(flat)) {
+      m.fallback = either(m.fallback, flat);
+      const Components<Real, Dim> nearest = nearest_normal(m, part);
+      for (int k = 0; k < Dim; ++k)
+        unit[part][k] = select(flat, nearest[k], unit[part][k]);
+    }
   }
   const Components<Real, Dim> difference = unit[0] - unit[1];
   const Real length = root(dot(difference, difference));
@@ -356,6 +383,7 @@ HWY_INLINE void resolve_from_point(Meeting<L, Dim>& m, Stage last, double tolera
   for (int k = 0; k < Dim; ++k)
     m.moved[k] = m.normal[k] = L::real(0);
   m.iterations = m.overlap = m.area = m.face_a = m.face_b = L::real(0);
+  m.fallback = but_not(m.good, m.good);
   m.good = both(m.good, m.least > m.rounding + m.tolerance);
   if (last == Stage::decision || none(m.good)) return;
   find_centre(m, tolerance, limit);
