@@ -1,6 +1,7 @@
 #include "core/contact/contact_between.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <compare>
 #include <span>
 #include <stdexcept>
@@ -38,14 +39,20 @@ std::strong_ordering compare(const Placement<Dim>& a, const Placement<Dim>& b) {
   return positions != 0 ? positions : compare<Dim * Dim>(a.axes.reshaped(), b.axes.reshaped());
 }
 
+// Eigen's allFinite subtracts, which traps
+template <class Derived>
+bool finite(const Eigen::MatrixBase<Derived>& m) {
+  return m.unaryExpr([](double x) { return std::isfinite(x); }).all();
+}
+
 template <int Dim>
 void check(const Polytope<Dim>& part, const Placement<Dim>& at, const char* which) {
   const auto refuse = [&](const char* what) {
     throw std::invalid_argument(std::string("contact_between: the ") + which + " part's " + what);
   };
   if (part.faces.empty()) refuse("faces are missing");
-  if (!at.position.allFinite()) refuse("position is not finite");
-  if (!at.axes.allFinite()) refuse("axes are not finite");
+  if (!finite(at.position)) refuse("position is not finite");
+  if (!finite(at.axes)) refuse("axes are not finite");
   const double off = (at.axes.transpose() * at.axes - Matrix<Dim>::Identity()).cwiseAbs().maxCoeff();
   if (off > axes_rounding) refuse("axes are not orthonormal");
 }
