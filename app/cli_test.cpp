@@ -186,7 +186,7 @@ TEST_F(Program, VersionTellsWhatIsBuiltIn) {
   const Ended ended = run("--version");
   EXPECT_EQ(ended.code, 0);
   for (const auto& [name, built_in] : features())
-    EXPECT_NE(ended.out.find(fmt::format("{:<7} {}", name, built_in ? "yes" : "no")), std::string::npos) << ended.out;
+    EXPECT_NE(ended.out.find(fmt::format("{:<15} {}", name, built_in ? "yes" : "no")), std::string::npos) << ended.out;
 }
 
 TEST_F(Program, WrongArgumentsAreBadInput) {

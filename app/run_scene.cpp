@@ -103,7 +103,7 @@ std::vector<std::pair<std::string, bool>> features() {
 #else
   const bool ipopt = false;
 #endif
-  return {{"glpk", glpk}, {"ipopt", ipopt}, {"openmp", has_openmp()}};
+  return {{"glpk", glpk}, {"ipopt", ipopt}, {"openmp", has_openmp()}, {"fast_arithmetic", fast_arithmetic()}};
 }
 
 }  // namespace voussoir

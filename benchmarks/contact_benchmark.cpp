@@ -118,9 +118,7 @@ void register_all() {
       for (const Method& method : methods) {
         const auto shape = static_cast<Shape>(s);
         const auto state = static_cast<PairState>(p);
-        if (!method.applies(state)) continue;
-        if (state == PairState::solid && shape != Shape::block && s >= platonic_count)
-          continue;  // a slab is a cube here
+        if (!method.applies(state) || !occurs(shape, state)) continue;
         const std::string name =
             std::string(name_of(shape)) + "/" + name_of(state) + "/" + method.name + "/" + method.stage;
         const auto entry = std::make_shared<Entry>(method, shape, state);

@@ -67,6 +67,10 @@ std::string made_up_run(bool with_ipopt) {
       {"solid", solid_centre, "centre", 100, "point"},
       {"solid", solid_lp_and_centre, "centre", 50, "point"},
       {"solid", solid_centroid, "centre", 300, "point"},
+      {"plane", batched_warm, "overlap", 100, "decision certificate point normal overlap"},
+      {"plane", batched_warm_2d, "overlap", 30, "decision certificate point normal overlap"},
+      {"plane", batched_warm, "area", 120, "decision certificate point normal overlap area"},
+      {"plane", batched_warm_2d, "area", 50, "decision certificate point normal overlap area"},
   };
   if (with_ipopt) list.push_back({"touch", ipopt_centre, "centre", 1e6, "point"});
   std::vector<std::string> shapes(std::begin(regular_shapes), std::end(regular_shapes));
@@ -143,7 +147,7 @@ TEST(ContactReport, WritesEveryMethodToTheFlatTable) {
   const std::vector<std::string> first(table[0].begin(), table[0].begin() + 7);
   EXPECT_EQ(first,
             (std::vector<std::string>{"shape", "state", "method", "stage", "median_ns", "ratio_to_ours", "delivers"}));
-  EXPECT_EQ(table.size(), 1u + 6 * 16);
+  EXPECT_EQ(table.size(), 1u + 6 * 20);
   for (std::size_t i = 1; i < table.size(); ++i) {
     ASSERT_EQ(table[i].size(), table[0].size());
     EXPECT_GT(std::stod(table[i][4]), 0);
@@ -152,7 +156,7 @@ TEST(ContactReport, WritesEveryMethodToTheFlatTable) {
   for (const char* method : {batched_warm, ccd_gjk, glpk_dual_warm, ipopt_centre, solid_centroid})
     EXPECT_EQ(std::count_if(table.begin(), table.end(),
                             [&](const auto& row) { return row[2] == method && row[0] == "icosahedron"; }),
-              method == batched_warm ? 2 : 1)
+              method == batched_warm ? 4 : 1)
         << method;
 }
 
@@ -165,6 +169,8 @@ TEST(ContactReport, ComparesGeometricMeansWithWhatIsRequired) {
             "|GLPK,itsbestcoldform|16000|80|40|40(≥35)|certificate,point,normal,overlap,area|");
   EXPECT_EQ(table_line(text, "libccd GJK+EPA"), "|libccdGJK+EPA|3200|16(≥12)|8.0(≥7)|2.0|certificate,area|");
   EXPECT_EQ(table_line(text, "rejection: libccd GJK"), "|rejection:libccdGJK|520|13(≥14:missed)|–|–|certificate|");
+  EXPECT_EQ(table_line(text, "squares, without area"), "|squares,withoutarea|200|60.0|3.3(≥2.5)|");
+  EXPECT_EQ(table_line(text, "squares, all with area"), "|squares,allwitharea|240|100|2.4(≥2.5:missed)|");
   EXPECT_EQ(table_line(text, "Bullet"), "|BulletGjkEpa2,double|–|–(≥10)|–(≥6)|–|nottimed|");
 }
 

@@ -171,6 +171,24 @@ std::string ratio_table(const Report& report) {
   return markdown(table, 4);
 }
 
+// ---- the plane ------------------------------------------------------------------------------------------------------
+
+constexpr double plane_gain = 2.5;  // required of the 2-D kernel over the 3-D kernel on the same scene
+
+// nothing where the plane was not timed
+std::string plane_table(const Report& report) {
+  std::vector<Cells> table = {{"touching, warm 1 %, batched", "prisms in 3-D, ns", "polygons in 2-D, ns", "ratio"}};
+  for (const auto& [shape, name] : {std::pair("cube", "squares"), std::pair("joint-cut block", "joint-cut polygons")})
+    for (const auto& [stage, what] : {std::pair("overlap", "without area"), std::pair("area", "all with area")}) {
+      const Row* prisms = find_row(report, shape, "plane", batched_warm, stage);
+      const Row* polygons = find_row(report, shape, "plane", batched_warm_2d, stage);
+      if (!prisms || !polygons) continue;
+      table.push_back({fmt::format("{}, {}", name, what), time_text(prisms->median_ns), time_text(polygons->median_ns),
+                       ratio_text(prisms->median_ns / polygons->median_ns, plane_gain)});
+    }
+  return table.size() > 1 ? "### Plane scenes\n\n" + markdown(table, 3) : "";
+}
+
 // ---- all times ------------------------------------------------------------------------------------------------------
 
 std::string heading(const std::string& state) {
@@ -179,6 +197,7 @@ std::string heading(const std::string& state) {
   if (state == "touch") return "Touching: LP optimum -0.5e-4";
   if (state == "face") return "Face on face: overlap 1e-4";
   if (state == "deep") return "Deep: LP optimum -0.5e-2";
+  if (state == "plane") return "In the plane: prisms of thickness 1 side by side, and the same as polygons";
   return "A polyhedron by itself: its analytic centre and its centroid";
 }
 
@@ -228,7 +247,8 @@ std::string state_table(const Report& report, const std::string& state) {
 }  // namespace
 
 std::string summary_tables(const Report& report) {
-  return report.origin + "\n\n### Our kernel\n\n" + own_table(report) + "### Ratios\n\n" + ratio_table(report);
+  return report.origin + "\n\n### Our kernel\n\n" + own_table(report) + "### Ratios\n\n" + ratio_table(report) +
+         plane_table(report);
 }
 
 std::string time_tables(const Report& report) {

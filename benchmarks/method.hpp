@@ -33,13 +33,16 @@ inline bool overlapping(PairState state) {
   return state == PairState::touch || state == PairState::face || state == PairState::deep;
 }
 inline bool any_pair(PairState state) {
-  return state != PairState::solid;
+  return state != PairState::solid && state != PairState::plane;
 }
 inline bool no_contact(PairState state) {
   return any_pair(state) && !overlapping(state);
 }
 inline bool solid(PairState state) {
   return state == PairState::solid;
+}
+inline bool prisms(PairState state) {
+  return state == PairState::plane;
 }
 
 // what most methods are: a function that answers one pair, its answers kept

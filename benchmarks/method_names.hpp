@@ -10,6 +10,7 @@ inline constexpr const char* batched_cold = "voussoir batched cold";
 inline constexpr const char* batched_warm = "voussoir batched warm 1 %";
 inline constexpr const char* batched_warm_far = "voussoir batched warm 10 %";
 inline constexpr const char* batched_warm_threads = "voussoir batched warm 1 % 2 threads";
+inline constexpr const char* batched_warm_2d = "voussoir 2-D batched warm 1 %";  // polygons in place of prisms
 inline constexpr const char* own_lp = "voussoir LP cold";
 inline constexpr const char* own_lp_warm = "voussoir LP warm 1 %";
 inline constexpr const char* own_centre = "voussoir Newton from the LP's point";

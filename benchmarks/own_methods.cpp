@@ -5,61 +5,83 @@
 namespace voussoir::benchmarks {
 namespace {
 
-using Contacts = std::vector<Contact<3>>;
+template <int Dim>
+using Contacts = std::vector<Contact<Dim>>;
 
 // ---- the kernel -----------------------------------------------------------------------------------------------------
 
 // What a query works on. All methods share it, because only one is run at a time: what differs is copied in before.
+template <int Dim>
 struct Desk {
-  std::vector<Pair<3>> pairs;
-  Contacts contacts = Contacts(pairs_per_workload);
-  std::vector<Contact<3>*> slots;
+  std::vector<Pair<Dim>> pairs;
+  Contacts<Dim> contacts = Contacts<Dim>(pairs_per_workload);
+  std::vector<Contact<Dim>*> slots;
 
   Desk() : pairs(pairs_per_workload) {
-    for (Contact<3>& c : contacts)
+    for (Contact<Dim>& c : contacts)
       slots.push_back(&c);
   }
 };
 
-Desk& desk() {
-  static Desk only;
+template <int Dim>
+Desk<Dim>& desk() {
+  static Desk<Dim> only;
   return only;
 }
 
+template <int Dim>
 void call_kernel(std::size_t first, std::size_t count, bool batched, KernelCounters& counters) {
   static const ContactSettings settings;
-  static const Solvers<3> solvers;
-  const std::span<const Pair<3>> pairs = std::span<const Pair<3>>(desk().pairs).subspan(first, count);
-  const std::span<Contact<3>* const> slots = std::span<Contact<3>* const>(desk().slots).subspan(first, count);
+  static const Solvers<Dim> solvers;
+  const std::span<const Pair<Dim>> pairs = std::span<const Pair<Dim>>(desk<Dim>().pairs).subspan(first, count);
+  const std::span<Contact<Dim>* const> slots = std::span<Contact<Dim>* const>(desk<Dim>().slots).subspan(first, count);
   if (batched)
-    narrow_phase<3>(pairs, settings, solvers, slots, counters);
+    narrow_phase<Dim>(pairs, settings, solvers, slots, counters);
   else
     for (std::size_t i = 0; i < count; ++i)
-      narrow_phase<3>(pairs.subspan(i, 1), settings, solvers, slots.subspan(i, 1), counters);
+      narrow_phase<Dim>(pairs.subspan(i, 1), settings, solvers, slots.subspan(i, 1), counters);
 }
 
-void lay_out(const std::vector<Pair<3>>& pairs, const Contacts& contacts, Stage last, std::size_t first,
+template <int Dim>
+void lay_out(const std::vector<Pair<Dim>>& pairs, const Contacts<Dim>& contacts, Stage last, std::size_t first,
              std::size_t count) {
   for (std::size_t i = first; i < first + count; ++i) {
-    desk().pairs[i] = pairs[i];
-    desk().pairs[i].last = last;
-    desk().contacts[i] = contacts[i];
+    desk<Dim>().pairs[i] = pairs[i];
+    desk<Dim>().pairs[i].last = last;
+    desk<Dim>().contacts[i] = contacts[i];
   }
-}
-
-// the contacts as the step before left them: resolved from cold at the previous poses, to the same stage
-std::shared_ptr<const Contacts> contacts_before(const Workload& work, Stage last, int move) {
-  Contacts start(pairs_per_workload);
-  if (move >= 0) {
-    KernelCounters counters;
-    lay_out(work.previous[move], start, last, 0, pairs_per_workload);
-    call_kernel(0, pairs_per_workload, true, counters);
-    start = desk().contacts;
-  }
-  return std::make_shared<const Contacts>(std::move(start));
 }
 
 constexpr int cold = -1, near_move = 0, far_move = 1;
+
+// the contacts as the step before left them: resolved from cold at the previous poses, to the same stage
+template <int Dim, class Work>
+Contacts<Dim> contacts_before(const Work& work, Stage last, int move) {
+  Contacts<Dim> start(pairs_per_workload);
+  if (move == cold) return start;
+  KernelCounters counters;
+  lay_out<Dim>(work.previous[move], start, last, 0, pairs_per_workload);
+  call_kernel<Dim>(0, pairs_per_workload, true, counters);
+  return desk<Dim>().contacts;
+}
+
+// `work` lives as long as what is made here
+template <int Dim, class Work>
+std::shared_ptr<Prepared> prepare_kernel(std::shared_ptr<const Work> work, Stage last, int move, bool batched) {
+  const auto start = std::make_shared<const Contacts<Dim>>(contacts_before<Dim>(*work, last, move));
+  auto prepared = std::make_shared<Prepared>();
+  prepared->counters = std::make_shared<KernelCounters>();
+  prepared->restore = [work, start, last](std::size_t first, std::size_t count) {
+    lay_out<Dim>(work->pairs, *start, last, first, count);
+  };
+  prepared->resolve = [batched, counters = prepared->counters](std::size_t first, std::size_t count) {
+    KernelCounters mine;  // of this thread
+    call_kernel<Dim>(first, count, batched, mine);
+    if (first == 0) *counters = mine;
+  };
+  prepared->touching = [](std::size_t i) { return desk<Dim>().contacts[i].touching(); };
+  return prepared;
+}
 
 Method kernel(const char* name, Stage last, int move, bool batched, int threads = 1) {
   static const char* const stages[] = {"decision", "point", "overlap", "area"};
@@ -74,21 +96,25 @@ Method kernel(const char* name, Stage last, int move, bool batched, int threads 
   method.applies = last == Stage::decision ? any_pair : overlapping;
   method.threads = threads;
   method.prepare = [=](const Workload& work) {
-    const auto start = contacts_before(work, last, move);
-    auto prepared = std::make_shared<Prepared>();
-    prepared->counters = std::make_shared<KernelCounters>();
-    prepared->restore = [&work, start, last](std::size_t first, std::size_t count) {
-      lay_out(work.pairs, *start, last, first, count);
-    };
-    prepared->resolve = [batched, counters = prepared->counters](std::size_t first, std::size_t count) {
-      KernelCounters mine;  // of this thread
-      call_kernel(first, count, batched, mine);
-      if (first == 0) *counters = mine;
-    };
-    prepared->touching = [](std::size_t i) { return desk().contacts[i].touching(); };
-    return prepared;
+    // workloads are kept until the program ends
+    return prepare_kernel<3>(std::shared_ptr<const Workload>(&work, [](const Workload*) {}), last, move, batched);
   };
   return method;
+}
+
+// prisms, and the polygons they are
+void add_plane_methods(std::vector<Method>& list) {
+  for (const Stage last : {Stage::overlap, Stage::area}) {
+    Method in_space = kernel(batched_warm, last, near_move, true), in_plane = in_space;
+    in_plane.name = batched_warm_2d;
+    in_plane.prepare = [=](const Workload& work) {
+      return prepare_kernel<2>(in_the_plane(work), last, near_move, true);
+    };
+    for (Method* method : {&in_space, &in_plane}) {
+      method->applies = prisms;
+      list.push_back(*method);
+    }
+  }
 }
 
 // ---- its two programs alone -----------------------------------------------------------------------------------------
@@ -179,6 +205,8 @@ std::vector<Method> own_methods() {
   }
   for (const Stage last : {Stage::decision, Stage::area})
     list.push_back(kernel(batched_warm_threads, last, near_move, true, 2));
+
+  add_plane_methods(list);
 
   list.push_back({own_lp, "lp", "decision", any_pair, [](const Workload& work) { return prepare_lp(work, false); }});
   list.push_back(

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <mutex>
+#include <numbers>
 #include <stdexcept>
 
 namespace voussoir::benchmarks {
@@ -12,6 +13,7 @@ using shapes::uniform;
 
 constexpr int block_count = 60;                    // different joint-cut blocks
 constexpr int fewest_faces = 10, most_faces = 30;  // of a joint-cut block
+constexpr int most_joints = 12;                    // of a joint-cut polygon
 constexpr double small_optimum = 0.5e-4, large_optimum = 0.5e-2, face_overlap = 1e-4, face_tilt = 1e-5;
 constexpr std::array<double, 2> moves = {1e-6, 1e-5};
 constexpr int bisections = 50;
@@ -26,7 +28,28 @@ Polytope<3> joint_cut_block(Random& random) {
   }
 }
 
-Parts make_parts(Shape shape) {
+Polytope<3> prism(const HalfSpaces<2>& polygon) {
+  HalfSpaces<3> planes = {{Vector<3>::UnitZ(), 0.5}, {-Vector<3>::UnitZ(), 0.5}};
+  for (const HalfSpace<2>& side : polygon)
+    planes.push_back({{side.normal[0], side.normal[1], 0}, side.offset});
+  return shapes::block<3>(planes);
+}
+
+// circumradius 0.5 in the plane
+Parts make_prisms(Shape shape) {
+  if (shape == Shape::cube) return {prism(shapes::cube<2>(0.5 / std::numbers::sqrt2))};
+  Random random(4200);
+  Parts parts;
+  for (int i = 0; i < block_count; ++i) {
+    const Polytope<2> polygon =
+        shapes::centred_block<2>(shapes::random_planes<2>(random, shapes::integer(random, 2, most_joints), 0.5));
+    parts.push_back(prism(shapes::scaled<2>(polygon.faces, 0.5 / polygon.radius)));
+  }
+  return parts;
+}
+
+Parts make_parts(Shape shape, PairState state) {
+  if (state == PairState::plane) return make_prisms(shape);
   switch (shape) {
     case Shape::slab_20:
       return {box({0.5, 0.5, 0.025})};
@@ -80,8 +103,18 @@ bool boxes_meet(const Pair<3>& pair) {
   return (low_a.array() <= high_b.array()).all() && (low_b.array() <= high_a.array()).all();
 }
 
-Matrix<3> random_rotation(Random& random) {
-  return matrix(shapes::orientation<3>(random));
+// of the whole space, or of the plane only
+Vector<3> random_direction(PairState state, Random& random) {
+  if (state != PairState::plane) return shapes::direction<3>(random);
+  const Vector<2> d = shapes::direction<2>(random);
+  return {d[0], d[1], 0};
+}
+
+Matrix<3> random_rotation(PairState state, Random& random) {
+  if (state != PairState::plane) return matrix(shapes::orientation<3>(random));
+  Matrix<3> turn = Matrix<3>::Identity();
+  turn.topLeftCorner<2, 2>() = matrix(shapes::orientation<2>(random));
+  return turn;
 }
 
 // the largest face of a slab; any face of the others
@@ -116,8 +149,8 @@ void lay_face_on_face(Pair<3>& pair, Shape shape, double unit, Random& random) {
 }
 
 void place(Pair<3>& pair, const Workload& work, double unit, Random& random) {
-  pair.rotation = random_rotation(random);
-  const Vector<3> along = shapes::direction<3>(random);
+  pair.rotation = random_rotation(work.state, random);
+  const Vector<3> along = random_direction(work.state, random);
   switch (work.state) {
     case PairState::separated:
       pair.offset = (push_together(pair, along, 0) + uniform(random, 0.02, 0.30) * unit) * along;
@@ -126,6 +159,7 @@ void place(Pair<3>& pair, const Workload& work, double unit, Random& random) {
       push_together(pair, along, small_optimum * unit);
       break;
     case PairState::touch:
+    case PairState::plane:
       push_together(pair, along, -small_optimum * unit);
       break;
     case PairState::face:
@@ -140,14 +174,15 @@ void place(Pair<3>& pair, const Workload& work, double unit, Random& random) {
   }
 }
 
-Pair<3> moved(Pair<3> pair, double distance, Random& random) {
-  pair.offset += distance * shapes::direction<3>(random);
-  pair.rotation = Eigen::AngleAxisd(distance, shapes::direction<3>(random)).toRotationMatrix() * pair.rotation;
+Pair<3> moved(Pair<3> pair, PairState state, double distance, Random& random) {
+  pair.offset += distance * random_direction(state, random);
+  const Vector<3> axis = state == PairState::plane ? Vector<3>(Vector<3>::UnitZ()) : shapes::direction<3>(random);
+  pair.rotation = Eigen::AngleAxisd(distance, axis).toRotationMatrix() * pair.rotation;
   return pair;
 }
 
 Workload make_workload(Shape shape, PairState state) {
-  Workload work{shape, state, std::make_shared<const Parts>(make_parts(shape)), {}, {}};
+  Workload work{shape, state, std::make_shared<const Parts>(make_parts(shape, state)), {}, {}};
   Random random(20130 + 100 * static_cast<int>(state) + static_cast<int>(shape));
   const double unit = unit_of(shape);
   const int last = static_cast<int>(work.parts->size()) - 1;
@@ -163,12 +198,42 @@ Workload make_workload(Shape shape, PairState state) {
     if (work.touching() ? value > -0.2 * small_optimum * unit : value < 0.2 * small_optimum * unit) continue;
     work.pairs.push_back(pair);
     for (std::size_t k = 0; k < moves.size(); ++k)
-      work.previous[k].push_back(moved(pair, moves[k] * unit, random));
+      work.previous[k].push_back(moved(pair, state, moves[k] * unit, random));
   }
   return work;
 }
 
+// a prism's sides
+Polytope<2> polygon_of(const Polytope<3>& part) {
+  HalfSpaces<2> sides;
+  for (const HalfSpace<3>& face : part.faces)
+    if (face.normal[2] == 0) sides.push_back({face.normal.head<2>(), face.offset});
+  return shapes::block<2>(sides);
+}
+
 }  // namespace
+
+bool occurs(Shape shape, PairState state) {
+  if (state == PairState::plane) return shape == Shape::cube || shape == Shape::block;
+  return state != PairState::solid || shape == Shape::block || static_cast<int>(shape) < platonic_count;
+}
+
+std::shared_ptr<const PlaneWorkload> in_the_plane(const Workload& work) {
+  auto plane = std::make_shared<PlaneWorkload>();
+  for (const Polytope<3>& part : *work.parts)
+    plane->parts.push_back(polygon_of(part));
+  const auto flat = [&](const std::vector<Pair<3>>& pairs) {
+    std::vector<Pair<2>> list;
+    for (const Pair<3>& p : pairs)
+      list.push_back({&plane->parts[p.a - work.parts->data()], &plane->parts[p.b - work.parts->data()],
+                      Matrix<2>::Identity(), p.rotation.topLeftCorner<2, 2>(), p.offset.head<2>()});
+    return list;
+  };
+  plane->pairs = flat(work.pairs);
+  for (std::size_t k = 0; k < moves.size(); ++k)
+    plane->previous[k] = flat(work.previous[k]);
+  return plane;
+}
 
 const char* name_of(Shape shape) {
   static const char* const others[] = {"joint-cut block", "slab 1:20", "slab 1:100"};
@@ -177,7 +242,7 @@ const char* name_of(Shape shape) {
 }
 
 const char* name_of(PairState state) {
-  static const char* const names[pair_state_count] = {"separated", "near", "touch", "face", "deep", "solid"};
+  static const char* const names[pair_state_count] = {"separated", "near", "touch", "face", "deep", "solid", "plane"};
   return names[static_cast<int>(state)];
 }
 

@@ -21,9 +21,14 @@ enum class PairState {
   touch,      // LP optimum -0.5e-4: mostly a vertex in a face, or edge on edge
   face,       // face on face, tilted by 1e-5, overlap 1e-4
   deep,       // LP optimum -0.5e-2
-  solid       // no pair: the polyhedron by itself is the region whose centre is sought (Boon 2013, Fig. 4.10)
+  solid,      // no pair: the polyhedron by itself is the region whose centre is sought (Boon 2013, Fig. 4.10)
+  plane       // as touch, but prisms of thickness 1 side by side that move in the plane only: squares for the cube,
+              // joint-cut polygons for the block
 };
-inline constexpr int pair_state_count = 6;
+inline constexpr int pair_state_count = 7;
+
+// shapes that a state has: a slab by itself is a cube, and the plane has two
+bool occurs(Shape shape, PairState state);
 
 const char* name_of(Shape shape);
 const char* name_of(PairState state);
@@ -44,6 +49,14 @@ inline constexpr std::size_t pairs_per_workload = 1000;
 
 // Made at the first call and kept. The same numbers on every platform.
 const Workload& workload(Shape shape, PairState state);
+
+// The same pairs of a workload of state `plane`, their parts as polygons.
+struct PlaneWorkload {
+  std::vector<Polytope<2>> parts;
+  std::vector<Pair<2>> pairs;
+  std::array<std::vector<Pair<2>>, 2> previous;
+};
+std::shared_ptr<const PlaneWorkload> in_the_plane(const Workload& work);
 
 // planes of both parts and vertices of one, means over the pairs
 double mean_planes(const Workload& work);

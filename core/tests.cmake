@@ -48,7 +48,7 @@ voussoir_test(unit.exact_referee LABEL unit SOURCES testing/exact_referee_test.c
 voussoir_test(unit.certainty LONG LABEL unit
   SOURCES contact/certainty_test.cpp contact/centre_test.cpp contact/catalogue_test.cpp contact/symmetry_test.cpp
     geometry/catalogue_test.cpp testing/pair_families.cpp testing/pair_judge.cpp
-  LIBS voussoir_exact_referee Boost::headers fmt::fmt)
+  LIBS voussoir_exact_referee Boost::headers fmt::fmt hwy::hwy)
 
 voussoir_test(unit.step LABEL unit
   SOURCES step_test.cpp testing/step_memory_test.cpp energy_test.cpp state_hash_test.cpp reduction/reduction_test.cpp checkpoint/checkpoint_test.cpp

@@ -47,7 +47,7 @@ int not_enough_memory() {
 std::string version_text() {
   std::string text = fmt::format("voussoir {} ({})\nbuilt by {}\n", version(), commit(), compiler());
   for (const auto& [name, built_in] : features())
-    text += fmt::format("{:<7} {}\n", name, built_in ? "yes" : "no");
+    text += fmt::format("{:<15} {}\n", name, built_in ? "yes" : "no");
   text.pop_back();
   return text;
 }

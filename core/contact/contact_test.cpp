@@ -1,8 +1,10 @@
 // The contact kernel: decision, point, normal, overlap and area against separating axes, closed forms and long double.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
 
+#include "core/contact/contact_between.hpp"
 #include "core/testing/contacts.hpp"
 
 namespace voussoir {
@@ -288,6 +290,48 @@ TEST(Symmetry, SwappingThePartsReversesTheNormal3D) {
 }
 TEST(Symmetry, SwappingThePartsReversesTheNormal2D) {
   expect_symmetry<2>(67, 200);
+}
+
+// ---- parts anywhere -------------------------------------------------------------------------------------------------
+
+TEST(ContactBetween, CubesFarFromTheOrigin) {
+  const Polytope<3> cube = unit_cube<3>();
+  // a quarter turn about x: what was up points along -y
+  Matrix<3> quarter;
+  quarter << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  // multiples of 2^-10 stay exact so far out
+  const double overlap = 1.0 / 1024;
+  const Placement<3> low{{3e5, -4e5, 1e5}, Matrix<3>::Identity()};
+  const Placement<3> high{low.position + Vector<3>(0.25, -0.5, 1 - overlap), quarter};
+  const ContactBetween<3> r = contact_between<3>(cube, low, cube, high);
+  ASSERT_EQ(r.status, ContactStatus::touching);
+  EXPECT_NEAR(r.geometry.overlap, overlap, 1e-15);
+  EXPECT_NEAR(r.geometry.area, 0.75 * 0.5, area_tolerance);
+  EXPECT_LT((r.geometry.normal - Vector<3>::UnitZ()).norm(), exact);
+  EXPECT_EQ(cube.faces[r.geometry.face_a].normal, Vector<3>::UnitZ());
+  EXPECT_LT((quarter * cube.faces[r.geometry.face_b].normal + Vector<3>::UnitZ()).norm(), exact);
+  ASSERT_TRUE(r.origin == low.position || r.origin == high.position);
+  const Vector<3> from_low = (r.origin - low.position) + r.geometry.point;
+  EXPECT_LT((from_low - Vector<3>(0.125, -0.25, 0.5 - overlap / 2)).norm(), point_tolerance);
+
+  EXPECT_LT((contact_between<3>(cube, high, cube, low).geometry.normal + Vector<3>::UnitZ()).norm(), exact);
+  EXPECT_EQ(contact_between<3>(cube, low, cube, {low.position + Vector<3>(0, 0, 1.5)}).status,
+            ContactStatus::separated);
+  EXPECT_EQ(contact_between<3>(cube, low, cube, high, Stage::overlap).geometry.area, 0);
+}
+
+TEST(ContactBetween, RefusesWhatIsNoPlacement) {
+  const Polytope<2> square = unit_cube<2>();
+  const Placement<2> here;
+  Placement<2> nowhere, stretched, skewed;
+  nowhere.position[1] = std::numeric_limits<double>::infinity();
+  stretched.axes(0, 0) = 1 + 1e-9;
+  skewed.axes(0, 1) = 1e-9;
+  for (const Placement<2>& bad : {nowhere, stretched, skewed}) {
+    EXPECT_THROW(contact_between<2>(square, here, square, bad), std::invalid_argument);
+    EXPECT_THROW(contact_between<2>(square, bad, square, here), std::invalid_argument);
+  }
+  EXPECT_THROW(contact_between<2>(square, here, Polytope<2>{}, here), std::invalid_argument);
 }
 
 }  // namespace

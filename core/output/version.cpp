@@ -38,4 +38,12 @@ bool has_openmp() {
 #endif
 }
 
+bool fast_arithmetic() {
+#ifdef VOUSSOIR_FAST_ARITHMETIC
+  return true;
+#else
+  return false;
+#endif
+}
+
 }  // namespace voussoir

@@ -17,4 +17,7 @@ std::string compiler();
 // whether the core was built with threads
 bool has_openmp();
 
+// whether the contact kernel was built with CMake's VOUSSOIR_FAST_ARITHMETIC: its bits are then no other build's
+bool fast_arithmetic();
+
 }  // namespace voussoir
