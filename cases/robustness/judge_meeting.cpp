@@ -88,8 +88,7 @@ Decision decide(const Meeting& meeting, const FeasibilityResult<3>& lp, const Sc
                 exact::Rational(meeting.displacement_b[k]);
   const exact::ProgramBounds value = exact_value(exact::planes_of(scene.pair, offset), lp.basis);
   const double band = whole_chain * (scene.pair.a->radius + scene.pair.b->radius + scene.pair.offset.norm());
-  const double limit = -scene.settings.tolerance * scene.size;
-  const double low = value.low.get_d() - limit, high = value.high.get_d() - limit;
+  const double low = value.low.get_d(), high = value.high.get_d();
 
   Judgement& j = decision.judgement;
   const ContactStatus status = decision.contact.status;
@@ -101,14 +100,14 @@ Decision decide(const Meeting& meeting, const FeasibilityResult<3>& lp, const Sc
     j = wrong("the LP's basis proves no bound");
     return decision;
   }
-  const double error = std::max(value.low.get_d() - lp.value, lp.value - value.high.get_d());
+  const double error = std::max(low - lp.value, lp.value - high);
   j = by_share(std::max(error, 0.0) / band, "the LP's value is off");
   if (j.verdict == Verdict::wrong) return decision;
   const bool touching = status > ContactStatus::undecided;  // or its stages failed
-  if ((high >= -band && low <= band) || (!touching && value.high < 0 && low >= -band))
-    j.verdict = Verdict::warned;  // undecided, or an overlap below the stated tolerance
+  if (high >= -band && low <= band)
+    j.verdict = Verdict::warned;
   else if (touching != (high < 0))
-    j = wrong(fmt::format("{} though s* - limit = {:.3g}, band {:.3g}", touching ? "touching" : "separate", low, band));
+    j = wrong(fmt::format("{} though s* = {:.3g}, band {:.3g}", touching ? "touching" : "separate", low, band));
   return decision;
 }
 

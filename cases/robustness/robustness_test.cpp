@@ -21,9 +21,8 @@ constexpr std::array because{
     "and "
     "within 1e-9 of the volume where a plane was dropped",
     "a joint cuts when its section holds a circle of 1e-10 of the inscribed radius; both pieces as blocks",
-    "touching or separate as exact arithmetic says, but for overlaps below 1e-13 of the inscribed radius or 64 "
-    "roundings "
-    "of the coordinates; the program's value within the same 64",
+    "touching or separate as exact arithmetic says, unless the program's value is within 64 roundings of the "
+    "coordinates from zero; the value itself within the same 64",
     "Newton's remaining step is 1e-9 of the region, the slacks' rounding comes on top",
     "the gradients of the potentials carry 16 roundings of the slacks",
     "the ends of the search along the normal carry 16 roundings of slack and slope",
