@@ -125,7 +125,7 @@ local = 0
 viscous_ratio = 0.2            # of critical, at every contact
 
 [equilibrium]
-unbalanced = 0.3               # of the mean contact force: leaves far less than 1e-6 of the energy of the drop
+unbalanced = 0.5               # of the mean contact force: leaves less than 1e-6 of the energy of the drop
 
 [time]
 fraction = 1                   # of a limit that counts every near block as if it struck
