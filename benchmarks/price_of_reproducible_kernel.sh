@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # What equal bits cost the contact kernel: it is built with the project's flags and with VOUSSOIR_FAST_ARITHMETIC, timed on
 # touching pairs, warm 1 %, and its answers are compared. Prints geometric means over the five regular shapes of the
-# medians of 9 runs that take turns, and the largest differences over all overlapping pairs of the benchmark.
+# medians of 25 runs that take turns, and the largest differences over all overlapping pairs of the benchmark.
 #   price_of_reproducible_kernel.sh <source> <folder for the builds> [<compiler>]
 set -euo pipefail
 source=$1 folder=$2 compiler=${3:-g++}
-repetitions=9
+repetitions=25
 
 for name in reproducible fast; do
   cmake -S "$source" -B "$folder/$name" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
