@@ -29,7 +29,7 @@ struct ContactSettings {
   double potential_radius = 0.02;
 
   // Newton stops when its decrement before the step is below this; 1e-3 leaves 1e-6 of overlap and area, 1e-5 1e-9
-  double newton_tolerance = 1e-3;
+  double newton_tolerance = 1e-5;
   int newton_limit = 200;
 
   // parts closer than this times the smallest inscribed radius are candidates; it changes the cost, never the result

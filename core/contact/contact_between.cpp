@@ -34,7 +34,7 @@ std::strong_ordering compare(const HalfSpaces<Dim>& a, const HalfSpaces<Dim>& b)
 }
 
 template <int Dim>
-std::strong_ordering compare(const Placement<Dim>& a, const Placement<Dim>& b) {
+std::strong_ordering compare(const Pose<Dim>& a, const Pose<Dim>& b) {
   const std::strong_ordering positions = compare<Dim>(a.position, b.position);
   return positions != 0 ? positions : compare<Dim * Dim>(a.axes.reshaped(), b.axes.reshaped());
 }
@@ -46,7 +46,7 @@ bool finite(const Eigen::MatrixBase<Derived>& m) {
 }
 
 template <int Dim>
-void check(const Polytope<Dim>& part, const Placement<Dim>& at, const char* which) {
+void check(const Polytope<Dim>& part, const Pose<Dim>& at, const char* which) {
   const auto refuse = [&](const char* what) {
     throw std::invalid_argument(std::string("contact_between: the ") + which + " part's " + what);
   };
@@ -58,8 +58,8 @@ void check(const Polytope<Dim>& part, const Placement<Dim>& at, const char* whic
 }
 
 template <int Dim>
-ContactBetween<Dim> resolve(const Polytope<Dim>& a, const Placement<Dim>& at_a, const Polytope<Dim>& b,
-                            const Placement<Dim>& at_b, Stage last, const ContactSettings& settings,
+ContactBetween<Dim> resolve(const Polytope<Dim>& a, const Pose<Dim>& at_a, const Polytope<Dim>& b,
+                            const Pose<Dim>& at_b, Stage last, const ContactSettings& settings,
                             const Solvers<Dim>& solvers) {
   const Pair<Dim> pair{
       &a,  &b, at_a.axes, at_a.axes.transpose() * at_b.axes, at_a.axes.transpose() * (at_b.position - at_a.position),
@@ -74,8 +74,8 @@ ContactBetween<Dim> resolve(const Polytope<Dim>& a, const Placement<Dim>& at_a, 
 }  // namespace
 
 template <int Dim>
-ContactBetween<Dim> contact_between(const Polytope<Dim>& a, const Placement<Dim>& at_a, const Polytope<Dim>& b,
-                                    const Placement<Dim>& at_b, Stage last, const ContactSettings& settings,
+ContactBetween<Dim> contact_between(const Polytope<Dim>& a, const Pose<Dim>& at_a, const Polytope<Dim>& b,
+                                    const Pose<Dim>& at_b, Stage last, const ContactSettings& settings,
                                     const Solvers<Dim>& solvers) {
   check<Dim>(a, at_a, "first");
   check<Dim>(b, at_b, "second");
@@ -89,9 +89,9 @@ ContactBetween<Dim> contact_between(const Polytope<Dim>& a, const Placement<Dim>
   return turned;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \
-  template ContactBetween<Dim> contact_between<Dim>(const Polytope<Dim>&, const Placement<Dim>&, const Polytope<Dim>&, \
-                                                    const Placement<Dim>&, Stage, const ContactSettings&,              \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                 \
+  template ContactBetween<Dim> contact_between<Dim>(const Polytope<Dim>&, const Pose<Dim>&, const Polytope<Dim>&, \
+                                                    const Pose<Dim>&, Stage, const ContactSettings&,              \
                                                     const Solvers<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -7,7 +7,7 @@ namespace voussoir {
 
 // where a part is
 template <int Dim>
-struct Placement {
+struct Pose {
   Vector<Dim> position = Vector<Dim>::Zero();  // of the part's origin, world axes, m
   Matrix<Dim> axes = Matrix<Dim>::Identity();  // part's frame -> world, orthonormal to rounding; may mirror
 };
@@ -15,7 +15,7 @@ struct Placement {
 template <int Dim>
 struct ContactBetween {
   ContactStatus status = ContactStatus::separated;  // `apart` never occurs: no boxes are compared
-  // Placement::position of one of the two, the same one whichever is given first; m
+  // Pose::position of one of the two, the same one whichever is given first; m
   Vector<Dim> origin = Vector<Dim>::Zero();
   // World axes; the point relative to `origin`, so that it keeps its digits far from the world's; the normal from the
   // first part given to the second, face_a of the first. Set while touching, as far as the last stage goes.
@@ -28,8 +28,8 @@ struct ContactBetween {
 // Throws std::invalid_argument when a part has no faces, or when a number of a placement is not finite or its axes are
 // off orthonormal by more than rounding leaves.
 template <int Dim>
-ContactBetween<Dim> contact_between(const Polytope<Dim>& a, const Placement<Dim>& at_a, const Polytope<Dim>& b,
-                                    const Placement<Dim>& at_b, Stage last = Stage::area,
+ContactBetween<Dim> contact_between(const Polytope<Dim>& a, const Pose<Dim>& at_a, const Polytope<Dim>& b,
+                                    const Pose<Dim>& at_b, Stage last = Stage::area,
                                     const ContactSettings& settings = {}, const Solvers<Dim>& solvers = {});
 
 }  // namespace voussoir

@@ -301,8 +301,8 @@ TEST(ContactBetween, CubesFarFromTheOrigin) {
   quarter << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   // multiples of 2^-10 stay exact so far out
   const double overlap = 1.0 / 1024;
-  const Placement<3> low{{3e5, -4e5, 1e5}, Matrix<3>::Identity()};
-  const Placement<3> high{low.position + Vector<3>(0.25, -0.5, 1 - overlap), quarter};
+  const Pose<3> low{{3e5, -4e5, 1e5}, Matrix<3>::Identity()};
+  const Pose<3> high{low.position + Vector<3>(0.25, -0.5, 1 - overlap), quarter};
   const ContactBetween<3> r = contact_between<3>(cube, low, cube, high);
   ASSERT_EQ(r.status, ContactStatus::touching);
   EXPECT_NEAR(r.geometry.overlap, overlap, 1e-15);
@@ -322,12 +322,12 @@ TEST(ContactBetween, CubesFarFromTheOrigin) {
 
 TEST(ContactBetween, RefusesWhatIsNoPlacement) {
   const Polytope<2> square = unit_cube<2>();
-  const Placement<2> here;
-  Placement<2> nowhere, stretched, skewed;
+  const Pose<2> here;
+  Pose<2> nowhere, stretched, skewed;
   nowhere.position[1] = std::numeric_limits<double>::infinity();
   stretched.axes(0, 0) = 1 + 1e-9;
   skewed.axes(0, 1) = 1e-9;
-  for (const Placement<2>& bad : {nowhere, stretched, skewed}) {
+  for (const Pose<2>& bad : {nowhere, stretched, skewed}) {
     EXPECT_THROW(contact_between<2>(square, here, square, bad), std::invalid_argument);
     EXPECT_THROW(contact_between<2>(square, bad, square, here), std::invalid_argument);
   }

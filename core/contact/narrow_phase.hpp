@@ -32,12 +32,12 @@ struct Pair {
 
 // work done by the kernel, summed into the state's counters
 struct KernelCounters {
-  long long evaluations = 0;  // pairs looked at
-  long long motion_skips = 0;      // not even looked at: too far apart for what the bodies moved (core/stages)
-  long long axis_hits = 0;    // still separated by the axis of the step before
-  long long point_hits = 0;   // still touching at the point of the step before
-  long long cold_starts = 0;  // resolved from nothing
-  long long undecided = 0;    // nearer to touching than rounding can tell
+  long long evaluations = 0;   // pairs looked at
+  long long motion_skips = 0;  // not even looked at: too far apart for what the bodies moved (core/stages)
+  long long axis_hits = 0;     // still separated by the axis of the step before
+  long long point_hits = 0;    // still touching at the point of the step before
+  long long cold_starts = 0;   // resolved from nothing
+  long long undecided = 0;     // nearer to touching than rounding can tell
   long long lp_solves = 0;
   long long lp_pivots = 0;
   long long newton_iterations = 0;

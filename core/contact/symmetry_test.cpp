@@ -207,9 +207,8 @@ void expect_swapped(const Posed<Dim>& p, const Contact<Dim>& answer) {
 
 // (A, B) and (B, A) as contact_between answers them; the first of them, as a contact
 template <int Dim>
-Contact<Dim> expect_same_bits_swapped(const Posed<Dim>& p, const Placement<Dim>& at_a,
-                                      const ContactSettings& settings) {
-  const Placement<Dim> at_b{at_a.position + at_a.axes * p.offset, at_a.axes * p.rotation};
+Contact<Dim> expect_same_bits_swapped(const Posed<Dim>& p, const Pose<Dim>& at_a, const ContactSettings& settings) {
+  const Pose<Dim> at_b{at_a.position + at_a.axes * p.offset, at_a.axes * p.rotation};
   const auto contact_of = [](const ContactBetween<Dim>& found) {
     Contact<Dim> contact;
     contact.status = found.status;

@@ -18,15 +18,15 @@ struct MassProperties {
 
 template <int Dim>
 struct Polytope {
-  HalfSpaces<Dim> faces;                     // body frame, none redundant
-  std::vector<int> joints;                   // for each face the joint that made it, or no_joint
-  std::vector<Vector<Dim>> vertices;         // body frame, m
-  std::vector<std::vector<int>> loops;       // vertices of each face, counter-clockwise seen from outside
-  MassProperties<Dim> mass;                  // about the body's origin, per unit density
-  double inscribed_radius = 0;               // Chebyshev radius, m: the size of the part
-  Vector<Dim> centre = Vector<Dim>::Zero();  // its centre, m
-  double radius = 0;                         // largest distance of a vertex from the body's origin, m
-  std::array<int, Dim + 1> basis{};          // faces that touch the inscribed ball: the LP's start
+  HalfSpaces<Dim> faces;                                  // body frame, none redundant
+  std::vector<int> joints;                                // for each face the joint that made it, or no_joint
+  std::vector<Vector<Dim>> vertices;                      // body frame, m
+  std::vector<std::vector<int>> loops;                    // vertices of each face, counter-clockwise seen from outside
+  MassProperties<Dim> mass;                               // about the body's origin, per unit density
+  double inscribed_radius = 0;                            // Chebyshev radius, m: the size of the part
+  Vector<Dim> centre = Vector<Dim>::Zero();               // its centre, m
+  double radius = 0;                                      // largest distance of a vertex from the body's origin, m
+  std::array<int, Dim + 1> basis{};                       // faces that touch the inscribed ball: the LP's start
   Eigen::Matrix<double, Dim + 1, Dim + 1> basis_inverse;  // of the columns (normal, 1) of these faces
   double vertex_error = 0;  // m: no point of the half-spaces lies farther outside the vertices' hull than this
 };
@@ -50,8 +50,8 @@ MassProperties<Dim> integrate(const std::vector<Vector<Dim>>& vertices, const st
 template <int Dim>
 MassProperties<Dim> moved_origin(const MassProperties<Dim>& mass, const Vector<Dim>& shift);
 
-// How far the half-spaces may reach beyond the hull of the vertices computed from them, m: at a sharp corner the rounding
-// of its planes moves it a long way.
+// How far the half-spaces may reach beyond the hull of the vertices computed from them, m: at a sharp corner the
+// rounding of its planes moves it a long way.
 template <int Dim>
 double find_vertex_error(const Polytope<Dim>& part);
 
