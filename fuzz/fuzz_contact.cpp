@@ -168,6 +168,8 @@ void require_symmetry(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matr
   const bool no_direction =
       outcome.contact.status == ContactStatus::no_normal || other.contact.status == ContactStatus::no_normal;
   if (no_direction) return;  // one part deep inside the other: a tie that rounding breaks
+  // the other pose is rounded anew: what rounding cannot tell either way may come out the other way
+  if (other.contact.status == ContactStatus::undecided || outcome.contact.status == ContactStatus::undecided) return;
   require(other.contact.status == outcome.contact.status, "swapping the parts keeps the status");
   if (!outcome.contact.touching()) return;
   // Newton ends within 1e-5 of the local norm, whose unit ball has at most the smaller part's extent
@@ -185,6 +187,9 @@ void require_scaling(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matri
     part.inscribed_radius *= 2;
     part.radius *= 2;
     part.centre *= 2;
+    part.vertex_error *= 2;
+    for (Vector<Dim>& v : part.vertices)
+      v *= 2;
     return part;
   };
   const Outcome<Dim> other = touch<Dim>(doubled(a), doubled(b), rotation, 2 * offset);
