@@ -9,37 +9,17 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
-#include <new>
 
 #include "core/scene/scene.hpp"
 #include "core/stages.hpp"
 #include "core/step.hpp"
+#include "core/testing/counted_allocations.hpp"
 #include "core/testing/fall_scene.hpp"
-
-namespace {
-
-std::atomic<long long> allocations{0};
-
-}  // namespace
-
-// every allocation of the program is counted
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace voussoir::benchmarks {
 namespace {

@@ -40,11 +40,21 @@ Vector<Dim> weight(const Model<Dim>& model, const State<Dim>& state, std::size_t
   return model.bodies[body].mass * state.schedule.gravity_factor * model.gravity;
 }
 
-// how far any point of a body may have moved since the candidates were listed
+// bounds on how far a rotation has turned, rad
+double turned_by(const Rotation<2>& from, const Rotation<2>& to) {
+  return std::abs(to.angle - from.angle);
+}
+double turned_by(const Rotation<3>& from, const Rotation<3>& to) {
+  // |Δq| = 2 sin(angle/4); beyond a quarter of a turn the bound is only the longest way round
+  constexpr double longest = 2 * std::numbers::pi;
+  const double chord = (to.quaternion.coeffs() - from.quaternion.coeffs()).norm();
+  return chord < 0.5 ? 2.1 * chord : longest;
+}
+
+// how far any point of a body may have moved, at most
 template <int Dim>
 double moved(const Body<Dim>& body, const Placement<Dim>& then, const Motion<Dim>& now) {
-  const Matrix<Dim> turn = matrix(now.rotation) - matrix(then.rotation);
-  return (now.displacement - then.displacement).norm() + body.radius * turn.norm();
+  return (now.displacement - then.displacement).norm() + body.radius * turned_by(then.rotation, now.rotation);
 }
 
 // the box around a part, widened by `margin` and by what rounding may have cut off
@@ -104,17 +114,6 @@ void find_axes(const Model<Dim>& model, State<Dim>& state) {
     state.axes[b] = matrix(state.motions[b].rotation);
 }
 
-// bounds on how far a rotation has turned, rad
-double turned_by(const Rotation<2>& from, const Rotation<2>& to) {
-  return std::abs(to.angle - from.angle);
-}
-double turned_by(const Rotation<3>& from, const Rotation<3>& to) {
-  // |Δq| = 2 sin(angle/4); beyond a quarter of a turn the bound is only the longest way round
-  constexpr double longest = 2 * std::numbers::pi;
-  const double chord = (to.quaternion.coeffs() - from.quaternion.coeffs()).norm();
-  return chord < 0.5 ? 2.1 * chord : longest;
-}
-
 // adds what each body has moved since the last step; rounded upwards, so that it bounds
 template <int Dim>
 void count_travels(const Model<Dim>& model, State<Dim>& state) {
@@ -128,9 +127,8 @@ void count_travels(const Model<Dim>& model, State<Dim>& state) {
     if (model.bodies[b].fixed) continue;
     const Motion<Dim>& now = state.motions[b];
     Travel<Dim>& t = state.travels[b];
-    const double moved = (now.displacement - t.last.displacement).norm() +
-                         model.bodies[b].radius * turned_by(t.last.rotation, now.rotation);
-    if (moved > 0) t.distance = (t.distance + upwards * moved) * upwards;
+    const double way = moved(model.bodies[b], t.last, now);
+    if (way > 0) t.distance = (t.distance + upwards * way) * upwards;
     t.last = {now.displacement, now.rotation};
   }
 }

@@ -75,12 +75,15 @@ struct Resolver {
   FeasibilityResult<Dim> lp;
   bool lp_solved = false;
 
-  // true when the parts overlap; otherwise the contact's status is set
-  bool solve_lp(const std::array<int, Dim + 1>& basis) {
-    const FeasibilityRequest<Dim> request{&basis, rounding, rounding / 64};
-    lp = solvers.feasibility(planes, request);
+  void run_lp(const std::array<int, Dim + 1>& basis) {
+    lp = solvers.feasibility(planes, {&basis, rounding, rounding / 64});
     ++counters.lp_solves;
     counters.lp_pivots += lp.pivots;
+  }
+
+  // true when the parts overlap; otherwise the contact's status is set
+  bool solve_lp(const std::array<int, Dim + 1>& basis) {
+    run_lp(basis);
     const bool answered = lp.status == FeasibilityStatus::optimal || lp.status == FeasibilityStatus::separated_early;
     if (!answered) {
       contact.status = ContactStatus::lp_not_converged;
@@ -169,7 +172,7 @@ struct Resolver {
     const bool found = contact_normal<Dim>(planes, faces_a, point, settings.potential_radius * size, normal, fallback);
     if (fallback || !found) ++counters.normal_fallbacks;
     if (found) return true;
-    if (!lp_solved) lp = solvers.feasibility(planes, {&pair.a->basis, rounding, rounding / 64});
+    if (!lp_solved) run_lp(pair.a->basis);
     normal = separating_axis(planes, faces_a, lp);
     if (normal.isZero(0)) contact.status = ContactStatus::no_normal;  // one part deep inside the other
     return !normal.isZero(0);

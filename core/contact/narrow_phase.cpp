@@ -38,18 +38,13 @@ double gap_behind(const Pair<Dim>& pair, const Vector<Dim>& axis, double support
          projection_rounding * (b.radius + std::abs(distance) + pair.offset.norm() + std::abs(support_a));
 }
 
-template <int Dim>
-void set_apart(Contact<Dim>& contact) {
-  if (contact.status != ContactStatus::separated) contact.geometry = {};
-  contact.status = ContactStatus::separated;
-}
-
 // whether the axis, unit and in the first body's frame, separates the parts
 template <int Dim>
 bool separates(const Pair<Dim>& pair, const Vector<Dim>& axis, double support_a, Contact<Dim>& contact) {
   const double gap = gap_behind(pair, axis, support_a);
   if (!(gap > 0)) return false;
-  set_apart(contact);
+  if (contact.status != ContactStatus::separated) contact.geometry = {};
+  contact.status = ContactStatus::separated;
   contact.proof.kind = ProofKind::separating_axis;
   contact.proof.margin = gap;
   contact.proof.axis = axis;

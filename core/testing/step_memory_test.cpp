@@ -1,31 +1,9 @@
 // A step that keeps its neighbours asks for no memory, even while blocks move, meet and part.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "core/step.hpp"
+#include "core/testing/counted_allocations.hpp"
 #include "core/testing/models.hpp"
-
-namespace {
-
-std::atomic<long long> allocations{0};
-
-}  // namespace
-
-// every allocation of the program is counted; not inlined, or the compiler takes malloc and delete for a mistake
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace voussoir {
 namespace {
