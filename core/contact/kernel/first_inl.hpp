@@ -21,7 +21,9 @@ template <int Dim>
 struct TightPlanes {
   static constexpr int size = Dim + 1;
   int planes[size];  // padded numbers
-  double inverse[size][size], offsets[size];
+  double inverse[size][planes_per_quad] = {}, offsets[size];
+
+  HWY_INLINE OnePair::Wide row(int k) const { return OnePair::load(inverse[0], k); }
 };
 
 template <int Dim>
@@ -47,13 +49,12 @@ HWY_INLINE void most_violated(const Meeting<OnePair, Dim>& m, const Components<d
 // x and -s where the tight planes meet
 template <int Dim>
 HWY_INLINE void meet(const TightPlanes<Dim>& t, Components<double, Dim>& x, double& s) {
-  constexpr int size = TightPlanes<Dim>::size;
-  double y[size];
-  for (int j = 0; j < size; ++j) {
-    y[j] = t.offsets[0] * t.inverse[0][j];
-    for (int k = 1; k < size; ++k)
-      y[j] = y[j] + t.offsets[k] * t.inverse[k][j];
-  }
+  using L = OnePair;
+  L::Wide sum = L::wide(t.offsets[0]) * t.row(0);
+  for (int k = 1; k <= Dim; ++k)
+    sum = sum + L::wide(t.offsets[k]) * t.row(k);
+  double y[planes_per_quad];
+  L::store(sum, y, 0);
   for (int j = 0; j < Dim; ++j)
     x[j] = y[j];
   s = -y[Dim];
@@ -62,19 +63,25 @@ HWY_INLINE void meet(const TightPlanes<Dim>& t, Components<double, Dim>& x, doub
 // the entering plane takes the place of the first tight plane to lose its multiplier
 template <int Dim>
 HWY_INLINE bool exchange(TightPlanes<Dim>& t, int plane, const Components<double, Dim>& normal, double offset) {
-  constexpr int size_of_column = TightPlanes<Dim>::size;
-  double mu[size_of_column];
+  using L = OnePair;
+  constexpr int size = TightPlanes<Dim>::size;
+  double column[planes_per_quad] = {};
+  for (int k = 0; k < Dim; ++k)
+    column[k] = normal[k];
+  column[Dim] = 1;
+  const L::Wide entering = L::load(column, 0);
+  L::Wide terms[size], sizes[size];
+  for (int k = 0; k < size; ++k) {
+    terms[k] = t.row(k) * entering;
+    sizes[k] = larger(terms[k], -terms[k]);
+  }
+  double mu[size], size_of_mu[size];
+  L::add_up<size>(terms, mu);
+  L::add_up<size>(sizes, size_of_mu);
   int leave = -1;
   double least = std::numeric_limits<double>::max();
-  for (int k = 0; k < size_of_column; ++k) {
-    double size = 0;
-    mu[k] = 0;
-    for (int j = 0; j < size_of_column; ++j) {
-      const double term = t.inverse[k][j] * (j < Dim ? normal[j] : 1);
-      mu[k] += term;
-      size += larger(term, -term);
-    }
-    if (mu[k] <= exchange_rounding * size) continue;
+  for (int k = 0; k < size; ++k) {
+    if (mu[k] <= exchange_rounding * size_of_mu[k]) continue;
     const double ratio = larger(t.inverse[k][Dim], 0) / mu[k];
     if (ratio < least || (ratio == least && leave >= 0 && mu[k] > mu[leave])) {
       least = ratio;
@@ -82,13 +89,9 @@ HWY_INLINE bool exchange(TightPlanes<Dim>& t, int plane, const Components<double
     }
   }
   if (leave < 0) return false;
-  const double scale = 1 / mu[leave];
-  for (int j = 0; j < size_of_column; ++j)
-    t.inverse[leave][j] *= scale;
-  for (int k = 0; k < size_of_column; ++k)
-    if (k != leave)
-      for (int j = 0; j < size_of_column; ++j)
-        t.inverse[k][j] -= mu[k] * t.inverse[leave][j];
+  const L::Wide entered = L::wide(1 / mu[leave]) * t.row(leave);
+  for (int k = 0; k < size; ++k)
+    L::store(k == leave ? entered : t.row(k) - L::wide(mu[k]) * entered, t.inverse[0], k);
   t.planes[leave] = plane;
   t.offsets[leave] = offset;
   return true;
@@ -170,6 +173,27 @@ HWY_INLINE Components<double, Dim> nearest_face(const Meeting<OnePair, Dim>& m, 
   most_violated(m, x, value, plane);
   const Components<double, Dim> n = normal_of(m, plane);
   return plane < m.quads_a * planes_per_quad ? n : scaled(-1.0, n);
+}
+
+// The planes as the frame's axes show them, seen from x: less exact than assembled ones by what `rounding` grows.
+template <int Dim>
+HWY_INLINE void turn_planes(Meeting<OnePair, Dim>& m, const Components<double, Dim>& x) {
+  using L = OnePair;
+  const Components<L::Wide, Dim> to = m.wide(x);
+  Components<L::Wide, Dim> turn[Dim];
+  for (int i = 0; i < Dim; ++i)
+    turn[i] = m.wide(m.frame[i]);
+  L::Wide least = L::wide(std::numeric_limits<double>::max());
+  for (int slot = 0; slot < m.quads; ++slot) {
+    const Components<L::Wide, Dim> n = m.normals(slot);
+    const L::Wide slack = L::load(m.at.slack, slot) - dot(n, to);
+    least = smaller(least, slack);
+    L::store(slack, m.at.slack, slot);
+    for (int i = 0; i < Dim; ++i)
+      L::store(dot(turn[i], n), m.at.normal[i], slot);
+  }
+  m.least = L::least(least);
+  m.rounding = m.rounding + 4 * slack_rounding * size_of(x);
 }
 
 // Primal-dual steps (weights z/s in place of 1/s²) until Newton would converge.

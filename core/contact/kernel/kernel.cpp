@@ -89,59 +89,89 @@ HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks
   m.tolerance = number[1];
   m.reach = number[2];
   m.good = L::picked(real);
+  m.a.least_count = *std::min_element(m.a.count, m.a.count + L::width);
+  m.b.least_count = *std::min_element(m.b.count, m.b.count + L::width);
   m.quads_a = quads_of(*std::max_element(m.a.count, m.a.count + L::width));
   m.quads = m.quads_a + quads_of(*std::max_element(m.b.count, m.b.count + L::width));
   m.at = workspace().arrays<Dim>(m.quads * planes_per_quad * L::width);
 }
 
+// what a pair's lane holds at the end
+template <int Dim>
+struct Answer {
+  double margin, point[Dim], axis[Dim];                       // as in Proof, frame of the first body
+  double world_point[Dim], world_normal[Dim], overlap, area;  // as in ContactGeometry
+  double face_a, face_b, iterations, good, fallback;
+};
+
 template <class L, int Dim>
 struct Results {
-  alignas(64) double point[Dim][L::width], axis[Dim][L::width], overlap[L::width], area[L::width], face_a[L::width],
-      face_b[L::width], margin[L::width], iterations[L::width], good[L::width], fallback[L::width];
+  using Real = typename L::Real;
+  static constexpr int count = sizeof(Answer<Dim>) / sizeof(double);
+  alignas(64) Answer<Dim> answers[L::width];
 
-  HWY_INLINE explicit Results(const Meeting<L, Dim>& m) {
-    const Components<typename L::Real, Dim> normal = from_frame(m.frame, m.normal);
-    for (int k = 0; k < Dim; ++k) {
-      L::put(m.point[k], point[k]);
-      L::put(normal[k], axis[k]);
+  HWY_INLINE Results(const Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks) {
+    const double* axes[L::width];
+    double* rows[L::width];
+    for (int lane = 0; lane < L::width; ++lane) {
+      axes[lane] = tasks[lane < static_cast<int>(tasks.size()) ? lane : 0].pair->axes.data();
+      rows[lane] = reinterpret_cast<double*>(&answers[lane]);
     }
-    L::put(m.overlap, overlap);
-    L::put(m.area, area);
-    L::put(m.face_a, face_a);
-    L::put(m.face_b, face_b);
-    L::put(m.least - m.rounding, margin);
-    L::put(m.iterations, iterations);
-    L::put(select(m.good, L::real(1), L::real(0)), good);
-    L::put(select(m.fallback, L::real(1), L::real(0)), fallback);
+    Real columns[Dim * Dim], values[count];
+    load_records<L>(axes, columns);
+    Components<Real, Dim> world[Dim];
+    for (int j = 0; j < Dim; ++j)
+      for (int i = 0; i < Dim; ++i)
+        world[i][j] = columns[j * Dim + i];
+    const Components<Real, Dim> normal = from_frame(m.frame, m.normal);
+    int next = 0;
+    const auto add = [&](const Real& x) HWY_ATTR { values[next++] = x; };
+    add(m.least - m.rounding);
+    for (int k = 0; k < Dim; ++k)
+      add(m.point[k]);
+    for (int k = 0; k < Dim; ++k)
+      add(normal[k]);
+    for (int i = 0; i < Dim; ++i)
+      add(dot(world[i], m.point));
+    for (int i = 0; i < Dim; ++i)
+      add(dot(world[i], normal));
+    add(m.overlap);
+    add(m.area);
+    add(m.face_a);
+    add(m.face_b);
+    add(m.iterations);
+    add(select(m.good, L::real(1), L::real(0)));
+    add(select(m.fallback, L::real(1), L::real(0)));
+    store_records<L>(values, rows);
   }
 
-  // into the task's contact, in world axes
+  // into the task's contact
   void deliver(int lane, KernelTask<Dim>& task, const SectionList& list, int quads_a, KernelCounters& counters) const {
     const Pair<Dim>& pair = *task.pair;
-    counters.newton_iterations += static_cast<long long>(iterations[lane]);
-    if (good[lane] == 0) return;
+    const Answer<Dim>& answer = answers[lane];
+    counters.newton_iterations += static_cast<long long>(answer.iterations);
+    if (answer.good == 0) return;
     task.answered = true;
     Contact<Dim>& contact = *task.contact;
     Proof<Dim>& proof = contact.proof;
+    ContactGeometry<Dim>& geometry = contact.geometry;
     contact.status = ContactStatus::touching;
     proof.kind = ProofKind::interior_point;
-    proof.margin = margin[lane];
-    for (int k = 0; k < Dim; ++k)
-      proof.point[k] = point[k][lane];
-    ContactGeometry<Dim>& geometry = contact.geometry;
-    geometry.point = pair.axes * proof.point;
+    proof.margin = answer.margin;
+    std::copy_n(answer.point, Dim, proof.point.data());
+    std::copy_n(answer.world_point, Dim, geometry.point.data());
     if (pair.last < Stage::overlap) return;
-    for (int k = 0; k < Dim; ++k)
-      proof.axis[k] = axis[k][lane];
-    geometry.normal = pair.axes * proof.axis;
-    geometry.overlap = overlap[lane];
-    geometry.face_a = static_cast<int>(face_a[lane]);
-    geometry.face_b = static_cast<int>(face_b[lane]);
-    counters.normal_fallbacks += fallback[lane] != 0;
-    if (overlap[lane] > task.potential_radius) ++counters.deep_overlaps;
-    geometry.area = area[lane];
+    std::copy_n(answer.axis, Dim, proof.axis.data());
+    std::copy_n(answer.world_normal, Dim, geometry.normal.data());
+    geometry.overlap = answer.overlap;
+    geometry.face_a = static_cast<int>(answer.face_a);
+    geometry.face_b = static_cast<int>(answer.face_b);
+    counters.normal_fallbacks += answer.fallback != 0;
+    counters.deep_overlaps += answer.overlap > task.potential_radius;
+    geometry.area = answer.area;
     if (pair.last < Stage::area) return;
     ++counters.areas;
+    if (!list.found_anew) return;
     const int count_a = static_cast<int>(pair.a->faces.size());
     proof.section_size = list.size;
     for (int k = 0; k < list.size; ++k) {
@@ -153,7 +183,7 @@ struct Results {
 };
 
 template <int Dim>
-void recall_section(const KernelTask<Dim>& task, int quads_a, SectionList& list) {
+HWY_INLINE void recall_section(const KernelTask<Dim>& task, int quads_a, SectionList& list) {
   const Proof<Dim>& proof = task.contact->proof;
   const int count_a = static_cast<int>(task.pair->a->faces.size());
   list.size = proof.section_size;
@@ -167,10 +197,12 @@ void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& optio
   Meeting<L, Dim> m;
   SectionList lists[L::width];
   begin<L, Dim>(m, tasks);
-  for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane)
-    recall_section(tasks[lane], m.quads_a, lists[lane]);
-  resolve_from_point(m, tasks[0].pair->last, options.newton_tolerance, options.newton_limit, lists);
-  const Results<L, Dim> results(m);
+  const Stage last = tasks[0].pair->last;
+  if (Dim == 3 && last == Stage::area)
+    for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane)
+      recall_section(tasks[lane], m.quads_a, lists[lane]);
+  resolve_from_point(m, last, options.newton_tolerance, options.newton_limit, lists);
+  const Results<L, Dim> results(m, tasks);
   for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane)
     results.deliver(lane, tasks[lane], lists[lane], m.quads_a, counters);
 }
@@ -241,11 +273,12 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   m.axis = axis;
   m.tangent = thinnest_across(m, axis, x);
   m.point = m.point + x;
+  clear(m);
+  build_frame(m);
+  turn_planes(m, x);
+  if (none(m.good) || !(m.least > m.rounding + m.tolerance)) return;
   SectionList list;
   if (pair.last > Stage::decision) {
-    build_frame(m);
-    assemble_planes(m);
-    if (none(m.good) || !(m.least > m.rounding + m.tolerance)) return;
     // what fails from here on has the LP's point to fall back on
     proof.kind = ProofKind::interior_point;
     proof.margin = m.least - m.rounding;
@@ -262,11 +295,11 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
     m.point = m.point + from_frame(m.frame, m.moved);
     m.axis = from_frame(m.frame, axis);
     m.tangent = from_frame(m.frame, tangent);
+    resolve_from_point(m, pair.last, options.newton_tolerance, options.newton_limit, &list);
   }
   for (int k = 0; k < Dim; ++k)
     proof.tangent[k] = m.tangent[k];
-  resolve_from_point(m, pair.last, options.newton_tolerance, options.newton_limit, &list);
-  const Results<OnePair, Dim> results(m);
+  const Results<OnePair, Dim> results(m, std::span<const KernelTask<Dim>>(&task, 1));
   results.deliver(0, task, list, m.quads_a, counters);
 }
 

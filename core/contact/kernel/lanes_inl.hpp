@@ -312,29 +312,35 @@ struct ManyPairs {
     value = x;
     where = number;
   }
-  template <int K, class F>
-  static HWY_INLINE void sum_stride(int first, int last, int stride, Wide (&out)[K], const F& add) {
-    Wide acc[K];
-    for (int k = 0; k < K; ++k)
-      acc[k] = wide(0);
-    for (int q = first; q < last; ++q)
-      add(q * planes_per_quad + stride, acc);
-    for (int k = 0; k < K; ++k)
-      out[k] = acc[k];
-  }
+  // As many strides side by side as the registers hold: 4 of 3 sums, 2 of 5, 1 of 9.
   template <int K, class F>
   static HWY_INLINE void sum(int first, int last, Wide (&out)[K], const F& add) {
-    for (int half = 0; half < planes_per_quad; half += 2) {
-      Wide even[K], odd[K];
-      sum_stride<K>(first, last, half, even, add);
-      sum_stride<K>(first, last, half + 1, odd, add);
-      for (int k = 0; k < K; ++k) {
-        const Wide both = even[k] + odd[k];
-        out[k] = half == 0 ? both : out[k] + both;
-      }
+    constexpr int strides = K <= 3 ? 4 : K <= 5 ? 2 : 1;
+    Wide partial[planes_per_quad][K];
+    for (int from = 0; from < planes_per_quad; from += strides) {
+      Wide acc[strides][K];
+      for (int j = 0; j < strides; ++j)
+        for (int k = 0; k < K; ++k)
+          acc[j][k] = wide(0);
+      for (int q = first; q < last; ++q)
+        for (int j = 0; j < strides; ++j)
+          add(q * planes_per_quad + from + j, acc[j]);
+      for (int j = 0; j < strides; ++j)
+        for (int k = 0; k < K; ++k)
+          partial[from + j][k] = acc[j][k];
     }
+    for (int k = 0; k < K; ++k)
+      out[k] = (partial[0][k] + partial[1][k]) + (partial[2][k] + partial[3][k]);
   }
 };
+
+// visit(slot) over the quads [first, last)
+template <class L, class F>
+HWY_INLINE void for_slots(int first, int last, const F& visit) {
+  for (int q = first; q < last; ++q)
+    for (int j = 0; j < L::slots_per_quad; ++j)
+      visit(q * L::slots_per_quad + j);
+}
 
 // The largest of value(slot) over the quads [first, last) and the number of its plane among theirs; of equal ones the
 // first. Nothing above the floor: the number is -1.
@@ -344,13 +350,13 @@ HWY_INLINE void find_largest(int first, int last, double floor, const F& value, 
   using Wide = typename L::Wide;
   Wide best = L::wide(floor), place = L::wide(-1.0), number = L::first_numbers();
   const Wide apart = L::wide(static_cast<double>(L::numbers_apart));
-  for (int slot = first * L::slots_per_quad; slot < last * L::slots_per_quad; ++slot) {
+  for_slots<L>(first, last, [&](int slot) HWY_ATTR {
     const Wide here = value(slot);
     const auto better = here > best;
     best = select(better, here, best);
     place = select(better, number, place);
     number = number + apart;
-  }
+  });
   L::most_of(best, place, largest, where);
 }
 
@@ -395,6 +401,36 @@ HWY_INLINE Columns4<V> transpose(D d, const double* const* rows) {
   return r;
 }
 
+// columns to rows: the reverse
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void scatter([[maybe_unused]] D d, V c0, V c1, V c2, V c3, double* const* rows) {
+#if HWY_TARGET == HWY_SCALAR
+  const V columns[4] = {c0, c1, c2, c3};
+  for (int k = 0; k < 4; ++k)
+    rows[0][k] = hn::GetLane(columns[k]);
+#else
+  if constexpr (D::kPrivateN == 2) {
+    hn::StoreU(hn::InterleaveLower(d, c0, c1), d, rows[0]);
+    hn::StoreU(hn::InterleaveLower(d, c2, c3), d, rows[0] + 2);
+    hn::StoreU(hn::InterleaveUpper(d, c0, c1), d, rows[1]);
+    hn::StoreU(hn::InterleaveUpper(d, c2, c3), d, rows[1] + 2);
+  } else if constexpr (D::kPrivateN == 4) {
+    const V even01 = hn::InterleaveLower(d, c0, c1), odd01 = hn::InterleaveUpper(d, c0, c1);
+    const V even23 = hn::InterleaveLower(d, c2, c3), odd23 = hn::InterleaveUpper(d, c2, c3);
+    hn::StoreU(hn::ConcatLowerLower(d, even23, even01), d, rows[0]);
+    hn::StoreU(hn::ConcatLowerLower(d, odd23, odd01), d, rows[1]);
+    hn::StoreU(hn::ConcatUpperUpper(d, even23, even01), d, rows[2]);
+    hn::StoreU(hn::ConcatUpperUpper(d, odd23, odd01), d, rows[3]);
+  } else {
+    const hn::Half<D> half;
+    scatter(half, hn::LowerHalf(half, c0), hn::LowerHalf(half, c1), hn::LowerHalf(half, c2), hn::LowerHalf(half, c3),
+            rows);
+    scatter(half, hn::UpperHalf(half, c0), hn::UpperHalf(half, c1), hn::UpperHalf(half, c2), hn::UpperHalf(half, c3),
+            rows + D::kPrivateN / 2);
+  }
+#endif
+}
+
 // The first Count doubles of a record of each pair; up to three more behind them are read and dropped.
 template <class L, int Count>
 HWY_INLINE void load_records(const double* const (&records)[L::width], typename L::Real (&out)[Count]) {
@@ -413,14 +449,39 @@ HWY_INLINE void load_records(const double* const (&records)[L::width], typename 
   }
 }
 
+// The first Count doubles of a record of each pair are replaced, up to three more behind them overwritten.
+template <class L, int Count>
+HWY_INLINE void store_records(const typename L::Real (&values)[Count], double* const (&records)[L::width]) {
+  static_assert(Count % 4 == 0);
+  if constexpr (L::one_pair) {
+    for (int k = 0; k < Count; k += 4)
+      for (int j = 0; j < 4; ++j)  // short enough to be unrolled
+        records[0][k + j] = values[k + j];
+  } else {
+    for (int k = 0; k < Count; k += 4) {
+      double* rows[L::width];
+      for (int lane = 0; lane < L::width; ++lane)
+        rows[lane] = records[lane] + k;
+      scatter(typename L::Tag(), values[k].v[0], values[k + 1].v[0], values[k + 2].v[0], values[k + 3].v[0], rows);
+    }
+  }
+}
+
 template <class L, int Dim>
 HWY_INLINE void load_planes(const Sources<L::width>& source, int slot, Components<typename L::Wide, Dim>& n,
                             typename L::Wide& offset) {
   static_assert(row_length<Dim> == 4);
   const double* rows[L::step];
-  for (int k = 0; k < L::step; ++k) {
-    const int plane = L::one_pair ? slot * planes_per_quad + k : slot, lane = L::one_pair ? 0 : k;
-    rows[k] = plane < source.count[lane] ? source.rows[lane] + plane * 4 : padding_row<Dim>;
+  const int first = L::one_pair ? slot * planes_per_quad : slot,
+            last = L::one_pair ? first + planes_per_quad - 1 : slot;
+  if (last < source.least_count) {
+    for (int k = 0; k < L::step; ++k)
+      rows[k] = source.rows[L::one_pair ? 0 : k] + (L::one_pair ? first + k : first) * row_length<Dim>;
+  } else {
+    for (int k = 0; k < L::step; ++k) {
+      const int plane = L::one_pair ? first + k : first, lane = L::one_pair ? 0 : k;
+      rows[k] = plane < source.count[lane] ? source.rows[lane] + plane * row_length<Dim> : padding_row<Dim>;
+    }
   }
   using Tag = typename L::Tag;
   constexpr int registers = sizeof(offset.v) / sizeof(offset.v[0]);

@@ -70,8 +70,8 @@ HWY_INLINE void section_area_of(const double* q0, const double* q1, int quads, c
   Wide highest = L::wide(0.0);
   for (int k = 0; k < longest; ++k) {
     const Wide x = L::wide(c0[k]), y = L::wide(c1[k]);
-    for (int slot = 0; slot < quads * L::slots_per_quad; ++slot)
-      highest = larger(highest, L::load(q0, slot) * x + L::load(q1, slot) * y);
+    for_slots<L>(0, quads,
+                 [&](int slot) HWY_ATTR { highest = larger(highest, L::load(q0, slot) * x + L::load(q1, slot) * y); });
   }
   known = both(known, L::most(highest) < L::real(1 + corner_tolerance));
   for (int k = 0; k < longest; ++k)
@@ -167,6 +167,7 @@ HWY_INLINE void rebuild_sections(const Arrays<Dim>& at, int quads, SectionList* 
     }
     int list[most_corners], size;
     lists[lane].size = 0;
+    lists[lane].found_anew = true;
     if (!find_section(q0, q1, quads, list, size, areas[lane])) {
       failed[lane] = 1;
       areas[lane] = 0;

@@ -126,7 +126,7 @@ HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
     Components<Wide, Dim> turn[Dim];
     for (int i = 0; i < Dim; ++i)
       turn[i] = m.wide(rows[i]);
-    for (int slot = first * L::slots_per_quad; slot < last * L::slots_per_quad; ++slot) {
+    for_slots<L>(first, last, [&](int slot) HWY_ATTR {
       Components<Wide, Dim> n;
       Wide d;
       load_planes<L, Dim>(source, slot - first * L::slots_per_quad, n, d);
@@ -135,7 +135,7 @@ HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
       L::store(slack, m.at.slack, slot);
       for (int i = 0; i < Dim; ++i)
         L::store(dot(turn[i], n), m.at.normal[i], slot);
-    }
+    });
   };
   part(m.a, 0, m.quads_a, m.point, m.frame);
   part(m.b, m.quads_a, m.quads, point_b, frame_b);
@@ -214,8 +214,6 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
     L::template sum<sums_count>(0, m.quads, sums, [&](int slot, Wide(&acc)[sums_count]) HWY_ATTR {
       const Wide inverse = L::wide(1.0) / L::where(m.good, L::load(m.at.slack, slot), 1);
       const Components<Wide, Dim> p = scaled(inverse, m.normals(slot));
-      for (int k = 0; k < Dim; ++k)
-        L::store(p[k], m.at.scaled[k], slot);
       accumulate(p, p, acc);
     });
     Components<Real, Dim> step;
@@ -231,8 +229,10 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
     if (!none(but_not(moving, full))) {
       const Components<Wide, Dim> direction = m.wide(step);
       Wide most = L::wide(0.0);
-      for (int slot = 0; slot < m.quads * L::slots_per_quad; ++slot)
-        most = larger(most, dot(m.scaled_normals(slot), direction));
+      for_slots<L>(0, m.quads, [&](int slot) HWY_ATTR {
+        const Wide inverse = L::wide(1.0) / L::where(m.good, L::load(m.at.slack, slot), 1);
+        most = larger(most, dot(scaled(inverse, m.normals(slot)), direction));
+      });
       length = select(full, one, one / (one + L::most(most)));
     }
     m.iterations = m.iterations + select(moving, one, zero);
@@ -242,11 +242,11 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
     }
     const Components<Wide, Dim> shift = m.wide(step);
     Wide least = L::wide(std::numeric_limits<double>::max());
-    for (int slot = 0; slot < m.quads * L::slots_per_quad; ++slot) {
+    for_slots<L>(0, m.quads, [&](int slot) HWY_ATTR {
       const Wide slack = L::load(m.at.slack, slot) - dot(m.normals(slot), shift);
       L::store(slack, m.at.slack, slot);
       least = smaller(least, slack);
-    }
+    });
     m.least = select(moving, L::least(least), m.least);
     const Bool inside = m.least > zero;
     const Bool done = both(moving, decrement2 < enough);
@@ -342,11 +342,11 @@ HWY_INLINE void project(Meeting<L, 3>& m) {
   const Real a = L::real(-1) / (sign + m.normal[0]), b = x * y * a;
   const Components<Wide, 3> first = m.wide({-(sign * x), L::real(1) + sign * x * x * a, sign * b});
   const Components<Wide, 3> second = m.wide({-y, b, sign + y * y * a});
-  for (int slot = 0; slot < m.quads * L::slots_per_quad; ++slot) {
+  for_slots<L>(0, m.quads, [&](int slot) HWY_ATTR {
     const Components<Wide, 3> p = m.scaled_normals(slot);
     L::store(dot(p, first), m.at.scaled[0], slot);
     L::store(dot(p, second), m.at.scaled[1], slot);
-  }
+  });
 }
 
 template <class L>
@@ -354,12 +354,12 @@ HWY_INLINE void measure_area(Meeting<L, 2>& m, SectionList*) {
   using Wide = typename L::Wide;
   const Wide along0 = L::wide(-m.normal[1]), along1 = L::wide(m.normal[0]);
   Wide forward = L::wide(0.0), backward = forward;
-  for (int slot = 0; slot < m.quads * L::slots_per_quad; ++slot) {
+  for_slots<L>(0, m.quads, [&](int slot) HWY_ATTR {
     const Components<Wide, 2> p = m.scaled_normals(slot);
     const Wide slope = p[0] * along0 + p[1] * along1;
     forward = larger(forward, slope);
     backward = larger(backward, -slope);
-  }
+  });
   using Real = typename L::Real;
   const Real zero = L::real(0), one = L::real(1), f = L::most(forward), b = L::most(backward);
   m.good = both(m.good, both(f > zero, b > zero));
@@ -374,16 +374,22 @@ HWY_INLINE void measure_area(Meeting<L, 3>& m, SectionList* lists) {
   rebuild_sections<L>(m.at, m.quads, lists, but_not(m.good, known), m.area, m.good);
 }
 
-// everything from the start on; the results of pairs that are not good mean nothing
+// before any stage has answered
 template <class L, int Dim>
-HWY_INLINE void resolve_from_point(Meeting<L, Dim>& m, Stage last, double tolerance, int limit, SectionList* lists) {
-  using Real = typename L::Real;
-  build_frame(m);
-  assemble_planes(m);
+HWY_INLINE void clear(Meeting<L, Dim>& m) {
   for (int k = 0; k < Dim; ++k)
     m.moved[k] = m.normal[k] = L::real(0);
   m.iterations = m.overlap = m.area = m.face_a = m.face_b = L::real(0);
   m.fallback = but_not(m.good, m.good);
+}
+
+// everything from the start on; the results of pairs that are not good mean nothing
+template <class L, int Dim>
+HWY_INLINE void resolve_from_point(Meeting<L, Dim>& m, Stage last, double tolerance, int limit, SectionList* lists) {
+  using Real = typename L::Real;
+  clear(m);
+  build_frame(m);
+  assemble_planes(m);
   m.good = both(m.good, m.least > m.rounding + m.tolerance);
   if (last == Stage::decision || none(m.good)) return;
   find_centre(m, tolerance, limit);

@@ -60,6 +60,7 @@ template <int Width>
 struct Sources {
   const double* rows[Width];
   int count[Width];
+  int least_count;
 };
 
 template <int Dim>
@@ -74,6 +75,7 @@ struct Arrays {
 // the section's planes in cyclic order, numbered as the padded planes are
 struct SectionList {
   int size = 0;
+  bool found_anew = false;                                                 // not the list that came in
   std::array<int, std::tuple_size_v<decltype(Proof<3>::section)>> planes;  // the first `size` of them
 };
 
