@@ -9,19 +9,12 @@
 
 #include "core/contact/broad_phase.hpp"
 #include "core/contact/narrow_phase.hpp"
-#include "core/law/elastic_coulomb.hpp"
+#include "core/contact/sub_contacts.hpp"
 #include "core/motion/integrate.hpp"
 #include "core/motion/time_step.hpp"
 
 namespace voussoir {
 namespace {
-
-// the second body's centroid seen from the first's: reference positions first, so that small displacements are not lost
-template <int Dim>
-Vector<Dim> between(const Model<Dim>& model, const State<Dim>& state, int a, int b) {
-  return (model.bodies[b].reference - model.bodies[a].reference) +
-         (state.motions[b].displacement - state.motions[a].displacement);
-}
 
 // candidates are those within half a skin of either part, and a little: enough until one has moved that far
 constexpr double candidate_reach = 0.5 * (1 + 1e-9);
@@ -94,17 +87,19 @@ int joint_of(const Model<Dim>& model, const Contact<Dim>& c) {
                   model.polytope(c.part_b).joints[c.geometry.face_b]);
 }
 
-double spin_about(const Vector<3>& normal, const Spin<3>& a, const Spin<3>& b) {
-  return 0.5 * normal.dot(a + b);
-}
-double spin_about(const Vector<2>&, const Spin<2>&, const Spin<2>&) {
-  return 0;
-}
-
 template <int Dim>
 bool needs_area(const Model<Dim>& model) {
   return std::any_of(model.properties.begin(), model.properties.end(),
-                     [](const JointProperties& p) { return !p.constant_stiffness; });
+                     [](const JointProperties& p) { return !p.constant_stiffness || p.sub_contacts > 1; });
+}
+
+// places that State::subs has for each contact
+template <int Dim>
+std::size_t most_cells(const Model<Dim>& model) {
+  int most = 0;
+  for (const JointProperties& p : model.properties)
+    most = std::max(most, sub_contact_count<Dim>(p.sub_contacts));
+  return static_cast<std::size_t>(most);
 }
 
 template <int Dim>
@@ -138,10 +133,13 @@ double travelled(const Model<Dim>& model, const State<Dim>& state, const Contact
   return state.travels[model.parts[c.part_a].body].distance + state.travels[model.parts[c.part_b].body].distance;
 }
 
+// nor do its sub-contacts count any more
 template <int Dim>
 void forget(Contact<Dim>& contact) {
   contact.history = {};
   contact.force.setZero();
+  contact.cells = 0;
+  contact.divided_face = -1;
 }
 
 // what the candidates' skin has added leaves no trace: the result is the same for any skin
@@ -182,10 +180,18 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
   narrow_phase<Dim>(pairs, settings.contact, model.solvers, waiting, counters);
 
   constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
-  for (Contact<Dim>* const c : waiting) {
+  const std::size_t stride = state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
+  for (std::size_t i = 0; i < waiting.size(); ++i) {
+    Contact<Dim>* const c = waiting[i];
     if (c->touching()) {
       c->joint = joint_of(model, *c);
       c->properties = c->joint == no_joint ? model.default_properties : model.joints[c->joint].properties;
+      const int along = model.properties[c->properties].sub_contacts;
+      const std::size_t place = c - state.contacts.data();
+      if (const int cells = sub_contact_count<Dim>(along); cells > 0)
+        divide<Dim>(pairs[i], along, *c, std::span(state.subs).subspan(place * stride, cells));
+      else
+        c->cells = 0;
       continue;
     }
     forget(*c);
@@ -251,17 +257,21 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   static thread_local std::vector<Box<Dim>> boxes;
   static thread_local std::vector<std::pair<int, int>> pairs;
   static thread_local std::vector<Contact<Dim>> renewed;
+  static thread_local std::vector<SubContact<Dim>> renewed_subs;
   find_axes(model, state);
   bound_parts(model, state, candidate_reach * skin, boxes);
   overlapping_pairs(boxes, pairs);
 
   // standing candidates keep their record: both lists are in ascending order
   renewed.clear();
+  renewed_subs.assign(pairs.size() * most_cells(model), {});
   auto old = state.contacts.begin();
   for (const auto& [a, b] : pairs) {
     while (old != state.contacts.end() && std::pair(old->part_a, old->part_b) < std::pair(a, b))
       ++old;
     if (old != state.contacts.end() && old->part_a == a && old->part_b == b) {
+      std::ranges::copy(subs_of(state, old - state.contacts.begin()),
+                        renewed_subs.begin() + renewed.size() * most_cells(model));
       renewed.push_back(*old);
       continue;
     }
@@ -271,6 +281,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
     renewed.push_back(fresh);
   }
   std::swap(state.contacts, renewed);
+  std::swap(state.subs, renewed_subs);
   state.built.clear();
   for (const Motion<Dim>& m : state.motions)
     state.built.push_back({m.displacement, m.rotation});
@@ -316,75 +327,28 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
 }
 
 template <int Dim>
-void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  // the slip is the one of the step that led here
-  const double dt = state.time_step;
-  EnergyLedger& energy = state.energy;
-  energy.elastic = 0;
-  for (Contact<Dim>& c : state.contacts) {
-    if (!c.touching()) continue;
-    const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
-    const JointProperties& properties = model.properties[c.properties];
-    const Vector<Dim>& n = c.geometry.normal;
-    const Spin<Dim> spin_a = angular_velocity(model.bodies[a], state.motions[a]);
-    const Spin<Dim> spin_b = angular_velocity(model.bodies[b], state.motions[b]);
-    const Vector<Dim> velocity = state.motions[b].velocity +
-                                 cross(spin_b, c.geometry.point - between(model, state, a, b)) -
-                                 state.motions[a].velocity - cross(spin_a, c.geometry.point);
-
-    JointKinematics<Dim> k;
-    k.normal = n;
-    k.overlap = c.geometry.overlap;
-    k.area = properties.constant_stiffness ? 1 : c.geometry.area;
-    k.closing_speed = -velocity.dot(n);
-    k.slip.setZero();
-
-    // a new contact has no shear yet; a standing one carries its own to the new plane
-    const bool standing = !c.history.normal.isZero(0);
-    if (standing) {
-      k.slip = (velocity + k.closing_speed * n) * dt;
-      k.turn = spin_about(n, spin_a, spin_b) * dt;
-      // area that is lost takes its stress with it: the rest could not carry the force of a thousand times its size
-      if (k.area < c.history.area) {
-        const double left = k.area / c.history.area, stiffness = properties.shear_stiffness * c.history.area;
-        if (stiffness > 0) energy.flows.friction += 0.5 * c.history.shear_force.squaredNorm() / stiffness * (1 - left);
-        c.history.shear_force *= left;
-      }
-      c.history.shear_force = carried(c.history.shear_force, c.history.normal, n, k.turn);
-    }
-
-    double dashpot = 0;
-    if (settings.damping.viscous_ratio > 0) {
-      const double inverse_mass = (model.bodies[a].fixed ? 0 : 1 / model.bodies[a].mass) +
-                                  (model.bodies[b].fixed ? 0 : 1 / model.bodies[b].mass);
-      dashpot = 2 * settings.damping.viscous_ratio * std::sqrt(properties.normal_stiffness * k.area / inverse_mass);
-    }
-    const JointForce<Dim> answer =
-        elastic_coulomb<Dim>(properties, state.schedule.friction[c.properties], dashpot, k, c.history.shear_force);
-    c.force = answer.force;
-    energy.elastic += answer.elastic;
-    energy.flows.friction += answer.friction;
-    energy.flows.dashpots += 0.5 * (c.history.dashpot + answer.dashpot) * k.closing_speed * dt;
-    c.history.normal = n;
-    c.history.plastic_slip += answer.plastic_slip;
-    c.history.dashpot = answer.dashpot;
-    c.history.area = k.area;
-  }
-}
-
-template <int Dim>
 void sum_loads(const Model<Dim>& model, State<Dim>& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     state.loads[b].force = weight(model, state, b);
     state.loads[b].moment.setZero();
   }
-  for (const Contact<Dim>& c : state.contacts) {
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    const Contact<Dim>& c = state.contacts[i];
     if (!c.touching()) continue;
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
+    const Vector<Dim> apart = between(model, state, a, b);
+    const auto turn = [&](const Vector<Dim>& point, const Vector<Dim>& force) {
+      state.loads[a].moment -= moment(point, force);
+      state.loads[b].moment += moment(Vector<Dim>(point - apart), force);
+    };
     state.loads[a].force -= c.force;
     state.loads[b].force += c.force;
-    state.loads[a].moment -= moment(c.geometry.point, c.force);
-    state.loads[b].moment += moment(Vector<Dim>(c.geometry.point - between(model, state, a, b)), c.force);
+    if (c.cells == 0) {
+      turn(c.geometry.point, c.force);
+      continue;
+    }
+    for (const SubContact<Dim>& s : subs_of(state, i))
+      if (s.area > 0) turn(s.point, s.force);
   }
 }
 
@@ -425,11 +389,10 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   state.time += state.time_step;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                       \
-  template void find_neighbours<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);  \
-  template void find_contacts<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);    \
-  template void apply_joint_laws<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
-  template void sum_loads<Dim>(const Model<Dim>&, State<Dim>&);                         \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                      \
+  template void find_neighbours<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
+  template void find_contacts<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);   \
+  template void sum_loads<Dim>(const Model<Dim>&, State<Dim>&);                        \
   template void move_bodies<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

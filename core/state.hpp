@@ -2,7 +2,9 @@
 // survive.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/contact/broad_phase.hpp"
@@ -73,6 +75,7 @@ struct State {
   std::vector<Motion<Dim>> motions;    // by body
   std::vector<Load<Dim>> loads;        // by body
   std::vector<Contact<Dim>> contacts;  // candidate pairs by (part a, part b); those that touch carry history
+  std::vector<SubContact<Dim>> subs;   // as many places for each contact, in their order; none where no joint has any
   std::vector<Placement<Dim>> built;   // where the bodies stood when the candidates were last listed
   std::vector<Travel<Dim>> travels;    // by body
   std::vector<Matrix<Dim>> axes;       // by body: its frame in world axes; rebuilt every step
@@ -86,9 +89,28 @@ struct State {
   Counters counters;
 };
 
+// The sub-contacts that carry a contact, none where it carries itself; `place` counts in State::contacts.
+template <int Dim>
+std::span<SubContact<Dim>> subs_of(State<Dim>& state, std::size_t place) {
+  const std::size_t stride = state.subs.size() / std::max<std::size_t>(state.contacts.size(), 1);
+  return std::span(state.subs).subspan(place * stride, std::min<std::size_t>(stride, state.contacts[place].cells));
+}
+template <int Dim>
+std::span<const SubContact<Dim>> subs_of(const State<Dim>& state, std::size_t place) {
+  return subs_of(const_cast<State<Dim>&>(state), place);
+}
+
 // rest at the reference configuration
 template <int Dim>
 State<Dim> initial_state(const Model<Dim>& model);
+
+// The second body's centroid seen from the first's, m: reference positions first, so that small displacements are not
+// lost.
+template <int Dim>
+Vector<Dim> between(const Model<Dim>& model, const State<Dim>& state, int a, int b) {
+  return (model.bodies[b].reference - model.bodies[a].reference) +
+         (state.motions[b].displacement - state.motions[a].displacement);
+}
 
 // angular velocity in world axes, rad/s
 template <int Dim>

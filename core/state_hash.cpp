@@ -40,13 +40,19 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
     bytes.add(state.motions[b].velocity);
     bytes.add(state.motions[b].angular_momentum);
   }
-  for (const Contact<Dim>& c : state.contacts) {
+  const auto remember = [&](const JointState<Dim>& history) {
+    bytes.add(history.shear_force);
+    bytes.add(history.normal);
+    bytes.add(history.plastic_slip);
+  };
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    const Contact<Dim>& c = state.contacts[i];
     if (!c.touching()) continue;
-    for (const int key : {c.part_a, c.part_b, c.sub})
+    for (const int key : {c.part_a, c.part_b, c.cells})
       bytes.add(key);
-    bytes.add(c.history.shear_force);
-    bytes.add(c.history.normal);
-    bytes.add(c.history.plastic_slip);
+    remember(c.history);
+    for (const SubContact<Dim>& s : subs_of(state, i))
+      remember(s.history);
   }
   return fingerprint(bytes.text);
 }

@@ -53,7 +53,7 @@ void expect_that_one_ulp_shows() {
       [](Sliding<Dim>& s) { one_ulp(s.state.motions[1].angular_momentum[0]); },
       [](Sliding<Dim>& s) { ++s.state.contacts[0].part_a; },
       [](Sliding<Dim>& s) { ++s.state.contacts[0].part_b; },
-      [](Sliding<Dim>& s) { ++s.state.contacts[0].sub; },
+      [](Sliding<Dim>& s) { ++s.state.contacts[0].cells; },
       [](Sliding<Dim>& s) { one_ulp(s.state.contacts[0].history.shear_force[0]); },
       [](Sliding<Dim>& s) { one_ulp(s.state.contacts[0].history.normal[Dim - 1]); },
       [](Sliding<Dim>& s) { one_ulp(s.state.contacts[0].history.plastic_slip); },

@@ -30,6 +30,7 @@ const std::vector<std::vector<std::string>> layers{
     {"results", "scene"},
     {"motion", "monitor", "output"},
     {"stages", "state_hash"},
+    {"joint_laws"},
     {"step"},
     {"run"},
     {"reduction"},

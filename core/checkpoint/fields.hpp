@@ -88,8 +88,16 @@ void serialize(Archive& archive, Proof<Dim>& p) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, Contact<Dim>& c) {
-  auto& [part_a, part_b, sub, joint, properties, status, geometry, history, proof, force, free_until, area_rated] = c;
-  archive(part_a, part_b, sub, joint, properties, status, geometry, history, proof, force, free_until, area_rated);
+  auto& [part_a, part_b, joint, properties, cells, divided_face, status, geometry, history, proof, force, free_until,
+         area_rated] = c;
+  archive(part_a, part_b, joint, properties, cells, divided_face, status, geometry, history, proof, force, free_until,
+          area_rated);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, SubContact<Dim>& s) {
+  auto& [point, overlap, spread, gyration2, area, history, force] = s;
+  archive(point, overlap, spread, gyration2, area, history, force);
 }
 
 template <class Archive>
@@ -123,9 +131,9 @@ void serialize(Archive& archive, EnergyLedger& e) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
   // axes and bounds are rebuilt before they are read
-  auto& [motions, loads, contacts, built, travels, axes, bounds, frequency, schedule, time, time_step, step_allowed,
-         energy, counters] = s;
-  archive(motions, loads, contacts, built, travels, frequency, schedule, time, time_step, step_allowed, energy,
+  auto& [motions, loads, contacts, subs, built, travels, axes, bounds, frequency, schedule, time, time_step,
+         step_allowed, energy, counters] = s;
+  archive(motions, loads, contacts, subs, built, travels, frequency, schedule, time, time_step, step_allowed, energy,
           counters);
 }
 

@@ -61,14 +61,28 @@ struct Proof {
   int section_size = 0;                       // 0: unknown, or too many
 };
 
+// one of several points that carry a joint: a cell of the divided face (sub_contacts.hpp)
+template <int Dim>
+struct SubContact {
+  Vector<Dim> point = Vector<Dim>::Zero();  // m, where its force acts; relative as the contact's
+  double overlap = 0;                       // m, mean over the cell
+  double spread = 0;                        // m², variance of the overlap over the cell
+  double gyration2 = 0;                     // m²: square of the radius of gyration of the cell's section
+  double area = 0;                          // m² (2-D: m); 0: the cell does not touch
+  JointState<Dim> history;
+  Vector<Dim> force = Vector<Dim>::Zero();  // N on the second body
+};
+
 template <int Dim>
 struct Contact {
-  int part_a = 0, part_b = 0, sub = 0;  // the key: Model::parts, a < b, number of the sub-contact
-  int joint = -1;                       // Model::joints, or -1 between faces that no joint made
-  int properties = 0;                   // Model::properties in force while touching
+  int part_a = 0, part_b = 0;  // the key: Model::parts, a < b
+  int joint = -1;              // Model::joints, or -1 between faces that no joint made
+  int properties = 0;          // Model::properties in force while touching
+  int cells = 0;               // sub-contacts that carry it, in State::subs; 0: it carries itself
+  int divided_face = -1;       // theirs: of the first part, or, counted on behind its faces, of the second
   ContactStatus status = ContactStatus::apart;
   ContactGeometry<Dim> geometry;
-  JointState<Dim> history;
+  JointState<Dim> history;  // of all sub-contacts together where there are any
   Proof<Dim> proof;
   Vector<Dim> force = Vector<Dim>::Zero();  // N on the second body
   double free_until = 0;                    // m: a separated pair cannot meet before its bodies' travels add up to this

@@ -270,39 +270,50 @@ bool overlap_along(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>
   return face_a >= 0 && face_b >= 0;
 }
 
-template <>
-double section_area(const HalfSpaces<2>& planes, const Vector<2>& point, const Vector<2>& normal, double reach) {
+Segment section_segment(const HalfSpaces<2>& planes, const Vector<2>& point, const Vector<2>& normal, double reach) {
   const Vector<2> along = perpendicular(normal);
-  double low = -reach, high = reach;
+  Segment section{-reach, reach};
   for (const HalfSpace<2>& p : planes) {
     const double slope = p.normal.dot(along), slack = -signed_distance(p, point);
-    if (slope > 0) high = std::min(high, slack / slope);
-    if (slope < 0) low = std::max(low, slack / slope);
+    if (slope > 0) section.high = std::min(section.high, slack / slope);
+    if (slope < 0) section.low = std::max(section.low, slack / slope);
   }
-  return std::max(high - low, 0.0);
+  return section;
+}
+
+void clip_polygon(const std::vector<Vector<2>>& polygon, const Vector<2>& q, double slack,
+                  std::vector<Vector<2>>& clipped) {
+  clipped.clear();
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vector<2>&here = polygon[k], &next = polygon[(k + 1) % polygon.size()];
+    const double inside_here = slack - q.dot(here), inside_next = slack - q.dot(next);
+    if (inside_here >= 0) clipped.push_back(here);
+    if ((inside_here > 0 && inside_next < 0) || (inside_here < 0 && inside_next > 0))
+      clipped.push_back(here + inside_here / (inside_here - inside_next) * (next - here));
+  }
+}
+
+void section_polygon(const HalfSpaces<3>& planes, const Vector<3>& point, const Vector<3>& normal, double reach,
+                     std::vector<Vector<2>>& polygon) {
+  static thread_local std::vector<Vector<2>> clipped;
+  const Vector<3> t1 = perpendicular(normal), t2 = normal.cross(t1);
+  polygon.assign({{-reach, -reach}, {reach, -reach}, {reach, reach}, {-reach, reach}});
+  for (const HalfSpace<3>& p : planes) {
+    clip_polygon(polygon, {p.normal.dot(t1), p.normal.dot(t2)}, -signed_distance(p, point), clipped);
+    std::swap(polygon, clipped);
+  }
+}
+
+template <>
+double section_area(const HalfSpaces<2>& planes, const Vector<2>& point, const Vector<2>& normal, double reach) {
+  const Segment section = section_segment(planes, point, normal, reach);
+  return std::max(section.high - section.low, 0.0);
 }
 
 template <>
 double section_area(const HalfSpaces<3>& planes, const Vector<3>& point, const Vector<3>& normal, double reach) {
-  static thread_local std::vector<Vector<2>> polygon, clipped;
-  const Vector<3> t1 = perpendicular(normal), t2 = normal.cross(t1);
-  polygon.assign({{-reach, -reach}, {reach, -reach}, {reach, reach}, {-reach, reach}});
-
-  // Sutherland-Hodgman in the section's plane: {y : q·y <= slack}
-  for (const HalfSpace<3>& p : planes) {
-    const Vector<2> q(p.normal.dot(t1), p.normal.dot(t2));
-    const double slack = -signed_distance(p, point);
-    clipped.clear();
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Vector<2>&here = polygon[k], &next = polygon[(k + 1) % polygon.size()];
-      const double inside_here = slack - q.dot(here), inside_next = slack - q.dot(next);
-      if (inside_here >= 0) clipped.push_back(here);
-      if ((inside_here > 0 && inside_next < 0) || (inside_here < 0 && inside_next > 0))
-        clipped.push_back(here + inside_here / (inside_here - inside_next) * (next - here));
-    }
-    std::swap(polygon, clipped);
-  }
-
+  static thread_local std::vector<Vector<2>> polygon;
+  section_polygon(planes, point, normal, reach, polygon);
   double twice = 0;
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
     const Vector<2> u = polygon[k] - polygon[0], v = polygon[k + 1] - polygon[0];

@@ -77,4 +77,16 @@ bool overlap_along(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>
 template <int Dim>
 double section_area(const HalfSpaces<Dim>& planes, const Vector<Dim>& point, const Vector<Dim>& normal, double reach);
 
+// The section itself, in axes about the point: perpendicular(n) and, in 3-D, n × perpendicular(n).
+struct Segment {
+  double low, high;  // m
+};
+Segment section_segment(const HalfSpaces<2>& planes, const Vector<2>& point, const Vector<2>& normal, double reach);
+void section_polygon(const HalfSpaces<3>& planes, const Vector<3>& point, const Vector<3>& normal, double reach,
+                     std::vector<Vector<2>>& polygon);
+
+// what of a convex polygon lies in {y : q·y <= slack} (Sutherland and Hodgman)
+void clip_polygon(const std::vector<Vector<2>>& polygon, const Vector<2>& q, double slack,
+                  std::vector<Vector<2>>& clipped);
+
 }  // namespace voussoir

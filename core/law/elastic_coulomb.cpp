@@ -71,7 +71,7 @@ JointForce<Dim> elastic_coulomb(const JointProperties& properties, double fricti
   }
   result.force = normal_force * kinematics.normal + shear;
   result.dashpot = normal_force - spring;
-  result.elastic = 0.5 * spring * kinematics.overlap;
+  result.elastic = 0.5 * (spring * kinematics.overlap + normal_stiffness * kinematics.spread);
   if (shear_stiffness > 0) result.elastic += 0.5 * shear.squaredNorm() / shear_stiffness;
   return result;
 }

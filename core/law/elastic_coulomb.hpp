@@ -10,7 +10,8 @@ namespace voussoir {
 template <int Dim>
 struct JointKinematics {
   Vector<Dim> normal;        // unit, from the first to the second
-  double overlap = 0;        // m
+  double overlap = 0;        // m, mean over the area
+  double spread = 0;         // m², its variance; it stores energy only
   double area = 0;           // m²; 1 for a constant stiffness
   double closing_speed = 0;  // m/s
   Vector<Dim> slip;          // tangential displacement increment, m

@@ -42,8 +42,7 @@ double largest_face(const Polytope<Dim>& part) {
 template <int Dim>
 Matrix<Dim> contact_stiffness(const JointProperties& p, double area, const Vector<Dim>& normal) {
   const Matrix<Dim> nn = normal * normal.transpose();
-  return (p.constant_stiffness ? 1.0 : area) *
-         (p.normal_stiffness * nn + p.shear_stiffness * (Matrix<Dim>::Identity() - nn));
+  return area * (p.normal_stiffness * nn + p.shear_stiffness * (Matrix<Dim>::Identity() - nn));
 }
 
 double stiffest_joint(const std::vector<JointProperties>& properties, double area) {
@@ -109,11 +108,26 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
     if (c.status == ContactStatus::apart) continue;
     if (c.touching()) {
       c.area_rated = area_margin * c.geometry.area;
-      const Matrix<Dim> k = contact_stiffness<Dim>(model.properties[c.properties], c.geometry.area, c.geometry.normal);
-      const Vector<Dim> between =
-          (b.reference - a.reference) + (state.motions[ib].displacement - state.motions[ia].displacement);
-      add<Dim>(stiffness[ia], factor, k, c.geometry.point);
-      add<Dim>(stiffness[ib], factor, k, c.geometry.point - between);
+      const JointProperties& p = model.properties[c.properties];
+      const Vector<Dim> apart = between(model, state, ia, ib);
+      // `gyration2` times the area: what the cell about its own point adds to rocking and spin, at most
+      const auto bear = [&](const Vector<Dim>& point, double area, double gyration2) {
+        const Matrix<Dim> k = contact_stiffness<Dim>(p, area, c.geometry.normal);
+        const double turning = factor * area * std::max(p.normal_stiffness, p.shear_stiffness) * gyration2;
+        add<Dim>(stiffness[ia], factor, k, point);
+        add<Dim>(stiffness[ib], factor, k, point - apart);
+        for (int i = Dim; i < freedoms<Dim>; ++i) {
+          stiffness[ia](i, i) += turning;
+          stiffness[ib](i, i) += turning;
+        }
+      };
+      if (c.cells == 0) {
+        bear(c.geometry.point, p.constant_stiffness ? 1 : c.geometry.area, 0);
+        continue;
+      }
+      const double unit = p.constant_stiffness ? c.geometry.area : 1;
+      for (const SubContact<Dim>& s : subs_of(state, &c - state.contacts.data()))
+        if (s.area > 0) bear(s.point, s.area / unit, s.gyration2);
       continue;
     }
     c.area_rated = std::min(largest_face(model.polytope(c.part_a)), largest_face(model.polytope(c.part_b)));

@@ -140,21 +140,27 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
   DataArray body_a{"body_a", 1, true, {}}, body_b{"body_b", 1, true, {}}, properties{"properties", 1, true, {}},
       normal{"normal", 3, false, {}}, force{"force", 3, false, {}}, overlap{"overlap", 1, false, {}},
       area{"area", 1, false, {}};
-  for (const Contact<Dim>& contact : state.contacts) {
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    const Contact<Dim>& contact = state.contacts[i];
     if (!contact.touching()) continue;
     const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
 
     // the contact's geometry is relative to the centroid of its first body
     const Vector<Dim> centroid = model.bodies[a].reference + state.motions[a].displacement;
-    data.cells.push_back({static_cast<int>(data.points.size())});
-    data.points.push_back(in_space(Vector<Dim>(model.origin + (centroid + contact.geometry.point))));
-    body_a.values.push_back(a);
-    body_b.values.push_back(b);
-    properties.values.push_back(contact.properties);
-    append<Dim>(normal, contact.geometry.normal);
-    append<Dim>(force, contact.force);
-    overlap.values.push_back(contact.geometry.overlap);
-    area.values.push_back(contact.geometry.area);
+    const auto add = [&](const Vector<Dim>& point, const Vector<Dim>& carried, double closed, double wide) {
+      data.cells.push_back({static_cast<int>(data.points.size())});
+      data.points.push_back(in_space(Vector<Dim>(model.origin + (centroid + point))));
+      body_a.values.push_back(a);
+      body_b.values.push_back(b);
+      properties.values.push_back(contact.properties);
+      append<Dim>(normal, contact.geometry.normal);
+      append<Dim>(force, carried);
+      overlap.values.push_back(closed);
+      area.values.push_back(wide);
+    };
+    if (contact.cells == 0) add(contact.geometry.point, contact.force, contact.geometry.overlap, contact.geometry.area);
+    for (const SubContact<Dim>& s : subs_of(state, i))
+      if (s.area > 0) add(s.point, s.force, s.overlap, s.area);
   }
   data.point_data = {body_a, body_b, properties, normal, force, overlap, area};
   data.names = {{"property_names", names_of(model.properties)}};

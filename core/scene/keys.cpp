@@ -137,6 +137,11 @@ const KeyRow rows[] = {
      .slip = friction_slip},
     {.table = "joint_properties", .key = "constant_stiffness", .type = boolean, .fallback = "false", .example = "true",
      .meaning = "the stiffness is in N/m whatever the contact area, which then is never computed"},
+    {.table = "joint_properties", .key = "sub_contacts", .type = integer, .range = {1, 64}, .fallback = "1",
+     .example = "4",
+     .meaning = "points that carry a joint face, along each of its directions (4: 4 in 2-D, 4 x 4 in 3-D); 1: the "
+         "contact point alone",
+     .breaks = "with one point a face resists neither spin nor, as a face does, rocking; each more costs time"},
     {.table = "blocks", .key = "name", .type = name, .example = "\"slider\"", .required = true,
      .meaning = "unique among the blocks"},
     {.table = "blocks", .key = "vertices", .type = points, .unit = "m", .range = sane,

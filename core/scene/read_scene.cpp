@@ -84,6 +84,7 @@ std::vector<PropertiesSpec> read_properties(const Subject& scene) {
     read(item, "shear_stiffness", p.shear_stiffness);
     read_degrees(item, "friction_deg", p.friction);
     read(item, "constant_stiffness", p.constant_stiffness);
+    read(item, "sub_contacts", p.sub_contacts);
     all.push_back({item, p});
   }
   return all;

@@ -1,0 +1,138 @@
+// The step's third stage: what the joints answer (stages.hpp).
+#include <cmath>
+
+#include "core/law/elastic_coulomb.hpp"
+#include "core/stages.hpp"
+
+namespace voussoir {
+namespace {
+
+double spin_about(const Vector<3>& normal, const Spin<3>& a, const Spin<3>& b) {
+  return 0.5 * normal.dot(a + b);
+}
+double spin_about(const Vector<2>&, const Spin<2>&, const Spin<2>&) {
+  return 0;
+}
+
+// how the two bodies of a contact move
+template <int Dim>
+struct PairMotion {
+  Vector<Dim> between;  // m
+  Vector<Dim> velocity_a, velocity_b;
+  Spin<Dim> spin_a, spin_b;
+  double inverse_mass;  // 1/kg, of both together; a fixed body is infinitely heavy
+};
+
+template <int Dim>
+PairMotion<Dim> motion_of(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
+  const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
+  return {
+      between(model, state, a, b),
+      state.motions[a].velocity,
+      state.motions[b].velocity,
+      angular_velocity(model.bodies[a], state.motions[a]),
+      angular_velocity(model.bodies[b], state.motions[b]),
+      (model.bodies[a].fixed ? 0 : 1 / model.bodies[a].mass) + (model.bodies[b].fixed ? 0 : 1 / model.bodies[b].mass)};
+}
+
+// where a joint is loaded
+template <int Dim>
+struct Bearing {
+  Vector<Dim> point, normal;
+  double overlap, area;  // m, m²; the area is 1, or a share of it, for a constant stiffness
+  double spread = 0;     // m², variance of the overlap
+  double share = 1;      // of the contact's area
+};
+
+// force on the second body; the history goes on
+template <int Dim>
+Vector<Dim> joint_force(const JointProperties& properties, const Settings& settings, State<Dim>& state,
+                        const PairMotion<Dim>& motion, const Bearing<Dim>& at, int friction_of,
+                        JointState<Dim>& history) {
+  // the slip is the one of the step that led here
+  const double dt = state.time_step;
+  EnergyLedger& energy = state.energy;
+  const Vector<Dim>& n = at.normal;
+  const Vector<Dim> velocity = motion.velocity_b + cross(motion.spin_b, at.point - motion.between) - motion.velocity_a -
+                               cross(motion.spin_a, at.point);
+
+  JointKinematics<Dim> k;
+  k.normal = n;
+  k.overlap = at.overlap;
+  k.spread = at.spread;
+  k.area = at.area;
+  k.closing_speed = -velocity.dot(n);
+  k.slip.setZero();
+
+  // a new contact has no shear yet; a standing one carries its own to the new plane
+  const bool standing = !history.normal.isZero(0);
+  if (standing) {
+    k.slip = (velocity + k.closing_speed * n) * dt;
+    k.turn = spin_about(n, motion.spin_a, motion.spin_b) * dt;
+    // area that is lost takes its stress with it: the rest could not carry the force of a thousand times its size
+    if (k.area < history.area) {
+      const double left = k.area / history.area, stiffness = properties.shear_stiffness * history.area;
+      if (stiffness > 0) energy.flows.friction += 0.5 * history.shear_force.squaredNorm() / stiffness * (1 - left);
+      history.shear_force *= left;
+    }
+    history.shear_force = carried(history.shear_force, history.normal, n, k.turn);
+  }
+
+  double dashpot = 0;
+  if (settings.damping.viscous_ratio > 0)
+    dashpot = 2 * settings.damping.viscous_ratio *
+              std::sqrt(properties.normal_stiffness * k.area / motion.inverse_mass * at.share);
+  const JointForce<Dim> answer =
+      elastic_coulomb<Dim>(properties, state.schedule.friction[friction_of], dashpot, k, history.shear_force);
+  energy.elastic += answer.elastic;
+  energy.flows.friction += answer.friction;
+  energy.flows.dashpots += 0.5 * (history.dashpot + answer.dashpot) * k.closing_speed * dt;
+  history.normal = n;
+  history.plastic_slip += answer.plastic_slip;
+  history.dashpot = answer.dashpot;
+  history.area = k.area;
+  return answer.force;
+}
+
+}  // namespace
+
+template <int Dim>
+void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  state.energy.elastic = 0;
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    Contact<Dim>& c = state.contacts[i];
+    if (!c.touching()) continue;
+    const JointProperties& properties = model.properties[c.properties];
+    const PairMotion<Dim> motion = motion_of(model, state, c);
+    if (c.cells == 0) {
+      const double area = properties.constant_stiffness ? 1 : c.geometry.area;
+      c.force = joint_force(properties, settings, state, motion,
+                            {c.geometry.point, c.geometry.normal, c.geometry.overlap, area}, c.properties, c.history);
+      continue;
+    }
+    // each cell answers for itself; the contact keeps what they are together
+    double whole = 0;
+    for (const SubContact<Dim>& s : subs_of(state, i))
+      whole += s.area;
+    c.force.setZero();
+    c.history = {};
+    c.history.normal = c.geometry.normal;
+    c.history.area = properties.constant_stiffness ? 1 : whole;
+    for (SubContact<Dim>& s : subs_of(state, i)) {
+      if (!(s.area > 0)) continue;
+      const double area = properties.constant_stiffness ? s.area / whole : s.area;
+      s.force =
+          joint_force(properties, settings, state, motion,
+                      {s.point, c.geometry.normal, s.overlap, area, s.spread, s.area / whole}, c.properties, s.history);
+      c.force += s.force;
+      c.history.shear_force += s.history.shear_force;
+      c.history.plastic_slip += s.area / whole * s.history.plastic_slip;
+      c.history.dashpot += s.history.dashpot;
+    }
+  }
+}
+
+template void apply_joint_laws<2>(const Model<2>&, const Settings&, State<2>&);
+template void apply_joint_laws<3>(const Model<3>&, const Settings&, State<3>&);
+
+}  // namespace voussoir
