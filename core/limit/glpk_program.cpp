@@ -13,14 +13,14 @@ constexpr double simplex_tolerance = 1e-11;
 bool is_usable(const LinearProgram& program) {
   const auto finite = [](double value) { return std::isfinite(value); };
   return std::all_of(program.right_side.begin(), program.right_side.end(), finite) &&
-         std::all_of(program.columns.begin(), program.columns.end(), [&](const Column& column) {
+         std::all_of(program.columns.begin(), program.columns.end(), [&](const ProgramColumn& column) {
            return finite(column.cost) && !std::isnan(column.low) && !std::isnan(column.high) &&
                   std::all_of(column.entries.begin(), column.entries.end(),
                               [&](const auto& entry) { return finite(entry.second); });
          });
 }
 
-int bound_type(const Column& column) {
+int bound_type(const ProgramColumn& column) {
   const bool low = std::isfinite(column.low), high = std::isfinite(column.high);
   if (low && high) return column.low < column.high ? GLP_DB : GLP_FX;
   return low ? GLP_LO : high ? GLP_UP : GLP_FR;
@@ -38,7 +38,7 @@ GlpkProblem build(const LinearProgram& program) {
   std::vector<int> rows;
   std::vector<double> coefficients;
   for (std::size_t j = 0; j < program.columns.size(); ++j) {
-    const Column& column = program.columns[j];
+    const ProgramColumn& column = program.columns[j];
     rows.assign(1, 0);  // GLPK counts from 1
     coefficients.assign(1, 0);
     for (const auto& [row, coefficient] : column.entries) {

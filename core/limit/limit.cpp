@@ -47,13 +47,13 @@ double free_mass(const Model<2>& model) {
   return mass;
 }
 
-void add_entry(Column& column, int row, double value) {
+void add_entry(ProgramColumn& column, int row, double value) {
   if (row >= 0 && value != 0) column.entries.emplace_back(row, value);
 }
 
 // a force at a point: on body_b, and its opposite on body_a
 void add_force(const Model<2>& model, const Rows& rows, const Interface& face, const Vector<2>& point,
-               const Vector<2>& force, Column& column) {
+               const Vector<2>& force, ProgramColumn& column) {
   for (const int body : {face.body_a, face.body_b}) {
     const Vector<2> on_body = body == face.body_b ? force : Vector<2>(-force);
     const std::array<int, 3>& row = rows.of_body[body];
@@ -79,7 +79,7 @@ void add_ends(const Model<2>& model, const Rows& rows, const std::vector<Interfa
     const double c = std::cos(face.friction), s = std::sin(face.friction);
     const double adhesion = 0.5 * face.cohesion * face.length() / force_unit;
     for (const Vector<2>& end : face.ends) {
-      Column left{0, 0, infinity, {}}, right{0, 0, infinity, {}}, cohesive{0, -adhesion, adhesion, {}};
+      ProgramColumn left{0, 0, infinity, {}}, right{0, 0, infinity, {}}, cohesive{0, -adhesion, adhesion, {}};
       add_force(model, rows, face, end, c * face.normal + s * tangent, left);
       add_force(model, rows, face, end, c * face.normal - s * tangent, right);
       add_force(model, rows, face, end, tangent, cohesive);
@@ -198,7 +198,7 @@ LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>&
   }
 
   LinearProgram program = equilibrium(model, rows, interfaces, dead, force_unit);
-  Column factor{-1, 0, largest_factor, {}};
+  ProgramColumn factor{-1, 0, largest_factor, {}};
   for_each_load(model, rows, live, force_unit, [&](int row, double force) { add_entry(factor, row, force); });
   program.columns.push_back(factor);
   const ProgramSolution solution = solve(program);

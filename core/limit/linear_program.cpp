@@ -9,7 +9,7 @@ Certificate judge(const LinearProgram& program, const ProgramSolution& solution)
   Certificate certificate;
   std::vector<double> residual(program.right_side);
   for (std::size_t j = 0; j < program.columns.size(); ++j) {
-    const Column& column = program.columns[j];
+    const ProgramColumn& column = program.columns[j];
     const double x = solution.x[j];
     certificate.primal += column.cost * x;
     certificate.primal_violation = std::max({certificate.primal_violation, column.low - x, x - column.high});

@@ -7,7 +7,7 @@
 
 namespace voussoir {
 
-struct Column {
+struct ProgramColumn {
   double cost = 0;
   double low = 0, high = 0;                     // infinite where there is no bound
   std::vector<std::pair<int, double>> entries;  // row from 0, coefficient
@@ -16,7 +16,7 @@ struct Column {
 // min cost·x subject to A x = right_side, low <= x <= high
 struct LinearProgram {
   std::vector<double> right_side;
-  std::vector<Column> columns;
+  std::vector<ProgramColumn> columns;
 };
 
 enum class ProgramStatus { optimal, infeasible, unbounded, failed };
@@ -36,8 +36,8 @@ struct Certificate {
   double dual_violation = 0;    // largest reduced cost of the wrong sign in a column without a bound on that side
 };
 
-// By GLPK's simplex method; its word on optimality is not needed where a Certificate is asked. A number that is not finite
-// (except bounds) gives `failed`.
+// By GLPK's simplex method; its word on optimality is not needed where a Certificate is asked. A number that is not
+// finite (except bounds) gives `failed`.
 ProgramSolution solve(const LinearProgram& program);
 
 Certificate judge(const LinearProgram& program, const ProgramSolution& solution);
