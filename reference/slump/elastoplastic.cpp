@@ -13,8 +13,7 @@ constexpr double balanced = 1e-7;
 // it has collapsed when a corner has moved by this many times the elastic displacement under the whole height's weight
 constexpr double far_away = 30;
 constexpr int most_sweeps = 4'000'000;  // of one trial: a hundred times what those far from the critical angle take
-// of the critical damping of the softest mode, estimated as it goes
-constexpr double mass_reserve = 1.1;  // above the bound on the stiffest mode: slip and gaps never stiffen a spring
+constexpr double mass_reserve = 1.1;    // above the bound on the stiffest mode: slip and gaps never stiffen a spring
 
 struct Point {
   double x = 0, y = 0;
