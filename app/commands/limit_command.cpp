@@ -68,7 +68,8 @@ void print_mechanism(const LimitAnalysis& analysis) {
     const std::string centre =
         motion.centre ? fmt::format("({:.4g}, {:.4g})", (*motion.centre)[0], (*motion.centre)[1]) : "translates";
     line("", fmt::format("{:>6} {:>10.4g} {:>10.4g}  {:>9.4f} {:>9.4f} {:>7.2f} %  {}{}", motion.body, place[0],
-                         place[1], motion.speed, motion.turning, 100 * motion.rotation_share, centre, body.name.empty() ? "" : " " + body.name));
+                         place[1], motion.speed, motion.turning, 100 * motion.rotation_share, centre,
+                         body.name.empty() ? "" : " " + body.name));
   }
   line("", "speed of the centroid, turning of the farthest corner about it: of the fastest block their sum is 1");
 }
@@ -79,7 +80,7 @@ void print_analysis(const LimitAnalysis& analysis, const fs::path& folder) {
   line("sought", analysis.sought);
   print_values(analysis);
   line("proof",
-       fmt::format("gap between the bounds {:.2g}, forces out of balance {:.2g} of the weight, joints closed at "
+       fmt::format("gap between the bounds {:.2g}, forces out of balance {:.2g} of a block's weight, joints closed at "
                    "{:.2g} of the speed",
                    evidence.gap, evidence.out_of_balance, evidence.inadmissible));
   line("", fmt::format("{} linear programs over {} interfaces", evidence.programs, analysis.interfaces.size()));

@@ -59,7 +59,7 @@ void seek_friction(const std::vector<std::string>& properties, LimitAnalysis& an
   if (found.status == LimitStatus::found) {
     analysis.values.emplace_back("critical_friction",
                                  bracketed(found.collapses, found.stands, "bisection over linear programs"));
-    analysis.values.emplace_back("force_missing_below", Value{found.missing, "weight", {}, ""});
+    analysis.values.emplace_back("force_missing_below", Value{found.missing, "weight of a block", {}, ""});
   }
   if (found.status == LimitStatus::carries_any)
     analysis.message = "the blocks stand without friction in these joints: no angle is critical";

@@ -10,6 +10,9 @@ namespace {
 // of programs whose numbers are of order one; above the rounding of some thousand pivots
 constexpr double simplex_tolerance = 1e-11;
 
+// pivots by rows and columns; the simplex method takes one or two, and may turn in circles for ever
+constexpr int most_pivots = 100;
+
 bool is_usable(const LinearProgram& program) {
   const auto finite = [](double value) { return std::isfinite(value); };
   return std::all_of(program.right_side.begin(), program.right_side.end(), finite) &&
@@ -80,6 +83,7 @@ ProgramSolution solve(const LinearProgram& program) {
   glp_smcp control;
   glp_init_smcp(&control);
   control.msg_lev = GLP_MSG_OFF;
+  control.it_lim = most_pivots * (glp_get_num_rows(lp) + glp_get_num_cols(lp));
   control.tol_bnd = control.tol_dj = simplex_tolerance;
   solution.status = status_of(lp, glp_simplex(lp, &control));
 

@@ -28,7 +28,7 @@ struct BodyVelocity {
 
 // One limit state: forces that carry the load, and velocities at which it would be exceeded.
 struct LimitState {
-  std::vector<std::array<EndForce, 2>> forces;  // by interface
+  std::vector<std::array<EndForce, 2>> forces;  // by interface; empty where no forces carry the load
   std::vector<BodyVelocity> velocities;         // by body; zero for fixed ones; all zero where nothing collapses
 };
 
@@ -41,12 +41,11 @@ enum class LimitStatus {
   solver_failed     // GLPK gave up
 };
 
-// How well the result is proven, from our own sums over the program's numbers. Forces are relative to the weight of the
-// free bodies (moments also to each body's radius), powers to that weight at speed 1.
+// How well the result is proven, from our own sums over the program's numbers; GLPK's word is not needed.
 struct Evidence {
   double gap = 0;             // difference of the bounds from both sides
-  double out_of_balance = 0;  // the largest force that is missing on a body or outside a cone
-  double inadmissible = 0;    // the largest velocity by which the mechanism closes a joint
+  double out_of_balance = 0;  // largest force missing on a body, of its weight (a moment: of that times its radius)
+  double inadmissible = 0;    // largest velocity that closes a joint or works against its cone, of the fastest body's
   int programs = 0;           // linear programs solved
 };
 
@@ -65,9 +64,9 @@ LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>&
 struct CriticalFriction {
   LimitStatus status = LimitStatus::found;
   double collapses = 0, stands = 0;  // rad: the bracket
-  double missing = 0;  // at `collapses`: the forces that would have to be added to stand, a share of the weight
+  double missing = 0;  // at `collapses`: the least sum of added forces, of their bodies' weights, that would stand
   LimitState state;    // forces at `stands`, velocities at `collapses`
-  Evidence evidence;   // gap: of the share missing at `collapses`; out_of_balance at `stands`
+  Evidence evidence;   // gap: of what is missing at `collapses`; out_of_balance at `stands`
 };
 
 // The friction angle at which the model's gravity is just carried, by bisection over linear programs that ask for the

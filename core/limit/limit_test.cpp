@@ -177,6 +177,16 @@ TEST(CriticalFriction, IsSoughtForTheNamedPropertiesOnly) {
   EXPECT_THROW(find_critical_friction(model, faces, {"roc"}), std::out_of_range);
 }
 
+// a pebble on the same incline is found as well as the rock beside it, which stands
+TEST(CriticalFriction, IsThatOfTheLightestBlockToo) {
+  const double dip = 30 * degree;
+  const Model<2> model = model_of({{"plate", turned(box(-3, -1, 3, 0), dip), true},
+                                   {"pebble", turned(box(0, 0, 1e-3, 1e-3), dip)},
+                                   {"ground", box(-200, -200, 200, -100), true},
+                                   {"rock", box(-100, -100, 100, -50)}});
+  EXPECT_NEAR(critical_friction(model).stands, dip, bracket);
+}
+
 // a slender block topples whatever the friction, unless it cannot turn
 TEST(CriticalFriction, DoesNotHelpWhatTopples) {
   Model<2> model = block_on_plate(1, 4, 20 * degree);
