@@ -13,6 +13,10 @@ constexpr double simplex_tolerance = 1e-11;
 // pivots by rows and columns; the simplex method takes one or two, and may turn in circles for ever
 constexpr int most_pivots = 100;
 
+// A pivot is at least this share of the largest entry of its row. GLPK's own 0.1 left forces out of balance by 1e-5 in
+// a wall of 400 blocks and found the first basis of one of 900 singular; this costs no time that could be measured.
+constexpr double pivot_tolerance = 0.9;
+
 bool is_usable(const LinearProgram& program) {
   const auto finite = [](double value) { return std::isfinite(value); };
   return std::all_of(program.right_side.begin(), program.right_side.end(), finite) &&
@@ -79,6 +83,10 @@ ProgramSolution solve(const LinearProgram& program) {
   const GlpkProblem problem = build(program);
   glp_prob* lp = problem.get();
   glp_adv_basis(lp, 0);
+  glp_bfcp factorisation;
+  glp_get_bfcp(lp, &factorisation);
+  factorisation.piv_tol = pivot_tolerance;
+  glp_set_bfcp(lp, &factorisation);
 
   glp_smcp control;
   glp_init_smcp(&control);
