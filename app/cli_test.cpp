@@ -11,6 +11,13 @@ namespace {
 
 using namespace program;
 
+// what every build has goes by no name
+bool is_built_in(const std::string& part) {
+  for (const auto& [name, is_there] : features())
+    if (name == part) return is_there;
+  return true;
+}
+
 // ---- run ----------------------------------------------------------------------------------------------------------
 
 TEST_F(Program, RunWritesResultsThatOpen) {
@@ -135,9 +142,7 @@ TEST_F(Program, ExchangeablePartsAgreeOrSayThatTheyAreMissing) {
                                                          {"", "contact.point=centroid"},
                                                          {"", "contact.overlap=bracketing"}};
   for (const auto& [needs, choice] : choices) {
-    bool built_in = true;
-    for (const auto& [part, is_there] : features())
-      if (part == needs) built_in = is_there;
+    const bool built_in = is_built_in(needs);
     const std::string folder = choice.substr(choice.find('=') + 1);
     const Ended ended = run("run " + cubes_ + "--out " + folder + " --set " + choice);
     if (built_in) {
@@ -173,6 +178,34 @@ TEST_F(Program, SliceListsTheBlocks) {
   ASSERT_EQ(rows[1].substr(0, 3), "0,,");
   EXPECT_NEAR(std::stod(rows[1].substr(3)), 1, 1e-14);
   EXPECT_TRUE(fs::exists(folder_ / "out/blocks.vtp"));
+}
+
+TEST_F(Program, LimitAnswersProvesAndDraws) {
+  const std::string slump = "'" + (fs::path(VOUSSOIR_SOURCE_DIR) / "cases/slump/scene.toml").string() + "' ";
+  if (!is_built_in("glpk")) return expect_one_line(run("limit " + slump), 2, "-DVOUSSOIR_WITH_GLPK=ON");
+  const Ended ended = run("limit " + slump + "--out out");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  for (const char* part : {"critical_friction 15.335", "7 of 21 free blocks move", "associated flow", "gap between"})
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+  for (const char* name : {"limit.svg", "blocks.vtp", "mechanism.vtp", "forces.vtp"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+  const nlohmann::json json = results("out");
+  EXPECT_NEAR(json["values"]["critical_friction"]["value"].get<double>(), 15.335, 0.001);
+  EXPECT_EQ(json["mechanism"]["moving"].size(), 7u);
+  EXPECT_EQ(json["interfaces"].size(), 42u);
+  expect_one_line(run("limit " + slump + "--out out"), 2, "--overwrite");
+
+  // a load's factor, and questions that have no answer
+  const std::string weaker = slump + "--set joint_properties.rock.friction_deg=20 --overwrite --out out ";
+  EXPECT_EQ(run("limit " + weaker + "--load left").code, 0);
+  EXPECT_GT(results("out")["values"]["collapse_factor"]["value"], 0);
+  const Ended any = run("limit " + squares_ + "--out any");
+  EXPECT_EQ(any.code, 1);
+  EXPECT_NE(any.out.find("stand without friction"), std::string::npos) << any.out;
+  EXPECT_EQ(results("any")["status"], "incomplete");
+  expect_one_line(run("limit " + cubes_ + "--out bad"), 2, "dimension = 3");
+  expect_one_line(run("limit " + slump + "--friction roc --out bad"), 2, "there are: rock");
+  EXPECT_FALSE(fs::exists(folder_ / "bad"));
 }
 
 TEST_F(Program, DocsNameTheKeys) {

@@ -36,6 +36,10 @@ endforeach()
 voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_test.cpp
   LIBS voussoir_core ${outside_solvers} Boost::headers)
 
+if(TARGET voussoir_limit)
+  voussoir_test(unit.limit LABEL unit SOURCES limit/limit_test.cpp LIBS voussoir_limit)
+endif()
+
 # the exact referee: GPL, so a library of its own that only tests link
 add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exact_programs.cpp
   testing/exact_contacts.cpp)

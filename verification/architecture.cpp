@@ -26,7 +26,7 @@ const std::vector<std::vector<std::string>> layers{
     {"law"},
     {"optimise", "load", "support"},
     {"contact", "slicing", "model"},
-    {"state"},
+    {"state", "limit"},
     {"results", "scene"},
     {"motion", "monitor", "output"},
     {"stages", "state_hash"},

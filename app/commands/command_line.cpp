@@ -105,6 +105,29 @@ void add_slice(CLI::App& program, SliceArguments& arguments, Action& action) {
   command->callback([&] { action = [&] { return slice_command(arguments); }; });
 }
 
+void add_limit(CLI::App& program, LimitArguments& arguments, Action& action) {
+  CLI::App* command = program.add_subcommand(
+      "limit", "critical friction angle, or collapse load, of blocks in the plane by rigid-block limit analysis");
+  add_scene(command, arguments.scene);
+  command->add_option("--out", arguments.out, "folder of the results (default: results/<scene>_limit)");
+  CLI::Option* load =
+      command
+          ->add_option(
+              "--load", arguments.load,
+              "seek the factor of this load at the scene's friction: gravity, or an acceleration to the left or "
+              "right beside gravity (default: seek the critical friction under gravity)")
+          ->check(CLI::IsMember({"gravity", "left", "right"}));
+  command
+      ->add_option(
+          "--friction", arguments.properties,
+          "name of joint_properties whose critical friction is sought, the others keep theirs; may be repeated "
+          "(default: all)")
+      ->allow_extra_args(false)
+      ->excludes(load);
+  command->add_flag("--overwrite", arguments.overwrite, "replace the results that the folder holds");
+  command->callback([&] { action = [&] { return limit_command(arguments); }; });
+}
+
 void add_study(CLI::App& program, StudyArguments& arguments, Action& action) {
   CLI::App* command = program.add_subcommand("study", "run a scene with one setting changed at a time");
   command->add_option("plan", arguments.plan, "study.toml")->required();
@@ -175,11 +198,13 @@ int parse_and_act(int argument_count, char** arguments) {
   ResumeArguments resume;
   SceneArguments check;
   SliceArguments slice;
+  LimitArguments limit;
   StudyArguments study;
   add_run(program, run, action);
   add_resume(program, resume, action);
   add_check(program, check, action);
   add_slice(program, slice, action);
+  add_limit(program, limit, action);
   add_study(program, study, action);
   CLI::App* docs = program.add_subcommand("docs", "every key a scene may hold, as Markdown");
   docs->callback([&] { action = docs_command; });

@@ -52,6 +52,14 @@ struct SliceArguments {
   std::filesystem::path out;
 };
 
+struct LimitArguments {
+  SceneArguments scene;
+  std::filesystem::path out;            // empty: results/<name of the scene's file>_limit
+  std::string load;                     // gravity, left, right; empty: the critical friction is sought
+  std::vector<std::string> properties;  // whose friction is sought; none: all
+  bool overwrite = false;
+};
+
 struct StudyArguments {
   std::filesystem::path plan;
   std::filesystem::path out;
@@ -70,6 +78,10 @@ ExitCode check_command(const SceneArguments& arguments);
 
 // cuts the blocks and writes them with a table of their sizes
 ExitCode slice_command(const SliceArguments& arguments);
+
+// the collapse load or critical friction of a scene in the plane by rigid-block limit analysis, with its forces and
+// mechanism
+ExitCode limit_command(const LimitArguments& arguments);
 
 // runs a scene again and again with one setting changed at a time; writes study.csv
 ExitCode study_command(const StudyArguments& arguments);

@@ -1,31 +1,16 @@
 #include "core/optimise/glpk.hpp"
 
-#include <glpk.h>
-
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <memory>
+
+#include "core/optimise/glpk_environment.hpp"
 
 namespace voussoir {
 namespace {
 
 // of the scaled problem, whose offsets are at most 1; well above the rounding of a few pivots
 constexpr double simplex_tolerance = 1e-10;
-
-// GLPK keeps one environment per thread and frees it only when told
-struct Environment {
-  Environment() {
-    glp_init_env();
-    glp_term_out(GLP_OFF);
-  }
-  ~Environment() { glp_free_env(); }
-};
-
-struct DeleteProblem {
-  void operator()(glp_prob* problem) const { glp_delete_prob(problem); }
-};
-using Problem = std::unique_ptr<glp_prob, DeleteProblem>;
 
 template <int Dim>
 bool all_finite(const HalfSpaces<Dim>& planes) {
@@ -45,8 +30,8 @@ double length_scale(const HalfSpaces<Dim>& planes) {
 
 // min s subject to a_i·x - s <= d_i; columns 1..Dim are x, column Dim+1 is s, all free
 template <int Dim>
-Problem build(const HalfSpaces<Dim>& planes, double scale) {
-  Problem problem(glp_create_prob());
+GlpkProblem build(const HalfSpaces<Dim>& planes, double scale) {
+  GlpkProblem problem(glp_create_prob());
   glp_prob* lp = problem.get();
   glp_set_obj_dir(lp, GLP_MIN);
   glp_add_cols(lp, Dim + 1);
@@ -120,10 +105,10 @@ FeasibilityResult<Dim> solve_feasibility_glpk(const HalfSpaces<Dim>& planes, con
   FeasibilityResult<Dim> result;
   result.basis.fill(-1);
   if (!all_finite(planes)) return result;
-  static thread_local Environment environment;
+  static thread_local GlpkEnvironment environment;
 
   const double scale = length_scale(planes);
-  const Problem problem = build(planes, scale);
+  const GlpkProblem problem = build(planes, scale);
   glp_prob* lp = problem.get();
 
   set_start(lp, planes);

@@ -1,0 +1,42 @@
+// Limit analysis of a scene: from the loaded scene to an answer in words and numbers, without files. Cases call it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/run_scene.hpp"
+#include "core/limit/mechanism.hpp"
+#include "core/results.hpp"
+
+namespace voussoir {
+
+enum class LimitLoad { gravity, left, right };
+
+struct LimitRequest {
+  std::optional<LimitLoad> load;        // whose factor is sought; none: the critical friction under gravity
+  std::vector<std::string> properties;  // whose friction is sought; none: all
+};
+
+struct LimitAnalysis {
+  std::string title, input_hash;
+  Model<2> model;
+  std::vector<Interface> interfaces;
+  std::string sought;  // "critical friction angle of all joints", …
+  LimitStatus status = LimitStatus::found;
+  std::string message;  // why nothing was found, and what helps; empty where something was
+  std::vector<std::pair<std::string, Value>> values;
+  LimitState state;
+  Evidence evidence;
+  Mechanism mechanism;
+  std::vector<std::string> warnings;
+};
+
+// printed with every answer
+extern const char* const associated_flow_caveat;
+
+// Throws BadInput where there is nothing to analyse: a scene in space, no free block, no gravity, an unknown name.
+LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& request = {});
+
+}  // namespace voussoir

@@ -1,0 +1,200 @@
+#include "app/limit/limit_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/output/atomic_file.hpp"
+#include "core/output/paraview.hpp"
+
+namespace voussoir {
+namespace {
+
+// ---- what both the figure and ParaView show ------------------------------------------------------------------------
+
+constexpr double drawn_motion = 0.08;  // of the picture's larger side: how far the fastest block is moved
+constexpr double drawn_force = 0.12;   // of it: the length of the largest force
+constexpr double drawn_margin = 0.08;  // of it: what is seen around the free blocks
+
+struct Frame {
+  Vector<2> low, high;  // m, model coordinates
+  double extent() const { return (high - low).maxCoeff(); }
+};
+
+Frame frame_of(const Model<2>& model) {
+  Frame frame{Vector<2>::Constant(1e300), Vector<2>::Constant(-1e300)};
+  for (const Body<2>& body : model.bodies) {
+    if (body.fixed || !body.present) continue;
+    for (const Polytope<2>& part : body.parts)
+      for (const Vector<2>& vertex : part.vertices) {
+        frame.low = frame.low.cwiseMin(body.reference + vertex);
+        frame.high = frame.high.cwiseMax(body.reference + vertex);
+      }
+  }
+  const Vector<2> margin = Vector<2>::Constant(drawn_margin * frame.extent());
+  return {frame.low - margin, frame.high + margin};
+}
+
+bool moves(const LimitAnalysis& analysis, int body) {
+  const auto& moving = analysis.mechanism.moving;
+  return std::any_of(moving.begin(), moving.end(), [&](const BlockMotion& m) { return m.body == body; });
+}
+
+// the force on body_b at an end, N
+Vector<2> force_at(const LimitAnalysis& analysis, std::size_t i, std::size_t k) {
+  const Vector<2>& n = analysis.interfaces[i].normal;
+  const EndForce& force = analysis.state.forces[i][k];
+  return force.normal * n + force.shear * Vector<2>(-n[1], n[0]);
+}
+
+// ---- the figure ----------------------------------------------------------------------------------------------------
+
+constexpr double picture_width = 370, gap = 20, caption_height = 28;  // px
+
+class Picture {
+ public:
+  Picture(const Frame& frame, int place) : frame_(frame), left_(place * (picture_width + gap)) {
+    scale_ = picture_width / (frame.high[0] - frame.low[0]);
+  }
+  static double height(const Frame& frame) {
+    return picture_width * (frame.high[1] - frame.low[1]) / (frame.high[0] - frame.low[0]);
+  }
+  void begin(const std::string& caption) {
+    const int number = left_ > 0;
+    text += fmt::format(
+        "<clipPath id=\"frame{}\"><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"/>"
+        "</clipPath>\n<text x=\"{:.2f}\" y=\"18\">{}</text>\n<g clip-path=\"url(#frame{})\">\n",
+        number, left_, caption_height, picture_width, height(frame_), left_, caption, number);
+  }
+  void end() { text += "</g>\n"; }
+  std::string at(const Vector<2>& p) const {
+    return fmt::format("{:.2f},{:.2f}", left_ + (p[0] - frame_.low[0]) * scale_,
+                       caption_height + (frame_.high[1] - p[1]) * scale_);
+  }
+  void polygon(const Polytope<2>& part, const Vector<2>& place, const Matrix<2>& turn, const char* style) {
+    // counter-clockwise about the part's own middle, which every corner sees in turn
+    std::vector<Vector<2>> corners(part.vertices);
+    std::sort(corners.begin(), corners.end(), [&](const Vector<2>& a, const Vector<2>& b) {
+      const Vector<2> p = a - part.centre, q = b - part.centre;
+      return std::atan2(p[1], p[0]) < std::atan2(q[1], q[0]);
+    });
+    text += "<polygon points=\"";
+    for (const Vector<2>& corner : corners)
+      text += at(place + turn * corner) + " ";
+    text += fmt::format("\" {}/>\n", style);
+  }
+  void line(const Vector<2>& from, const Vector<2>& to) {
+    text += fmt::format("<polyline points=\"{} {}\"/>\n", at(from), at(to));
+  }
+  std::string text;
+
+ private:
+  Frame frame_;
+  double left_, scale_;
+};
+
+constexpr const char* fixed_style = "fill=\"#e2e2e2\" stroke=\"#909090\"";
+constexpr const char* free_style = "fill=\"#ffffff\" stroke=\"#606060\"";
+constexpr const char* moved_style = "fill=\"#d55e00\" fill-opacity=\"0.25\" stroke=\"#d55e00\"";
+constexpr const char* left_style = "fill=\"none\" stroke=\"#909090\" stroke-dasharray=\"3 3\"";
+
+void draw_forces(const LimitAnalysis& analysis, const Frame& frame, Picture& picture) {
+  for (const Body<2>& body : analysis.model.bodies)
+    for (const Polytope<2>& part : body.parts)
+      if (body.present)
+        picture.polygon(part, body.reference, Matrix<2>::Identity(), body.fixed ? fixed_style : free_style);
+  double largest = 0;
+  for (std::size_t i = 0; i < analysis.state.forces.size(); ++i)
+    for (std::size_t k = 0; k < 2; ++k)
+      largest = std::max(largest, force_at(analysis, i, k).norm());
+  if (largest == 0) return;
+  picture.text += "<g fill=\"none\" stroke=\"#0072b2\" stroke-width=\"2\">\n";
+  for (std::size_t i = 0; i < analysis.state.forces.size(); ++i)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Vector<2> half = 0.5 * drawn_force * frame.extent() / largest * force_at(analysis, i, k);
+      const Vector<2>& end = analysis.interfaces[i].ends[k];
+      if (half.norm() > 0) picture.line(end - half, end + half);
+    }
+  picture.text += "</g>\n";
+}
+
+void draw_mechanism(const LimitAnalysis& analysis, const Frame& frame, Picture& picture) {
+  const double far = drawn_motion * frame.extent();
+  for (const bool moving : {false, true})  // what moves is drawn over what rests
+    for (std::size_t b = 0; b < analysis.model.bodies.size(); ++b) {
+      const Body<2>& body = analysis.model.bodies[b];
+      if (!body.present || moves(analysis, static_cast<int>(b)) != moving) continue;
+      for (const Polytope<2>& part : body.parts) {
+        const char* rest_style = body.fixed ? fixed_style : moving ? left_style : free_style;
+        picture.polygon(part, body.reference, Matrix<2>::Identity(), rest_style);
+        if (!moving) continue;
+        const BodyVelocity& v = analysis.state.velocities[b];
+        picture.polygon(part, body.reference + far * v.velocity, matrix(Rotation<2>{far * v.spin}), moved_style);
+      }
+    }
+}
+
+// ---- ParaView ------------------------------------------------------------------------------------------------------
+
+State<2> moved_along(const LimitAnalysis& analysis, double distance) {
+  State<2> state = initial_state<2>(analysis.model);
+  for (std::size_t b = 0; b < analysis.state.velocities.size(); ++b) {
+    const BodyVelocity& v = analysis.state.velocities[b];
+    state.motions[b].displacement = distance * v.velocity;
+    state.motions[b].rotation.angle = distance * v.spin;
+    state.motions[b].velocity = v.velocity;
+  }
+  return state;
+}
+
+PolyData force_points(const LimitAnalysis& analysis) {
+  PolyData data;
+  data.kind = PolyData::Cells::vertices;
+  DataArray body_a{"body_a", 1, true, {}}, body_b{"body_b", 1, true, {}}, normal{"normal", 3, false, {}},
+      force{"force", 3, false, {}};
+  for (std::size_t i = 0; i < analysis.state.forces.size(); ++i)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Interface& face = analysis.interfaces[i];
+      const Vector<2> place = analysis.model.origin + face.ends[k], on_b = force_at(analysis, i, k);
+      data.cells.push_back({static_cast<int>(data.points.size())});
+      data.points.push_back({place[0], place[1], 0});
+      body_a.values.push_back(face.body_a);
+      body_b.values.push_back(face.body_b);
+      normal.values.insert(normal.values.end(), {face.normal[0], face.normal[1], 0});
+      force.values.insert(force.values.end(), {on_b[0], on_b[1], 0});
+    }
+  data.point_data = {body_a, body_b, normal, force};
+  return data;
+}
+
+}  // namespace
+
+std::string limit_svg(const LimitAnalysis& analysis) {
+  const Frame frame = frame_of(analysis.model);
+  Picture forces(frame, 0), mechanism(frame, 1);
+  forces.begin("forces at the joints' ends");
+  draw_forces(analysis, frame, forces);
+  forces.end();
+  mechanism.begin(analysis.mechanism.moving.empty() ? "no mechanism" : "mechanism, associated flow");
+  draw_mechanism(analysis, frame, mechanism);
+  mechanism.end();
+  const double width = 2 * picture_width + gap, height = caption_height + Picture::height(frame);
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.2f} {1:.2f}\" width=\"{0:.2f}\" "
+             "height=\"{1:.2f}\" font-family=\"DejaVu Sans,Helvetica,Arial,sans-serif\" font-size=\"13\" "
+             "fill=\"#202020\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
+             width, height) +
+         forces.text + mechanism.text + "</svg>\n";
+}
+
+void write_limit_files(const LimitAnalysis& analysis, const std::filesystem::path& folder) {
+  const double far = drawn_motion * frame_of(analysis.model).extent();
+  write_file(folder / "limit.svg", limit_svg(analysis));
+  write_file(folder / "blocks.vtp", vtp(block_faces<2>(analysis.model, moved_along(analysis, 0), 0)));
+  write_file(folder / "mechanism.vtp", vtp(block_faces<2>(analysis.model, moved_along(analysis, far), 0)));
+  write_file(folder / "forces.vtp", vtp(force_points(analysis)));
+  write_file(folder / "results.json", limit_json(analysis));  // last: where it is, the rest is complete
+}
+
+}  // namespace voussoir

@@ -1,0 +1,22 @@
+// What `voussoir limit` leaves behind: results.json, a figure, and files for ParaView.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/limit/limit_analysis.hpp"
+
+namespace voussoir {
+
+// the answer with its evidence, the mechanism by block and the forces by interface, as JSON
+std::string limit_json(const LimitAnalysis& analysis);
+
+// Two pictures side by side as SVG: the forces of the limit state at the ends of the interfaces, and the mechanism. The
+// free blocks fill them; longer lines are larger forces.
+std::string limit_svg(const LimitAnalysis& analysis);
+
+// results.json, limit.svg, blocks.vtp (velocity of the mechanism), mechanism.vtp (the blocks moved along it),
+// forces.vtp. Throws OutputError.
+void write_limit_files(const LimitAnalysis& analysis, const std::filesystem::path& folder);
+
+}  // namespace voussoir

@@ -1,0 +1,91 @@
+#include <nlohmann/json.hpp>
+
+#include "app/limit/limit_files.hpp"
+#include "core/output/version.hpp"
+
+namespace voussoir {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point(const Vector<2>& p) {
+  return {p[0], p[1]};
+}
+
+Json values_json(const LimitAnalysis& analysis) {
+  Json values = Json::object();
+  for (const auto& [name, value] : analysis.values) {
+    values[name] = {{"value", value.value}, {"unit", value.unit}};
+    if (value.error_bar) values[name]["error_bar"] = *value.error_bar;
+    if (!value.rule.empty()) values[name]["rule"] = value.rule;
+  }
+  return values;
+}
+
+Json mechanism_json(const LimitAnalysis& analysis) {
+  Json blocks = Json::array();
+  for (const BlockMotion& motion : analysis.mechanism.moving) {
+    const Body<2>& body = analysis.model.bodies[motion.body];
+    const BodyVelocity& v = analysis.state.velocities[motion.body];
+    blocks.push_back({{"body", motion.body},
+                      {"name", body.name},
+                      {"centroid_m", point(analysis.model.origin + body.reference)},
+                      {"velocity", point(v.velocity)},
+                      {"spin_per_m", v.spin},
+                      {"rotation_share", motion.rotation_share},
+                      {"centre_m", motion.centre ? point(*motion.centre) : Json()}});
+  }
+  return {{"rotation_share", analysis.mechanism.rotation_share},
+          {"turning", analysis.mechanism.turning},
+          {"moving", blocks}};
+}
+
+Json interfaces_json(const LimitAnalysis& analysis) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < analysis.interfaces.size(); ++i) {
+    const Interface& face = analysis.interfaces[i];
+    Json entry = {{"bodies", {face.body_a, face.body_b}},
+                  {"properties", analysis.model.properties[face.properties].name},
+                  {"normal", point(face.normal)},
+                  {"ends", Json::array()}};
+    for (std::size_t k = 0; k < 2; ++k) {
+      Json end = {{"point_m", point(analysis.model.origin + face.ends[k])}};
+      if (!analysis.state.forces.empty()) {
+        end["normal_N"] = analysis.state.forces[i][k].normal;
+        end["shear_N"] = analysis.state.forces[i][k].shear;
+      }
+      entry["ends"].push_back(end);
+    }
+    list.push_back(entry);
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string limit_json(const LimitAnalysis& analysis) {
+  const Evidence& evidence = analysis.evidence;
+  Json json;
+  json["schema"] = "voussoir.limit";
+  json["schema_version"] = 1;
+  json["title"] = analysis.title;
+  json["input_hash"] = analysis.input_hash;
+  json["warnings"] = analysis.warnings;
+  json["program"] = {{"version", version()}, {"commit", commit()}, {"compiler", compiler()}};
+  json["sought"] = analysis.sought;
+  json["status"] = analysis.status == LimitStatus::found           ? "done"
+                   : analysis.status == LimitStatus::solver_failed ? "failed"
+                                                                   : "incomplete";
+  json["message"] = analysis.message;
+  json["caveat"] = associated_flow_caveat;
+  json["values"] = values_json(analysis);
+  json["evidence"] = {{"gap", evidence.gap},
+                      {"out_of_balance", evidence.out_of_balance},
+                      {"inadmissible", evidence.inadmissible},
+                      {"linear_programs", evidence.programs}};
+  json["mechanism"] = mechanism_json(analysis);
+  json["interfaces"] = interfaces_json(analysis);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace voussoir

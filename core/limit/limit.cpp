@@ -1,0 +1,289 @@
+#include "core/limit/limit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace voussoir {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr double largest_factor = 1e6;                // what carries more, carries any
+constexpr double least_friction = 0;                  // of the bisection
+constexpr double largest_friction = 89 * degree;      // beyond it a cone is a half-plane
+constexpr double friction_tolerance = 1e-6 * degree;  // width of the bracket
+constexpr double balanced = 1e-10;  // of a body's weight: ten times what the solver's tolerance may leave
+
+// The rows of the program are the balance of every free freedom, each divided by its body's own weight (moments by its
+// radius too): a small block that falls is seen as well as a large one.
+struct Rows {
+  std::vector<std::array<int, 3>> of_body;  // x, y, moment; -1: held
+  std::vector<double> weight, lever;        // by body: N, m
+  double acceleration = 0;                  // m/s², that makes the weight
+  int count = 0;
+};
+
+Rows number_rows(const Model<2>& model, double acceleration) {
+  Rows rows;
+  rows.acceleration = acceleration;
+  for (const Body<2>& body : model.bodies) {
+    std::array<int, 3> of{-1, -1, -1};
+    if (body.present && !body.fixed) {
+      for (int k = 0; k < 2; ++k)
+        if (body.free_translation[k]) of[k] = rows.count++;
+      if (body.free_rotation[0]) of[2] = rows.count++;
+    }
+    rows.of_body.push_back(of);
+    rows.weight.push_back(body.fixed ? infinity : body.mass * acceleration);
+    rows.lever.push_back(body.radius);
+  }
+  return rows;
+}
+
+// Forces between two bodies are counted in the lighter one's weight, N: no coefficient of the program exceeds 1.
+double force_unit(const Rows& rows, const Interface& face) {
+  return std::min(rows.weight[face.body_a], rows.weight[face.body_b]);
+}
+
+void add_entry(ProgramColumn& column, int row, double value) {
+  if (row >= 0 && value != 0) column.entries.emplace_back(row, value);
+}
+
+// a force at a point: on body_b, and its opposite on body_a
+void add_force(const Model<2>& model, const Rows& rows, const Interface& face, const Vector<2>& point,
+               const Vector<2>& force, ProgramColumn& column) {
+  for (const int body : {face.body_a, face.body_b}) {
+    if (model.bodies[body].fixed) continue;
+    const Vector<2> on_body = body == face.body_b ? force : Vector<2>(-force);
+    const std::array<int, 3>& row = rows.of_body[body];
+    const double share = force_unit(rows, face) / rows.weight[body];
+    add_entry(column, row[0], share * on_body[0]);
+    add_entry(column, row[1], share * on_body[1]);
+    const Vector<2> arm = point - model.bodies[body].reference;
+    add_entry(column, row[2], share * moment(arm, on_body)[0] / rows.lever[body]);
+  }
+}
+
+Vector<2> tangent_of(const Interface& face) {
+  return {-face.normal[1], face.normal[0]};
+}
+
+// Three columns for every end of every interface: the two sides of the cone, and what cohesion adds to the shear. The
+// sides are unit forces, so that a friction angle near 90 degrees is an angle like any other.
+constexpr std::size_t columns_of_an_end = 3;
+
+void add_ends(const Model<2>& model, const Rows& rows, const std::vector<Interface>& interfaces,
+              LinearProgram& program) {
+  for (const Interface& face : interfaces) {
+    const Vector<2> tangent = tangent_of(face);
+    const double c = std::cos(face.friction), s = std::sin(face.friction);
+    const double adhesion = 0.5 * face.cohesion * face.length() / force_unit(rows, face);
+    for (const Vector<2>& end : face.ends) {
+      ProgramColumn left{0, 0, infinity, {}}, right{0, 0, infinity, {}}, cohesive{0, -adhesion, adhesion, {}};
+      add_force(model, rows, face, end, c * face.normal + s * tangent, left);
+      add_force(model, rows, face, end, c * face.normal - s * tangent, right);
+      add_force(model, rows, face, end, tangent, cohesive);
+      program.columns.insert(program.columns.end(), {left, right, cohesive});
+    }
+  }
+}
+
+// the force of an acceleration on every body, as a share of its weight
+void for_each_load(const Rows& rows, const Vector<2>& acceleration, const auto& use) {
+  for (const std::array<int, 3>& row : rows.of_body)
+    for (int k = 0; k < 2; ++k)
+      if (row[k] >= 0) use(row[k], acceleration[k] / rows.acceleration);
+}
+
+std::vector<std::array<EndForce, 2>> read_forces(const Rows& rows, const std::vector<Interface>& interfaces,
+                                                 const std::vector<double>& x) {
+  std::vector<std::array<EndForce, 2>> forces(interfaces.size());
+  auto value = x.begin();
+  for (std::size_t i = 0; i < interfaces.size(); ++i)
+    for (EndForce& end : forces[i]) {
+      const double unit = force_unit(rows, interfaces[i]), friction = interfaces[i].friction;
+      end.normal = unit * std::cos(friction) * (value[0] + value[1]);
+      end.shear = unit * (std::sin(friction) * (value[0] - value[1]) + value[2]);
+      value += columns_of_an_end;
+    }
+  return forces;
+}
+
+// The multipliers as velocities: a column that may grow has no negative reduced cost, that is, no force within its cone
+// takes power from an opening joint; so the velocities are the multipliers' opposite, by each row's weight.
+std::vector<BodyVelocity> read_velocities(const Rows& rows, const std::vector<double>& y) {
+  std::vector<BodyVelocity> velocities(rows.of_body.size());
+  double fastest = 0;
+  for (std::size_t b = 0; b < velocities.size(); ++b) {
+    const std::array<int, 3>& row = rows.of_body[b];
+    const auto of = [&](int k) { return row[k] >= 0 ? -y[row[k]] / rows.weight[b] : 0.0; };
+    velocities[b] = {{of(0), of(1)}, of(2) / rows.lever[b]};
+    fastest = std::max(fastest, velocities[b].velocity.norm() + std::abs(of(2)));
+  }
+  if (fastest > 0)
+    for (BodyVelocity& v : velocities)
+      v = {v.velocity / fastest, v.spin / fastest};
+  return velocities;
+}
+
+// the largest velocity at an end of an interface against a side of its cone
+double find_inadmissible(const Model<2>& model, const std::vector<Interface>& interfaces,
+                         const std::vector<BodyVelocity>& velocities) {
+  double largest = 0;
+  for (const Interface& face : interfaces)
+    for (const Vector<2>& end : face.ends) {
+      const auto velocity = [&](int body) {
+        const BodyVelocity& v = velocities[body];
+        return Vector<2>(v.velocity + cross(Spin<2>(v.spin), end - model.bodies[body].reference));
+      };
+      const Vector<2> opening = velocity(face.body_b) - velocity(face.body_a);
+      const double slip = std::abs(opening.dot(tangent_of(face)));
+      largest = std::max(largest, std::sin(face.friction) * slip - std::cos(face.friction) * opening.dot(face.normal));
+    }
+  return largest;
+}
+
+// the equilibrium of all bodies under a dead acceleration
+LinearProgram equilibrium(const Model<2>& model, const Rows& rows, const std::vector<Interface>& interfaces,
+                          const Vector<2>& dead) {
+  LinearProgram program;
+  program.right_side.assign(rows.count, 0);
+  add_ends(model, rows, interfaces, program);
+  for_each_load(rows, dead, [&](int row, double share) { program.right_side[row] = -share; });
+  return program;
+}
+
+// the least sum of forces that must be added for equilibrium, each as a share of its body's weight
+struct Margin {
+  ProgramSolution solution;
+  Certificate certificate;
+};
+
+Margin find_margin(const Model<2>& model, const Rows& rows, const std::vector<Interface>& interfaces,
+                   const Vector<2>& dead) {
+  LinearProgram program = equilibrium(model, rows, interfaces, dead);
+  for (int row = 0; row < rows.count; ++row)
+    for (const double sign : {1.0, -1.0})
+      program.columns.push_back({1, 0, infinity, {{row, sign}}});
+  Margin margin{solve(program), {}};
+  if (margin.solution.status == ProgramStatus::optimal) margin.certificate = judge(program, margin.solution);
+  return margin;
+}
+
+bool stands(const Margin& margin) {
+  return margin.certificate.primal <= balanced;
+}
+
+void set_friction(std::vector<Interface>& interfaces, const std::vector<bool>& chosen, double friction) {
+  for (Interface& face : interfaces)
+    if (chosen[face.properties]) face.friction = friction;
+}
+
+std::vector<bool> choose(const Model<2>& model, const std::vector<std::string>& names) {
+  std::vector<bool> chosen(model.properties.size(), names.empty());
+  for (const std::string& name : names) {
+    const auto at = std::find_if(model.properties.begin(), model.properties.end(),
+                                 [&](const JointProperties& p) { return p.name == name; });
+    if (at == model.properties.end()) throw std::out_of_range(name);
+    chosen[at - model.properties.begin()] = true;
+  }
+  return chosen;
+}
+
+}  // namespace
+
+LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Vector<2>& dead,
+                            const Vector<2>& live) {
+  LoadFactor result;
+  const Rows rows = number_rows(model, std::max(dead.norm(), live.norm()));
+  if (rows.count == 0) return result.status = LimitStatus::nothing_free, result;
+  if (live.norm() == 0) return result.status = LimitStatus::no_load, result;
+
+  // the dead load first: without it there is no factor to look for
+  if (dead.norm() > 0) {
+    const Margin margin = find_margin(model, rows, interfaces, dead);
+    ++result.evidence.programs;
+    if (margin.solution.status != ProgramStatus::optimal) return result.status = LimitStatus::solver_failed, result;
+    if (!stands(margin)) {
+      result.status = LimitStatus::carries_nothing;
+      result.state.velocities = read_velocities(rows, margin.solution.y);
+      return result;
+    }
+  }
+
+  LinearProgram program = equilibrium(model, rows, interfaces, dead);
+  ProgramColumn factor{-1, 0, largest_factor, {}};
+  for_each_load(rows, live, [&](int row, double share) { add_entry(factor, row, share); });
+  program.columns.push_back(factor);
+  const ProgramSolution solution = solve(program);
+  ++result.evidence.programs;
+  if (solution.status != ProgramStatus::optimal) return result.status = LimitStatus::solver_failed, result;
+
+  const Certificate certificate = judge(program, solution);
+  result.factor = solution.x.back();
+  if (result.factor >= largest_factor) result.status = LimitStatus::carries_any;
+  result.state = {read_forces(rows, interfaces, solution.x), read_velocities(rows, solution.y)};
+  result.evidence.gap = std::abs(certificate.primal - certificate.dual) / std::max(1.0, std::abs(certificate.primal));
+  result.evidence.out_of_balance = certificate.primal_violation;
+  result.evidence.inadmissible = find_inadmissible(model, interfaces, result.state.velocities);
+  return result;
+}
+
+CriticalFriction find_critical_friction(const Model<2>& model, const std::vector<Interface>& interfaces,
+                                        const std::vector<std::string>& properties) {
+  CriticalFriction result;
+  const std::vector<bool> chosen = choose(model, properties);
+  const Rows rows = number_rows(model, model.gravity.norm());
+  if (rows.count == 0) return result.status = LimitStatus::nothing_free, result;
+  if (rows.acceleration == 0) return result.status = LimitStatus::no_load, result;
+
+  std::vector<Interface> trial = interfaces;
+  const auto at = [&](double friction) {
+    set_friction(trial, chosen, friction);
+    ++result.evidence.programs;
+    return find_margin(model, rows, trial, model.gravity);
+  };
+  const auto keep_standing = [&](double friction, const Margin& margin) {
+    result.stands = friction;
+    result.state.forces = read_forces(rows, trial, margin.solution.x);
+    result.evidence.out_of_balance = std::max(margin.certificate.primal, margin.certificate.primal_violation);
+  };
+  const auto keep_collapsing = [&](double friction, const Margin& margin) {
+    result.collapses = friction;
+    result.missing = margin.certificate.dual;
+    result.state.velocities = read_velocities(rows, margin.solution.y);
+    result.evidence.gap = std::abs(margin.certificate.primal - margin.certificate.dual);
+    result.evidence.inadmissible = find_inadmissible(model, trial, result.state.velocities);
+  };
+  const auto failed = [&](const Margin& margin) { return margin.solution.status != ProgramStatus::optimal; };
+
+  // the ends of the range
+  const Margin slippery = at(least_friction);
+  if (failed(slippery)) return result.status = LimitStatus::solver_failed, result;
+  if (stands(slippery)) {
+    keep_standing(least_friction, slippery);
+    return result.status = LimitStatus::carries_any, result;
+  }
+  keep_collapsing(least_friction, slippery);
+  const Margin rough = at(largest_friction);
+  if (failed(rough)) return result.status = LimitStatus::solver_failed, result;
+  if (!stands(rough)) {
+    keep_collapsing(largest_friction, rough);
+    return result.status = LimitStatus::carries_nothing, result;
+  }
+  keep_standing(largest_friction, rough);
+
+  while (result.stands - result.collapses > friction_tolerance) {
+    const double middle = 0.5 * (result.collapses + result.stands);
+    const Margin margin = at(middle);
+    if (failed(margin)) return result.status = LimitStatus::solver_failed, result;
+    stands(margin) ? keep_standing(middle, margin) : keep_collapsing(middle, margin);
+  }
+  return result;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,78 @@
+// Rigid-block limit analysis of a 2-D assembly (Livesley 1978): blocks are rigid, a joint carries normal and shear
+// forces at the two ends of every interface, within Coulomb's cone and without tension. An equilibrium within the cone
+// is a lower bound of what is carried; the multipliers of the same linear program are the velocities of a mechanism.
+// The mechanism opens a joint by tan(friction) of its slip (associated flow), so that the result is an upper bound of
+// the strength of blocks that slip without opening: where blocks topple it may be several degrees unsafe.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/limit/interfaces.hpp"
+#include "core/limit/linear_program.hpp"
+
+namespace voussoir {
+
+// the force at one end of an interface, on body_b
+struct EndForce {
+  double normal = 0;  // N (per metre of thickness), pressure positive
+  double shear = 0;   // N, along the normal turned by a right angle, counter-clockwise
+};
+
+// velocities of a mechanism: only their ratios mean something. Of the fastest body, the speed of the centroid plus that
+// of the farthest corner about it is 1.
+struct BodyVelocity {
+  Vector<2> velocity = Vector<2>::Zero();  // of the centroid
+  double spin = 0;                         // 1/m, counter-clockwise
+};
+
+// One limit state: forces that carry the load, and velocities at which it would be exceeded.
+struct LimitState {
+  std::vector<std::array<EndForce, 2>> forces;  // by interface; empty where no forces carry the load
+  std::vector<BodyVelocity> velocities;         // by body; zero for fixed ones; all zero where nothing collapses
+};
+
+enum class LimitStatus {
+  found,
+  nothing_free,     // no body has a freedom
+  no_load,          // the load, or gravity, is zero
+  carries_any,      // stands at every factor up to 1e6; or without any friction
+  carries_nothing,  // the dead load alone is not carried; or no friction up to 89 degrees is enough
+  solver_failed     // GLPK gave up
+};
+
+// How well the result is proven, from our own sums over the program's numbers; GLPK's word is not needed.
+struct Evidence {
+  double gap = 0;             // difference of the bounds from both sides
+  double out_of_balance = 0;  // largest force missing on a body, of its weight (a moment: of that times its radius)
+  double inadmissible = 0;    // largest velocity that closes a joint or works against its cone, of the fastest body's
+  int programs = 0;           // linear programs solved
+};
+
+struct LoadFactor {
+  LimitStatus status = LimitStatus::found;
+  double factor = 0;  // of the live load
+  LimitState state;
+  Evidence evidence;
+};
+
+// The largest factor of the live acceleration (m/s², on every body's mass) that is carried together with the dead one,
+// at the friction and cohesion of the interfaces. The gap is that of the factor, relative to the larger of 1 and it.
+LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Vector<2>& dead,
+                            const Vector<2>& live);
+
+struct CriticalFriction {
+  LimitStatus status = LimitStatus::found;
+  double collapses = 0, stands = 0;  // rad: the bracket
+  double missing = 0;  // at `collapses`: the least sum of added forces, of their bodies' weights, that would stand
+  LimitState state;    // forces at `stands`, velocities at `collapses`
+  Evidence evidence;   // gap: of what is missing at `collapses`; out_of_balance at `stands`
+};
+
+// The friction angle at which the model's gravity is just carried, by bisection over linear programs that ask for the
+// least force to be added, to 1e-6 degrees. Interfaces whose properties are named all take it, the others keep theirs;
+// no name: all. Unknown names throw std::out_of_range with the name.
+CriticalFriction find_critical_friction(const Model<2>& model, const std::vector<Interface>& interfaces,
+                                        const std::vector<std::string>& properties = {});
+
+}  // namespace voussoir
