@@ -330,13 +330,13 @@ const KeyRow rows[] = {
      .meaning = "times since the stage began, ascending, at which `factors` are given"},
     {.table = "move", .key = "factors", .type = numbers, .range = sane, .example = "[0, 1, 1]",
      .meaning = "what the velocities are multiplied by at `times_s`: linear in between, constant before and after"},
-    {.table = "move", .key = "frequency_hz", .unit = "Hz", .range = {0, 1e9, true}, .usual = {0.01, 1e4},
+    {.table = "move", .key = "frequency_hz", .unit = "Hz", .range = {0, 1e9, true}, .usual = {0.01, 500},
      .example = "2",
      .meaning = "the velocities are multiplied by sin(2π frequency_hz t + phase_deg), t since the stage began; times the "
          "factors where both are given",
      .breaks = "needs some twenty steps a period", .slip = "was the period given?"},
-    {.table = "move", .key = "phase_deg", .unit = "deg", .range = {-360, 360}, .fallback = "0", .example = "90",
-     .meaning = "of that sine: 90 begins at full velocity"},
+    {.table = "move", .key = "phase_deg", .unit = "deg", .range = {-360, 360}, .usual = usual_direction, .fallback = "0",
+     .example = "90", .meaning = "of that sine: 90 begins at full velocity", .slip = angle_slip},
 
     // ---- what is written
     {.table = "monitors", .key = "name", .type = name, .example = "\"wedge\"", .required = true,
