@@ -144,6 +144,8 @@ const Harmless harmless[] = {
     {"motion", "velocity", "negative", "a direction like any other"},
     {"motion", "angular_velocity", "negative", "a direction like any other"},
     {"blocks", "angular_velocity", "negative", "a direction like any other"},
+    {"move", "phase_deg", "0", is_default},
+    {"move", "phase_deg", "negative", "a phase like any other"},
     {"contact", "tolerance", "0", is_default},
     {"damping", "viscous_ratio", "0", is_default},
     {"output", "frame_interval_s", "0", is_default},

@@ -9,13 +9,14 @@ namespace voussoir {
 // Sums over the steps so far. Every force is credited with its work at the mean of the velocities before and after its
 // kick.
 struct EnergyFlows {
-  double gravity = 0;   // work of gravity on the bodies
-  double contacts = 0;  // work of the contact forces on the bodies
-  double friction = 0;  // lost to slip
-  double dashpots = 0;  // lost to viscous damping
-  double local = 0;     // lost to local damping
-  double ramp = 0;      // put in by gravity that grows
-  double changes = 0;   // put in by changes of the model between stages
+  double gravity = 0;     // work of gravity on the bodies
+  double contacts = 0;    // work of the contact forces on the bodies
+  double friction = 0;    // lost to slip
+  double dashpots = 0;    // lost to viscous damping
+  double local = 0;       // lost to local damping
+  double ramp = 0;        // put in by gravity that grows
+  double changes = 0;     // put in by changes of the model between stages
+  double prescribed = 0;  // put in by prescribed motions
 };
 
 enum class LedgerPhase { not_begun, model_changed, running };
@@ -32,7 +33,7 @@ struct EnergyLedger {
 
   double potential() const { return flows.ramp - flows.gravity; }  // of gravity, against the start
   double damping() const { return flows.local + flows.dashpots; }
-  double external() const { return flows.ramp + flows.changes; }
+  double external() const { return flows.ramp + flows.changes + flows.prescribed; }
 
   // kinetic + elastic + potential + friction + damping - external, against the start
   double unexplained() const { return motion_error + contact_error; }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 
 namespace voussoir {
@@ -75,8 +76,49 @@ std::vector<int> select(const Model<Dim>& model, const Selector& selector) {
   return bodies;
 }
 
+namespace {
+
+template <int Dim>
+void end_prescribed(Model<Dim>& model) {
+  for (const PrescribedMotion<Dim>& p : model.prescribed) {
+    Body<Dim>& body = model.bodies[p.body];
+    body.prescribed = false;
+    body.free_translation = p.free_translation;
+    body.free_rotation = p.free_rotation;
+  }
+  model.prescribed.clear();
+}
+
+template <int Dim>
+void prescribe(Model<Dim>& model, const MovePlan& plan) {
+  for (const int b : select(model, plan.bodies)) {
+    Body<Dim>& body = model.bodies[b];
+    assert(!body.prescribed);
+    PrescribedMotion<Dim> p;
+    p.body = b;
+    p.factor = plan.factor;
+    p.free_translation = body.free_translation;
+    p.free_rotation = body.free_rotation;
+    for (int k = 0; k < Dim && !plan.velocity.empty(); ++k) {
+      p.translation[k] = plan.translation[k];
+      p.velocity[k] = plan.velocity[k];
+      if (p.translation[k]) body.free_translation[k] = false;
+    }
+    p.rotation = !plan.angular_velocity.empty();
+    if (p.rotation) {
+      p.angular_velocity = Eigen::Map<const Spin<Dim>>(plan.angular_velocity.data());
+      body.free_rotation.fill(false);
+    }
+    body.prescribed = true;
+    model.prescribed.push_back(std::move(p));
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 Model<Dim> apply(Model<Dim> model, const Change& change) {
+  end_prescribed(model);
   for (const Selector& s : change.fix)
     for (int b : select(model, s))
       model.bodies[b].fixed = true;
@@ -91,6 +133,10 @@ Model<Dim> apply(Model<Dim> model, const Change& change) {
   if (change.friction)
     for (JointProperties& p : model.properties)
       p.friction = *change.friction;
+  for (const MovePlan& plan : change.move)
+    prescribe(model, plan);
+  std::sort(model.prescribed.begin(), model.prescribed.end(),
+            [](const PrescribedMotion<Dim>& a, const PrescribedMotion<Dim>& b) { return a.body < b.body; });
   return model;
 }
 

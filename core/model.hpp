@@ -23,10 +23,26 @@ struct Body {
   Matrix<Dim> principal_axes = Matrix<Dim>::Identity();  // columns in the body's frame
   double radius = 0;                                     // largest distance of a vertex from the centroid, m
   double size = 0;                                       // smallest inscribed radius of its parts, m
-  bool fixed = false;
-  bool present = true;                     // false once excavated: ids never change
-  std::array<bool, Dim> free_translation;  // world axes; all true unless restrained
+  bool fixed = false;                                    // held, but for what Model::prescribed forces upon it
+  bool prescribed = false;                               // moves as Model::prescribed says
+  bool present = true;                                   // false once excavated: ids never change
+  std::array<bool, Dim> free_translation;                // world axes; all true unless restrained
   std::array<bool, spin_freedoms<Dim>> free_rotation;
+
+  bool still() const { return fixed && !prescribed; }
+};
+
+// a motion forced upon a body: its forced freedoms are not free while it lasts
+template <int Dim>
+struct PrescribedMotion {
+  int body = 0;
+  std::array<bool, Dim> translation{};             // forced axes
+  bool rotation = false;                           // forced about all axes
+  Vector<Dim> velocity = Vector<Dim>::Zero();      // m/s, at a factor of 1
+  Spin<Dim> angular_velocity = Spin<Dim>::Zero();  // rad/s, world axes
+  TimeFactor factor;                               // of the time since the stage began
+  std::array<bool, Dim> free_translation{};        // of the body when the motion ends
+  std::array<bool, spin_freedoms<Dim>> free_rotation{};
 };
 
 // a named discontinuity, in slicing order
@@ -49,9 +65,10 @@ struct Model {
   std::vector<PartId> parts;                 // every part, by body
   std::vector<Joint<Dim>> joints;
   std::vector<JointProperties> properties;
-  int default_properties = 0;                 // of contacts between faces that no joint made
-  Vector<Dim> gravity = Vector<Dim>::Zero();  // m/s²
-  Solvers<Dim> solvers;                       // the two convex programs' solvers in use
+  std::vector<PrescribedMotion<Dim>> prescribed;  // of this stage, by ascending body, at most one for each
+  int default_properties = 0;                     // of contacts between faces that no joint made
+  Vector<Dim> gravity = Vector<Dim>::Zero();      // m/s²
+  Solvers<Dim> solvers;                           // the two convex programs' solvers in use
 
   const Polytope<Dim>& polytope(int part) const { return bodies[parts[part].body].parts[parts[part].part]; }
 };
@@ -75,7 +92,8 @@ void list_parts(Model<Dim>& model);
 template <int Dim>
 std::vector<int> select(const Model<Dim>& model, const Selector& selector);
 
-// the model of the next stage: bodies fixed, released or removed, friction set
+// The model of the next stage: prescribed motions ended, bodies fixed, released or removed, friction set, motions
+// prescribed. Two motions of one body are a mistake of the caller.
 template <int Dim>
 Model<Dim> apply(Model<Dim> model, const Change& change);
 

@@ -2,6 +2,7 @@
 // scene may state. The reader's key table (scene/keys.cpp) repeats meaning and range for users.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -108,9 +109,27 @@ struct Selector {
   std::optional<std::vector<double>> inside;  // m: a point in the body
 };
 
+// a factor that varies with time: linear between the points of a table and constant beyond them, times a sine
+struct TimeFactor {
+  std::vector<double> times, factors;  // s, ascending, and as many factors; empty: 1
+  double frequency = 0;                // Hz; 0: no sine
+  double phase = 0;                    // rad: sin(2π frequency time + phase)
+};
+
+// A velocity forced upon bodies while the stage lasts, times a factor of the time since it began. Their other freedoms
+// stay what they are: those of a fixed body are held.
+struct MovePlan {
+  Selector bodies;
+  std::vector<double> velocity;          // m/s, as many entries as dimensions
+  std::array<bool, 3> translation{};     // the axes along which it is forced
+  std::vector<double> angular_velocity;  // rad/s, world axes, 2-D one entry; empty: rotation is not forced
+  TimeFactor factor;
+};
+
 // what changes in the model between two stages
 struct Change {
   std::vector<Selector> fix, release, remove;
+  std::vector<MovePlan> move;      // within the stage only
   std::optional<double> friction;  // rad: new friction angle of every joint
 };
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/motion/prescribed.hpp"
 #include "core/state_hash.hpp"
 
 namespace voussoir {
@@ -184,11 +185,7 @@ struct Simulation {
   }
 
   void begin_stage() {
-    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-      if (!model.bodies[b].fixed) continue;
-      state.motions[b].velocity.setZero();
-      state.motions[b].angular_momentum.setZero();
-    }
+    stop_held(model, state);
     if (plan().change.friction)
       for (std::size_t p = 0; p < model.properties.size(); ++p)
         state.schedule.friction[p] = model.properties[p].friction;

@@ -11,6 +11,7 @@
 #include "core/contact/narrow_phase.hpp"
 #include "core/contact/sub_contacts.hpp"
 #include "core/motion/integrate.hpp"
+#include "core/motion/prescribed.hpp"
 #include "core/motion/time_step.hpp"
 
 namespace voussoir {
@@ -57,7 +58,7 @@ Box<Dim> bounds(const Model<Dim>& model, const State<Dim>& state, int part, doub
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const PartId id = model.parts[part];
   const Body<Dim>& body = model.bodies[id.body];
-  Box<Dim> box{Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity), id.body, body.fixed};
+  Box<Dim> box{Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity), id.body, body.still()};
   if (!body.present) return box;
   const Matrix<Dim>& axes = state.axes[id.body];
   for (const Vector<Dim>& v : body.parts[id.part].vertices) {
@@ -119,7 +120,7 @@ void count_travels(const Model<Dim>& model, State<Dim>& state) {
       state.travels.push_back({{m.displacement, m.rotation}, 0});
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].fixed) continue;
+    if (model.bodies[b].still()) continue;
     const Motion<Dim>& now = state.motions[b];
     Travel<Dim>& t = state.travels[b];
     const double way = moved(model.bodies[b], t.last, now);
@@ -222,14 +223,15 @@ void book_gravity_ramp(const Model<Dim>& model, State<Dim>& state) {
   state.schedule.last_gravity_factor = state.schedule.gravity_factor;
   if (growth == 0 || state.energy.phase == LedgerPhase::not_begun) return;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].fixed)
+    if (!model.bodies[b].still())
       state.energy.flows.ramp -= growth * model.bodies[b].mass * model.gravity.dot(state.motions[b].displacement);
 }
 
-void book(EnergyFlows& flows, double gravity, double load, double damping) {
+void book(EnergyFlows& flows, double gravity, double load, double damping, double prescribed) {
   flows.gravity += gravity;
   flows.contacts += load - gravity;
   flows.local += damping;
+  flows.prescribed += prescribed;
 }
 
 // in a thread: no exception may leave it, so the first one waits in `failure`
@@ -250,7 +252,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   const double skin = settings.contact.skin * smallest_size(model);
   bool stale = state.built.size() != model.bodies.size();
   for (std::size_t b = 0; b < model.bodies.size() && !stale; ++b)
-    stale = !model.bodies[b].fixed && moved(model.bodies[b], state.built[b], state.motions[b]) > 0.5 * skin;
+    stale = !model.bodies[b].still() && moved(model.bodies[b], state.built[b], state.motions[b]) > 0.5 * skin;
   if (!stale) return;
 
   // lists that keep their memory
@@ -371,21 +373,26 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   book_gravity_ramp(model, state);
   const StepTimes times{0.5 * (last + state.time_step), state.time_step};
   EnergyLedger& energy = state.energy;
+  const double elapsed = state.time + 0.5 * state.time_step - state.schedule.started;  // at the middle of the step
   EnergyFlows after;
   energy.kinetic = 0;
+  auto prescribed = model.prescribed.begin();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].fixed) continue;
-    const KickEnergy<Dim> kick =
-        advance(model.bodies[b], state.loads[b], settings.damping.local, times, state.motions[b]);
+    const Body<Dim>& body = model.bodies[b];
+    if (body.still()) continue;
+    KickEnergy<Dim> kick;
+    if (!body.fixed) kick = advance(body, state.loads[b], settings.damping.local, times, state.motions[b]);
+    if (body.prescribed) force(body, *prescribed++, state.loads[b], elapsed, times, state.motions[b], kick);
     const Vector<Dim> gravity = weight(model, state, b);
     energy.kinetic += kick.kinetic;
-    book(energy.flows, gravity.dot(kick.path_before), kick.load_before, kick.damping_before);
-    book(after, gravity.dot(kick.path_after), kick.load_after, kick.damping_after);
+    book(energy.flows, gravity.dot(kick.path_before), kick.load_before, kick.damping_before, kick.prescribed_before);
+    book(after, gravity.dot(kick.path_after), kick.load_after, kick.damping_after, kick.prescribed_after);
   }
   balance(energy);
   energy.flows.gravity += after.gravity;
   energy.flows.contacts += after.contacts;
   energy.flows.local += after.local;
+  energy.flows.prescribed += after.prescribed;
   state.time += state.time_step;
 }
 

@@ -116,8 +116,8 @@ void serialize(Archive& archive, Counters& c) {
 
 template <class Archive>
 void serialize(Archive& archive, EnergyFlows& f) {
-  auto& [gravity, contacts, friction, dashpots, local, ramp, changes] = f;
-  archive(gravity, contacts, friction, dashpots, local, ramp, changes);
+  auto& [gravity, contacts, friction, dashpots, local, ramp, changes, prescribed] = f;
+  archive(gravity, contacts, friction, dashpots, local, ramp, changes, prescribed);
 }
 
 template <class Archive>

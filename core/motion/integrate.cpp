@@ -36,10 +36,7 @@ void book(KickEnergy<Dim>& energy, double kick, double load, double left, double
   energy.damping_after += 0.5 * kick * (load - left) * after;
 }
 
-// the time a kick lasts for the books, and the velocity before it: at the start half a step earlier than the given one
-double booked_kick(StepTimes times) {
-  return times.at_start() ? times.drift : times.kick;
-}
+// the velocity before a kick: at the start half a step earlier than the given one
 template <class Velocity>
 Velocity velocity_before(StepTimes times, const Velocity& given, const Velocity& after) {
   return times.at_start() ? Velocity(2 * given - after) : given;
@@ -51,7 +48,7 @@ void kick_spin(const Body<2>& body, const Load<2>& load, double damping, StepTim
   const Spin<2> left = damped_moment(load, damping, given);
   motion.angular_momentum += times.kick * left;
   const Spin<2> after = angular_velocity(body, motion), before = velocity_before(times, given, after);
-  book(energy, booked_kick(times), load.moment[0], left[0], before[0], after[0]);
+  book(energy, times.booked(), load.moment[0], left[0], before[0], after[0]);
   energy.kinetic += 0.5 * body.inertia[0] * before[0] * after[0];
 }
 
@@ -88,7 +85,7 @@ void kick_spin(const Body<3>& body, const Load<3>& load, double damping, StepTim
   }
   const Spin<3> after = angular_velocity(body, motion), before = velocity_before(times, given, after);
   for (int k = 0; k < 3; ++k)
-    if (body.free_rotation[k]) book(energy, booked_kick(times), load.moment[k], left[k], before[k], after[k]);
+    if (body.free_rotation[k]) book(energy, times.booked(), load.moment[k], left[k], before[k], after[k]);
   const Spin<3> momentum_before = velocity_before(times, given_momentum, motion.angular_momentum);
   energy.kinetic += 0.5 * momentum_before.dot(motion.angular_momentum.cwiseQuotient(body.inertia));
 }
@@ -133,9 +130,7 @@ template <int Dim>
 KickEnergy<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, double local_damping, StepTimes times,
                         Motion<Dim>& motion) {
   KickEnergy<Dim> energy;
-  energy.path_before.setZero();
-  energy.path_after.setZero();
-  const double booked = booked_kick(times);
+  const double booked = times.booked();
   for (int k = 0; k < Dim; ++k) {
     if (!body.free_translation[k]) continue;
     const double given = motion.velocity[k], left = damped(load.force[k], given, local_damping);

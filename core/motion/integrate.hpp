@@ -12,6 +12,7 @@ namespace voussoir {
 struct StepTimes {
   double kick, drift;  // s
   bool at_start() const { return kick == 0.5 * drift; }
+  double booked() const { return at_start() ? drift : kick; }  // what the kick lasts for the books
 };
 
 // What a kick does to a body's energy, J. Each work comes in two halves: at the velocity before the kick and at the one
@@ -20,9 +21,11 @@ struct StepTimes {
 template <int Dim>
 struct KickEnergy {
   double kinetic = 0;
-  double load_before = 0, load_after = 0;        // work of the load before damping
-  double damping_before = 0, damping_after = 0;  // lost to local damping
-  Vector<Dim> path_before, path_after;           // m: halves of the displacement the load acted along
+  double load_before = 0, load_after = 0;                                           // work of the load before damping
+  double damping_before = 0, damping_after = 0;                                     // lost to local damping
+  double prescribed_before = 0, prescribed_after = 0;                               // put in by a prescribed motion
+  Vector<Dim> path_before = Vector<Dim>::Zero(), path_after = Vector<Dim>::Zero();  // m: halves of the displacement the
+                                                                                    // load acted along
 };
 
 // Advances a free body by one step under its load. Translation: v += kick f/m, u += drift v on free freedoms. Rotation

@@ -366,6 +366,38 @@ struct BadOverride {
   const char *text, *key, *phrase;
 };
 
+const std::string moving = "[[stage]]\nname = \"push\"\nkind = \"run\"\nduration_s = 1\n[[stage.move]]\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Moves, Bad,
+    testing::Values(
+        BadInput{"no_velocity", "", moving + "bodies = [\"far\"] ", "stage.push.move.1.velocity is missing",
+                 "nothing moves"},
+        BadInput{"no_block", "", moving + "velocity = [1, 0, 0] ", "stage.push.move.1.below is missing",
+                 "no block is chosen"},
+        BadInput{"axis_not_named", "", moving + "bodies = [\"far\"]\ntranslation = [\"z\"]\nvelocity = [1, 0, 0] #!",
+                 "stage.push.move.1.velocity = [1, 0, 0]", "component along x"},
+        BadInput{"only_axes", "", moving + "bodies = [\"far\"]\nangular_velocity = [1, 0, 0]\ntranslation = [\"z\"] #!",
+                 "stage.push.move.1.translation", "beside no velocity"},
+        BadInput{"times_without_factors", "", moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\ntimes_s = [0, 1]",
+                 "stage.push.move.1.factors is missing", "as many entries"},
+        BadInput{"times_fall", "",
+                 moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\nfactors = [0, 1]\ntimes_s = [1, 1] #!",
+                 "stage.push.move.1.times_s = [1, 1]", "must ascend"},
+        BadInput{"times_of_words", "",
+                 moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\nfactors = [0]\ntimes_s = [\"a\"] #!",
+                 "stage.push.move.1.times_s.1 = \"a\"", "must be a number"},
+        BadInput{"phase_alone", "", moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\nphase_deg = 90 #!",
+                 "stage.push.move.1.phase_deg = 90", "no frequency_hz"},
+        BadInput{
+            "moved_twice", "",
+            moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\n[[stage.move]] #!\nall = true\nvelocity = [1, 0, 0]",
+            "stage.push.move.2", "already moves"},
+        BadInput{"at_rest", "kind = \"settle\"",
+                 "kind = \"settle\"\n[[stage.move]] #!\nbodies = [\"far\"]\nvelocity = [1, 0, 0]", "stage.settle.move",
+                 "applies only where kind"}),
+    by_name);
+
 TEST(BadOverrides, AreToldWithTheirText) {
   const BadOverride all[] = {{"joints.A.dip=95", "joints.A.dip = 95", "must lie between 0 and 90"},
                              {"joints.C.dip=65", "joints.C", "there are: A, B"},

@@ -23,6 +23,7 @@ struct Checker {
   void number(const KeyRow& row, const Node& node, const std::string& path) const;
   void numbers(const KeyRow& row, const Node& node, const std::string& path, std::size_t count) const;
   void points(const KeyRow& row, const Node& node, const std::string& path) const;
+  void list(const KeyRow& row, const Node& node, const std::string& path) const;
   void words(const KeyRow& row, const Node& node, const std::string& path,
              const std::vector<std::string_view>& allowed) const;
   void axes(const KeyRow& row, const Node& node, const std::string& path) const;
@@ -189,6 +190,13 @@ void Checker::points(const KeyRow& row, const Node& node, const std::string& pat
     numbers(row, node.items[i], path + "." + std::to_string(i + 1), dimension);
 }
 
+void Checker::list(const KeyRow& row, const Node& node, const std::string& path) const {
+  if (node.kind != Node::Kind::list || node.items.empty())
+    refuse(node, path, "must be a list of numbers" + example_of(row));
+  for (std::size_t i = 0; i < node.items.size(); ++i)
+    number(row, node.items[i], path + "." + std::to_string(i + 1));
+}
+
 void Checker::words(const KeyRow& row, const Node& node, const std::string& path,
                     const std::vector<std::string_view>& allowed) const {
   const std::string what = allowed.empty() ? "a list of names" : "a list of some of " + quoted_list(allowed);
@@ -261,6 +269,8 @@ void Checker::value(const KeyRow& row, const Node& node, const std::string& path
       return words(row, node, path, row.choices);
     case KeyType::points:
       return points(row, node, path);
+    case KeyType::numbers:
+      return list(row, node, path);
     case KeyType::table:
       return table(node, row.holds, path);
     case KeyType::tables:

@@ -81,6 +81,8 @@ std::string type_text(const KeyRow& row) {
       return "list of names";
     case KeyType::points:
       return "list of points";
+    case KeyType::numbers:
+      return "list of numbers";
     case KeyType::table:
       return "table";
     case KeyType::tables:

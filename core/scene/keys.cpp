@@ -320,9 +320,28 @@ const KeyRow rows[] = {
      .meaning = "blocks set free before the stage begins"},
     {.table = "stage", .key = "remove", .type = tables, .holds = {"label", "selector"},
      .meaning = "blocks excavated before the stage begins"},
+    {.table = "stage", .key = "move", .type = tables, .when = {"kind", "run"},
+     .holds = {"label", "motion", "move", "selector"},
+     .meaning = "blocks whose motion is prescribed while the stage lasts, whatever the load on them; their other "
+         "freedoms stay as they are, those of a fixed block are held. Afterwards a fixed block stands, a free one goes on"},
     {.table = "stage", .key = "friction_deg", .unit = "deg", .range = friction_range, .usual = usual_friction,
      .example = "30",
      .meaning = "friction angle of every joint from this stage on", .slip = friction_slip},
+
+    {.table = "move", .key = "translation", .type = axes, .fallback = "true", .example = "[\"x\"]",
+     .meaning = "directions along which the velocity is prescribed; true: all. Along the others the block is as free as "
+         "without it"},
+    {.table = "move", .key = "times_s", .type = numbers, .unit = "s", .range = {0, 1e9}, .example = "[0, 0.1, 1]",
+     .meaning = "times since the stage began, ascending, at which `factors` are given"},
+    {.table = "move", .key = "factors", .type = numbers, .range = sane, .example = "[0, 1, 1]",
+     .meaning = "what the velocities are multiplied by at `times_s`: linear in between, constant before and after"},
+    {.table = "move", .key = "frequency_hz", .unit = "Hz", .range = {0, 1e9, true}, .usual = {0.01, 500},
+     .example = "2",
+     .meaning = "the velocities are multiplied by sin(2π frequency_hz t + phase_deg), t since the stage began; times the "
+         "factors where both are given",
+     .breaks = "needs some twenty steps a period", .slip = "was the period given?"},
+    {.table = "move", .key = "phase_deg", .unit = "deg", .range = {-360, 360}, .usual = usual_direction, .fallback = "0",
+     .example = "90", .meaning = "of that sine: 90 begins at full velocity", .slip = angle_slip},
 
     // ---- what is written
     {.table = "monitors", .key = "name", .type = name, .example = "\"wedge\"", .required = true,

@@ -25,6 +25,7 @@ enum class KeyType {
   names,    // a list of texts
   choices,  // a list of some of KeyRow::choices
   points,   // a list of vectors
+  numbers,  // a list of numbers
   table,
   tables  // [[key]]: a list of tables
 };

@@ -43,6 +43,8 @@ std::string dump(const Scene& s) {
     if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan.plan))
       out << static_cast<int>(reduce->method) << ' ' << reduce->failure_displacement << ' ' << reduce->ramp_steps << ' '
           << reduce->step_limit << '\n';
+    for (const MovePlan& move : stage.plan.change.move)
+      out << move.translation[0] << move.translation[1] << move.translation[2] << ' ' << move.factor.phase << '\n';
     if (stage.plan.damping) out << stage.plan.damping->local << ' ' << stage.plan.damping->viscous_ratio << '\n';
   }
   return out.str();

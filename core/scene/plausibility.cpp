@@ -205,6 +205,18 @@ void judge_joints(const Scene& scene, const Model<Dim>& model, Warnings& warning
                                    "slicing.smallest_inscribed_radius"));
 }
 
+// factors that the stage never reaches
+void judge_moves(const StageSpec& stage, Warnings& warnings) {
+  const auto* plan = std::get_if<RunPlan>(&stage.plan.plan);
+  for (std::size_t i = 0; plan && i < stage.moves.size(); ++i) {
+    const std::vector<double>& times = stage.plan.change.move[i].factor.times;
+    if (!times.empty() && times.back() > plan->duration)
+      warnings.push_back(complaint(
+          stage.moves[i].subject, "times_s",
+          "goes on beyond duration_s (" + text(plan->duration) + "), when the stage ends; is the table in s?"));
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -214,6 +226,8 @@ std::vector<std::string> implausible_values(const Scene& scene, const Prepared<D
   judge_gravity(scene, warnings);
   for (const PropertiesSpec& p : scene.properties)
     judge_properties(p, warnings);
+  for (const StageSpec& stage : scene.stages)
+    judge_moves(stage, warnings);
   judge_domain<Dim>(scene, prepared.model, warnings);
   judge_joints<Dim>(scene, prepared.model, warnings);
   judge_sizes<Dim>(scene, prepared.model, warnings);

@@ -153,9 +153,10 @@ std::vector<int> chosen_some(const Scene& scene, const Model<Dim>& model, const 
   return bodies;
 }
 
-bool releases(const Scene& scene) {
+// what is fixed now may yet be released or moved
+bool loosens(const Scene& scene) {
   return std::any_of(scene.stages.begin(), scene.stages.end(),
-                     [](const StageSpec& s) { return !s.plan.change.release.empty(); });
+                     [](const StageSpec& s) { return !s.plan.change.release.empty() || !s.plan.change.move.empty(); });
 }
 
 template <int Dim>
@@ -173,7 +174,7 @@ void add_supports(const Scene& scene, Model<Dim>& model) {
     }
   const bool all_fixed =
       std::all_of(model.bodies.begin(), model.bodies.end(), [](const Body<Dim>& body) { return body.fixed; });
-  if (!all_fixed || releases(scene)) return;
+  if (!all_fixed || loosens(scene)) return;
   const std::string rule = "no block is free to move, all " + std::to_string(model.bodies.size()) + " are fixed; ";
   if (scene.fix.empty()) refuse(scene.blocks.front().subject, "fixed", rule + "leave one block free");
   refuse(*scene.fix.back().subject.node, scene.fix.back().subject.path,
@@ -221,6 +222,14 @@ std::vector<StagePlan> checked_stages(const Scene& scene, const Model<Dim>& mode
   for (const StageSpec& stage : scene.stages) {
     for (const SelectorSpec& change : stage.changes)
       chosen_some<Dim>(scene, model, change);
+    std::vector<bool> moved(model.bodies.size(), false);
+    for (const SelectorSpec& move : stage.moves)
+      for (const int b : chosen_some<Dim>(scene, model, move)) {
+        if (moved[b])
+          refuse(*move.subject.node, move.subject.path,
+                 "moves a block that another move of this stage already moves; choose each block once");
+        moved[b] = true;
+      }
     if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan.plan)) {
       if (names.empty())
         refuse(*stage.subject.node, stage.subject.path, "there is no friction to reduce; add [[joint_properties]]");

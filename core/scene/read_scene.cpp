@@ -146,14 +146,6 @@ std::vector<BlockSpec> read_blocks(const Subject& scene) {
   return blocks;
 }
 
-void read_axes(const Subject& subject, const char* key, std::array<bool, 3>& axes) {
-  const Node* node = subject.node->find(key);
-  if (!node) return;
-  if (node->kind == Node::Kind::boolean) axes.fill(node->boolean);
-  for (const Node& axis : node->items)
-    axes[axis.text[0] - 'x'] = true;
-}
-
 std::vector<RestrainSpec> read_restrain(const Subject& scene) {
   std::vector<RestrainSpec> all;
   for (const Subject& item : children(scene, "restrain")) {

@@ -1,5 +1,7 @@
 #include "core/scene/read_stages.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <map>
 
 #include "core/scene/values.hpp"
@@ -88,6 +90,45 @@ void read_changes(const Subject& table, std::string_view key, std::vector<Select
   }
 }
 
+void read_factor(const Subject& table, TimeFactor& factor) {
+  read(table, "times_s", factor.times);
+  read(table, "factors", factor.factors);
+  read(table, "frequency_hz", factor.frequency);
+  read_degrees(table, "phase_deg", factor.phase);
+  if (factor.times.size() != factor.factors.size())
+    refuse(table, factor.times.size() < factor.factors.size() ? "times_s" : "factors",
+           "stands beside " + std::to_string(std::max(factor.times.size(), factor.factors.size())) +
+               " entries of the other; times_s and factors need as many entries as each other");
+  if (std::adjacent_find(factor.times.begin(), factor.times.end(), std::greater_equal<>()) != factor.times.end())
+    refuse(table, "times_s", "must ascend; put the times in order, each once, with their factors");
+  if (factor.phase != 0 && factor.frequency == 0)
+    refuse(table, "phase_deg", "stands beside no frequency_hz; state the frequency or remove the phase");
+}
+
+// a velocity that is prescribed, where, and in which direction
+MovePlan read_move(const Subject& table, const Selector& bodies) {
+  MovePlan plan;
+  plan.bodies = bodies;
+  read(table, "velocity", plan.velocity);
+  read(table, "angular_velocity", plan.angular_velocity);
+  if (plan.velocity.empty() && plan.angular_velocity.empty())
+    refuse(table, "velocity", "nothing moves; state velocity, angular_velocity or both");
+  plan.translation.fill(true);
+  if (table.node->find("translation")) {
+    plan.translation.fill(false);
+    read_axes(table, "translation", plan.translation);
+    if (plan.velocity.empty())
+      refuse(table, "translation", "stands beside no velocity; state the velocity or remove the directions");
+  }
+  for (std::size_t k = 0; k < plan.velocity.size(); ++k)
+    if (plan.velocity[k] != 0 && !plan.translation[k])
+      refuse(table, "velocity",
+             std::string("has a component along ") + "xyz"[k] +
+                 ", which translation does not name; name it there or make the component 0");
+  read_factor(table, plan.factor);
+  return plan;
+}
+
 StageSpec read_stage(const Subject& table, const DampingSettings& damping) {
   StageSpec stage;
   stage.subject = table;
@@ -104,6 +145,9 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping) {
   read_changes(table, "fix", stage.plan.change.fix, stage.changes);
   read_changes(table, "release", stage.plan.change.release, stage.changes);
   read_changes(table, "remove", stage.plan.change.remove, stage.changes);
+  stage.moves = read_selectors(table, "move");
+  for (const SelectorSpec& spec : stage.moves)
+    stage.plan.change.move.push_back(read_move(spec.subject, spec.selector));
   if (table.node->find("friction_deg")) read_degrees(table, "friction_deg", stage.plan.change.friction.emplace());
   return stage;
 }

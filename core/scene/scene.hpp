@@ -94,7 +94,8 @@ struct InitialVelocitySpec {
 struct StageSpec {
   Subject subject;
   StagePlan plan;
-  std::vector<SelectorSpec> changes;  // every selector of plan.change, with its place
+  std::vector<SelectorSpec> changes;  // the selectors of plan.change that fix, release or remove, with their places
+  std::vector<SelectorSpec> moves;    // those that move
 };
 
 struct MonitorSpec {

@@ -262,6 +262,11 @@ TEST(Plausibility, KnowsTheSignsOfWrongUnits) {
       {"domain.box.min=[-4e5,-4,-4]", "is a coordinate of one in the wrong unit?"}};
   for (const auto& [text, phrase] : all)
     EXPECT_NE(warnings(wedge, {text}).find(phrase), std::string::npos) << text << "\n" << warnings(wedge, {text});
+  const std::string shake =
+      "[[stage]]\nname = \"shake\"\nkind = \"run\"\nduration_s = 2\n[[stage.move]]\nbelow = [\"A\"]\n"
+      "velocity = [0.1, 0, 0]\nfactors = [0, 1]\ntimes_s = ";
+  EXPECT_EQ(warnings(wedge + shake + "[0, 2]\n"), "");
+  EXPECT_NE(warnings(wedge + shake + "[0, 2000]\n").find("goes on beyond duration_s (2)"), std::string::npos);
 }
 
 TEST(Plausibility, TellsAJointThatCutsNothing) {

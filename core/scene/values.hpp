@@ -1,6 +1,7 @@
 // Takes checked values out of a scene's tree; a key that is not stated leaves the target as it is.
 #pragma once
 
+#include <array>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -49,6 +50,15 @@ inline constexpr double radians_per_degree = std::numbers::pi / 180;
 
 inline void read_degrees(const Subject& table, std::string_view key, double& target) {
   if (const Node* node = table.node->find(key)) target = node->number * radians_per_degree;
+}
+
+// true, or a list of "x", "y", "z"
+inline void read_axes(const Subject& subject, std::string_view key, std::array<bool, 3>& axes) {
+  const Node* node = subject.node->find(key);
+  if (!node) return;
+  if (node->kind == Node::Kind::boolean) axes.fill(node->boolean);
+  for (const Node& axis : node->items)
+    axes[axis.text[0] - 'x'] = true;
 }
 
 // a table, or the tables of a list, with their addresses

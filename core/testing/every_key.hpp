@@ -58,6 +58,7 @@ kind = "run"
 duration_s = 1
 release = [{ bodies = ["by planes"] }]
 remove = [{ bodies = ["by vertices"] }]
+move = [{ bodies = ["by planes"], velocity = [1, 0, 0], frequency_hz = 1 }]
 [[stage]]
 name = "bisection"
 kind = "reduce"
@@ -102,6 +103,7 @@ inline std::string address(const KeyRow& row) {
                                                           {"selector", "fix.1"},
                                                           {"restrain", "restrain.1"},
                                                           {"motion", "initial_velocity.1"},
+                                                          {"move", "stage.run.move.1"},
                                                           {"monitors", "monitors.body"}};
   std::string table(row.table);
   if (const auto at = tables.find(row.table); at != tables.end()) table = at->second;

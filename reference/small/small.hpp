@@ -23,6 +23,25 @@ double incline_critical_friction(const Incline& incline);
 double incline_distance(const Incline& incline, double time);
 double incline_velocity(const Incline& incline, double time);  // m/s
 
+// --- the same block on a plane that is shaken along its slope (Newmark 1965, Geotechnique 15, 139-160)
+
+// The plane moves at speed sin(2 pi frequency time) up the slope.
+struct ShakenIncline {
+  Incline incline;       // starts at rest on the plane: initial_velocity is not used
+  double speed = 0;      // m/s, >= 0
+  double frequency = 1;  // Hz, > 0
+};
+
+struct ShakenPosition {
+  double distance = 0;  // m down the plane, relative to it
+  double velocity = 0;  // m/s, the same
+};
+
+// Slips while the plane's acceleration up the slope exceeds a = g (tan phi cos - sin), and after that until the speeds
+// are equal again: between t0 and t the relative velocity is v(t) - v(t0) - a (t - t0). Throws std::invalid_argument
+// when the block does not rest on the plane, or when the plane's acceleration is so great that it slips upwards, too.
+ShakenPosition shaken_block(const ShakenIncline& shaken, double time);
+
 // --- a block that meets a spring and a dashpot which cannot pull
 
 struct Bounce {

@@ -1,0 +1,85 @@
+#include "core/motion/prescribed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace voussoir {
+namespace {
+
+// books one freedom: the motion gives what the load takes, at the velocities before and after the kick
+template <int Dim>
+void book(KickEnergy<Dim>& energy, double kick, double load, double before, double after) {
+  const double work_before = 0.5 * kick * load * before, work_after = 0.5 * kick * load * after;
+  energy.load_before += work_before;
+  energy.load_after += work_after;
+  energy.prescribed_before -= work_before;
+  energy.prescribed_after -= work_after;
+}
+
+}  // namespace
+
+double value_at(const TimeFactor& factor, double time) {
+  double value = 1;
+  if (!factor.times.empty()) {
+    const auto later = std::upper_bound(factor.times.begin(), factor.times.end(), time);
+    const auto i = later - factor.times.begin();
+    if (later == factor.times.begin())
+      value = factor.factors.front();
+    else if (later == factor.times.end())
+      value = factor.factors.back();
+    else
+      value = factor.factors[i - 1] + (factor.factors[i] - factor.factors[i - 1]) *
+                                          ((time - factor.times[i - 1]) / (factor.times[i] - factor.times[i - 1]));
+  }
+  if (factor.frequency > 0) value *= std::sin(2 * std::numbers::pi * factor.frequency * time + factor.phase);
+  return value;
+}
+
+template <int Dim>
+void force(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const Load<Dim>& load, double middle,
+           StepTimes times, Motion<Dim>& motion, KickEnergy<Dim>& energy) {
+  const double factor = value_at(prescribed.factor, middle);
+  // at the start there is no velocity before: it counts as having moved so already
+  for (int k = 0; k < Dim; ++k) {
+    if (!prescribed.translation[k]) continue;
+    const double after = factor * prescribed.velocity[k], before = times.at_start() ? after : motion.velocity[k];
+    book(energy, times.booked(), load.force[k], before, after);
+    energy.path_before[k] = 0.5 * times.booked() * before;
+    energy.path_after[k] = 0.5 * times.booked() * after;
+    motion.velocity[k] = after;
+    motion.displacement[k] += times.drift * after;
+  }
+  if (!prescribed.rotation) return;
+  const Spin<Dim> after = factor * prescribed.angular_velocity;
+  const Spin<Dim> before = times.at_start() ? after : angular_velocity(body, motion);
+  for (int k = 0; k < spin_freedoms<Dim>; ++k)
+    book(energy, times.booked(), load.moment[k], before[k], after[k]);
+  motion.rotation = turned(motion.rotation, Spin<Dim>(times.drift * after));
+  motion.angular_momentum = angular_momentum(body, motion.rotation, after);
+}
+
+template <int Dim>
+void stop_held(const Model<Dim>& model, State<Dim>& state) {
+  auto prescribed = model.prescribed.begin();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body<Dim>& body = model.bodies[b];
+    const PrescribedMotion<Dim>* forced = body.prescribed ? &*prescribed++ : nullptr;
+    Motion<Dim>& motion = state.motions[b];
+    for (int k = 0; k < Dim; ++k)
+      if ((body.fixed || !body.free_translation[k]) && !(forced && forced->translation[k])) motion.velocity[k] = 0;
+    const bool turns = !body.fixed && std::find(body.free_rotation.begin(), body.free_rotation.end(), true) !=
+                                          body.free_rotation.end();
+    if (!turns && !(forced && forced->rotation)) motion.angular_momentum.setZero();
+  }
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                               \
+  template void force<Dim>(const Body<Dim>&, const PrescribedMotion<Dim>&, const Load<Dim>&, double, StepTimes, \
+                           Motion<Dim>&, KickEnergy<Dim>&);                                                     \
+  template void stop_held<Dim>(const Model<Dim>&, State<Dim>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

@@ -1,0 +1,25 @@
+// Prescribed motion: bodies, or some of their freedoms, that move as the scene says whatever the load. Displacement
+// control and base shaking.
+#pragma once
+
+#include "core/model.hpp"
+#include "core/motion/integrate.hpp"
+#include "core/state.hpp"
+
+namespace voussoir {
+
+// at a time since the motion began, s
+double value_at(const TimeFactor& factor, double time);
+
+// Moves the forced freedoms of a body by one step at the velocity of the middle of the step, `middle` seconds after the
+// motion began. The books see what it costs: the work against the load. The body's own inertia along a forced freedom
+// is left out of them, with its kinetic energy, for a shaken base of any mass is the same base.
+template <int Dim>
+void force(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const Load<Dim>& load, double middle,
+           StepTimes times, Motion<Dim>& motion, KickEnergy<Dim>& energy);
+
+// When a stage begins: stops whatever is held and not forced, also what a motion that has ended left moving.
+template <int Dim>
+void stop_held(const Model<Dim>& model, State<Dim>& state);
+
+}  // namespace voussoir

@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "reference/small/small.hpp"
+
+using namespace voussoir::reference;
+
+namespace {
+
+constexpr double pi = std::numbers::pi, degree = pi / 180;
+
+const ShakenIncline example{{10 * degree, 30 * degree, 9.81, 0}, 0.4, 2};
+
+// Second derivation: step by step, Coulomb friction as a force that either keeps the block or drags it.
+ShakenPosition stepped(const ShakenIncline& s, double time, int steps) {
+  const double dt = time / steps, w = 2 * pi * s.frequency;
+  const double limit =
+      s.incline.gravity * (std::tan(s.incline.friction_angle) * std::cos(s.incline.angle) - std::sin(s.incline.angle));
+  double distance = 0, velocity = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double gain = s.speed * (std::sin(w * (k + 1) * dt) - std::sin(w * k * dt)) - limit * dt;
+    const double next = std::max(0.0, velocity + gain);
+    distance += 0.5 * (velocity + next) * dt;
+    velocity = next;
+  }
+  return {distance, velocity};
+}
+
+TEST(ShakenBlock, agrees_with_small_steps) {
+  for (const double speed : {0.31, 0.35, 0.4, 0.5, 0.57})
+    for (const double time : {0.03, 0.1, 0.37, 0.8, 2.0}) {
+      ShakenIncline s = example;
+      s.speed = speed;
+      const ShakenPosition exact = shaken_block(s, time), steps = stepped(s, time, 400000);
+      EXPECT_NEAR(exact.distance, steps.distance, 2e-6) << speed << ' ' << time;
+      EXPECT_NEAR(exact.velocity, steps.velocity, 2e-5) << speed << ' ' << time;
+    }
+}
+
+// begun at full acceleration: the first slip is v (1 - cos wt)/w - a t²/2
+TEST(ShakenBlock, first_slip_is_the_difference_of_two_ways) {
+  const double t = 0.05, w = 4 * pi,
+               limit = 9.81 * (std::tan(30 * degree) * std::cos(10 * degree) - std::sin(10 * degree));
+  EXPECT_NEAR(shaken_block(example, t).distance, 0.4 / w * (1 - std::cos(w * t)) - 0.5 * limit * t * t, 1e-15);
+  EXPECT_EQ(shaken_block(example, 0).distance, 0);
+}
+
+// from the second cycle on each is like the one before
+TEST(ShakenBlock, cycles_repeat) {
+  const double second = shaken_block(example, 1.2).distance - shaken_block(example, 0.7).distance;
+  const double third = shaken_block(example, 1.7).distance - shaken_block(example, 1.2).distance;
+  EXPECT_GT(second, 0);
+  EXPECT_NEAR(second, third, 1e-14);
+}
+
+TEST(ShakenBlock, stays_below_the_limit_and_refuses_what_it_does_not_model) {
+  ShakenIncline s = example;
+  s.speed = 0.3;  // 3.77 m/s² of 3.87
+  EXPECT_EQ(shaken_block(s, 5).distance, 0);
+  s.speed = 0.6;  // 7.54 m/s² of 7.28 for an upward slip
+  EXPECT_THROW(shaken_block(s, 1), std::invalid_argument);
+  s.incline.friction_angle = 9 * degree;
+  EXPECT_THROW(shaken_block(s, 1), std::invalid_argument);
+}
+
+}  // namespace
