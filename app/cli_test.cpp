@@ -203,6 +203,8 @@ TEST_F(Program, LimitAnswersProvesAndDraws) {
   EXPECT_EQ(any.code, 1);
   EXPECT_NE(any.out.find("stand without friction"), std::string::npos) << any.out;
   EXPECT_EQ(results("any")["status"], "incomplete");
+  const std::string changed = "--overwrite --out any --set stage.settle.friction_deg=10";
+  expect_one_line(run("limit " + squares_ + changed), 1, "before its first stage");
   expect_one_line(run("limit " + cubes_ + "--out bad"), 2, "dimension = 3");
   expect_one_line(run("limit " + slump + "--friction roc --out bad"), 2, "there are: rock");
   EXPECT_FALSE(fs::exists(folder_ / "bad"));

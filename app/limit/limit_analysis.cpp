@@ -36,6 +36,17 @@ std::vector<std::string> unsupported(const LimitAnalysis& analysis) {
   return warnings;
 }
 
+// what a stage would change is not looked at
+void warn_of_changes(const std::vector<StagePlan>& stages, std::vector<std::string>& warnings) {
+  for (const StagePlan& stage : stages) {
+    const Change& change = stage.change;
+    if (!change.fix.empty() || !change.release.empty() || !change.remove.empty() || change.friction)
+      warnings.push_back(fmt::format(
+          "stage '{}' changes blocks or friction; limit analysis takes the scene as it is before its first stage",
+          stage.name));
+  }
+}
+
 Value bracketed(double low, double high, const std::string& rule) {
   return {0.5 * (low + high) * degrees, "deg", 0.5 * (high - low) * degrees, rule};
 }
@@ -116,6 +127,7 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
   analysis.model = prepared->model;
   analysis.interfaces = find_interfaces(analysis.model);
   analysis.warnings = unsupported(analysis);
+  warn_of_changes(prepared->stages, analysis.warnings);
 
   request.load ? seek_factor(*request.load, analysis) : seek_friction(request.properties, analysis);
   refuse_empty(analysis.status);
