@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/checkpoint/checkpoint.hpp"
 #include "core/checkpoint/fields.hpp"
 #include "core/simulate.hpp"
@@ -120,22 +122,55 @@ void expect_shaken() {
   still.bodies[block].free_rotation.fill(false);
   const TimeFactor sine{.times = {}, .factors = {}, .frequency = 2, .phase = 0};
   Prepared<Dim> scene =
-      scene_of(still, {run_of("settle", 0.2), run_of("shake", 1, {move_of<Dim>("plate", 0, 0.1, sine)})}, 5e-5);
+      scene_of(still, {run_of("settle", 0.2), run_of("shake", 1.1, {move_of<Dim>("plate", 0, 0.1, sine)})}, 5e-5);
   scene.settings.damping.viscous_ratio = 0.1;
   const Progress<Dim> end = whole_run(scene);
   const double shaken = end.state.time - end.state.schedule.started;
   const double way = 0.1 / (4 * std::numbers::pi) * (1 - std::cos(4 * std::numbers::pi * shaken));
-  EXPECT_NEAR(end.state.motions[plate].displacement[0], way, 1e-9);  // the midpoint rule errs by (ω dt)²/24 of 8 mm
+  EXPECT_NEAR(end.state.motions[plate].displacement[0], way, 1e-9);  // the midpoint rule errs by (ω dt)²/24 of 16 mm
   EXPECT_EQ(end.state.motions[plate].displacement[Dim - 1], 0);
   // the block's acceleration of ω v shears the joint by micrometres
   EXPECT_NEAR(end.state.motions[block].displacement[0], way, 2e-5);
-  EXPECT_GT(end.state.energy.flows.prescribed, -1);
   EXPECT_LT(end.state.energy.closure(), 1e-3);
 }
 
 TEST(Prescribed, ShakesABase) {
   expect_shaken<3>();
   expect_shaken<2>();
+}
+
+// a fixed block that moves is looked at: it meets a free block and another fixed one, far from where it began, whether
+// the list of neighbours holds them from the start or has to be renewed
+TEST(Prescribed, MeetsWhatIsInItsWay) {
+  using shapes::body_of;
+  using shapes::box;
+  Model<2> model = shapes::model_of<2>({body_of<2>(box<2>({-3, -1}, {3, 0}), true, "plate"),
+                                        body_of<2>(box<2>({-2, 0.3}, {-1, 1.3}), false, "block"),
+                                        body_of<2>(box<2>({1, 0.3}, {2, 1.3}), true, "stop")});
+  model.gravity.setZero();
+  for (const double skin : {0.1, 2.0}) {
+    Prepared<2> scene = scene_of(model, {run_of("rise", 0.301, {move_of<2>("plate", 1, 1)})}, 1e-5);
+    scene.settings.contact.skin = skin;
+    const Progress<2> end = whole_run(scene);
+    EXPECT_EQ(std::count_if(end.state.contacts.begin(), end.state.contacts.end(),
+                            [](const Contact<2>& c) { return c.touching(); }),
+              2)
+        << skin;
+  }
+}
+
+// two squares on their corners, side by side: their boxes meet all the time, so only the way gone tells when to look
+TEST(Prescribed, WakesAPairThatWasProvenApart) {
+  const Matrix<2> turn = matrix(Rotation<2>{45 * degree});
+  const auto square = [&](double at, bool fixed, const char* name) {
+    return shapes::body_of<2>(shapes::placed<2>(shapes::cube<2>(0.5), turn, {at, at}), fixed, name);
+  };
+  Model<2> model = shapes::model_of<2>({square(0, true, "moved"), square(0.8, false, "block")});
+  model.gravity.setZero();
+  const Progress<2> end = whole_run(scene_of(model, {run_of("near", 0.186, {move_of<2>("moved", 0, 1)})}, 1e-5));
+  // the gap of 0.8 √2 - 1 closes at 1/√2 m/s
+  ASSERT_EQ(end.state.contacts.size(), 1u);
+  EXPECT_TRUE(end.state.contacts[0].touching());
 }
 
 TEST(Prescribed, TurnsABlockInSpace) {
