@@ -11,6 +11,7 @@
 #include "core/contact/narrow_phase.hpp"
 #include "core/law/elastic_coulomb.hpp"
 #include "core/motion/integrate.hpp"
+#include "core/motion/relaxation.hpp"
 #include "core/motion/time_step.hpp"
 
 namespace voussoir {
@@ -354,7 +355,7 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
     }
 
     double dashpot = 0;
-    if (settings.damping.viscous_ratio > 0) {
+    if (settings.damping.viscous_ratio > 0 && !state.relaxation.under_way) {
       const double inverse_mass = (model.bodies[a].fixed ? 0 : 1 / model.bodies[a].mass) +
                                   (model.bodies[b].fixed ? 0 : 1 / model.bodies[b].mass);
       dashpot = 2 * settings.damping.viscous_ratio * std::sqrt(properties.normal_stiffness * k.area / inverse_mass);
@@ -390,17 +391,17 @@ void sum_loads(const Model<Dim>& model, State<Dim>& state) {
 
 template <int Dim>
 void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  if (state.relaxation.under_way) {
+    book_gravity_ramp(model, state);
+    return relax_bodies(model, settings, state);
+  }
+
   // within a stage the step only shrinks, as soon as a contact is stiffer than it was chosen for
   const double last = state.time_step;
-  const bool outgrown = std::any_of(state.contacts.begin(), state.contacts.end(), [](const Contact<Dim>& c) {
-    return c.status != ContactStatus::apart && (c.area_rated < 0 || (c.touching() && c.geometry.area > c.area_rated));
-  });
-  if (outgrown || state.frequency.empty()) {
+  if (state.frequency.empty() || outgrown(state)) {
     const double step = estimate_time_step(model, settings, settings.damping, state).step;
     state.step_allowed = state.step_allowed > 0 ? std::min(state.step_allowed, step) : step;
-    if (!(state.step_allowed > 0))
-      throw std::domain_error(
-          "no contact and no joint property determines the time step: state time.step_s in the scene");
+    demand_time_step(state);
   }
   state.time_step = state.step_allowed;
 
@@ -412,7 +413,7 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].fixed) continue;
     const KickEnergy<Dim> kick =
-        advance(model.bodies[b], state.loads[b], settings.damping.local, times, state.motions[b]);
+        advance(model.bodies[b], state.loads[b], {.local_damping = settings.damping.local}, times, state.motions[b]);
     const Vector<Dim> gravity = weight(model, state, b);
     energy.kinetic += kick.kinetic;
     book(energy.flows, gravity.dot(kick.path_before), kick.load_before, kick.damping_before);

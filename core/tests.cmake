@@ -51,5 +51,6 @@ voussoir_test(unit.certainty LONG LABEL unit
   LIBS voussoir_exact_referee Boost::headers fmt::fmt hwy::hwy)
 
 voussoir_test(unit.step LABEL unit
-  SOURCES step_test.cpp testing/step_memory_test.cpp energy_test.cpp state_hash_test.cpp reduction/reduction_test.cpp checkpoint/checkpoint_test.cpp
+  SOURCES step_test.cpp testing/step_memory_test.cpp energy_test.cpp state_hash_test.cpp reduction/reduction_test.cpp
+    motion/relaxation_test.cpp checkpoint/checkpoint_test.cpp
   LIBS voussoir_core cereal::cereal Boost::headers)
