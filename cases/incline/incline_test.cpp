@@ -93,7 +93,7 @@ TEST_P(InclineIn, SlidesAtTheDipAndAsNewtonSays) {
                  "Newton: g (sin - cos tan) t2/2",
                  closed_form.back(),
                  {0, 2 * step / end},
-                 "velocities stand half a step behind: the slide begins half a step early, dt/t in the "
+                 "velocities stand half a step behind: half a step at the start would be dt/t in the "
                  "distance; as much again for the overlap, which grows while the joint's area shrinks"},
                 sliding.distance.back(), cost(run));
   write_csv("incline", v.dimension == 3 ? "slide.csv" : "slide_plane.csv", {"time_s", "distance_m", "closed_form_m"},
