@@ -2,6 +2,10 @@
 // forces did to the motion, which leapfrog closes to rounding; and what the contacts gave and took, which closes as far
 // as they are conservative: not where area, normal or point of a contact change on the way, nor where a step is long
 // for an impact.
+//
+// On the way to rest by relaxation, inertia and velocities are fictitious (motion/relaxation.hpp): there is no kinetic
+// energy, all work of the forces is booked as taken out by the relaxation, and the first balance says nothing. The
+// second one knows no inertia and holds as ever.
 #pragma once
 
 namespace voussoir {
@@ -14,8 +18,9 @@ struct EnergyFlows {
   double friction = 0;    // lost to slip
   double dashpots = 0;    // lost to viscous damping
   double local = 0;       // lost to local damping
+  double relaxation = 0;  // taken out by relaxation
   double ramp = 0;        // put in by gravity that grows
-  double changes = 0;     // put in by changes of the model between stages
+  double changes = 0;     // put in by changes of the model between stages, and where a motion is stopped to relax
   double prescribed = 0;  // put in by prescribed motions
 };
 
@@ -32,7 +37,7 @@ struct EnergyLedger {
   LedgerPhase phase = LedgerPhase::not_begun;
 
   double potential() const { return flows.ramp - flows.gravity; }  // of gravity, against the start
-  double damping() const { return flows.local + flows.dashpots; }
+  double damping() const { return flows.local + flows.dashpots + flows.relaxation; }
   double external() const { return flows.ramp + flows.changes + flows.prescribed; }
 
   // kinetic + elastic + potential + friction + damping - external, against the start

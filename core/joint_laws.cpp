@@ -79,7 +79,7 @@ Vector<Dim> joint_force(const JointProperties& properties, const Settings& setti
   }
 
   double dashpot = 0;
-  if (settings.damping.viscous_ratio > 0)
+  if (settings.damping.viscous_ratio > 0 && !state.relaxation.under_way)
     dashpot = 2 * settings.damping.viscous_ratio *
               std::sqrt(properties.normal_stiffness * k.area / motion.inverse_mass * at.share);
   const JointForce<Dim> answer =

@@ -24,6 +24,7 @@ struct Value {
 struct StageResult {
   std::string name, kind;  // kind: settle, run, reduce
   std::string ended;       // why it stopped, e.g. "equilibrium", "end time", "bracket closed"
+  bool relaxed = false;    // came to rest by relaxation: its time and velocities are fictitious
   long long steps = 0;
   double time = 0;        // s simulated within the stage
   double time_step = 0;   // s at its end

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/motion/integrate.hpp"
+#include "core/motion/relaxation.hpp"
 #include "core/step.hpp"
 
 namespace voussoir {
@@ -93,7 +94,11 @@ std::string first_unanswered(const Model<Dim>& model, const State<Dim>& state) {
 }
 
 template <int Dim>
-RunProgress<Dim> begin_run(const RunGoal& goal, const State<Dim>& state) {
+RunProgress<Dim> begin_run(const RunGoal& goal, bool relaxes, State<Dim>& state) {
+  if (relaxes)
+    begin_relaxation(state);
+  else
+    begin_motion(state);
   RunProgress<Dim> progress;
   progress.under_way = true;
   progress.unconverged = state.counters.unconverged;
@@ -130,10 +135,12 @@ std::string describe(StopReason reason) {
 template <int Dim>
 RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& goal, const RunSchedule& schedule,
               State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks) {
-  if (!progress.under_way) progress = begin_run(goal, state);
+  const bool relaxes = goal.rest && settings.damping.statics == Statics::adaptive;
+  if (!progress.under_way) progress = begin_run(goal, relaxes, state);
   RunReport report;
   const auto stop = [&](StopReason reason, const std::string& detail = {}) {
     progress.under_way = reason == StopReason::interrupted;
+    if (relaxes && !progress.under_way) end_relaxation(state);
     report.reason = reason;
     report.detail = detail;
     report.steps = progress.steps;

@@ -37,9 +37,16 @@ struct ContactSettings {
   double skin = 0.1;
 };
 
+enum class Statics { adaptive, local };
+
 struct DampingSettings {
+  // how a run that ends at rest gets there. adaptive: dynamic relaxation with scaled inertia, in which time, velocities
+  // and dashpots mean nothing; local: the true motion under the damping below, the thesis' way, ten to a hundred times
+  // slower for many blocks, and right where the way to rest is an event, like a fall
+  Statics statics = Statics::adaptive;
+
   // Cundall's non-viscous damping: each force component is lessened by this share when it drives the motion; 0..<1.
-  // Reaches rest quickly, but delays failure; 0 for dynamics
+  // Reaches rest, but delays failure; 0 for dynamics
   double local = 0.7;
 
   // ratio to critical of the dashpot in every contact's normal direction; 0..; lowers the stable time step
@@ -85,7 +92,7 @@ struct RunPlan {
   double gravity_ramp = 0;  // s
 };
 
-enum class ReductionMethod { bisection, steps, rate };
+enum class ReductionMethod { bisection, steps, rate, two_rates };
 
 // lower the friction angle of joints until the model fails (method.md section 6)
 struct ReducePlan {
@@ -94,7 +101,8 @@ struct ReducePlan {
   double from = 0, to = 0;              // rad: start (stable) and end of the search
   double tolerance = 0;                 // rad, bisection: largest bracket at the end
   double step = 0;                      // rad, steps: decrement
-  double rate = 0;                      // rad/s, rate: speed of reduction
+  double rate = 0;                      // rad/s, rate: speed of reduction; two_rates: the faster
+  double slower_rate = 0;               // rad/s, two_rates: the slower
   double failure_displacement = 0;      // m: a body that has moved this far since the trial began has failed;
                                         // 0: a tenth of the smallest inscribed radius
   long long ramp_steps = 500;           // steps over which a trial lowers the friction; few: inertia breaks the path

@@ -208,6 +208,7 @@ struct Simulation {
     r.name = plan().name;
     r.kind = done.kind;
     r.ended = done.ended;
+    r.relaxed = done.kind != "run" && settings.damping.statics == Statics::adaptive;
     r.steps = state.counters.steps - progress.steps_before;
     r.time = state.time - progress.stage_began;
     r.time_step = state.time_step;

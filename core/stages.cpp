@@ -12,6 +12,7 @@
 #include "core/contact/sub_contacts.hpp"
 #include "core/motion/integrate.hpp"
 #include "core/motion/prescribed.hpp"
+#include "core/motion/relaxation.hpp"
 #include "core/motion/time_step.hpp"
 
 namespace voussoir {
@@ -26,12 +27,6 @@ double smallest_size(const Model<Dim>& model) {
   for (const Body<Dim>& b : model.bodies)
     if (!b.fixed) smallest = std::min(smallest, b.size);
   return std::isfinite(smallest) ? smallest : 0;
-}
-
-// N
-template <int Dim>
-Vector<Dim> weight(const Model<Dim>& model, const State<Dim>& state, std::size_t body) {
-  return model.bodies[body].mass * state.schedule.gravity_factor * model.gravity;
 }
 
 // bounds on how far a rotation has turned, rad
@@ -356,17 +351,17 @@ void sum_loads(const Model<Dim>& model, State<Dim>& state) {
 
 template <int Dim>
 void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  if (state.relaxation.under_way) {
+    book_gravity_ramp(model, state);
+    return relax_bodies(model, settings, state);
+  }
+
   // within a stage the step only shrinks, as soon as a contact is stiffer than it was chosen for
   const double last = state.time_step;
-  const bool outgrown = std::any_of(state.contacts.begin(), state.contacts.end(), [](const Contact<Dim>& c) {
-    return c.status != ContactStatus::apart && (c.area_rated < 0 || (c.touching() && c.geometry.area > c.area_rated));
-  });
-  if (outgrown || state.frequency.empty()) {
+  if (state.frequency.empty() || outgrown(state)) {
     const double step = estimate_time_step(model, settings, settings.damping, state).step;
     state.step_allowed = state.step_allowed > 0 ? std::min(state.step_allowed, step) : step;
-    if (!(state.step_allowed > 0))
-      throw std::domain_error(
-          "no contact and no joint property determines the time step: state time.step_s in the scene");
+    demand_time_step(state);
   }
   state.time_step = state.step_allowed;
 
@@ -381,7 +376,7 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
     const Body<Dim>& body = model.bodies[b];
     if (body.still()) continue;
     KickEnergy<Dim> kick;
-    if (!body.fixed) kick = advance(body, state.loads[b], settings.damping.local, times, state.motions[b]);
+    if (!body.fixed) kick = advance(body, state.loads[b], {.local_damping = settings.damping.local}, times, state.motions[b]);
     if (body.prescribed) force(body, *prescribed++, state.loads[b], elapsed, times, state.motions[b], kick);
     const Vector<Dim> gravity = weight(model, state, b);
     energy.kinetic += kick.kinetic;

@@ -44,6 +44,16 @@ struct Load {
   Spin<Dim> moment = Spin<Dim>::Zero();     // N m about the centroid, before damping
 };
 
+// Adaptive dynamic relaxation (motion/relaxation.hpp): what it keeps from step to step.
+template <int Dim>
+struct Relaxation {
+  bool under_way = false;               // the run seeks rest by it: inertia, velocities and time are fictitious
+  bool rested = false;                  // it has stopped every body, and none has moved since
+  std::vector<double> inertia;          // by body: fictitious over true mass and moments of inertia
+  std::vector<Load<Dim>> contact_load;  // by body: of the step before, without weight
+  int until_renewal = 0;                // steps until the inertia is chosen anew
+};
+
 // values that vary within a stage
 struct Schedule {
   double gravity_factor = 1;
@@ -81,6 +91,7 @@ struct State {
   std::vector<Matrix<Dim>> axes;       // by body: its frame in world axes; rebuilt every step
   std::vector<Box<Dim>> bounds;        // by part; rebuilt every step
   std::vector<double> frequency;       // rad/s, by body: stiffest mode of the last time-step estimate
+  Relaxation<Dim> relaxation;
   Schedule schedule;
   double time = 0;          // s
   double time_step = 0;     // s: of the last step; 0 at the start
@@ -110,6 +121,12 @@ template <int Dim>
 Vector<Dim> between(const Model<Dim>& model, const State<Dim>& state, int a, int b) {
   return (model.bodies[b].reference - model.bodies[a].reference) +
          (state.motions[b].displacement - state.motions[a].displacement);
+}
+
+// of a body under the gravity of now, N
+template <int Dim>
+Vector<Dim> weight(const Model<Dim>& model, const State<Dim>& state, std::size_t body) {
+  return model.bodies[body].mass * state.schedule.gravity_factor * model.gravity;
 }
 
 // angular velocity in world axes, rad/s

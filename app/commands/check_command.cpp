@@ -90,7 +90,8 @@ std::string damping_text(const DampingSettings& damping) {
   std::string text;
   if (damping.local > 0) text = fmt::format("local {:g}", damping.local);
   if (damping.viscous_ratio > 0) text += fmt::format("{}viscous {:g}", text.empty() ? "" : ", ", damping.viscous_ratio);
-  return text.empty() ? "none" : text;
+  const std::string rest = damping.statics == Statics::adaptive ? "; to rest by relaxation" : "";
+  return (text.empty() ? "none" : text) + rest;
 }
 
 struct PlanText {
@@ -117,6 +118,8 @@ struct PlanText {
         return fmt::format("in steps of {:g} deg", plan.step * degrees);
       case ReductionMethod::rate:
         return fmt::format("at {:g} deg/s", plan.rate * degrees);
+      case ReductionMethod::two_rates:
+        return fmt::format("at {:g} and {:g} deg/s, extrapolated", plan.rate * degrees, plan.slower_rate * degrees);
     }
     return "";
   }

@@ -59,8 +59,9 @@ double own_weight_overlap(const Model<Dim>& model, const Body<Dim>& body) {
 
 // Time in which a block that bounces on its joint comes down to the share `rest` of its first swing. Local damping
 // (share α) drives every swing inwards with 1-α and outwards with 1+α of the force, the dashpot takes ξω of the
-// amplitude per time.
+// amplitude per time. Relaxation damps critically.
 double settling_time(double overlap, double g, const DampingSettings& damping, double rest) {
+  if (damping.statics == Statics::adaptive) return -std::log(rest) / std::sqrt(g / overlap);
   const double frequency = std::sqrt(g / overlap), in = std::sqrt(1 - damping.local),
                out = std::sqrt(1 + damping.local);
   const double half_swing = 0.5 * std::numbers::pi * (1 / in + 1 / out) / frequency;
@@ -93,6 +94,8 @@ struct Forecaster {
         return std::ceil(range / plan.step) * settling + trial(plan);
       case ReductionMethod::rate:
         return range / plan.rate;
+      case ReductionMethod::two_rates:
+        return range / plan.rate + range / plan.slower_rate;
     }
     return 0;
   }
@@ -215,7 +218,7 @@ void judge_stage(const StagePlan& stage, const DampingSettings& damping, const T
         fmt::format("{}: time.fraction = {} is above {}{}: contacts that open and close gain energy", where,
                     time.fraction, fraction, undamped ? ", the most without damping" : ""));
   const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
-  if (seeks_rest && undamped)
+  if (seeks_rest && undamped && damping.statics == Statics::local)
     result.warnings.push_back(where + " waits for rest but nothing damps: give it damping.local = 0.7");
   if (const auto* plan = std::get_if<ReducePlan>(&stage.plan);
       plan && smallest > 0 && plan->failure_displacement > smallest)
@@ -243,6 +246,8 @@ struct DurationKeys {
         return "step_deg";
       case ReductionMethod::rate:
         return "rate_deg_per_s";
+      case ReductionMethod::two_rates:
+        return "slower_rate_deg_per_s";
     }
     return "";
   }

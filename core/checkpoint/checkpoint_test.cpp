@@ -108,8 +108,10 @@ TEST(Checkpoint, ASearchForTheCriticalFrictionGoesOn) {
   plan.tolerance = 0.5 * degree;
   plan.step = 1 * degree;
   plan.rate = 4 * degree;
+  plan.slower_rate = 1 * degree;
   plan.failure_displacement = 0.003;
-  for (const ReductionMethod method : {ReductionMethod::bisection, ReductionMethod::steps, ReductionMethod::rate}) {
+  for (const ReductionMethod method :
+       {ReductionMethod::bisection, ReductionMethod::steps, ReductionMethod::rate, ReductionMethod::two_rates}) {
     plan.method = method;
     expect_search_survives<2>(plan);
   }

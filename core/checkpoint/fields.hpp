@@ -100,6 +100,12 @@ void serialize(Archive& archive, SubContact<Dim>& s) {
   archive(point, overlap, spread, gyration2, area, history, force);
 }
 
+template <class Archive, int Dim>
+void serialize(Archive& archive, Relaxation<Dim>& r) {
+  auto& [under_way, rested, inertia, contact_load, until_renewal] = r;
+  archive(under_way, rested, inertia, contact_load, until_renewal);
+}
+
 template <class Archive>
 void serialize(Archive& archive, Schedule& s) {
   auto& [gravity_factor, last_gravity_factor, friction, started] = s;
@@ -116,8 +122,8 @@ void serialize(Archive& archive, Counters& c) {
 
 template <class Archive>
 void serialize(Archive& archive, EnergyFlows& f) {
-  auto& [gravity, contacts, friction, dashpots, local, ramp, changes, prescribed] = f;
-  archive(gravity, contacts, friction, dashpots, local, ramp, changes, prescribed);
+  auto& [gravity, contacts, friction, dashpots, local, relaxation, ramp, changes, prescribed] = f;
+  archive(gravity, contacts, friction, dashpots, local, relaxation, ramp, changes, prescribed);
 }
 
 template <class Archive>
@@ -131,10 +137,10 @@ void serialize(Archive& archive, EnergyLedger& e) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
   // axes and bounds are rebuilt before they are read
-  auto& [motions, loads, contacts, subs, built, travels, axes, bounds, frequency, schedule, time, time_step,
+  auto& [motions, loads, contacts, subs, built, travels, axes, bounds, frequency, relaxation, schedule, time, time_step,
          step_allowed, energy, counters] = s;
-  archive(motions, loads, contacts, subs, built, travels, frequency, schedule, time, time_step, step_allowed, energy,
-          counters);
+  archive(motions, loads, contacts, subs, built, travels, frequency, relaxation, schedule, time, time_step,
+          step_allowed, energy, counters);
 }
 
 template <class Archive, int Dim>
@@ -145,8 +151,10 @@ void serialize(Archive& archive, RunProgress<Dim>& r) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, ReductionProgress<Dim>& r) {
-  auto& [trial, target, friction_from, friction_rate, time_limit, stable, failed, run, base] = r;
-  archive(trial, target, friction_from, friction_rate, time_limit, stable, failed, run, base);
+  auto& [trial, target, friction_from, friction_rate, time_limit, stable, failed, failed_faster, true_motion, run,
+         base] = r;
+  archive(trial, target, friction_from, friction_rate, time_limit, stable, failed, failed_faster, true_motion, run,
+          base);
 }
 
 template <class Archive>
@@ -163,8 +171,8 @@ void serialize(Archive& archive, Value& v) {
 
 template <class Archive>
 void serialize(Archive& archive, StageResult& s) {
-  auto& [name, kind, ended, steps, time, time_step, unbalanced] = s;
-  archive(name, kind, ended, steps, time, time_step, unbalanced);
+  auto& [name, kind, ended, relaxed, steps, time, time_step, unbalanced] = s;
+  archive(name, kind, ended, relaxed, steps, time, time_step, unbalanced);
 }
 
 template <class Archive>

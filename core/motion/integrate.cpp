@@ -42,11 +42,11 @@ Velocity velocity_before(StepTimes times, const Velocity& given, const Velocity&
   return times.at_start() ? Velocity(2 * given - after) : given;
 }
 
-void kick_spin(const Body<2>& body, const Load<2>& load, double damping, StepTimes times, Motion<2>& motion,
+void kick_spin(const Body<2>& body, const Load<2>& load, const KickRule& rule, StepTimes times, Motion<2>& motion,
                KickEnergy<2>& energy) {
   const Spin<2> given = angular_velocity(body, motion);
-  const Spin<2> left = damped_moment(load, damping, given);
-  motion.angular_momentum += times.kick * left;
+  const Spin<2> left = damped_moment(load, rule.local_damping, given);
+  motion.angular_momentum = rule.keeps * motion.angular_momentum + rule.gain * times.kick * left;
   const Spin<2> after = angular_velocity(body, motion), before = velocity_before(times, given, after);
   book(energy, times.booked(), load.moment[0], left[0], before[0], after[0]);
   energy.kinetic += 0.5 * body.inertia[0] * before[0] * after[0];
@@ -57,7 +57,7 @@ void drift_spin(const Body<2>& body, double dt, Motion<2>& motion) {
 }
 
 // some axes are held: the free components of the spin obey the free block of the inertia tensor
-void kick_partly(const Body<3>& body, const Spin<3>& moment, double dt, Motion<3>& motion) {
+void kick_partly(const Body<3>& body, const Spin<3>& moment, double keeps, double dt, Motion<3>& motion) {
   const Matrix<3> axes = matrix(motion.rotation) * body.principal_axes;
   Matrix<3> inertia = axes * body.inertia.asDiagonal() * axes.transpose();
   Spin<3> spin = angular_velocity(body, motion), kick = moment;
@@ -69,19 +69,19 @@ void kick_partly(const Body<3>& body, const Spin<3>& moment, double dt, Motion<3
     kick[k] = 0;
     spin[k] = 0;
   }
-  spin += dt * Spin<3>(inertia.inverse() * kick);
+  spin = keeps * spin + dt * Spin<3>(inertia.inverse() * kick);
   motion.angular_momentum = angular_momentum(body, motion.rotation, spin);
 }
 
-void kick_spin(const Body<3>& body, const Load<3>& load, double damping, StepTimes times, Motion<3>& motion,
+void kick_spin(const Body<3>& body, const Load<3>& load, const KickRule& rule, StepTimes times, Motion<3>& motion,
                KickEnergy<3>& energy) {
   const Spin<3> given = angular_velocity(body, motion), given_momentum = motion.angular_momentum;
-  const Spin<3> left = damped_moment(load, damping, given);
+  const Spin<3> left = damped_moment(load, rule.local_damping, given);
   if (all_free<3>(body.free_rotation)) {
     const Matrix<3> axes = matrix(motion.rotation) * body.principal_axes;
-    motion.angular_momentum += times.kick * (axes.transpose() * left);
+    motion.angular_momentum = rule.keeps * motion.angular_momentum + rule.gain * times.kick * (axes.transpose() * left);
   } else {
-    kick_partly(body, left, times.kick, motion);
+    kick_partly(body, left, rule.keeps, rule.gain * times.kick, motion);
   }
   const Spin<3> after = angular_velocity(body, motion), before = velocity_before(times, given, after);
   for (int k = 0; k < 3; ++k)
@@ -127,14 +127,14 @@ double damped(double force, double velocity, double local_damping) {
 }
 
 template <int Dim>
-KickEnergy<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, double local_damping, StepTimes times,
+KickEnergy<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, const KickRule& rule, StepTimes times,
                         Motion<Dim>& motion) {
   KickEnergy<Dim> energy;
   const double booked = times.booked();
   for (int k = 0; k < Dim; ++k) {
     if (!body.free_translation[k]) continue;
-    const double given = motion.velocity[k], left = damped(load.force[k], given, local_damping);
-    motion.velocity[k] += times.kick * left / body.mass;
+    const double given = motion.velocity[k], left = damped(load.force[k], given, rule.local_damping);
+    motion.velocity[k] = rule.keeps * given + rule.gain * times.kick * left / body.mass;
     const double before = velocity_before(times, given, motion.velocity[k]);
     book(energy, booked, load.force[k], left, before, motion.velocity[k]);
     energy.kinetic += 0.5 * body.mass * before * motion.velocity[k];
@@ -143,7 +143,7 @@ KickEnergy<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, double loc
     motion.displacement[k] += times.drift * motion.velocity[k];
   }
   if (!none_free(body.free_rotation)) {
-    kick_spin(body, load, local_damping, times, motion, energy);
+    kick_spin(body, load, rule, times, motion, energy);
     drift_spin(body, times.drift, motion);
   }
   return energy;
@@ -164,7 +164,9 @@ double unbalanced_ratio(const Model<Dim>& model, const State<Dim>& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
     if (body.fixed) continue;
-    const double frequency = b < state.frequency.size() ? state.frequency[b] : 0;
+    double frequency = b < state.frequency.size() ? state.frequency[b] : 0;
+    // mass times frequency goes with the root of the mass
+    if (state.relaxation.under_way) frequency *= std::sqrt(state.relaxation.inertia[b]);
     double squares = 0, momentum = 0;
     for (int k = 0; k < Dim; ++k) {
       if (!body.free_translation[k]) continue;
@@ -182,8 +184,8 @@ double unbalanced_ratio(const Model<Dim>& model, const State<Dim>& state) {
   return mean > 0 ? largest / mean : std::numeric_limits<double>::infinity();
 }
 
-template KickEnergy<2> advance<2>(const Body<2>&, const Load<2>&, double, StepTimes, Motion<2>&);
-template KickEnergy<3> advance<3>(const Body<3>&, const Load<3>&, double, StepTimes, Motion<3>&);
+template KickEnergy<2> advance<2>(const Body<2>&, const Load<2>&, const KickRule&, StepTimes, Motion<2>&);
+template KickEnergy<3> advance<3>(const Body<3>&, const Load<3>&, const KickRule&, StepTimes, Motion<3>&);
 template double unbalanced_ratio<2>(const Model<2>&, const State<2>&);
 template double unbalanced_ratio<3>(const Model<3>&, const State<3>&);
 

@@ -28,18 +28,25 @@ struct KickEnergy {
                                                                                     // load acted along
 };
 
-// Advances a free body by one step under its load. Translation: v += kick f/m, u += drift v on free freedoms. Rotation
+// what a kick makes of a velocity: v -> keeps v + gain kick f/m, f the force that local damping leaves
+struct KickRule {
+  double local_damping = 0;
+  double keeps = 1, gain = 1;
+};
+
+// Advances a free body by one step under its load. Translation: v by the kick, u += drift v on free freedoms. Rotation
 // in 3-D: angular momentum is kicked by the moment, then the free rotation is split into turns about the principal axes
 // (Dullweber, Leimkuhler & McLachlan 1997): reversible, symplectic, momentum kept exactly, exact inertia.
 template <int Dim>
-KickEnergy<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, double local_damping, StepTimes times,
+KickEnergy<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, const KickRule& rule, StepTimes times,
                         Motion<Dim>& motion);
 
 // force left after damping each component against its velocity: f - α |f| sign(v)
 double damped(double force, double velocity, double local_damping);
 
 // The largest share of the mean contact force that a body's unbalanced force and momentum still amount to (see
-// EquilibriumSettings); infinity when bodies move without any contact.
+// EquilibriumSettings); infinity when bodies move without any contact. Under relaxation the momentum is that of the
+// fictitious inertia, since this is what swings.
 template <int Dim>
 double unbalanced_ratio(const Model<Dim>& model, const State<Dim>& state);
 

@@ -43,7 +43,7 @@ void expect_constant_spin(std::uint64_t seed, long long steps) {
     const double spin = 1.7, dt = 0.01;  // rad/s, s
     motion.angular_momentum[axis] = spin * body.inertia[axis];
     for (long long i = 0; i < steps; ++i)
-      advance<3>(body, {}, 0, {dt, dt}, motion);
+      advance<3>(body, {}, {}, {dt, dt}, motion);
     const long double step_angle = dt * (motion.angular_momentum[axis] / body.inertia[axis]);
     const Eigen::Quaterniond expected = turn(body.principal_axes.col(axis), step_angle * steps);
     EXPECT_LT(apart(motion.rotation.quaternion, expected), turned_tolerance) << "axis " << axis;
@@ -75,7 +75,7 @@ TEST(MotionExtremes, InThePlaneASpinLosesHalfAnUlpAStepAtMost) {
   const long long steps = 10'000'000;
   motion.angular_momentum[0] = 1e-3 * body.inertia[0];
   for (long long i = 0; i < steps; ++i)
-    advance<2>(body, {}, 0, {dt, dt}, motion);
+    advance<2>(body, {}, {}, {dt, dt}, motion);
   const long double expected = static_cast<long double>(dt * motion.angular_momentum[0] / body.inertia[0]) * steps;
   const double ulp_of_angle = std::nextafter(motion.rotation.angle, 1e9) - motion.rotation.angle;
   EXPECT_NEAR(motion.rotation.angle, static_cast<double>(expected), 0.5 * ulp_of_angle * static_cast<double>(steps));
@@ -99,7 +99,7 @@ TEST(MotionExtremes, TumblingAboutTheUnstableAxisKeepsMomentumAndEnergy) {
     double first = 0, last = 0, turned = 0, flips = 0;  // largest energy error in each half; rad
     bool up = true;
     for (int i = 0; i < steps; ++i) {
-      advance<3>(body, {}, 0, {dt, dt}, motion);
+      advance<3>(body, {}, {}, {dt, dt}, motion);
       double& largest = i < steps / 2 ? first : last;
       largest = std::max(largest, std::abs(energy_of() / energy - 1));
       turned += 2 * dt * motion.angular_momentum.cwiseQuotient(body.inertia).lpNorm<1>();
@@ -152,13 +152,13 @@ TEST(MotionExtremes, AStepMayTurnABodyMoreThanOnce) {
     const Body<3> solid = shapes::random_body<3>(random, {});
     Motion<3> motion;
     motion.angular_momentum[2] = angle * solid.inertia[2];
-    advance<3>(solid, {}, 0, {1, 1}, motion);
+    advance<3>(solid, {}, {}, {1, 1}, motion);
     const Vector<3> axis = solid.principal_axes.col(2);
     EXPECT_LT(apart(motion.rotation.quaternion, turn(axis, angle)), 1e-14 * (1 + angle)) << angle;
     const Body<2> flat = shapes::random_body<2>(random, {});
     Motion<2> flat_motion;
     flat_motion.angular_momentum[0] = angle * flat.inertia[0];
-    advance<2>(flat, {}, 0, {1, 1}, flat_motion);
+    advance<2>(flat, {}, {}, {1, 1}, flat_motion);
     EXPECT_NEAR(flat_motion.rotation.angle, angle, 1e-15 * angle);
   }
 }
@@ -204,7 +204,7 @@ EnergyError energy_error(double start, double dt, long long steps, Force force, 
     const double place = static_cast<double>(i) / tenth;
     if (place < 1) first.add(now, place);
     if (place >= 9) last.add(now, place - 9);
-    advance<2>(body, load, 0, {i == 0 ? 0.5 * dt : dt, dt}, motion);
+    advance<2>(body, load, {}, {i == 0 ? 0.5 * dt : dt, dt}, motion);
   }
   error.drift = last.mean() - first.mean();
   return error;
@@ -287,7 +287,7 @@ TEST(MotionExtremes, ABounceChangesTheEnergyByASquareOfTheStep) {
         double leaving = -speed;
         for (bool first = true; motion.displacement[1] < 0 || leaving < 0; first = false) {
           load.force[1] = weight_and_contact(motion.displacement[1]);
-          advance<2>(body, load, 0, {first ? 0.5 * dt : dt, dt}, motion);
+          advance<2>(body, load, {}, {first ? 0.5 * dt : dt, dt}, motion);
           leaving = motion.velocity[1] + 0.5 * dt * weight_and_contact(motion.displacement[1]);
         }
         const double change = (0.5 * leaving * leaving + motion.displacement[1]) / energy - 1;
@@ -316,7 +316,7 @@ void expect_creep() {
   motion.velocity.setConstant(increment / dt);
   const int steps = 1'000'000;
   for (int i = 0; i < steps; ++i)
-    advance<Dim>(body, {}, 0, {dt, dt}, motion);
+    advance<Dim>(body, {}, {}, {dt, dt}, motion);
   for (int k = 0; k < Dim; ++k)
     EXPECT_NEAR(motion.displacement[k], increment * steps, 1e-6 * increment * steps);
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace voussoir {
 namespace {
@@ -166,6 +167,24 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
   return estimate;
 }
 
+template <int Dim>
+void demand_time_step(const State<Dim>& state) {
+  if (!(state.step_allowed > 0))
+    throw std::domain_error(
+        "no contact and no joint property determines the time step: state time.step_s in the scene");
+}
+
+template <int Dim>
+bool outgrown(const State<Dim>& state) {
+  return std::any_of(state.contacts.begin(), state.contacts.end(), [](const Contact<Dim>& c) {
+    return c.status != ContactStatus::apart && (c.area_rated < 0 || (c.touching() && c.geometry.area > c.area_rated));
+  });
+}
+
+template void demand_time_step<2>(const State<2>&);
+template void demand_time_step<3>(const State<3>&);
+template bool outgrown<2>(const State<2>&);
+template bool outgrown<3>(const State<3>&);
 template TimeStepEstimate estimate_time_step<2>(const Model<2>&, const Settings&, const DampingSettings&, State<2>&);
 template TimeStepEstimate estimate_time_step<3>(const Model<3>&, const Settings&, const DampingSettings&, State<3>&);
 

@@ -24,4 +24,12 @@ template <int Dim>
 TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
                                     State<Dim>& state);
 
+// throws std::domain_error when nothing has determined the step allowed
+template <int Dim>
+void demand_time_step(const State<Dim>& state);
+
+// some contact is stiffer than the last estimate rated it for, or new to it
+template <int Dim>
+bool outgrown(const State<Dim>& state);
+
 }  // namespace voussoir

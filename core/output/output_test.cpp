@@ -95,7 +95,7 @@ Results some_results() {
   results.outcome = Outcome::incomplete;
   results.message = "no bracket";
   results.values = {{"critical_friction", {33.35 + 1e-14, "deg", 0.01, "bisection"}}, {"height", {0.1, "m", {}, ""}}};
-  results.stages.push_back({"settle", "settle", "equilibrium", 100, 0.5, 1e-3, 1e-7});
+  results.stages.push_back({"settle", "settle", "equilibrium", true, 100, 0.5, 1e-3, 1e-7});
   results.counters.steps = 123'456'789'012;
   results.energy.flows.gravity = 12;
   results.energy.flows.local = 1;
@@ -130,6 +130,7 @@ TEST(ResultsJson, HoldsWhatTheRunFound) {
   EXPECT_EQ(json["stages"][0]["ended"], "equilibrium");
   EXPECT_EQ(json["counters"]["steps"], 123'456'789'012);
   EXPECT_EQ(json["energy"]["potential"], -12);
+  EXPECT_EQ(json["stages"][0]["relaxed"], true);
   EXPECT_EQ(json["energy"]["damping"], 3);
   EXPECT_EQ(json["energy"]["closure"], 0.25);
   EXPECT_EQ(json["warnings"].back(), "late doubt");

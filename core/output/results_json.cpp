@@ -41,6 +41,7 @@ Json stages_json(const Results& results, NumberWriter& number) {
     stages.push_back({{"name", stage.name},
                       {"kind", stage.kind},
                       {"ended", stage.ended},
+                      {"relaxed", stage.relaxed},
                       {"steps", stage.steps},
                       {"time_s", number(stage.time, prefix + "time_s")},
                       {"time_step_s", number(stage.time_step, prefix + "time_step_s")},

@@ -29,6 +29,8 @@ struct ReductionProgress {
   double friction_from = 0, friction_rate = 0;  // rad, rad/s: how it gets there
   double time_limit = 0;                        // s, constant rate: when the angle reaches `to`
   double stable = 0, failed = 0;                // rad: the bracket so far
+  double failed_faster = 0;                     // rad, two rates: found at the faster
+  bool true_motion = false;                     // the trial under way is one that relaxation could not decide
   RunProgress<Dim> run;                         // of the trial under way
   State<Dim> base;                              // the last stable state
 };
@@ -42,7 +44,13 @@ using TrialHook = std::function<void(const State<Dim>&, double friction, Trial o
 //   steps      each step runs to equilibrium (thesis, Method B); ends at the first that does not
 //   rate       constant rate (Method A); ends when a body has moved by the failure displacement. The angle found is
 //              too low by (6 X cos θ r² / ((1-α) g))^(1/3) on a plane of dip θ: the error bar takes cos θ = 1
-// Afterwards the state is the last stable one (rate: the failed one). A search that the hooks interrupted
+//   two_rates  the same at two rates from one path of equilibria, the slower from nearer by, where the faster has told;
+//   since the bias goes with r^(2/3), the two tell how large it is
+//              at the slower and what is left without it. The error bar is a quarter of that correction: the margin of
+//              a grid convergence index whose order is known. It is not, where the joints soften
+// A trial that relaxation cannot decide goes on in true motion under local damping: near the critical angle a block
+// that slides on a single contact point flutters, and critical damping of the flutter holds up the slide. Afterwards
+// the state is the last stable one (rates: the failed one). A search that the hooks interrupted
 // (`last.reason`) goes on when it is called again with its progress.
 template <int Dim>
 ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,

@@ -28,7 +28,7 @@ TEST(Reduction, ABlockOnASlopeFailsAtTheSlopesAngle) {
     State<2> state = initial_state(model);
     ReducePlan plan;
     plan.method = method;
-    plan.from = 35 * degree;
+    plan.from = 35 * degree;  // trials meet the slope's own angle
     plan.to = 27 * degree;
     plan.tolerance = 0.1 * degree;
     plan.step = 0.5 * degree;
@@ -58,6 +58,28 @@ TEST(Reduction, AtConstantRateTheBiasIsTheOnePredicted) {
   ASSERT_TRUE(report.bracketed) << report.message;
   const double bias = std::cbrt(6 * 0.05 * std::cos(slope) * plan.rate * plan.rate / (0.3 * gravity));
   EXPECT_NEAR(slope - report.critical, bias, bias_tolerance * bias);
+}
+
+// the lag of each rate is some degrees, what the extrapolation leaves a hundredth of that
+TEST(Reduction, TwoRatesTellWhatNoRateWouldFind) {
+  const double slope = 30 * degree;
+  Model<2> model = block_on_plate<2>(slope, 40 * degree);
+  model.bodies[index_of(model, "block")].free_rotation.fill(false);
+  State<2> state = initial_state(model);
+  ReducePlan plan;
+  plan.method = ReductionMethod::two_rates;
+  plan.from = 32 * degree;
+  plan.to = 10 * degree;
+  plan.rate = 2 * degree;
+  plan.slower_rate = 0.5 * degree;
+  plan.failure_displacement = 0.05;
+  const ReductionReport report = reduce_from_scratch(model, plan, state);
+  ASSERT_TRUE(report.bracketed) << report.message;
+  const double bias = std::cbrt(6 * 0.05 * std::cos(slope) * plan.slower_rate * plan.slower_rate / (0.3 * gravity));
+  EXPECT_NEAR(report.critical - report.failed, bias, 2 * bias_tolerance * bias);
+  EXPECT_NEAR(report.critical, slope, bias_tolerance * bias);
+  EXPECT_LT(std::abs(report.critical - slope), report.error_bar);
+  EXPECT_NEAR(report.error_bar, 0.25 * (report.critical - report.failed), 1e-12);
 }
 
 TEST(Reduction, SaysWhenTheSearchIsInTheWrongPlace) {

@@ -27,9 +27,9 @@ std::string dump(const Scene& s) {
   out << static_cast<int>(c.lp) << ' ' << static_cast<int>(c.centre) << ' ' << static_cast<int>(c.point) << ' '
       << static_cast<int>(c.overlap) << ' ' << c.tolerance << ' ' << c.potential_radius << ' ' << c.newton_tolerance
       << ' ' << c.newton_limit << ' ' << c.skin << '\n'
-      << s.settings.damping.local << ' ' << s.settings.damping.viscous_ratio << ' ' << s.settings.time.fraction << ' '
-      << s.settings.equilibrium.unbalanced << ' ' << s.settings.equilibrium.window << ' ' << s.smallest_inscribed_radius
-      << '\n'
+      << static_cast<int>(s.settings.damping.statics) << ' ' << s.settings.damping.local << ' '
+      << s.settings.damping.viscous_ratio << ' ' << s.settings.time.fraction << ' ' << s.settings.equilibrium.unbalanced
+      << ' ' << s.settings.equilibrium.window << ' ' << s.smallest_inscribed_radius << '\n'
       << s.output.history_interval << ' ' << s.output.frame_interval << ' ' << s.output.frames << '\n';
   for (const PropertiesSpec& p : s.properties)
     out << p.properties.constant_stiffness << '\n';
@@ -45,7 +45,9 @@ std::string dump(const Scene& s) {
           << reduce->step_limit << '\n';
     for (const MovePlan& move : stage.plan.change.move)
       out << move.translation[0] << move.translation[1] << move.translation[2] << ' ' << move.factor.phase << '\n';
-    if (stage.plan.damping) out << stage.plan.damping->local << ' ' << stage.plan.damping->viscous_ratio << '\n';
+    if (stage.plan.damping)
+      out << static_cast<int>(stage.plan.damping->statics) << ' ' << stage.plan.damping->local << ' '
+          << stage.plan.damping->viscous_ratio << '\n';
   }
   return out.str();
 }

@@ -36,16 +36,19 @@ Selector selector_of(const Subject& table) {
 
 ReducePlan read_reduction(const Subject& table) {
   ReducePlan plan;
-  read_choice(
-      table, "method",
-      {{"bisection", ReductionMethod::bisection}, {"steps", ReductionMethod::steps}, {"rate", ReductionMethod::rate}},
-      plan.method);
+  read_choice(table, "method",
+              {{"bisection", ReductionMethod::bisection},
+               {"steps", ReductionMethod::steps},
+               {"rate", ReductionMethod::rate},
+               {"two_rates", ReductionMethod::two_rates}},
+              plan.method);
   read(table, "joint_properties", plan.properties);
   read_degrees(table, "from_deg", plan.from);
   read_degrees(table, "to_deg", plan.to);
   read_degrees(table, "tolerance_deg", plan.tolerance);
   read_degrees(table, "step_deg", plan.step);
   read_degrees(table, "rate_deg_per_s", plan.rate);
+  read_degrees(table, "slower_rate_deg_per_s", plan.slower_rate);
   read(table, "failure_displacement", plan.failure_displacement);
   read(table, "ramp_steps", plan.ramp_steps);
   read(table, "step_limit", plan.step_limit);
@@ -53,6 +56,10 @@ ReducePlan read_reduction(const Subject& table) {
     refuse(table, "from_deg",
            "must be greater than to_deg (" + value_text(*table.node->find("to_deg")) +
                "): a reduction starts at the stable, higher angle; swap the two");
+  if (plan.method == ReductionMethod::two_rates && !(plan.slower_rate < plan.rate))
+    refuse(table, "slower_rate_deg_per_s",
+           "must be less than rate_deg_per_s (" + value_text(*table.node->find("rate_deg_per_s")) +
+               "); a quarter of it is a good choice");
   return plan;
 }
 
@@ -78,6 +85,7 @@ RunPlan read_run(const Subject& table) {
 }
 
 void read_damping(const Subject& table, DampingSettings& damping) {
+  read_choice(table, "statics", {{"adaptive", Statics::adaptive}, {"local", Statics::local}}, damping.statics);
   read(table, "local", damping.local);
   read(table, "viscous_ratio", damping.viscous_ratio);
 }

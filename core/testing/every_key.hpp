@@ -79,6 +79,14 @@ method = "rate"
 from_deg = 60
 to_deg = 5
 rate_deg_per_s = 0.1
+[[stage]]
+name = "two_rates"
+kind = "reduce"
+method = "two_rates"
+from_deg = 60
+to_deg = 5
+rate_deg_per_s = 0.1
+slower_rate_deg_per_s = 0.025
 [[monitors]]
 name = "body"
 quantities = ["displacement"]

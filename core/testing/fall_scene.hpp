@@ -139,7 +139,7 @@ duration_s = 1.4
 name = "rest"
 kind = "settle"
 time_limit_s = 20
-damping = {{ local = 0.1 }}
+damping = {{ statics = "local", local = 0.1 }}
 
 [output]
 frame_interval_s = 0.2

@@ -1,6 +1,7 @@
 // A step that keeps its neighbours asks for no memory, even while blocks move, meet and part.
 #include <gtest/gtest.h>
 
+#include "core/motion/relaxation.hpp"
 #include "core/step.hpp"
 #include "core/testing/counted_allocations.hpp"
 #include "core/testing/models.hpp"
@@ -29,6 +30,23 @@ TEST(Step, AMovingPileAsksForNoMemory) {
 
   // something must have happened: the time step was estimated anew, as it is when a pair meets or a contact grows
   EXPECT_NE(state.frequency, frequency);
+}
+
+// long enough for the inertia to be chosen anew
+TEST(Step, ARelaxingPileAsksForNoMemory) {
+  const Model<3> model = shapes::model_of<3>(shapes::jointed_box());
+  Settings settings;
+  settings.contact.skin = 3;
+  State<3> state = initial_state(model);
+  begin_relaxation(state);
+  for (int i = 0; i < 200; ++i)  // the kernel's lists have found their size
+    step(model, settings, state);
+  const long long builds = state.counters.neighbour_builds, made = allocations;
+  for (int i = 0; i < 200; ++i)
+    step(model, settings, state);
+  const long long asked = allocations - made;
+  EXPECT_EQ(asked, 0);
+  EXPECT_EQ(state.counters.neighbour_builds, builds);
 }
 
 }  // namespace

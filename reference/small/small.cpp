@@ -60,6 +60,14 @@ double incline_velocity(const Incline& incline, double time) {
   return moving < time ? 0 : incline.initial_velocity + acceleration * moving;
 }
 
+double incline_rate_bias(const Incline& incline, double distance, double rate, double damping) {
+  check(incline, 0);
+  require(std::isfinite(distance) && distance > 0, "incline: distance must be positive");
+  require(std::isfinite(rate) && rate > 0, "incline: rate must be positive");
+  require(damping >= 0 && damping < 1, "incline: damping must lie in 0..1, 1 excluded");
+  return std::cbrt(6 * distance * std::cos(incline.angle) * rate * rate / ((1 - damping) * incline.gravity));
+}
+
 std::vector<double> column_overlaps(const Column& column) {
   check(column);
   std::vector<double> overlaps;

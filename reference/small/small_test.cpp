@@ -53,6 +53,29 @@ TEST(Incline, numerical_integration_and_scaling) {
   EXPECT_THROW(incline_distance(slides, -1), std::invalid_argument);
 }
 
+// Friction that falls while the block slides, integrated until it has slid the distance: the leading term and the next.
+TEST(Incline, the_bias_of_a_rate_is_the_leading_term) {
+  const double angle = 30 * degree, distance = 0.1, damping = 0.7;
+  for (const double rate : {0.025 * degree, 0.1 * degree, 1 * degree}) {
+    const double bias = incline_rate_bias({angle, 0, 9.81, 0}, distance, rate, damping);
+    const auto right = [&](double time, const double* y, double* slope) {
+      slope[0] = y[1];
+      slope[1] = (1 - damping) * 9.81 * (std::sin(angle) - std::cos(angle) * std::tan(angle - rate * time));
+    };
+    // the found angle is where the distance is reached, by bisection in time
+    double low = 0.5 * bias / rate, high = 2 * bias / rate;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (low + high);
+      (integrate_ode(right, {0, 0}, 0, middle)[0] < distance ? low : high) = middle;
+    }
+    const double next = 1 + std::tan(angle) * bias / 6;
+    EXPECT_NEAR(low * rate, bias * next, bias * bias * bias);
+  }
+  EXPECT_NEAR(incline_rate_bias({0, 0, 6, 0}, 1, 1, 0), 1, 1e-15);
+  EXPECT_THROW(incline_rate_bias({angle, 0, 9.81, 0}, 0, 1, 0), std::invalid_argument);
+  EXPECT_THROW(incline_rate_bias({angle, 0, 9.81, 0}, 1, 1, 1), std::invalid_argument);
+}
+
 // --- bounce
 
 // Small exact steps of the equation of motion until the force turns negative, then bisection of the last step.

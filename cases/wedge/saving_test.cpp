@@ -1,0 +1,115 @@
+// What the critical angle costs: bisection by relaxation and two extrapolated rates against the thesis' constant rate.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cases/case_tools.hpp"
+#include "reference/wedge/wedge.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using verification::Bound;
+using verification::CaseReport;
+using verification::Kind;
+
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr double wanted_deg = 0.05, wanted_saving = 20;
+
+double closed_form() {
+  reference::Wedge wedge;
+  wedge.a = {40 / degrees, 130 / degrees};
+  wedge.b = {60 / degrees, 220 / degrees};
+  return *reference::critical_friction(wedge) * degrees;
+}
+
+double error_of(const SceneRun& run) {
+  return std::abs(value(run, "critical_friction") - closed_form());
+}
+
+double evaluations(const SceneRun& run) {
+  return static_cast<double>(run.results.counters.contact_evaluations);
+}
+
+void expect_cheap(CaseReport& report, const std::string& name, const SceneRun& run, double thesis) {
+  report.record(
+      {"critical friction, " + name,
+       "deg",
+       Kind::exact,
+       "Hoek & Bray (1974)",
+       closed_form(),
+       {wanted_deg, 0},
+       "as demanded; the bracket leaves 0.02, the sliver below the edge 0.02; what the extrapolation leaves is "
+       "in its error bar"},
+      value(run, "critical_friction"), cost(run));
+  report.record({"contact evaluations of the thesis' rate over those of " + name,
+                 "1",
+                 Kind::limit,
+                 "demanded: at least 20 times fewer",
+                 wanted_saving,
+                 {0, 0, Bound::at_least},
+                 "no room: evaluations are counted"},
+                thesis / evaluations(run), cost(run));
+}
+
+TEST(WedgeSaving, BisectionAndTwoRatesAgainstTheThesisRate) {
+  CaseReport report("wedge", {"critical friction, bisection over ten degrees", "critical friction, two rates"});
+  const SceneRun thesis = run("thesis_rate.toml");
+  report.report("critical friction, the thesis' rate", "deg", value(thesis, "critical_friction"),
+                "found too late, within its error bar", cost(thesis));
+  report.record({"error of the thesis' rate as a share of its error bar",
+                 "1",
+                 Kind::limit,
+                 "what an error bar is",
+                 1,
+                 {0, 0, Bound::at_most},
+                 "no room: the bar is the claim"},
+                error_of(thesis) / *thesis.results.find("critical_friction")->error_bar);
+  expect_cheap(report, "bisection over ten degrees", run("narrow.toml"), evaluations(thesis));
+  const SceneRun two = run("two_rates.toml");
+  expect_cheap(report, "two rates", two, evaluations(thesis));
+  report.record({"error of two rates as a share of their error bar",
+                 "1",
+                 Kind::limit,
+                 "what an error bar is",
+                 1,
+                 {0, 0, Bound::at_most},
+                 "no room: the bar is the claim"},
+                error_of(two) / *two.results.find("critical_friction")->error_bar);
+  const SceneRun local = run("narrow.toml", {"damping.statics=\"local\"", "stage.reduce.ramp_steps=500"});
+  report.report("contact evaluations of bisection by local damping", "1", evaluations(local),
+                "500 steps of ramp, each a fifth as long as relaxation's", cost(local));
+}
+
+// a method's error against its cost as one knob turns
+void sweep(const std::string& file, const std::string& scene, const std::vector<std::vector<std::string>>& settings) {
+  std::vector<double> spent, error;
+  for (const std::vector<std::string>& overrides : settings) {
+    const SceneRun done = run(scene, overrides);
+    spent.push_back(evaluations(done));
+    error.push_back(error_of(done));
+  }
+  write_csv("wedge", file, {"evaluations", "error_deg"}, {spent, error});
+}
+
+TEST(WedgeSaving, DrawsErrorAgainstCost) {
+  std::vector<std::vector<std::string>> rates, pairs, brackets, damped;
+  for (const double rate : {4.0, 2.0, 1.0, 0.5, 0.25, 0.1, 0.025})
+    rates.push_back({fmt::format("stage.reduce.rate_deg_per_s={}", rate)});
+  for (const double rate : {8.0, 4.0, 2.0, 1.0, 0.5})
+    pairs.push_back({fmt::format("stage.reduce.rate_deg_per_s={}", rate),
+                     fmt::format("stage.reduce.slower_rate_deg_per_s={}", rate / 4)});
+  for (const double tolerance : {3.0, 1.0, 0.3, 0.1, 0.05, 0.02}) {
+    brackets.push_back({fmt::format("stage.reduce.tolerance_deg={}", tolerance)});
+    damped.push_back({brackets.back().front(), "damping.statics=\"local\"", "stage.reduce.ramp_steps=500"});
+  }
+  sweep("rates.csv", "thesis_rate.toml", rates);
+  sweep("two_rates.csv", "two_rates.toml", pairs);
+  sweep("bisection.csv", "narrow.toml", brackets);
+  sweep("bisection_local.csv", "narrow.toml", damped);
+}
+
+}  // namespace
+}  // namespace voussoir::cases

@@ -1,0 +1,166 @@
+#include "core/motion/relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion/integrate.hpp"
+#include "core/motion/time_step.hpp"
+
+namespace voussoir {
+namespace {
+
+// The step as a share of a body's stability limit: near one, since work goes with its inverse. A body that may turn
+// takes less: its face's contact point moves as it rocks, which makes rocking up to √3 times as fast as the limit knows
+// (in the plane: the centre of a gap of width w and overlap u, turned by θ, moves by θ w²/(4u); moment k w³ θ/4).
+constexpr double share_of_limit = 0.9, share_turning = 0.5;
+
+// A body at rest is first only nudged, by this share of a kick: blocks that just touch have no joint yet, and what they
+// slip before it closes would meet no resistance.
+constexpr double nudge = 1e-3;
+
+// Damping times step, at least. Sliding meets no stiffness, so what slides at constant speed would slide for ever; a
+// thousand steps stop it. Less than the critical damping of a column of 2,000 blocks.
+constexpr double least_damping = 1e-3;
+
+// Steps between two looks at the stiffness. It follows contacts that got softer; those that got stiffer ask for it
+// themselves. Costs as much as some steps, so a hundredth of them.
+constexpr int renewal = 100;
+
+template <int Dim>
+void stop_bodies(State<Dim>& state) {
+  for (Motion<Dim>& m : state.motions) {
+    m.velocity.setZero();
+    m.angular_momentum.setZero();
+  }
+}
+
+// what relaxation and motion do not share: the time step, and the energy that stopping takes
+template <int Dim>
+void change_ways(State<Dim>& state) {
+  state.frequency.clear();
+  state.step_allowed = 0;
+  if (state.energy.phase == LedgerPhase::running) state.energy.phase = LedgerPhase::model_changed;
+}
+
+template <int Dim>
+double share(const Body<Dim>& body) {
+  return std::any_of(body.free_rotation.begin(), body.free_rotation.end(), [](bool free) { return free; })
+             ? share_turning
+             : share_of_limit;
+}
+
+// The inertia with which a body's limit 2/ω times its share is the common step, stiffness having grown by the area
+// margin.
+template <int Dim>
+void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  const double limit = estimate_time_step(model, settings, {.viscous_ratio = 0}, state).limit;
+  if (state.step_allowed == 0)
+    state.step_allowed = settings.time.step.value_or(std::isfinite(limit) ? share_of_limit * limit : 0);
+  demand_time_step(state);
+  state.relaxation.inertia.assign(model.bodies.size(), 1);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const double to_limit = 0.5 * state.step_allowed * state.frequency[b] / share(model.bodies[b]);
+    if (to_limit > 0) state.relaxation.inertia[b] = area_margin * to_limit * to_limit;
+  }
+  state.relaxation.until_renewal = renewal;
+}
+
+// Critical damping of the present motion, 1/s, by Rayleigh's quotient: K v is what the contact forces lost over the
+// last step. Sums in the order of the bodies.
+template <int Dim>
+double critical_damping(const Model<Dim>& model, State<Dim>& state) {
+  Relaxation<Dim>& r = state.relaxation;
+  const bool first = r.contact_load.size() != model.bodies.size();
+  r.contact_load.resize(model.bodies.size());
+  double stiffness = 0, inertia = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].fixed) continue;
+    const Motion<Dim>& m = state.motions[b];
+    const Spin<Dim> spin = angular_velocity(model.bodies[b], m);
+    const Load<Dim> now{state.loads[b].force - weight(model, state, b), state.loads[b].moment};
+    if (!first) {
+      stiffness -= m.velocity.dot(now.force - r.contact_load[b].force);
+      stiffness -= spin.dot(now.moment - r.contact_load[b].moment);
+    }
+    inertia += r.inertia[b] * (model.bodies[b].mass * m.velocity.squaredNorm() +
+                               m.angular_momentum.dot(m.angular_momentum.cwiseQuotient(model.bodies[b].inertia)));
+    r.contact_load[b] = now;
+  }
+  const double dt = state.step_allowed, least = least_damping / dt, most = 4 / dt;  // 2 ω at the limit of stability
+  if (!(stiffness > 0 && inertia > 0)) return least;
+  return std::clamp(2 * std::sqrt(stiffness / (inertia * dt)), least, most);
+}
+
+template <int Dim>
+bool at_rest(const Motion<Dim>& m) {
+  return m.velocity.isZero(0) && m.angular_momentum.isZero(0);
+}
+
+}  // namespace
+
+template <int Dim>
+void begin_relaxation(State<Dim>& state) {
+  stop_bodies(state);
+  change_ways(state);
+  state.relaxation = {};
+  state.relaxation.under_way = true;
+}
+
+template <int Dim>
+void end_relaxation(State<Dim>& state) {
+  stop_bodies(state);
+  change_ways(state);
+  state.relaxation = {};
+  state.relaxation.rested = true;
+}
+
+template <int Dim>
+void begin_motion(State<Dim>& state) {
+  if (!state.relaxation.rested) return;
+  state.relaxation.rested = false;
+  state.time_step = 0;
+}
+
+template <int Dim>
+void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  Relaxation<Dim>& r = state.relaxation;
+  if (state.frequency.empty() || r.until_renewal-- == 0 || outgrown(state)) scale_inertia(model, settings, state);
+  const double dt = state.step_allowed, half = 0.5 * dt * critical_damping(model, state);
+
+  // the kick is central: damping acts at the mean of the velocities before and after it
+  EnergyLedger& energy = state.energy;
+  EnergyFlows after;
+  energy.kinetic = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].fixed) continue;
+    Motion<Dim>& motion = state.motions[b];
+    const double share = at_rest(motion) ? nudge : 1;
+    const KickRule rule{.keeps = (1 - half) / (1 + half), .gain = share / (r.inertia[b] * (1 + half))};
+    const KickEnergy<Dim> kick = advance(model.bodies[b], state.loads[b], rule, {dt, dt}, motion);
+    const Vector<Dim> gravity = weight(model, state, b);
+    const double down_before = gravity.dot(kick.path_before), down_after = gravity.dot(kick.path_after);
+    energy.flows.gravity += down_before;
+    energy.flows.contacts += kick.load_before - down_before;
+    energy.flows.relaxation += kick.load_before;
+    after.gravity += down_after;
+    after.contacts += kick.load_after - down_after;
+    after.relaxation += kick.load_after;
+  }
+  balance(energy);
+  energy.flows.gravity += after.gravity;
+  energy.flows.contacts += after.contacts;
+  energy.flows.relaxation += after.relaxation;
+  state.time_step = dt;
+  state.time += dt;
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                   \
+  template void begin_relaxation<Dim>(State<Dim>&); \
+  template void end_relaxation<Dim>(State<Dim>&);   \
+  template void begin_motion<Dim>(State<Dim>&);     \
+  template void relax_bodies<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

@@ -1,0 +1,130 @@
+// Relaxation comes to the rest that the true motion comes to, in fewer steps, whatever the masses.
+#include "core/motion/relaxation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/run.hpp"
+#include "core/state_hash.hpp"
+#include "core/testing/models.hpp"
+
+namespace voussoir {
+namespace {
+
+using shapes::block_on_plate;
+using shapes::body_of;
+using shapes::box;
+using shapes::degree;
+using shapes::gravity;
+using shapes::index_of;
+
+// what rest leaves of a column's overlap: each of its blocks 1e-6 of the mean contact force
+constexpr double left_by_rest = 1e-6;
+
+// squares on a fixed base, one above the other, that cannot turn; `heavier`: every other one has this times the density
+Model<2> column(int blocks, double heavier = 1) {
+  std::vector<Body<2>> bodies{body_of<2>(box<2>({-0.5, -1}, {1.5, 0}), true)};
+  for (int i = 0; i < blocks; ++i) {
+    const double height = i;
+    bodies.push_back(make_body<2>({shapes::block<2>(box<2>({0, height}, {1, height + 1}))},
+                                  shapes::density * (i % 2 == 0 ? 1 : heavier)));
+    bodies.back().free_rotation.fill(false);
+  }
+  return shapes::model_of<2>(std::move(bodies));
+}
+
+struct Rest {
+  RunReport report;
+  State<2> state;
+};
+
+Rest rest_of(const Model<2>& model, Statics statics, int threads = 1) {
+  Settings settings;
+  settings.damping.statics = statics;
+  settings.damping.local = 0.8;
+  settings.threads = threads;
+  Rest rest{{}, initial_state(model)};
+  rest.report = run<2>(model, settings, {.rest = true, .step_limit = 1'000'000}, {}, rest.state);
+  EXPECT_EQ(rest.report.reason, StopReason::equilibrium);
+  return rest;
+}
+
+TEST(Relaxation, AColumnSettlesOnItsSprings) {
+  const Model<2> model = column(10);
+  const Rest rest = rest_of(model, Statics::adaptive);
+  double weight = 0, settled = 0;  // from the top down
+  for (std::size_t b = model.bodies.size(); b-- > 1;) {
+    weight += model.bodies[b].mass * gravity;
+    settled += weight / model.properties[0].normal_stiffness;
+  }
+  const double top = rest.state.motions.back().displacement[1];
+  EXPECT_NEAR(-top, settled, 10 * 10 * left_by_rest * settled);
+}
+
+// a hundred times the mass is ten times the steps of the true motion, and none of relaxation's
+TEST(Relaxation, AlikeForLightAndHeavyBlocks) {
+  const long long even = rest_of(column(10), Statics::adaptive).report.steps,
+                  uneven = rest_of(column(10, 100), Statics::adaptive).report.steps,
+                  true_motion = rest_of(column(10, 100), Statics::local).report.steps;
+  EXPECT_LT(static_cast<double>(uneven), 1.5 * static_cast<double>(even));
+  EXPECT_GT(true_motion, 15 * uneven);
+}
+
+// gravity put on gently: a block that turns freely, on a slope that it does not slide down
+TEST(Relaxation, ABlockThatMayTurnComesToTheSameRest) {
+  const Model<3> model = block_on_plate<3>(20 * degree, 35 * degree);
+  const auto rest = [&](Statics statics) {
+    Settings settings;
+    settings.damping.statics = statics;
+    State<3> state = initial_state(model);
+    const RunReport report =
+        run<3>(model, settings, {.rest = true, .step_limit = 200'000}, {.gravity_ramp = 0.2, .properties = {}}, state);
+    EXPECT_EQ(report.reason, StopReason::equilibrium);
+    return state.motions[index_of(model, "block")].displacement;
+  };
+  const Vector<3> relaxed = rest(Statics::adaptive), moved = rest(Statics::local);
+  // the same path up to what inertia adds to it
+  EXPECT_LT((relaxed - moved).norm(), 0.01 * moved.norm());
+}
+
+TEST(Relaxation, TimeAndThreadsLeaveNoTrace) {
+  const Model<2> model = column(10);
+  const Rest one = rest_of(model, Statics::adaptive), three = rest_of(model, Statics::adaptive, 3);
+  EXPECT_EQ(state_hash(model, one.state), state_hash(model, three.state));
+  for (const Motion<2>& m : one.state.motions)
+    EXPECT_TRUE(m.velocity.isZero(0) && m.angular_momentum.isZero(0));
+}
+
+// what weight has given is in the springs or taken out; no kinetic energy is claimed
+TEST(Relaxation, TheLedgerSaysWhatItCan) {
+  const Rest rest = rest_of(column(10), Statics::adaptive);
+  const EnergyLedger& e = rest.state.energy;
+  EXPECT_EQ(e.kinetic, 0);
+  EXPECT_EQ(e.flows.local, 0);
+  EXPECT_EQ(e.flows.friction, 0);
+  EXPECT_GT(e.flows.relaxation, 0);
+  // springs under a weight hold half of what it gave; rest leaves its share, the touching faces' first step a little
+  // more
+  EXPECT_NEAR(e.elastic, 0.5 * e.flows.gravity, 1e-3 * e.elastic);
+  EXPECT_NEAR(e.flows.relaxation, 0.5 * e.flows.gravity, 1e-3 * e.elastic);
+  EXPECT_LT(e.closure(), 1e-3);
+}
+
+// what rests after a relaxation starts to move at its own time: v = g t after the first full kick, no half step ahead
+TEST(Relaxation, MotionAfterwardsStartsFromRest) {
+  Model<2> model = column(1);
+  State<2> state = rest_of(model, Statics::adaptive).state;
+  Settings settings;
+  settings.damping.local = 0;
+  settings.time.step = 1e-3;
+  model = apply(std::move(model), {.fix = {},
+                                   .release = {},
+                                   .remove = {{.names = {}, .above = {}, .below = {}, .inside = {{0, -0.5}}}},
+                                   .friction = {}});
+  state.built.clear();
+  const double before = state.motions[1].displacement[1];
+  run<2>(model, settings, {.end_time = state.time + 0.1}, {}, state);
+  EXPECT_NEAR(before - state.motions[1].displacement[1], 0.5 * gravity * 0.1 * 0.1, 1e-12);
+}
+
+}  // namespace
+}  // namespace voussoir
