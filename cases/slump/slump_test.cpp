@@ -1,5 +1,5 @@
-// The slumping slope S0 by rigid-block limit analysis and by blocks that slip without opening: the angle at which it is
-// lost, and who moves.
+// The slumping slope S0 by rigid-block limit analysis, by blocks that slip without opening and by the distinct element
+// method: the angle at which it is lost, and who moves.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,6 +28,18 @@ reference::SlopeCollapse without_dilation() {
 
 LimitAnalysis by_limit_analysis() {
   return analyse_limit(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml"));
+}
+
+double expected_deg(const reference::SlopeCollapse& collapse) {
+  return 0.5 * (collapse.stands + collapse.collapses) * degrees;
+}
+
+// per metre that the fastest corner moves, 1/m, counter-clockwise
+double mean_turn_of_outer_layer(const reference::SlopeCollapse& collapse) {
+  double turning = 0;
+  for (const reference::SlopeBlockMotion& block : collapse.motion)
+    if (block.layer == 0) turning += block.turn / blocks_of_a_layer;
+  return turning;
 }
 
 bool in_outer_layer(const Vector<2>& place) {
@@ -91,7 +103,7 @@ TEST(Slump, IsLostWhereBlocksThatDoNotDilateLoseIt) {
   const LimitAnalysis analysis = by_limit_analysis();
   ASSERT_EQ(analysis.status, LimitStatus::found);
   const reference::SlopeCollapse collapse = without_dilation();
-  const double expected = 0.5 * (collapse.stands + collapse.collapses) * degrees;
+  const double expected = expected_deg(collapse);
   report.reference("critical_friction", expected, "deg");
   report.record({"critical friction, limit analysis",
                  "deg",
@@ -131,15 +143,148 @@ TEST(Slump, IsLostWhereBlocksThatDoNotDilateLoseIt) {
     EXPECT_EQ(block.layer == 0, block.largest > 0.1) << "layer " << block.layer << ", row " << block.row;
 
   // how fast they turn is not the same: dilation lifts every block off the one below
-  double turning = 0;
-  for (const reference::SlopeBlockMotion& block : collapse.motion)
-    if (block.layer == 0) turning += block.turn / blocks_of_a_layer;
   const std::string note = "per metre that the fastest corner moves; mean of the outer layer's blocks";
   report.report("turn of the outer layer, limit analysis", "1/m", least / largest_corner_speed(analysis), note);
-  report.report("turn of the outer layer, without dilation", "1/m", turning, note);
+  report.report("turn of the outer layer, without dilation", "1/m", mean_turn_of_outer_layer(collapse), note);
   report.report("share of rotation in the kinetic energy, limit analysis", "1", analysis.mechanism.rotation_share,
                 "each block about its own centroid; the rest is translation of the centroids");
   draw(analysis, collapse);
+}
+
+// The distinct element run: at rest before friction is lowered, and as the last trial that failed left it.
+template <int Dim>
+struct Loss {
+  SceneRun run;
+  State<Dim> settled, lost;
+
+  const Model<Dim>& model() const { return std::get<Prepared<Dim>>(run.scene.prepared).model; }
+};
+
+template <int Dim>
+Loss<Dim> lose(const std::string& scene, const std::vector<std::string>& overrides = {}) {
+  Loss<Dim> loss;
+  loss.run.scene = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides);
+  const auto& prepared = std::get<Prepared<Dim>>(loss.run.scene.prepared);
+  std::vector<State<Dim>> frames;  // end of the settling, each trial that failed, end of the search
+  Watcher<Dim> watcher;
+  watcher.frame = [&](const Model<Dim>&, const State<Dim>& state, double) { frames.push_back(state); };
+  Progress<Dim> progress = begin(prepared);
+  simulate(prepared, progress, watcher);
+  loss.run.results = std::move(progress.results);
+  if (loss.run.results.outcome != Outcome::done) throw std::runtime_error(scene + ": " + loss.run.results.message);
+  loss.settled = frames.front();
+  loss.lost = frames.at(frames.size() - 2);
+  return loss;
+}
+
+struct BlockLoss {
+  int body = 0;
+  Vector<2> place;     // of its centroid, in the plane of the slope
+  double largest = 0;  // of its corners' motions, m
+  double turn = 0;     // rad, counter-clockwise as seen with x to the right
+};
+
+template <int Dim>
+std::vector<BlockLoss> motions_of_loss(const Loss<Dim>& loss) {
+  const Model<Dim>& model = loss.model();
+  std::vector<BlockLoss> moved;
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
+    const Body<Dim>& body = model.bodies[b];
+    if (body.fixed) continue;
+    const Motion<Dim>&before = loss.settled.motions[b], &after = loss.lost.motions[b];
+    const Matrix<Dim> turned = matrix(after.rotation) - matrix(before.rotation);
+    const Matrix<Dim> turn = matrix(after.rotation) * matrix(before.rotation).transpose();
+    const Vector<Dim> place = model.origin + body.reference;
+    BlockLoss block{b, {place[0], place[Dim - 1]}, 0, std::atan2(turn(Dim - 1, 0), turn(0, 0))};
+    for (const Vector<Dim>& corner : body.parts.front().vertices) {
+      const Vector<Dim> way = after.displacement - before.displacement + turned * corner;
+      block.largest = std::max(block.largest, way.norm());
+    }
+    moved.push_back(block);
+  }
+  return moved;
+}
+
+// that the slope is lost where the reference loses it, and as it loses it; returns the blocks' motions
+template <int Dim>
+std::vector<BlockLoss> judge_loss(CaseReport& report, const std::string& name, const Loss<Dim>& loss) {
+  const reference::SlopeCollapse collapse = without_dilation();
+  report.record(
+      {"critical friction, " + name,
+       "deg",
+       Kind::limit,
+       "elastic, perfectly plastic blocks without dilation",
+       expected_deg(collapse),
+       {0.2, 0},
+       "half the short search's bracket is 0.175. Slip on the way moves the angle by up to 0.1 (README), less than its "
+       "last trials, 0.14 below and 0.21 above the reference, are away from it"},
+      value(loss.run, "critical_friction"), cost(loss.run));
+  const std::vector<BlockLoss> moved = motions_of_loss(loss);
+  double most = 0;
+  for (const BlockLoss& block : moved)
+    most = std::max(most, block.largest);
+  int outer = 0, backwards = 0;
+  double turning = 0;
+  for (const BlockLoss& block : moved) {
+    const bool moves = block.largest > 0.1 * most;  // as the reference's blocks are told apart
+    EXPECT_EQ(moves, in_outer_layer(block.place)) << "block " << block.body << " moved by " << block.largest << " m";
+    if (!moves) continue;
+    ++outer;
+    if (block.turn < 0) ++backwards;
+    turning += block.turn / (blocks_of_a_layer * most);
+  }
+  const std::string source = "the outer layer: seven blocks";
+  report.record({"blocks that move, " + name, "1", Kind::limit, source, blocks_of_a_layer, {0, 0}, "a count"}, outer);
+  report.record({"blocks that turn backwards, " + name, "1", Kind::limit, source, blocks_of_a_layer, {0, 0}, "a count"},
+                backwards);
+  report.record(
+      {"turn of the outer layer, " + name,
+       "1/m",
+       Kind::limit,
+       "elastic, perfectly plastic blocks without dilation",
+       mean_turn_of_outer_layer(collapse),
+       {0, most / slope.thickness},
+       "per metre that the fastest corner moves, mean of the layer's blocks: a mechanism of one freedom, whose "
+       "geometry changes by as much as it has moved, in thicknesses of the layer"},
+      turning);
+  return moved;
+}
+
+void draw_loss(const Loss<2>& loss, const std::vector<BlockLoss>& moved) {
+  Outlines fixed("dem_fixed.csv"), before("dem_before.csv"), after("dem_after.csv");
+  const Model<2>& model = loss.model();
+  for (const Body<2>& body : model.bodies)
+    if (body.fixed) fixed.add(model, body, {0, 0}, 0);
+  double most = 0;
+  for (const BlockLoss& block : moved)
+    most = std::max(most, block.largest);
+  const double magnified = drawn_motion / most;
+  for (const BlockLoss& block : moved) {
+    const Body<2>& body = model.bodies[block.body];
+    before.add(model, body, {0, 0}, 0);
+    after.add(model, body,
+              magnified * (loss.lost.motions[block.body].displacement - loss.settled.motions[block.body].displacement),
+              magnified * block.turn);
+  }
+}
+
+// a short search, so that every build can afford it
+TEST(Slump, IsLostByDistinctElements) {
+  CaseReport report("slump", {"critical friction, DEM", "blocks that move, DEM", "blocks that turn backwards, DEM",
+                              "turn of the outer layer, DEM"});
+  const Loss<2> loss = lose<2>("scene.toml", {"stage.critical.to_deg=15.2", "stage.critical.tolerance_deg=0.4"});
+  draw_loss(loss, judge_loss(report, "DEM", loss));
+}
+
+// the scenes as they stand
+TEST(Slump, DISABLED_IsLostByTheWholeSearch) {
+  CaseReport report("slump");
+  judge_loss(report, "DEM, whole search", lose<2>("scene.toml"));
+}
+
+TEST(Slump, DISABLED_IsLostAsASliceInSpace) {
+  CaseReport report("slump");
+  judge_loss(report, "DEM, slice in space", lose<3>("slice.toml"));
 }
 
 }  // namespace
