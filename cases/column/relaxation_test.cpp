@@ -113,8 +113,8 @@ void compare(CaseReport& report, int blocks, double relaxation_interval, double 
                  {0, 0, Bound::at_least},
                  "no room: steps are counted"},
                 static_cast<double>(damped.steps) / static_cast<double>(relaxed.steps), cost(damped.run));
-  report.report(fmt::format("steps of relaxation, {} blocks", blocks), "steps", static_cast<double>(relaxed.steps), "count of steps",
-                cost(relaxed.run));
+  report.report(fmt::format("steps of relaxation, {} blocks", blocks), "steps", static_cast<double>(relaxed.steps),
+                "count of steps", cost(relaxed.run));
   report.report(fmt::format("steps of local damping 0.8, {} blocks", blocks), "steps",
                 static_cast<double>(damped.steps), "time step 0.2 of the limit, above which contacts gain energy",
                 cost(damped.run));
