@@ -376,7 +376,8 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
     const Body<Dim>& body = model.bodies[b];
     if (body.still()) continue;
     KickEnergy<Dim> kick;
-    if (!body.fixed) kick = advance(body, state.loads[b], {.local_damping = settings.damping.local}, times, state.motions[b]);
+    if (!body.fixed)
+      kick = advance(body, state.loads[b], {.local_damping = settings.damping.local}, times, state.motions[b]);
     if (body.prescribed) force(body, *prescribed++, state.loads[b], elapsed, times, state.motions[b], kick);
     const Vector<Dim> gravity = weight(model, state, b);
     energy.kinetic += kick.kinetic;
