@@ -119,8 +119,8 @@ TEST(Relaxation, MotionAfterwardsStartsFromRest) {
   model = apply(std::move(model), {.fix = {},
                                    .release = {},
                                    .remove = {{.names = {}, .above = {}, .below = {}, .inside = {{0, -0.5}}}},
-                                   .friction = {},
-                                   .move = {}});
+                                   .move = {},
+                                   .friction = {}});
   state.built.clear();
   const double before = state.motions[1].displacement[1];
   run<2>(model, settings, {.end_time = state.time + 0.1}, {}, state);
