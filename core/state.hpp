@@ -100,15 +100,11 @@ struct State {
   Counters counters;
 };
 
-// The sub-contacts that carry a contact, none where it carries itself; `place` counts in State::contacts.
-template <int Dim>
-std::span<SubContact<Dim>> subs_of(State<Dim>& state, std::size_t place) {
+// The sub-contacts that carry a contact of a State, none where it carries itself; `place` counts in State::contacts.
+template <class AnyState>
+auto subs_of(AnyState& state, std::size_t place) {
   const std::size_t stride = state.subs.size() / std::max<std::size_t>(state.contacts.size(), 1);
   return std::span(state.subs).subspan(place * stride, std::min<std::size_t>(stride, state.contacts[place].cells));
-}
-template <int Dim>
-std::span<const SubContact<Dim>> subs_of(const State<Dim>& state, std::size_t place) {
-  return subs_of(const_cast<State<Dim>&>(state), place);
 }
 
 // rest at the reference configuration
