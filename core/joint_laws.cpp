@@ -17,22 +17,25 @@ double spin_about(const Vector<2>&, const Spin<2>&, const Spin<2>&) {
 // how the two bodies of a contact move
 template <int Dim>
 struct PairMotion {
+  const Body<Dim>&a, &b;
   Vector<Dim> between;  // m
   Vector<Dim> velocity_a, velocity_b;
   Spin<Dim> spin_a, spin_b;
-  double inverse_mass;  // 1/kg, of both together; a fixed body is infinitely heavy
+
+  // of both together, 1/kg; a fixed body is infinitely heavy
+  double inverse_mass() const { return (a.fixed ? 0 : 1 / a.mass) + (b.fixed ? 0 : 1 / b.mass); }
 };
 
 template <int Dim>
 PairMotion<Dim> motion_of(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
   const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
-  return {
-      between(model, state, a, b),
-      state.motions[a].velocity,
-      state.motions[b].velocity,
-      angular_velocity(model.bodies[a], state.motions[a]),
-      angular_velocity(model.bodies[b], state.motions[b]),
-      (model.bodies[a].fixed ? 0 : 1 / model.bodies[a].mass) + (model.bodies[b].fixed ? 0 : 1 / model.bodies[b].mass)};
+  return {model.bodies[a],
+          model.bodies[b],
+          between(model, state, a, b),
+          state.motions[a].velocity,
+          state.motions[b].velocity,
+          angular_velocity(model.bodies[a], state.motions[a]),
+          angular_velocity(model.bodies[b], state.motions[b])};
 }
 
 // where a joint is loaded
@@ -81,7 +84,7 @@ Vector<Dim> joint_force(const JointProperties& properties, const Settings& setti
   double dashpot = 0;
   if (settings.damping.viscous_ratio > 0 && !state.relaxation.under_way)
     dashpot = 2 * settings.damping.viscous_ratio *
-              std::sqrt(properties.normal_stiffness * k.area / motion.inverse_mass * at.share);
+              std::sqrt(properties.normal_stiffness * k.area / motion.inverse_mass() * at.share);
   const JointForce<Dim> answer =
       elastic_coulomb<Dim>(properties, state.schedule.friction[friction_of], dashpot, k, history.shear_force);
   energy.elastic += answer.elastic;

@@ -261,14 +261,14 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
 
   // standing candidates keep their record: both lists are in ascending order
   renewed.clear();
-  renewed_subs.assign(pairs.size() * most_cells(model), {});
+  const std::size_t stride = most_cells(model);
+  renewed_subs.assign(pairs.size() * stride, {});
   auto old = state.contacts.begin();
   for (const auto& [a, b] : pairs) {
     while (old != state.contacts.end() && std::pair(old->part_a, old->part_b) < std::pair(a, b))
       ++old;
     if (old != state.contacts.end() && old->part_a == a && old->part_b == b) {
-      std::ranges::copy(subs_of(state, old - state.contacts.begin()),
-                        renewed_subs.begin() + renewed.size() * most_cells(model));
+      std::ranges::copy(subs_of(state, old - state.contacts.begin()), renewed_subs.begin() + renewed.size() * stride);
       renewed.push_back(*old);
       continue;
     }

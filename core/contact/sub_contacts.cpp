@@ -171,10 +171,11 @@ void hand_over(const JointState<Dim>& history, std::span<SubContact<Dim>> subs) 
   for (SubContact<Dim>& sub : subs) {
     sub.history = {};
     if (!(sub.area > 0)) continue;
+    const double share = sub.area / area;
     sub.history = history;
-    sub.history.shear_force = sub.area / area * history.shear_force;
-    sub.history.dashpot = sub.area / area * history.dashpot;
-    sub.history.area = sub.area;
+    sub.history.shear_force *= share;
+    sub.history.dashpot *= share;
+    sub.history.area *= share;
   }
 }
 

@@ -11,8 +11,6 @@
 
 namespace voussoir {
 
-inline constexpr int most_sub_contacts = 64;  // along a face
-
 // sub-contacts of a face that is divided into `along` cells along each of its directions
 template <int Dim>
 constexpr int sub_contact_count(int along) {
