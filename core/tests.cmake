@@ -12,7 +12,7 @@ voussoir_test(unit.blocks LABEL unit
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.law_and_motion LABEL unit
-  SOURCES law/law_test.cpp motion/motion_test.cpp
+  SOURCES law/law_test.cpp law/joint_law_test.cpp motion/motion_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.extremes LONG LABEL unit
