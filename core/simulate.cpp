@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/motion/prescribed.hpp"
+#include "core/stages.hpp"
 #include "core/state_hash.hpp"
 
 namespace voussoir {

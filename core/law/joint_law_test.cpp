@@ -167,6 +167,26 @@ TEST(ShearLaw, HardeningAndSofteningFollowTheirCurves) {
     }
 }
 
+// dτ/ds = ks while it sticks, and ks h / (ks + h) with h = σ dμ/dβ while it slips, which is negative as it softens
+TEST(ShearLaw, TangentIsThatOfTheCurve) {
+  constexpr double stress = 1e6;
+  for (const JointProperties& p : {plain(), linear(), hardened(), softened()}) {
+    const double ks = shear_stiffness_at(p, stress);
+    const double reach = p.laws & softening ? 1 : p.laws & hardening ? 1e-4 : 2e-2;
+    JointPath path = sheared(stress, reach);
+    path.steps = 20000;
+    const std::vector<JointPathPoint> points = follow(p, path);
+    for (std::size_t i = path.steps + 2; i + 1 < points.size(); i += 97) {
+      const bool stuck = points[i + 1].plastic_slip == points[i - 1].plastic_slip;
+      if (!stuck && points[i].plastic_slip == points[i - 1].plastic_slip) continue;  // yields in between
+      const double h = stress * friction_answer(p, p.friction, points[i].plastic_slip, stress).slope;
+      const double found =
+          (points[i + 1].shear_stress - points[i - 1].shear_stress) / (points[i + 1].slip - points[i - 1].slip);
+      EXPECT_NEAR(found, stuck ? ks : ks * h / (ks + h), 1e-5 * ks) << p.name << " at " << points[i].slip;
+    }
+  }
+}
+
 TEST(ShearLaw, CohesionIsLostAtOnce) {
   const JointProperties p = bonded_joint();
   JointPath path = sheared(1e6, 3e-3);
