@@ -161,7 +161,13 @@ void add_joint_test(CLI::App& program, JointTestArguments& arguments, Action& ac
 void add_study(CLI::App& program, StudyArguments& arguments, Action& action) {
   CLI::App* command = program.add_subcommand("study", "run a scene with one setting changed at a time");
   command->add_option("plan", arguments.plan, "study.toml")->required();
-  command->add_option("--out", arguments.out, "folder of study.csv")->required();
+  command->add_option("--out", arguments.out, "folder of study.csv; what it holds of this study is kept")->required();
+  command->add_option("--jobs", arguments.jobs, "runs at the same time (default: as many as there are cores)")
+      ->check(CLI::Range(1, 1024));
+  command
+      ->add_option("--time-limit", arguments.time_limit,
+                   "seconds of wall clock after which a run counts as failed (default: none)")
+      ->check(CLI::PositiveNumber);
   add_threads(command, arguments.threads);
   command->add_flag("--quiet", arguments.quiet, "no progress");
   command->callback([&] { action = [&] { return study_command(arguments); }; });

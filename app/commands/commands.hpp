@@ -78,7 +78,9 @@ struct JointTestArguments {
 struct StudyArguments {
   std::filesystem::path plan;
   std::filesystem::path out;
-  int threads = 1;
+  int jobs = 0;           // runs at the same time; 0: as many as there are cores
+  int threads = 1;        // of each run
+  double time_limit = 0;  // s of wall clock for each run; 0: none
   bool quiet = false;
 };
 
@@ -101,7 +103,8 @@ ExitCode limit_command(const LimitArguments& arguments);
 // takes the joints of a scene through laboratory tests: joint_test.csv and a figure of stress against displacement
 ExitCode joint_test_command(const JointTestArguments& arguments);
 
-// runs a scene again and again with one setting changed at a time; writes study.csv
+// runs a scene as it is and with one setting changed at a time, in processes side by side; writes study.csv. What was
+// done before is kept while scene and program are the same.
 ExitCode study_command(const StudyArguments& arguments);
 
 // every key a scene may hold, as Markdown, on stdout
