@@ -228,6 +228,58 @@ void find_quantities(const Node& table, const Groups& groups, const std::string&
   }
 }
 
+// an initial velocity before a stage that begins by stopping every block
+TEST(LostVelocity, IsToldWhereTheFirstStageRelaxes) {
+  const std::string head = R"(
+dimension = 2
+gravity = [0, -9.81]
+density = 2500
+[[blocks]]
+name = "ground"
+box = { min = [-1, -1], max = [1, 0] }
+fixed = true
+[[blocks]]
+name = "stone"
+box = { min = [-0.5, 0], max = [0.5, 1] }
+[[joint_properties]]
+name = "rock"
+normal_stiffness = 1e9
+shear_stiffness = 1e9
+friction_deg = 30
+)";
+  const std::string own =
+      "[[blocks]]\nname = \"stone\"\nbox = { min = [-0.5, 0], max = [0.5, 1] }\nvelocity = [0.1, 0]\n";
+  const std::string listed = "[[initial_velocity]]\nbodies = [\"stone\"]\nangular_velocity = 0.1\n";
+  const std::string settle = "[[stage]]\nname = \"rest\"\nkind = \"settle\"\n",
+                    run = "[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = 1\n",
+                    local = "damping = { statics = \"local\" }\n",
+                    reduce = "[[stage]]\nname = \"rest\"\nkind = \"reduce\"\nfrom_deg = 40\nto_deg = 10\n";
+  const auto lost = [&](const std::string& rest) {
+    const SceneFile file(head + rest);
+    const std::vector<std::string> warnings = told(file.path(), {});
+    return std::count_if(warnings.begin(), warnings.end(), [](const std::string& w) {
+      return w.find("block stone begins with a velocity") == 0 && w.find("stage.rest") != std::string::npos &&
+             w.find("statics = \"local\"") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(lost(listed + settle), 1);
+  EXPECT_EQ(lost(listed + settle + run), 1);
+  EXPECT_EQ(lost(listed + reduce + "tolerance_deg = 1\n"), 1);
+  EXPECT_EQ(lost(settle), 0) << "there is none to lose";
+  EXPECT_EQ(lost(listed + run + settle), 0) << "it has moved by then";
+  EXPECT_EQ(lost(listed + settle + local), 0) << "the motion is the true one";
+  EXPECT_EQ(lost(listed + reduce + "method = \"rate\"\nrate_deg_per_s = 1\n"), 0) << "so it is there";
+
+  // a block's own velocity
+  std::string with_own = head;
+  const std::string without = "[[blocks]]\nname = \"stone\"\nbox = { min = [-0.5, 0], max = [0.5, 1] }\n";
+  with_own.replace(with_own.find(without), without.size(), own);
+  const SceneFile file(with_own + settle);
+  const std::vector<std::string> warnings = told(file.path(), {});
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(),
+                          [](const std::string& w) { return w.find("block stone begins with a velocity") == 0; }));
+}
+
 // one quantity of a real scene in a wrong unit: not always visible in the quantity itself, but then in what follows
 TEST(WrongUnits, AreToldInRealScenes) {
   for (const char* name :

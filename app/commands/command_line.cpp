@@ -144,10 +144,10 @@ void add_joint_test(CLI::App& program, JointTestArguments& arguments, Action& ac
       ->add_option("--stress", arguments.stresses,
                    "normal stress in Pa; may be repeated (default: 0.1, 0.5, 1, 2, 5 MPa)")
       ->allow_extra_args(false)
-      ->check(CLI::PositiveNumber);
-  command->add_option("--slip", arguments.slip, "in m (default: 1e-3)")->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1e-9, 1e12));
+  command->add_option("--slip", arguments.slip, "in m (default: 1e-3)")->check(CLI::Range(1e-9, 1e12));
   command->add_option("--surroundings", arguments.surroundings, "of path stiffness, in Pa/m (default: 1e9)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1e-9, 1e12));
   command->add_option("--dilation", arguments.dilation, "of path stiffness: rise over slip (default: 0.05)")
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--cycles", arguments.cycles, "of path cyclic (default: 2)")->check(CLI::Range(1, 1000));

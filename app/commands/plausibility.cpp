@@ -208,6 +208,33 @@ void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const 
                     smallest, largest));
 }
 
+// a stage that relaxes from its first step on stops every body
+bool relaxes(const StagePlan& stage, const DampingSettings& damping) {
+  if (damping.statics != Statics::adaptive) return false;
+  if (const auto* plan = std::get_if<ReducePlan>(&stage.plan))
+    return plan->method == ReductionMethod::bisection || plan->method == ReductionMethod::steps;
+  return std::holds_alternative<SettlePlan>(stage.plan);
+}
+
+// initial velocities that the first stage forgets
+template <int Dim>
+void judge_velocities(const Prepared<Dim>& prepared, const Model<Dim>& model, Plausibility& result) {
+  if (prepared.stages.empty()) return;
+  const StagePlan& first = prepared.stages.front();
+  if (!relaxes(first, first.damping.value_or(prepared.settings.damping))) return;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Motion<Dim>& motion = prepared.state.motions[b];
+    if (!moves(model.bodies[b]) || (motion.velocity.isZero(0) && motion.angular_momentum.isZero(0))) continue;
+    result.warnings.push_back(
+        fmt::format("block {} begins with a velocity (its own, or that of initial_velocity) that is lost: stage.{} "
+                    "comes to rest by "
+                    "relaxation, which stops every block; let a stage of kind \"run\" come first, or state "
+                    "stage.{}.damping.statics = \"local\"",
+                    name_of(model, static_cast<int>(b)), first.name, first.name));
+    return;  // one tells
+  }
+}
+
 void judge_stage(const StagePlan& stage, const DampingSettings& damping, const TimeSettings& time, double overlap,
                  double smallest, Plausibility& result) {
   const std::string where = "stage." + stage.name;
@@ -331,6 +358,7 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
   for (const StagePlan& stage : prepared.stages)
     judge_stage(stage, stage.damping.value_or(prepared.settings.damping), prepared.settings.time, result.overlap,
                 smallest_size(model), result);
+  judge_velocities(prepared, model, result);
   judge_overlaps(prepared, result);
   judge_first_contacts(prepared, model, state, result);
   judge_stated_step(prepared.settings.time, result);

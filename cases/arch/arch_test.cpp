@@ -233,9 +233,10 @@ Bracket bracket(double joints, double apart, long long step_limit) {
 }
 
 // closer, and on stiffer joints, whose arch takes long to come to rest
-TEST(Arch, DISABLED_StandsAndFallsWithinTwoParts) {
-  for (const double joints : {1e10, 1e11, 1e12})
-    bracket(joints, 0.002, 3'000'000);
+TEST(Arch, DISABLED_StandsAndFallsWithinTwoInAThousand) {
+  bracket(1e10, 0.002, 300'000);
+  bracket(1e11, 0.002, 600'000);
+  bracket(1e12, 0.002, 2'000'000);
 }
 
 // what elastic joints add to the thickness of rigid voussoirs, for the figure

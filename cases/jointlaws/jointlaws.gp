@@ -3,7 +3,7 @@ load style
 set terminal svg size 1080,420 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
     linewidth 1 enhanced
 set output out
-set multiplot layout 1,3 margins 0.06,0.985,0.15,0.80 spacing 0.075
+set multiplot layout 1,3 margins 0.075,0.985,0.15,0.78 spacing 0.095
 set key above vertical maxrows 4 samplen 2
 set xlabel 'closure (µm)'
 set ylabel 'normal stress (MPa)'

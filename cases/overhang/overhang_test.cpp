@@ -153,9 +153,11 @@ void draw_stack() {
   const Model<2>& model = prepared.model;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].fixed) continue;
-    for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}) {
-      const Vector<2> p = model.origin + model.bodies[b].reference + last.motions[b].displacement +
-                          matrix(last.motions[b].rotation) * Vector<2>(0.5 * x * stack.length, 0.5 * y * stack.height);
+    for (const Vector<2>& corner :
+         {Vector<2>(-1, -1), Vector<2>(1, -1), Vector<2>(1, 1), Vector<2>(-1, 1), Vector<2>(-1, -1)}) {
+      const Vector<2> p =
+          model.origin + model.bodies[b].reference + last.motions[b].displacement +
+          matrix(last.motions[b].rotation) * Vector<2>(0.5 * corner[0] * stack.length, 0.5 * corner[1] * stack.height);
       out << p[0] << ',' << p[1] << '\n';
     }
     out << '\n';

@@ -1,0 +1,210 @@
+// Rocking block: the time it takes back upright, what its impacts leave, and the moment that holds it when it is turned
+// slowly on its base.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cases/case_tools.hpp"
+#include "reference/small/rocking.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using verification::Bound;
+using verification::CaseReport;
+using verification::Kind;
+
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr int hold = 1, rock = 2;
+
+// as the scenes state it
+const reference::RockingBlock block{1, 4, 2500, 9.81};
+constexpr double stiffness = 100e9, soft = 1e9;           // Pa/m: of scene.toml and of tilt.toml
+constexpr double dashpot_ratio = 0.1, turn_speed = 3e-4;  // rad/s: of tilt.toml
+const double start = 0.5 * slenderness(block);
+
+// lean to the right since the block was let go; rows of the history
+struct Rocking {
+  std::vector<double> time, lean, spin;  // s, rad, rad/s, both to the right
+};
+
+Rocking rocking(const SceneRun& run) {
+  Rocking r{column(run, "time_s", rock), column(run, "block_rotation_deg", rock),
+            column(run, "block_angular_velocity_rad_per_s", rock)};
+  const double let_go = column(run, "time_s", hold).back();
+  for (double& t : r.time)
+    t -= let_go;
+  for (double& lean : r.lean)
+    lean = start - lean / degrees;
+  for (double& spin : r.spin)
+    spin = -spin;
+  return r;
+}
+
+// times at which a column changes its sign, and the other column there
+std::vector<std::pair<double, double>> zeros(const std::vector<double>& time, const std::vector<double>& of,
+                                             const std::vector<double>& other) {
+  std::vector<std::pair<double, double>> found;
+  for (std::size_t i = 1; i < of.size(); ++i) {
+    if (!(of[i - 1] * of[i] < 0)) continue;
+    const double share = of[i - 1] / (of[i - 1] - of[i]);
+    found.emplace_back(time[i - 1] + share * (time[i] - time[i - 1]), other[i - 1] + share * (other[i] - other[i - 1]));
+  }
+  return found;
+}
+
+TEST(Rocking, TakesItsQuarterPeriod) {
+  CaseReport report("rocking", {"quarter period"});
+  const SceneRun fine =
+      run("scene.toml", {"stage.rock.duration_s=0.75", "time.fraction=0.05", "output.history_interval_s=0.001"});
+  const Rocking r = rocking(fine);
+  const auto upright = zeros(r.time, r.lean, r.spin);
+  ASSERT_FALSE(upright.empty());
+  const StageResult& stage = fine.results.stages[rock - 1];
+  const double step = stage.time / static_cast<double>(stage.steps);
+  const double expected = elastic_quarter_period(block, start, stiffness, stiffness);
+  report.record({"quarter period",
+                 "s",
+                 Kind::exact,
+                 "Housner (1963) on an elastic base: Newton's laws of a rigid block, reference/small",
+                 expected,
+                 {step, 0},
+                 "one time step, for the block is let go between two; the base's delay is fifteen of them"},
+                upright.front().first, cost(fine));
+  const std::string note = "for comparison: the base delays by the length it presses";
+  report.report("quarter period, rigid base", "s", rigid_quarter_period(block, start), note);
+  report.report("quarter period, Housner's closed form", "s", housner_quarter_period(block, start),
+                "acosh(2)/p; sines taken as angles");
+}
+
+// energy of a rigid block that stands still at this lean, over its weight; m
+double raised(double lean) {
+  const double radius = 0.5 * std::hypot(block.breadth, block.height), alpha = slenderness(block);
+  return radius * (std::cos(alpha - std::abs(lean)) - std::cos(alpha));
+}
+
+// Housner's motion, for the figure: between impacts the lean is alpha - (alpha - peak) cosh(p t)
+void write_housner() {
+  const double alpha = slenderness(block), p = rocking_frequency(block);
+  std::vector<double> time, lean;
+  double peak = start, at_peak = 0, side = 1;
+  for (double t = 0; t < 3.4; t += 0.01) {
+    double quarter = housner_quarter_period(block, peak);
+    if (t - at_peak > quarter) {
+      // the speed falls by the restitution, its square is 1 - (1 - lean/alpha)^2 times a constant
+      const double left = std::pow(housner_restitution(block), 2) * (1 - std::pow(1 - peak / alpha, 2));
+      peak = alpha * (1 - std::sqrt(1 - left));
+      at_peak += quarter;
+      quarter = housner_quarter_period(block, peak);
+      at_peak += quarter;
+      side = -side;
+    }
+    time.push_back(t);
+    lean.push_back(side * degrees * (alpha - (alpha - peak) * std::cosh(p * (t - at_peak))));
+  }
+  write_csv("rocking", "housner.csv", {"time_s", "lean_deg"}, {time, lean});
+}
+
+TEST(Rocking, LosesLessThanHousnerSays) {
+  CaseReport report("rocking", {"restitution of the first impact"});
+  const SceneRun scene = run("scene.toml");
+  const Rocking r = rocking(scene);
+  const auto peaks = zeros(r.time, r.spin, r.lean);
+  ASSERT_GE(peaks.size(), 2u);
+  const double first = std::sqrt(raised(peaks[0].second) / raised(start)),
+               second = std::sqrt(raised(peaks[1].second) / raised(peaks[0].second));
+  report.record({"restitution of the first impact",
+                 "1",
+                 Kind::limit,
+                 "Housner (1963): all of the impact at the far corner, the most a rigid base can take",
+                 housner_restitution(block),
+                 {0.002, 0, Bound::at_least},
+                 "rows of the history stand 5 ms apart: 1e-5 of a peak; the base gives by 0.2 % of the quarter period"},
+                first, cost(scene));
+  report.report("restitution of the second impact", "1", second, "dashpot of 0.2");
+  report.report("energy left unexplained", "1", scene.results.energy.closure(),
+                "of the largest energy, after the impacts: their contacts change in area and last few steps");
+  std::vector<double> lean_deg;
+  for (const double lean : r.lean)
+    lean_deg.push_back(lean * degrees);
+  write_csv("rocking", "rocking.csv", {"time_s", "lean_deg"}, {r.time, lean_deg});
+  write_housner();
+}
+
+// One moment of the slow turn: of the force about the middle of the face, over the weight, m.
+struct Held {
+  double lean = 0, arm = 0;  // rad, m
+};
+
+std::vector<Held> turned_slowly(int sub_contacts) {
+  LoadedScene scene = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "tilt.toml",
+                                 {"joint_properties.rock.sub_contacts=" + std::to_string(sub_contacts)});
+  const auto& prepared = std::get<Prepared<2>>(scene.prepared);
+  const Model<2>& model = prepared.model;
+  const int of_block = model.bodies[0].fixed ? 1 : 0;
+  std::vector<Held> held;
+  Watcher<2> watcher;
+  watcher.frame = [&](const Model<2>&, const State<2>& state, double) {
+    const Motion<2>& motion = state.motions[of_block];
+    const double lean = -motion.rotation.angle;
+    if (!(lean > 0)) return;
+    const Vector<2> along = matrix(motion.rotation) * Vector<2>(1, 0);
+    const Vector<2> middle = model.bodies[of_block].reference + motion.displacement +
+                             matrix(motion.rotation) * Vector<2>(0, -0.5 * block.height);
+    double turning = 0, pressed = 0;
+    for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+      const Contact<2>& c = state.contacts[i];
+      if (!c.touching()) continue;
+      const int a = model.parts[c.part_a].body;
+      const Vector<2> first = model.bodies[a].reference + state.motions[a].displacement;
+      const auto add = [&](const Vector<2>& point, const Vector<2>& force) {
+        turning += (first + point - middle).dot(along) * force.dot(c.geometry.normal);
+        pressed += force.dot(c.geometry.normal);
+      };
+      if (c.cells == 0) add(c.geometry.point, c.force);
+      for (const SubContact<2>& sub : subs_of(state, i))
+        if (sub.area > 0) add(sub.point, sub.force);
+    }
+    held.push_back({lean, turning / pressed});
+  };
+  Progress<2> progress = begin(prepared);
+  simulate(prepared, progress, watcher);
+  return held;
+}
+
+TEST(Rocking, IsHeldByTheMomentOfItsBase) {
+  const double mass = block.density * block.breadth * block.height, weight = mass * block.gravity;
+  // the dashpots of the turn, spread along the face, and their moment over the weight's
+  const double dashpot = 2 * dashpot_ratio * std::sqrt(soft * block.breadth * mass);
+  const double allowed = dashpot * block.breadth / 12 * turn_speed / weight;
+  CaseReport report("rocking", {"arm of the base's force, 4 sub-contacts"});
+  for (const int sub_contacts : {4, 8, 1}) {
+    const std::vector<Held> held = turned_slowly(sub_contacts);
+    ASSERT_GT(held.size(), 20u);
+    double worst = 0;
+    std::vector<double> lean, arm, theory;
+    for (const Held& h : held) {
+      lean.push_back(1e3 * h.lean);
+      arm.push_back(h.arm / block.breadth);
+      theory.push_back(base_moment(block, h.lean, soft) / weight / block.breadth);
+      worst = std::max(worst, std::abs(arm.back() - theory.back()));
+    }
+    write_csv("rocking", "held_" + std::to_string(sub_contacts) + ".csv", {"lean_mrad", "arm", "theory"},
+              {lean, arm, theory});
+    if (sub_contacts == 1)
+      report.report("arm of the base's force, one point", "1", worst, "largest deviation, over the breadth");
+    else
+      report.record({"arm of the base's force, " + std::to_string(sub_contacts) + " sub-contacts",
+                     "1",
+                     Kind::limit,
+                     "linear pressure without tension",
+                     0,
+                     {allowed, 0, Bound::at_most},
+                     "largest deviation over the breadth, to 0.003 rad"},
+                    worst);
+  }
+}
+
+}  // namespace
+}  // namespace voussoir::cases
