@@ -33,7 +33,7 @@ std::optional<double> ratio(const CaseStudy& entry, const json& point, const cha
 }
 
 std::string times(const std::optional<double>& value) {
-  return value ? fmt::format("× {:.2g}", *value) : std::string("–");
+  return value ? fmt::format("× {:.3g}", *value) : std::string("–");
 }
 
 std::string percent(double fraction) {
@@ -157,7 +157,7 @@ std::string order_table(const std::vector<CaseStudy>& studies) {
       if (order.at("order").is_null())
         text += "none | |\n";
       else
-        text += fmt::format("{:.2f} ± {:.2f} | {} |\n", order.at("order").get<double>(),
+        text += fmt::format("{:.3f} ± {:.3f} | {} |\n", order.at("order").get<double>(),
                             order.at("uncertainty").get<double>(), order.at("count").get<int>());
     }
   return text;
@@ -228,7 +228,8 @@ std::string trade_markdown(const std::vector<CaseStudy>& studies) {
   text += "### The cheapest settings\n\n" + cheapest_table(studies) + "\n" + level_table(studies);
   text +=
       "### Observed orders\n\nThe slope of log error over log setting where the error falls, with two standard errors; "
-      "none where it does not fall: the knob buys nothing there, or something else limits the error.\n\n" +
+      "none where it does not fall beyond its scatter: the knob buys nothing there, or something else limits the "
+      "error.\n\n" +
       order_table(studies) + "\n";
   return text + "### Settings that failed\n\n" + failure_table(studies);
 }
