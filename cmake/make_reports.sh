@@ -29,6 +29,10 @@ for plan in "$source"/cases/*/study.toml; do
     continue
   fi
   rm -f "$out/study.md" "$out/study.json"
+  if [ ! -x "$build/cases/case_$name" ]; then
+    echo "study of $name: not run, its case is not built"
+    continue
+  fi
   (cd "$source" && "$program" study "cases/$name/study.toml" --out "$out" --jobs "$jobs" --time-limit $longest_run) \
       >"$build/$log" 2>&1
   status=$?
