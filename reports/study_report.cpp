@@ -345,6 +345,7 @@ nlohmann::json study_json(const Study& study) {
   nlohmann::json json{{"cost_unit", name_of(unit)},
                       {"default", nullptr},
                       {"recommendations", nlohmann::json::array()},
+                      {"points", nlohmann::json::array()},
                       {"pareto", nlohmann::json::array()},
                       {"orders", nlohmann::json::array()},
                       {"levels", nlohmann::json::array()},
@@ -356,6 +357,8 @@ nlohmann::json study_json(const Study& study) {
   for (const Recommendation& entry : study.recommendations)
     json["recommendations"].push_back(
         {{"level", entry.level}, {"cheapest", entry.cheapest ? point_json(*entry.cheapest, unit) : nlohmann::json()}});
+  for (const StudyPoint& point : study.points)
+    json["points"].push_back(point_json(point, unit));
   for (const StudyPoint& point : study.points)
     if (point.pareto) json["pareto"].push_back(point_json(point, unit));
   for (const SweepOrder& entry : study.orders) {

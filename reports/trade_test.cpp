@@ -44,6 +44,18 @@ TEST(Trade, ComparesWithTheSceneAsItIs) {
     EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;
 }
 
+TEST(Trade, ListsThePointsAlongAFace) {
+  const std::string lines =
+      "default,,,,angle,30,0,deg,ok,100,10,1\n"
+      "points,joint_properties.rock.sub_contacts,1,1,angle,,,deg,no bracket,100,10,1\n"
+      "points,joint_properties.rock.sub_contacts,2,1,angle,30.3,0,deg,ok,100,11,1.5\n";
+  const std::string page = trade_markdown({made("slope", lines)});
+  EXPECT_NE(page.find("| [slope](../slope/README.md) | points | 1 | **no bracket** |"), std::string::npos) << page;
+  EXPECT_NE(page.find("| [slope](../slope/README.md) | points | 2 | 1 % | 100 | 11 | 1.5 |"), std::string::npos)
+      << page;
+  EXPECT_EQ(trade_markdown({made("flight", flight)}).find("Points along"), std::string::npos);
+}
+
 TEST(Trade, LeavesOutWhatHasNothingToCompareWith) {
   const std::vector<CaseStudy> studies{
       made("broken", "default,,,,angle,,,deg,diverged,9,9,1\ntolerance,t,1,deg,angle,30,0,deg,ok,200,20,0.2\n")};
