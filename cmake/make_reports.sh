@@ -17,7 +17,7 @@ if ! (cd "$build" && ctest -L "case|report" --parallel "$jobs" --output-on-failu
 fi
 
 # a study keeps the runs whose scene and program did not change; one that hangs is given up, which its report lists
-longest_run=120
+longest_run=600  # s; the longest takes some 15 on an idle core
 shopt -s nullglob
 for plan in "$source"/cases/*/study.toml; do
   name=$(basename "$(dirname "$plan")")
