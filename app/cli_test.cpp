@@ -170,6 +170,20 @@ TEST_F(Program, CheckTellsWhatIsActive) {
   expect_one_line(run("check " + cubes_ + "--set gravity=down"), 2, "gravity");
 }
 
+TEST_F(Program, ALevelOfAccuracyShowsWhatItSets) {
+  const Ended ended = run("check " + cubes_ + "--set accuracy.level=fast");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("by level    equilibrium.unbalanced = 1e-05"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("no warnings"), std::string::npos) << ended.out;
+  expect_one_line(run("check " + cubes_ + "--set accuracy.level=exact"), 2, "accuracy.level");
+
+  // the effective scene states it, and runs again to the same
+  ASSERT_EQ(run("run " + cubes_ + "--out first --set accuracy.level=fast").code, 0);
+  EXPECT_NE(read(folder_ / "first/scene.toml").find("unbalanced = 1e-05"), std::string::npos);
+  ASSERT_EQ(run("run first/scene.toml --out second").code, 0);
+  EXPECT_EQ(results("first")["input_hash"], results("second")["input_hash"]);
+}
+
 TEST_F(Program, SliceListsTheBlocks) {
   EXPECT_EQ(run("slice " + cubes_ + "--out out").code, 0);
   const std::vector<std::string> rows = lines_of(read(folder_ / "out/blocks.csv"));

@@ -255,7 +255,7 @@ sweep = [{ name = "stiffness", key = "joint_properties.rock.normal_stiffness", v
     const std::string out = at(fmt::format("stopped_{}", signal));
     const Launch launch{.arguments = {"study", plan, "--out", out, "--jobs", "2"}};
     Process process = start(launch);
-    ASSERT_TRUE(wait_until([&] { return runs_going_on(out) == 2; }));
+    ASSERT_TRUE(wait_until([&] { return runs_going_on(out) > 0; }));
     process.send(signal);
     const Ended ended = process.wait();
     // its runs are told, by whoever is left to tell them

@@ -18,7 +18,8 @@ rm -f "$out" "$draft"
 trap 'rm -f "$draft"' EXIT
 variables="style='$here/style.gp'; out='$draft'"
 for assignment in "$@"; do
-  variables+="; ${assignment%%=*}='${assignment#*=}'"
+  value=${assignment#*=}
+  variables+="; ${assignment%%=*}='${value//\'/\'\'}'"
 done
 
 messages=$(gnuplot -e "$variables" "$figure" 2>&1)

@@ -7,6 +7,7 @@
 #include "reports/case_page.hpp"
 #include "reports/html.hpp"
 #include "reports/kernel_page.hpp"
+#include "reports/trade_page.hpp"
 #include "reports/verdict_tables.hpp"
 
 namespace voussoir::reports {
@@ -107,6 +108,31 @@ TEST(KernelPage, ShowsTheRunAndNamesWhatIsMissing) {
   EXPECT_TRUE(holds(page, "id=\"contact-kernel\""));
   EXPECT_TRUE(holds(page, "<figcaption>Time.</figcaption>"));
   EXPECT_TRUE(holds(page, "<td align=\"right\">42</td>"));
+}
+
+TEST(TradePage, ShowsTheComparisonAndNamesWhatIsMissing) {
+  const fs::path root = fs::path(testing::TempDir()) / "voussoir_trade_page_test";
+  fs::remove_all(root);
+  const Folders folders{root, root / "build"};
+  std::vector<std::string> missing;
+  EXPECT_TRUE(holds(trade_page(folders, missing), "No study was compared"));
+  EXPECT_EQ(missing.size(), 1u);
+
+  const fs::path studies = root / "build/reports/studies";
+  write_atomically(studies / "trade.md",
+                   "![All.](trade.svg)\n\n### Orders\n\n| [wedge](../wedge/README.md) |\n|---|\n");
+  missing.clear();
+  EXPECT_TRUE(holds(trade_page(folders, missing), "The figure trade was not drawn."));
+  EXPECT_EQ(missing.size(), 1u);
+
+  write_atomically(studies / "trade.svg", svg);
+  missing.clear();
+  const std::string page = trade_page(folders, missing);
+  EXPECT_TRUE(missing.empty());
+  EXPECT_TRUE(holds(page, "id=\"what-accuracy-costs\""));
+  EXPECT_TRUE(holds(page, "<figcaption>All.</figcaption>"));
+  EXPECT_TRUE(holds(page, "<h3>Orders</h3>"));
+  EXPECT_TRUE(holds(page, "href=\"#wedge\"")) << page;
 }
 
 }  // namespace

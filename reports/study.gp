@@ -1,7 +1,7 @@
 # Work and precision of one case's study. draw.sh passes: points (csv), sweeps (names, '|' between them), quantity, cost
 # ('contact evaluations' or 'steps', what the recommendation counts), default ('yes': the scene as it is has a result).
 load style
-set terminal svg size 760,820
+set terminal svg size 760,880
 set output out
 set datafile missing NaN
 set logscale xy
@@ -44,9 +44,9 @@ if (default eq 'yes') {
 set multiplot
 set lmargin at screen 0.11
 set rmargin at screen 0.93
-set tmargin at screen 0.86
-set bmargin at screen 0.47
-set key at screen 0.52, screen 0.99 center top maxrows 4 samplen 2
+set tmargin at screen 0.84
+set bmargin at screen 0.46
+set key at screen 0.93, screen 0.995 right top vertical maxcols 2 maxrows 6 samplen 2 spacing 1.0
 set xlabel cost
 work = cost eq 'steps' ? 'column("steps")' : 'column("contact_evaluations")'
 plot @curves

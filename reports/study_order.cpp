@@ -6,8 +6,8 @@
 namespace voussoir::reports {
 namespace {
 
-// below it the error has levelled off
-constexpr double smallest_local_order = 0.25;
+// errors nearer to the finest setting's than this factor have levelled off
+constexpr double levelled_off = 2.0;
 
 // a line through two points says nothing about itself
 constexpr std::size_t fewest_settings = 3;
@@ -44,20 +44,16 @@ std::optional<ObservedOrder> observed_order(std::vector<KnobError> settings) {
   std::sort(settings.begin(), settings.end(), [](const auto& a, const auto& b) { return a.value > b.value; });
   if (settings.back().error > settings.front().error) std::reverse(settings.begin(), settings.end());
 
-  std::size_t best = 0, best_count = 0;
-  for (std::size_t first = 0, k = 1; k <= settings.size(); ++k) {
-    const bool converges = k < settings.size() && settings[k].value != settings[k - 1].value &&
-                           std::log(settings[k - 1].error / settings[k].error) >=
-                               smallest_local_order * std::abs(std::log(settings[k - 1].value / settings[k].value));
-    if (converges) continue;
-    if (k - first > best_count) {
-      best = first;
-      best_count = k - first;
-    }
-    first = k;
-  }
-  if (best_count < fewest_settings) return std::nullopt;
-  return fit(&settings[best], best_count);
+  // the worst error of each setting and all finer ones: a lucky hit on the way counts for nothing
+  std::vector<double> worst(settings.size());
+  for (std::size_t k = settings.size(); k-- > 0;)
+    worst[k] = std::max(settings[k].error, k + 1 < settings.size() ? worst[k + 1] : 0.0);
+  const auto falling =
+      std::count_if(worst.begin(), worst.end(), [&](double error) { return error > levelled_off * worst.back(); });
+  const std::size_t count = std::min(settings.size(), static_cast<std::size_t>(falling) + 1);
+  if (count < fewest_settings) return std::nullopt;
+  const ObservedOrder order = fit(settings.data(), count);
+  return std::abs(order.order) > order.uncertainty ? std::optional(order) : std::nullopt;
 }
 
 }  // namespace voussoir::reports

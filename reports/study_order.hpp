@@ -1,7 +1,6 @@
 #pragma once
 // The observed order of a sweep: how the error falls with the knob, where it falls at all.
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace voussoir::reports {
@@ -19,10 +18,10 @@ struct ObservedOrder {
   double coarsest = 0.0, finest = 0.0;
 };
 
-// A straight line through log error over log value, fitted to the longest run of neighbouring settings in which every
-// step to the finer side lowers the error at a local order of 1/4 at least: before it the method does not converge yet,
-// behind it something else than the knob limits the error. The finer side is the one that ends with the smaller error.
-// Empty when no three settings in a row converge.
+// A straight line through log error over log value, from the coarsest setting to the first after which the error stays
+// within a factor of two of what the finest leaves: from there something else than the knob limits it. The finer side
+// is the one that ends with the smaller error. Empty when fewer than three settings converge, or when the slope is less
+// than its uncertainty.
 std::optional<ObservedOrder> observed_order(std::vector<KnobError> settings);
 
 }  // namespace voussoir::reports

@@ -53,7 +53,7 @@ Recommendation recommend(const Study& study, const std::string& quantity, double
   return best;
 }
 
-// by the error with its bar, as settings are judged; what reached the floor has left the line
+// by the error alone: an error bar may follow a law of its own. What reached the floor has left the line.
 SweepOrder order_of(const Study& study, const std::string& quantity, const std::string& sweep) {
   SweepOrder found{quantity, sweep, "", std::nullopt};
   std::vector<KnobError> settings;
@@ -61,8 +61,8 @@ SweepOrder order_of(const Study& study, const std::string& quantity, const std::
     if (point.row.quantity != quantity || point.row.sweep != sweep) continue;
     found.key = point.row.key;
     const std::optional<double> value = point.row.number();
-    if (value && *value > 0.0 && point.relative_error_upper > relative_error_floor)
-      settings.push_back({*value, point.relative_error_upper});
+    if (value && *value > 0.0 && point.relative_error > relative_error_floor)
+      settings.push_back({*value, point.relative_error});
   }
   found.order = observed_order(settings);
   return found;
@@ -123,7 +123,7 @@ std::string recommendation_table(const Study& study, const std::string& quantity
 }
 
 std::string order_text(const ObservedOrder& order) {
-  return fmt::format("{:.2f} ± {:.2f}", order.order, order.uncertainty);
+  return fmt::format("{:.3f} ± {:.3f}", order.order, order.uncertainty);
 }
 
 std::string order_table(const Study& study, const std::string& quantity) {
@@ -138,7 +138,7 @@ std::string order_table(const Study& study, const std::string& quantity) {
       text += "none: the error does not fall with it | | |\n";
   }
   if (text.empty()) return "";
-  return "Observed order: error with error bar ~ value^order, by regression over the settings that converge, with two "
+  return "Observed order: error ~ value^order, by regression over the settings that converge, with two "
          "standard errors.\n\n| sweep | key | order | settings | from coarse to fine |\n|---|---|--:|--:|---|\n" +
          text + "\n";
 }
@@ -345,6 +345,7 @@ nlohmann::json study_json(const Study& study) {
   nlohmann::json json{{"cost_unit", name_of(unit)},
                       {"default", nullptr},
                       {"recommendations", nlohmann::json::array()},
+                      {"points", nlohmann::json::array()},
                       {"pareto", nlohmann::json::array()},
                       {"orders", nlohmann::json::array()},
                       {"levels", nlohmann::json::array()},
@@ -356,6 +357,8 @@ nlohmann::json study_json(const Study& study) {
   for (const Recommendation& entry : study.recommendations)
     json["recommendations"].push_back(
         {{"level", entry.level}, {"cheapest", entry.cheapest ? point_json(*entry.cheapest, unit) : nlohmann::json()}});
+  for (const StudyPoint& point : study.points)
+    json["points"].push_back(point_json(point, unit));
   for (const StudyPoint& point : study.points)
     if (point.pareto) json["pareto"].push_back(point_json(point, unit));
   for (const SweepOrder& entry : study.orders) {

@@ -33,7 +33,7 @@ std::optional<double> ratio(const CaseStudy& entry, const json& point, const cha
 }
 
 std::string times(const std::optional<double>& value) {
-  return value ? fmt::format("× {:.2g}", *value) : std::string("–");
+  return value ? fmt::format("× {:.3g}", *value) : std::string("–");
 }
 
 std::string percent(double fraction) {
@@ -157,7 +157,7 @@ std::string order_table(const std::vector<CaseStudy>& studies) {
       if (order.at("order").is_null())
         text += "none | |\n";
       else
-        text += fmt::format("{:.2f} ± {:.2f} | {} |\n", order.at("order").get<double>(),
+        text += fmt::format("{:.3f} ± {:.3f} | {} |\n", order.at("order").get<double>(),
                             order.at("uncertainty").get<double>(), order.at("count").get<int>());
     }
   return text;
@@ -185,6 +185,32 @@ std::string level_table(const std::vector<CaseStudy>& studies) {
   return "### What the levels reach\n\n`[accuracy] level` in a scene sets what the scene does not state itself; here "
          "they are on the cases' own quantities. A level that missed its promise would fail `make reports`.\n\n"
          "| case | level | promised | error with error bar | contact evaluations | steps | cost, scene as it is = 1 |\n"
+         "|---|---|--:|--:|--:|--:|--:|\n" +
+         rows + "\n";
+}
+
+// every sweep over how many points carry a joint face
+std::string points_table(const std::vector<CaseStudy>& studies) {
+  const auto is_one = [](const json& row) { return row.at("key").get<std::string>().ends_with(".sub_contacts"); };
+  std::string rows;
+  for (const CaseStudy& entry : studies) {
+    for (const json& row : entry.study.at("failed"))
+      if (is_one(row))
+        rows += fmt::format("| {} | {} | {} | **{}** | | | |\n", link(entry), row.at("sweep").get<std::string>(),
+                            row.at("value").get<std::string>(), row.at("status").get<std::string>());
+    for (const json& point : entry.study.at("points"))
+      if (is_one(point))
+        rows += fmt::format("| {} | {} | {} | {} | {} | {} | {:.2g} |\n", link(entry),
+                            point.at("sweep").get<std::string>(), point.at("value").get<std::string>(),
+                            percent(point.at("relative_error_upper")), point.at("contact_evaluations").get<long long>(),
+                            point.at("steps").get<long long>(), point.at("seconds").get<double>());
+  }
+  if (rows.empty()) return "";
+  return "### Points along a joint face\n\nWith one point a face resists neither spin nor, as a face does, rocking. "
+         "What "
+         "more of them give, and what they cost: a contact evaluation is counted once however many points carry the "
+         "face, so their price shows in the seconds.\n\n"
+         "| case | sweep | points along a face | error with error bar | contact evaluations | steps | seconds |\n"
          "|---|---|--:|--:|--:|--:|--:|\n" +
          rows + "\n";
 }
@@ -225,10 +251,12 @@ std::string trade_markdown(const std::vector<CaseStudy>& studies) {
   for (std::size_t level = 0; level < studies.front().study.at("recommendations").size(); ++level)
     text += reading_of_level(studies, level);
   text += reading_of_digits(studies) + "\n";
-  text += "### The cheapest settings\n\n" + cheapest_table(studies) + "\n" + level_table(studies);
+  text +=
+      "### The cheapest settings\n\n" + cheapest_table(studies) + "\n" + points_table(studies) + level_table(studies);
   text +=
       "### Observed orders\n\nThe slope of log error over log setting where the error falls, with two standard errors; "
-      "none where it does not fall: the knob buys nothing there, or something else limits the error.\n\n" +
+      "none where it does not fall beyond its scatter: the knob buys nothing there, or something else limits the "
+      "error.\n\n" +
       order_table(studies) + "\n";
   return text + "### Settings that failed\n\n" + failure_table(studies);
 }

@@ -30,8 +30,9 @@ do for [i=1:count] {
   rest = rest[cut+1:*]
 }
 # seven colours; those that return are dashed, with open points
+first = count > 7 ? 7 : count
 open(i) = i == 1 ? 6 : i == 2 ? 4 : i == 3 ? 8 : i == 4 ? 12 : i == 5 ? 10 : i == 6 ? 5 : 7
-turn(i) = 1 + (i - 1) % 7
-plot for [i=1:count] data using (strcol('case') eq name[i] ? column('relative_cost') : NaN):(column('relative_error')) \
-     with linespoints lt turn(i) dt (i > 7 ? 2 : 1) pt (i > 7 ? open(turn(i)) : turn(i) == 6 ? 4 : turn(i) == 7 ? 6 : 5 + 2 * ((turn(i) + 0) % 5)) \
-     ps 0.8 title name[i] noenhanced
+of(i) = strcol('case') eq name[i] ? column('relative_cost') : NaN
+plot for [i=1:first] data using (of(i)):(column('relative_error')) with linespoints lt i ps 0.8 title name[i] noenhanced, \
+     for [i=8:count] data using (of(i)):(column('relative_error')) with linespoints lt i-7 dt 2 pt open(i-7) ps 0.8 \
+     title name[i] noenhanced

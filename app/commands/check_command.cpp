@@ -244,6 +244,8 @@ ExitCode check_command(const SceneArguments& arguments) {
   const LoadedScene scene = load_scene(arguments.scene, arguments.overrides);
   fmt::print("{} ({}-D)\n", scene.title.empty() ? arguments.scene.filename().string() : scene.title, scene.dimension);
   std::visit([](const auto& prepared) { print_active(prepared); }, scene.prepared);
+  for (std::size_t k = 0; k < scene.from_level.size(); ++k)
+    line(k == 0 ? "by level" : "", scene.from_level[k]);
   const Plausibility plausibility = assess(scene);
   print_derived(plausibility);
   for (const std::string& warning : plausibility.warnings)

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "cases/case_tools.hpp"
+#include "core/accuracy.hpp"
 #include "reference/wedge/wedge.hpp"
 #include "reference/wedge/wedge_path.hpp"
 
@@ -76,6 +77,24 @@ TEST(Wedge, StiffShearFollowsTheElasticPlasticPath) {
         found.back(), cost(scene));
   }
   write_csv("wedge", "stiffness.csv", {"ks_over_kn", "computed_deg", "path_deg"}, {ratios, found, path});
+}
+
+// Settings by [accuracy] level keep what the level promises.
+TEST(Wedge, LevelsKeepTheirPromises) {
+  CaseReport report("wedge");
+  const double expected = *reference::critical_friction(thesis_wedge) * degrees;
+  for (std::size_t k = 0; k < accuracy_levels.size(); ++k) {
+    const std::string level(accuracy_levels[k]);
+    const SceneRun scene = run("level.toml", {"accuracy.level=" + level});
+    report.record({"critical friction, level " + level,
+                   "deg",
+                   Kind::exact,
+                   "Hoek & Bray (1974)",
+                   expected,
+                   {0, accuracy_promises[k]},
+                   "the level's own promise (core/accuracy.hpp)"},
+                  value(scene, "critical_friction"), cost(scene));
+  }
 }
 
 // Friction lowered step by step, as in the thesis: displacement grows without bound at the critical angle.

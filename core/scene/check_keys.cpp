@@ -60,11 +60,12 @@ const Node* text_of(const Node& table, std::string_view key) {
   return node && node->kind == Node::Kind::text ? node : nullptr;
 }
 
-// whether the key means something here, judged by the value of the key its row names
-bool applies(const Node& table, const Groups& groups, const KeyRow& row) {
+}  // namespace
+
+bool key_applies(const Node& table, const Groups& groups, const KeyRow& row) {
   if (row.when.key.empty()) return true;
   const KeyRow* decisive = find_row(groups, row.when.key);
-  if (!decisive || !applies(table, groups, *decisive)) return false;
+  if (!decisive || !key_applies(table, groups, *decisive)) return false;
   const Node* stated = text_of(table, row.when.key);
   const std::string word = stated ? '"' + stated->text + '"' : std::string(decisive->fallback);
   std::string_view allowed = row.when.value;
@@ -75,6 +76,8 @@ bool applies(const Node& table, const Groups& groups, const KeyRow& row) {
     allowed.remove_prefix(bar + 1);
   }
 }
+
+namespace {
 
 [[noreturn]] void refuse_unknown(const Node& node, const Groups& groups, const std::string& path,
                                  std::string_view key) {
@@ -95,7 +98,7 @@ bool applies(const Node& table, const Groups& groups, const KeyRow& row) {
 void refuse_inapplicable(const Node& table, const Groups& groups, const KeyRow& row, const Node& node,
                          const std::string& path) {
   const KeyRow& decisive = *find_row(groups, row.when.key);
-  if (!applies(table, groups, decisive)) return refuse_inapplicable(table, groups, decisive, node, path);
+  if (!key_applies(table, groups, decisive)) return refuse_inapplicable(table, groups, decisive, node, path);
   const Node* stated = text_of(table, row.when.key);
   if (!stated && decisive.fallback.empty()) return;
   std::string values = "\"" + std::string(row.when.value) + "\"";
@@ -126,13 +129,13 @@ void Checker::table(const Node& node, const Groups& groups, const std::string& p
     const std::string here = key_path(path, member->key);
     const KeyRow* row = find_row(groups, member->key);
     if (!row) refuse_unknown(member->value, groups, here, member->key);
-    if (!applies(node, groups, *row)) refuse_inapplicable(node, groups, *row, member->value, here);
+    if (!key_applies(node, groups, *row)) refuse_inapplicable(node, groups, *row, member->value, here);
     value(*row, member->value, here);
   }
   for (const KeyRow& row : key_rows()) {
     const bool belongs = std::find(groups.begin(), groups.end(), row.table) != groups.end();
     if (!row.required || !belongs || node.find(row.key) || find_row(groups, row.key) != &row) continue;
-    if (applies(node, groups, row))
+    if (key_applies(node, groups, row))
       refuse(
           {&node, path}, row.key,
           std::string(row.meaning) + "; write for example " + std::string(row.key) + " = " + std::string(row.example));

@@ -72,6 +72,8 @@ const KeyRow rows[] = {
      .meaning = "blocks that cannot move in some directions (world axes)"},
     {.table = "", .key = "initial_velocity", .type = tables, .holds = {"label", "motion", "selector"},
      .meaning = "blocks that move when the first stage begins"},
+    {.table = "", .key = "accuracy", .type = table, .holds = {"accuracy"},
+     .meaning = "numerical settings by the accuracy that is wanted"},
     {.table = "", .key = "contact", .type = table, .holds = {"contact"},
      .meaning = "how contacts between blocks are found"},
     {.table = "", .key = "damping", .type = table, .holds = {"damping"},
@@ -246,6 +248,10 @@ const KeyRow rows[] = {
      .meaning = "world axes; in 2-D one number, counter-clockwise"},
 
     // ---- numerical choices: the defaults are those of core/settings.hpp, which a test compares
+    {.table = "accuracy", .key = "level", .type = choice, .example = "\"balanced\"", .required = true,
+     .choices = {"fast", "balanced", "reference"},
+     .meaning = "sets what the scene does not state itself: tolerances of a reduction, its ramps, rest and the time step, "
+         "as the cases' studies found them to keep an error of 5 %, 1 % or 0.1 %"},
     {.table = "contact", .key = "lp", .type = choice, .fallback = "\"own\"", .example = "\"glpk\"",
      .choices = {"own", "glpk"}, .meaning = "solver of the linear program that tells whether two blocks overlap",
      .breaks = "glpk is slow, a reference only"},

@@ -72,6 +72,9 @@ using Groups = std::vector<std::string_view>;
 const KeyRow* find_row(const Groups& groups, std::string_view key);
 std::vector<std::string> keys_of(const Groups& groups);
 
+// whether the key means something in this table, judged by the value of the key its row's condition names
+bool key_applies(const Node& table, const Groups& groups, const KeyRow& row);
+
 // "be greater than 0 and at most 1", "lie between 0 and 90 deg"
 std::string range_text(const KeyRow& row);
 

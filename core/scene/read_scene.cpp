@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/scene/accuracy_level.hpp"
 #include "core/scene/base_scene.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/overrides.hpp"
@@ -220,12 +221,14 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
       std::make_shared<Node>(with_base(parse_toml(text, source), std::filesystem::path(name).parent_path()));
   for (const std::string& text_of_override : overrides)
     apply_override(*tree, text_of_override, *source);
+  const std::vector<std::string> from_level = apply_accuracy_level(*tree);
   check_keys(*tree);
 
   // from here on every value has the right type and lies in its range
   Scene scene;
   scene.file = *source;
   scene.tree = tree;
+  scene.from_level = from_level;
   scene.dimension = scene_dimension(*tree);
   const Subject top{tree.get(), ""};
   read(top, "title", scene.title);
