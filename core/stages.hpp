@@ -19,7 +19,7 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
 template <int Dim>
 void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 
-// contact forces and gravity summed on each body, in the order of the contacts
+// gravity, boundary stress and contact forces summed on each body, in the order of the contacts
 template <int Dim>
 void sum_loads(const Model<Dim>& model, State<Dim>& state);
 
