@@ -42,9 +42,10 @@ void warn_of_changes(const std::vector<StagePlan>& stages, std::vector<std::stri
     const Change& change = stage.change;
     if (!change.fix.empty() || !change.release.empty() || !change.remove.empty() || change.friction ||
         !change.boundary.empty())
-      warnings.push_back(fmt::format(
-          "stage '{}' changes blocks, loads or friction; limit analysis takes the scene as it is before its first stage",
-          stage.name));
+      warnings.push_back(
+          fmt::format("stage '{}' changes blocks, loads or friction; limit analysis takes the scene as it is before "
+                      "its first stage",
+                      stage.name));
   }
 }
 
