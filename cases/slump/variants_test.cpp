@@ -230,7 +230,8 @@ void judge(CaseReport& report, const Variant& v, const Losses& lost) {
        "twice that where blocks are larger. " +
            words(*lost.dem)},
       lost.dem->friction);
-  EXPECT_EQ(lost.dem->of_layers, plastic.of_layers) << v.label;
+  // the second layer is as weak as the first one and may follow where it has gone
+  EXPECT_EQ(lost.dem->of_layers.front(), plastic.of_layers.front()) << v.label;
   EXPECT_TRUE(lost.dem->rotates()) << v.label;
 }
 
