@@ -8,7 +8,7 @@ namespace voussoir {
 void balance(EnergyLedger& ledger) {
   EnergyFlows& f = ledger.flows;
   if (ledger.phase == LedgerPhase::not_begun) f = {};  // half a kick that belongs to the time before
-  const double to_motion = f.gravity + f.contacts + f.prescribed - f.local - f.relaxation;
+  const double to_motion = f.gravity + f.boundary + f.contacts + f.prescribed - f.local - f.relaxation;
   const double from_contacts = f.friction + f.dashpots + f.stiffening + f.contacts;
 
   // at the start, and where the model has changed, the errors stay what they were

@@ -14,6 +14,7 @@ namespace voussoir {
 // kick.
 struct EnergyFlows {
   double gravity = 0;     // work of gravity on the bodies
+  double boundary = 0;    // work of the stress on outer faces
   double contacts = 0;    // work of the contact forces on the bodies
   double friction = 0;    // lost to slip
   double dashpots = 0;    // lost to viscous damping
@@ -39,7 +40,7 @@ struct EnergyLedger {
 
   double potential() const { return flows.ramp - flows.gravity; }  // of gravity, against the start
   double damping() const { return flows.local + flows.dashpots + flows.relaxation; }
-  double external() const { return flows.ramp + flows.changes + flows.prescribed; }
+  double external() const { return flows.boundary + flows.ramp + flows.changes + flows.prescribed; }
 
   // kinetic + elastic + potential + friction + damping - external, against the start
   double unexplained() const { return motion_error + contact_error; }

@@ -114,6 +114,14 @@ void prescribe(Model<Dim>& model, const MovePlan& plan) {
   }
 }
 
+template <int Dim>
+void load_boundary(Body<Dim>& body, const Matrix<Dim>& stress) {
+  body.boundary.clear();
+  for (const Polytope<Dim>& part : body.parts)
+    for (const DeadLoad<Dim>& load : boundary_loads<Dim>(part, stress))
+      body.boundary.push_back(load);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -130,6 +138,9 @@ Model<Dim> apply(Model<Dim> model, const Change& change) {
       model.bodies[b].present = false;
       model.bodies[b].fixed = true;
     }
+  for (const BoundaryPlan& plan : change.boundary)
+    for (int b : select(model, plan.bodies))
+      load_boundary(model.bodies[b], stress_tensor<Dim>(plan.stress));
   if (change.friction)
     for (JointProperties& p : model.properties)
       p.friction = *change.friction;

@@ -8,6 +8,7 @@
 
 #include "core/geometry/polytope.hpp"
 #include "core/law/joint_properties.hpp"
+#include "core/load/boundary_stress.hpp"
 #include "core/optimise/solvers.hpp"
 #include "core/settings.hpp"
 
@@ -28,6 +29,7 @@ struct Body {
   bool present = true;                                   // false once excavated: ids never change
   std::array<bool, Dim> free_translation;                // world axes; all true unless restrained
   std::array<bool, spin_freedoms<Dim>> free_rotation;
+  std::vector<DeadLoad<Dim>> boundary;  // of the stress on its outer faces
 
   bool still() const { return fixed && !prescribed; }
 };
@@ -92,8 +94,8 @@ void list_parts(Model<Dim>& model);
 template <int Dim>
 std::vector<int> select(const Model<Dim>& model, const Selector& selector);
 
-// The model of the next stage: prescribed motions ended, bodies fixed, released or removed, friction set, motions
-// prescribed. Two motions of one body are a mistake of the caller.
+// The model of the next stage: prescribed motions ended, bodies fixed, released or removed, friction set, outer faces
+// stressed, motions prescribed. Two motions of one body are a mistake of the caller.
 template <int Dim>
 Model<Dim> apply(Model<Dim> model, const Change& change);
 

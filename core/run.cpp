@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/motion/integrate.hpp"
 #include "core/motion/relaxation.hpp"
@@ -136,7 +137,11 @@ template <int Dim>
 RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& goal, const RunSchedule& schedule,
               State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks) {
   const bool relaxes = goal.rest && settings.damping.statics == Statics::adaptive;
-  if (!progress.under_way) progress = begin_run(goal, relaxes, state);
+  if (!progress.under_way) {
+    std::vector<Vector<Dim>> stated = std::move(progress.begin);
+    progress = begin_run(goal, relaxes, state);
+    if (!stated.empty()) progress.begin = std::move(stated);
+  }
   RunReport report;
   const auto stop = [&](StopReason reason, const std::string& detail = {}) {
     progress.under_way = reason == StopReason::interrupted;

@@ -28,7 +28,7 @@ struct RunGoal {
   double end_time = 1e300;    // s: simulated time at which the run is complete
   double time_limit = 1e300;  // s: simulated time at which it is given up
   long long step_limit = 0;   // of this run; 0: none
-  double moved_away = 0;      // m: stop when a free body is this far from where it began; 0: never
+  double moved_away = 0;      // m: stop when a free body is this far from RunProgress::begin; 0: never
 };
 
 // values that change while the run goes on, from State::schedule.started
@@ -53,7 +53,8 @@ struct RunProgress {
   long long steps = 0;
   int at_rest = 0;                 // steps in a row
   long long unconverged = 0;       // Counters::unconverged at the begin
-  std::vector<Vector<Dim>> begin;  // m: displacements at the begin, kept where the goal looks at them
+  std::vector<Vector<Dim>> begin;  // m: displacements that `moved_away` counts from; those at the begin, or stated
+                                   // before it by the caller
 };
 
 // Callbacks; each may be empty. Neither can change the run.

@@ -103,8 +103,8 @@ struct ReducePlan {
   double step = 0;                      // rad, steps: decrement
   double rate = 0;                      // rad/s, rate: speed of reduction; two_rates: the faster
   double slower_rate = 0;               // rad/s, two_rates: the slower
-  double failure_displacement = 0;      // m: a body that has moved this far since the trial began has failed;
-                                        // 0: a tenth of the smallest inscribed radius
+  double failure_displacement = 0;      // m: a body that has moved this far since the search began (rates:
+                                        // since the fall began) has failed; 0: a tenth of the smallest inscribed radius
   long long ramp_steps = 500;           // steps over which a trial lowers the friction; few: inertia breaks the path
   long long step_limit = 1'000'000;     // for one trial
 };
@@ -134,10 +134,17 @@ struct MovePlan {
   TimeFactor factor;
 };
 
+// A stress on the faces of bodies that no joint made, from the stage on; it replaces what the bodies bore before.
+struct BoundaryPlan {
+  Selector bodies;
+  std::vector<double> stress;  // Pa, compression positive: 2-D xx, yy, xy; 3-D xx, yy, zz, yz, zx, xy
+};
+
 // what changes in the model between two stages
 struct Change {
   std::vector<Selector> fix, release, remove;
-  std::vector<MovePlan> move;      // within the stage only
+  std::vector<MovePlan> move;  // within the stage only
+  std::vector<BoundaryPlan> boundary;
   std::optional<double> friction;  // rad: new friction angle of every joint
   bool bond = false;               // closed joints with tensile strength or cohesion are bonded
 };

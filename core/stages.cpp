@@ -222,9 +222,10 @@ void book_gravity_ramp(const Model<Dim>& model, State<Dim>& state) {
       state.energy.flows.ramp -= growth * model.bodies[b].mass * model.gravity.dot(state.motions[b].displacement);
 }
 
-void book(EnergyFlows& flows, double gravity, double load, double damping, double prescribed) {
+void book(EnergyFlows& flows, double gravity, double boundary, double load, double damping, double prescribed) {
   flows.gravity += gravity;
-  flows.contacts += load - gravity;
+  flows.boundary += boundary;
+  flows.contacts += load - gravity - boundary;
   flows.local += damping;
   flows.prescribed += prescribed;
 }
@@ -326,8 +327,8 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
 template <int Dim>
 void sum_loads(const Model<Dim>& model, State<Dim>& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    state.loads[b].force = weight(model, state, b);
-    state.loads[b].moment.setZero();
+    state.loads[b] = boundary_load(model.bodies[b], state.axes[b]);
+    state.loads[b].force += weight(model, state, b);
   }
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     const Contact<Dim>& c = state.contacts[i];
@@ -380,12 +381,16 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
       kick = advance(body, state.loads[b], {.local_damping = settings.damping.local}, times, state.motions[b]);
     if (body.prescribed) force(body, *prescribed++, state.loads[b], elapsed, times, state.motions[b], kick);
     const Vector<Dim> gravity = weight(model, state, b);
+    const Load<Dim> push = boundary_load(body, state.axes[b]);
     energy.kinetic += kick.kinetic;
-    book(energy.flows, gravity.dot(kick.path_before), kick.load_before, kick.damping_before, kick.prescribed_before);
-    book(after, gravity.dot(kick.path_after), kick.load_after, kick.damping_after, kick.prescribed_after);
+    book(energy.flows, gravity.dot(kick.path_before), work_before(push, kick), kick.load_before, kick.damping_before,
+         kick.prescribed_before);
+    book(after, gravity.dot(kick.path_after), work_after(push, kick), kick.load_after, kick.damping_after,
+         kick.prescribed_after);
   }
   balance(energy);
   energy.flows.gravity += after.gravity;
+  energy.flows.boundary += after.boundary;
   energy.flows.contacts += after.contacts;
   energy.flows.local += after.local;
   energy.flows.prescribed += after.prescribed;

@@ -23,7 +23,7 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
 template <int Dim>
 void make_bonds(const Model<Dim>& model, State<Dim>& state);
 
-// contact forces and gravity summed on each body, in the order of the contacts
+// gravity, boundary stress and contact forces summed on each body, in the order of the contacts
 template <int Dim>
 void sum_loads(const Model<Dim>& model, State<Dim>& state);
 

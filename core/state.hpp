@@ -126,6 +126,17 @@ Vector<Dim> weight(const Model<Dim>& model, const State<Dim>& state, std::size_t
   return model.bodies[body].mass * state.schedule.gravity_factor * model.gravity;
 }
 
+// what the stress on its outer faces does to a body whose frame is `axes`
+template <int Dim>
+Load<Dim> boundary_load(const Body<Dim>& body, const Matrix<Dim>& axes) {
+  Load<Dim> sum;
+  for (const DeadLoad<Dim>& load : body.boundary) {
+    sum.force += load.force;
+    sum.moment += moment(Vector<Dim>(axes * load.place), load.force);
+  }
+  return sum;
+}
+
 // angular velocity in world axes, rad/s
 template <int Dim>
 Spin<Dim> angular_velocity(const Body<Dim>& body, const Motion<Dim>& motion);

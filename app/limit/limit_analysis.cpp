@@ -40,10 +40,12 @@ std::vector<std::string> unsupported(const LimitAnalysis& analysis) {
 void warn_of_changes(const std::vector<StagePlan>& stages, std::vector<std::string>& warnings) {
   for (const StagePlan& stage : stages) {
     const Change& change = stage.change;
-    if (!change.fix.empty() || !change.release.empty() || !change.remove.empty() || change.friction)
-      warnings.push_back(fmt::format(
-          "stage '{}' changes blocks or friction; limit analysis takes the scene as it is before its first stage",
-          stage.name));
+    if (!change.fix.empty() || !change.release.empty() || !change.remove.empty() || change.friction ||
+        !change.boundary.empty())
+      warnings.push_back(
+          fmt::format("stage '{}' changes blocks, loads or friction; limit analysis takes the scene as it is before "
+                      "its first stage",
+                      stage.name));
   }
 }
 

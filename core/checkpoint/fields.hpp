@@ -122,8 +122,8 @@ void serialize(Archive& archive, Counters& c) {
 
 template <class Archive>
 void serialize(Archive& archive, EnergyFlows& f) {
-  auto& [gravity, contacts, friction, dashpots, stiffening, local, relaxation, ramp, changes, prescribed] = f;
-  archive(gravity, contacts, friction, dashpots, stiffening, local, relaxation, ramp, changes, prescribed);
+  auto& [gravity, boundary, contacts, friction, dashpots, stiffening, local, relaxation, ramp, changes, prescribed] = f;
+  archive(gravity, boundary, contacts, friction, dashpots, stiffening, local, relaxation, ramp, changes, prescribed);
 }
 
 template <class Archive>
@@ -152,9 +152,9 @@ void serialize(Archive& archive, RunProgress<Dim>& r) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, ReductionProgress<Dim>& r) {
   auto& [trial, target, friction_from, friction_rate, time_limit, stable, failed, failed_faster, true_motion, run,
-         base] = r;
+         begin, base] = r;
   archive(trial, target, friction_from, friction_rate, time_limit, stable, failed, failed_faster, true_motion, run,
-          base);
+          begin, base);
 }
 
 template <class Archive>

@@ -42,6 +42,12 @@ Velocity velocity_before(StepTimes times, const Velocity& given, const Velocity&
   return times.at_start() ? Velocity(2 * given - after) : given;
 }
 
+template <int Dim>
+void book_turn(StepTimes times, const Spin<Dim>& before, const Spin<Dim>& after, KickEnergy<Dim>& energy) {
+  energy.turn_before = 0.5 * times.booked() * before;
+  energy.turn_after = 0.5 * times.booked() * after;
+}
+
 void kick_spin(const Body<2>& body, const Load<2>& load, const KickRule& rule, StepTimes times, Motion<2>& motion,
                KickEnergy<2>& energy) {
   const Spin<2> given = angular_velocity(body, motion);
@@ -49,6 +55,7 @@ void kick_spin(const Body<2>& body, const Load<2>& load, const KickRule& rule, S
   motion.angular_momentum = rule.keeps * motion.angular_momentum + rule.gain * times.kick * left;
   const Spin<2> after = angular_velocity(body, motion), before = velocity_before(times, given, after);
   book(energy, times.booked(), load.moment[0], left[0], before[0], after[0]);
+  book_turn(times, before, after, energy);
   energy.kinetic += 0.5 * body.inertia[0] * before[0] * after[0];
 }
 
@@ -86,6 +93,7 @@ void kick_spin(const Body<3>& body, const Load<3>& load, const KickRule& rule, S
   const Spin<3> after = angular_velocity(body, motion), before = velocity_before(times, given, after);
   for (int k = 0; k < 3; ++k)
     if (body.free_rotation[k]) book(energy, times.booked(), load.moment[k], left[k], before[k], after[k]);
+  book_turn(times, before, after, energy);
   const Spin<3> momentum_before = velocity_before(times, given_momentum, motion.angular_momentum);
   energy.kinetic += 0.5 * momentum_before.dot(motion.angular_momentum.cwiseQuotient(body.inertia));
 }

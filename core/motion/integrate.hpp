@@ -26,7 +26,18 @@ struct KickEnergy {
   double prescribed_before = 0, prescribed_after = 0;                               // put in by a prescribed motion
   Vector<Dim> path_before = Vector<Dim>::Zero(), path_after = Vector<Dim>::Zero();  // m: halves of the displacement the
                                                                                     // load acted along
+  Spin<Dim> turn_before = Spin<Dim>::Zero(), turn_after = Spin<Dim>::Zero();        // rad: the same of its turn
 };
+
+// the two halves of the work of a part of the load
+template <int Dim>
+double work_before(const Load<Dim>& load, const KickEnergy<Dim>& kick) {
+  return load.force.dot(kick.path_before) + load.moment.dot(kick.turn_before);
+}
+template <int Dim>
+double work_after(const Load<Dim>& load, const KickEnergy<Dim>& kick) {
+  return load.force.dot(kick.path_after) + load.moment.dot(kick.turn_after);
+}
 
 // what a kick makes of a velocity: v -> keeps v + gain kick f/m, f the force that local damping leaves
 struct KickRule {

@@ -55,6 +55,8 @@ void force(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const
   const Spin<Dim> before = times.at_start() ? after : angular_velocity(body, motion);
   for (int k = 0; k < spin_freedoms<Dim>; ++k)
     book(energy, times.booked(), load.moment[k], before[k], after[k]);
+  energy.turn_before = 0.5 * times.booked() * before;
+  energy.turn_after = 0.5 * times.booked() * after;
   motion.rotation = turned(motion.rotation, Spin<Dim>(times.drift * after));
   motion.angular_momentum = angular_momentum(body, motion.rotation, after);
 }

@@ -139,15 +139,20 @@ void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>&
     const KickEnergy<Dim> kick = advance(model.bodies[b], state.loads[b], rule, {dt, dt}, motion);
     const Vector<Dim> gravity = weight(model, state, b);
     const double down_before = gravity.dot(kick.path_before), down_after = gravity.dot(kick.path_after);
+    const Load<Dim> push = boundary_load(model.bodies[b], state.axes[b]);
+    const double push_before = work_before(push, kick), push_after = work_after(push, kick);
     energy.flows.gravity += down_before;
-    energy.flows.contacts += kick.load_before - down_before;
+    energy.flows.boundary += push_before;
+    energy.flows.contacts += kick.load_before - down_before - push_before;
     energy.flows.relaxation += kick.load_before;
     after.gravity += down_after;
-    after.contacts += kick.load_after - down_after;
+    after.boundary += push_after;
+    after.contacts += kick.load_after - down_after - push_after;
     after.relaxation += kick.load_after;
   }
   balance(energy);
   energy.flows.gravity += after.gravity;
+  energy.flows.boundary += after.boundary;
   energy.flows.contacts += after.contacts;
   energy.flows.relaxation += after.relaxation;
   state.time_step = dt;

@@ -103,6 +103,7 @@ struct Search {
   void begin_trial() {
     if (starts_from_base()) go_back_to_base();
     progress.true_motion = false;
+    progress.run.begin = falls() ? std::vector<Vector<Dim>>{} : progress.begin;
     progress.target = next_target();
     state.schedule.started = state.time;
     if (falls()) {
@@ -213,6 +214,9 @@ struct Search {
   }
 
   void search(const RunHooks<Dim>& hooks, const TrialHook<Dim>& on_trial) {
+    if (progress.begin.empty())
+      for (const Motion<Dim>& m : state.motions)
+        progress.begin.push_back(m.displacement);
     while (true) {
       if (!progress.run.under_way) begin_trial();
       Trial outcome = go_on(hooks);

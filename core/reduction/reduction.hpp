@@ -32,6 +32,7 @@ struct ReductionProgress {
   double failed_faster = 0;                     // rad, two rates: found at the faster
   bool true_motion = false;                     // the trial under way is one that relaxation could not decide
   RunProgress<Dim> run;                         // of the trial under way
+  std::vector<Vector<Dim>> begin;               // m: displacements when the search began
   State<Dim> base;                              // the last stable state
 };
 
@@ -48,9 +49,12 @@ using TrialHook = std::function<void(const State<Dim>&, double friction, Trial o
 //   since the bias goes with r^(2/3), the two tell how large it is
 //              at the slower and what is left without it. The error bar is a quarter of that correction: the margin of
 //              a grid convergence index whose order is known. It is not, where the joints soften
-// A trial that relaxation cannot decide goes on in true motion under local damping: near the critical angle a block
-// that slides on a single contact point flutters, and critical damping of the flutter holds up the slide. Afterwards
-// the state is the last stable one (rates: the failed one). A search that the hooks interrupted
+// Trials to rest have failed where a body has moved by the failure displacement since the search began, however many
+// trials it took: counted from each trial's own beginning, a slope that yields a little in each would seem the stronger
+// the smaller the steps. A fall at constant rate counts from its beginning. A trial that relaxation cannot decide goes
+// on in true motion under local damping: near the critical angle a block that slides on a single contact point
+// flutters, and critical damping of the flutter holds up the slide. Afterwards the state is the last stable one (rates:
+// the failed one). A search that the hooks interrupted
 // (`last.reason`) goes on when it is called again with its progress.
 template <int Dim>
 ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,

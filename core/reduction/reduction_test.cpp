@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "core/testing/models.hpp"
 
 namespace voussoir {
@@ -41,6 +43,32 @@ TEST(Reduction, ABlockOnASlopeFailsAtTheSlopesAngle) {
     EXPECT_LE(report.error_bar, 0.25 * degree * (1 + 1e-12));
     EXPECT_FALSE(report.rule.empty());
   }
+}
+
+// What has moved since the search began counts in every trial, whichever trial it was that moved it.
+TEST(Reduction, CountsWhatHasMovedSinceTheSearchBegan) {
+  const double slope = 30 * degree;
+  const Model<2> model = block_on_plate<2>(slope, 40 * degree);
+  ReducePlan plan;
+  plan.from = 35 * degree;
+  plan.to = 27 * degree;
+  plan.tolerance = 1 * degree;
+  plan.failure_displacement = 0.01;
+
+  State<2> state = initial_state(model);
+  ReductionProgress<2> progress;
+  ASSERT_TRUE(reduce<2>(model, {}, plan, state, progress).bracketed);
+  ASSERT_EQ(progress.begin.size(), model.bodies.size());
+  for (const Vector<2>& begin : progress.begin)
+    EXPECT_EQ(begin, Vector<2>::Zero()) << "no trial moves the beginning";
+
+  // a search that has moved the block by 0.2 m when a trial begins: the trial fails at once
+  state = initial_state(model);
+  progress = {};
+  progress.begin.assign(model.bodies.size(), Vector<2>(0.2, 0));
+  const ReductionReport report = reduce<2>(model, {}, plan, state, progress);
+  EXPECT_FALSE(report.bracketed);
+  EXPECT_NE(report.message.find("fails already"), std::string::npos) << report.message;
 }
 
 TEST(Reduction, AtConstantRateTheBiasIsTheOnePredicted) {

@@ -386,6 +386,18 @@ struct BadOverride {
 
 const std::string moving = "[[stage]]\nname = \"push\"\nkind = \"run\"\nduration_s = 1\n[[stage.move]]\n";
 
+const std::string pressing = "[[stage]]\nname = \"press\"\nkind = \"settle\"\n[[stage.boundary]]\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Boundary, Bad,
+    testing::Values(BadInput{"stress_of_a_plane", "", pressing + "all = true\nstress = [1, 1, 0] #!",
+                             "stage.press.boundary.1.stress = [1, 1, 0]", "must have 6 entries because dimension = 3"},
+                    BadInput{"no_stress", "", pressing + "all = true ", "stage.press.boundary.1.stress is missing",
+                             "compression positive"},
+                    BadInput{"no_block", "", pressing + "stress = [1, 1, 0, 0, 0, 0] ",
+                             "stage.press.boundary.1.below is missing", "no block is chosen"}),
+    by_name);
+
 INSTANTIATE_TEST_SUITE_P(
     Moves, Bad,
     testing::Values(

@@ -371,8 +371,8 @@ const KeyRow rows[] = {
      .breaks = "close to the faster one: the extrapolation magnifies small differences"},
     {.table = "stage", .key = "failure_displacement", .unit = "m", .range = not_negative,
      .usual = {.low = 1e-4, .high = 1, .or_zero = true}, .fallback = "0", .example = "0.01", .when = {"kind", "reduce"},
-     .meaning = "a block that has moved this far since the trial began has failed; 0: a tenth of the smallest "
-         "inscribed radius of the free blocks",
+     .meaning = "a block that has moved this far since the search began (rate, two_rates: since the fall began) has "
+         "failed; 0: a tenth of the smallest inscribed radius of the free blocks",
      .breaks = "must exceed the elastic settlement; too large: trials take long", .slip = "was it given in mm?"},
     {.table = "stage", .key = "ramp_steps", .type = integer, .unit = "steps", .range = count, .usual = {20, 1e5},
      .fallback = "500", .example = "2000", .when = {"method", "bisection|steps|two_rates"},
@@ -390,6 +390,9 @@ const KeyRow rows[] = {
      .holds = {"label", "motion", "move", "selector"},
      .meaning = "blocks whose motion is prescribed while the stage lasts, whatever the load on them; their other "
          "freedoms stay as they are, those of a fixed block are held. Afterwards a fixed block stands, a free one goes on"},
+    {.table = "stage", .key = "boundary", .type = tables, .holds = {"label", "boundary", "selector"},
+     .meaning = "stress on the outer faces of blocks, those that no joint made, from this stage on; it replaces what the "
+         "blocks bore before"},
     {.table = "stage", .key = "friction_deg", .unit = "deg", .range = friction_range, .usual = usual_friction,
      .example = "30",
      .meaning = "friction angle of every joint from this stage on", .slip = friction_slip},
@@ -397,6 +400,11 @@ const KeyRow rows[] = {
      .meaning = "before the stage begins, all joints under compression whose properties state tension or cohesion are "
          "bonded; a bond breaks once, by tension or slip"},
 
+    {.table = "boundary", .key = "stress", .type = numbers, .unit = "Pa", .range = sane,
+     .example = "[50e3, 50e3, 0, 0, 0, 0]", .required = true,
+     .meaning = "compression positive, world axes: xx, yy, zz, yz, zx, xy; in 2-D xx, yy, xy. The force on each face keeps "
+         "size and direction while the block moves",
+     .breaks = "needs blocks or fixed rock to push against"},
     {.table = "move", .key = "translation", .type = axes, .fallback = "true", .example = "[\"x\"]",
      .meaning = "directions along which the velocity is prescribed; true: all. Along the others the block is as free as "
          "without it"},

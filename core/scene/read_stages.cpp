@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "core/scene/keys.hpp"
 #include "core/scene/values.hpp"
 
 namespace voussoir {
@@ -137,7 +138,19 @@ MovePlan read_move(const Subject& table, const Selector& bodies) {
   return plan;
 }
 
-StageSpec read_stage(const Subject& table, const DampingSettings& damping) {
+BoundaryPlan read_boundary(const Subject& table, const Selector& bodies, int dimension) {
+  BoundaryPlan plan;
+  plan.bodies = bodies;
+  read(table, "stress", plan.stress);
+  const std::size_t wanted = dimension == 2 ? 3 : 6;
+  if (plan.stress.size() != wanted)
+    refuse(table, "stress",
+           "must have " + std::to_string(wanted) + " entries because dimension = " + std::to_string(dimension) + ": " +
+               (dimension == 2 ? "xx, yy, xy" : "xx, yy, zz, yz, zx, xy") + ", compression positive");
+  return plan;
+}
+
+StageSpec read_stage(const Subject& table, const DampingSettings& damping, int dimension) {
   StageSpec stage;
   stage.subject = table;
   read(table, "name", stage.plan.name);
@@ -157,6 +170,10 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping) {
   for (const SelectorSpec& spec : stage.moves)
     stage.plan.change.move.push_back(read_move(spec.subject, spec.selector));
   read(table, "bond", stage.plan.change.bond);
+  for (const SelectorSpec& spec : read_selectors(table, "boundary")) {
+    stage.plan.change.boundary.push_back(read_boundary(spec.subject, spec.selector, dimension));
+    stage.changes.push_back(spec);
+  }
   if (table.node->find("friction_deg")) read_degrees(table, "friction_deg", stage.plan.change.friction.emplace());
   return stage;
 }
@@ -244,7 +261,7 @@ Settings read_settings(const Subject& scene) {
 std::vector<StageSpec> read_stages(const Subject& scene, const DampingSettings& damping) {
   std::vector<StageSpec> stages;
   for (const Subject& item : children(scene, "stage"))
-    stages.push_back(read_stage(item, damping));
+    stages.push_back(read_stage(item, damping, scene_dimension(*scene.node)));
   if (stages.empty())
     refuse(scene, "stage",
            "nothing would happen; write for example [[stage]] with name = \"settle\" and kind = \"settle\"");

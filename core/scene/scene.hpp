@@ -94,7 +94,7 @@ struct InitialVelocitySpec {
 struct StageSpec {
   Subject subject;
   StagePlan plan;
-  std::vector<SelectorSpec> changes;  // the selectors of plan.change that fix, release or remove, with their places
+  std::vector<SelectorSpec> changes;  // the selectors of plan.change but of its moves, with their places
   std::vector<SelectorSpec> moves;    // those that move
 };
 

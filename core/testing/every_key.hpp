@@ -83,6 +83,7 @@ duration_s = 1
 release = [{ bodies = ["by planes"] }]
 remove = [{ bodies = ["by vertices"] }]
 move = [{ bodies = ["by planes"], velocity = [1, 0, 0], frequency_hz = 1 }]
+boundary = [{ bodies = ["by vertices"], stress = [1, 1, 0, 0, 0, 0] }]
 [[stage]]
 name = "bisection"
 kind = "reduce"
@@ -135,6 +136,7 @@ inline std::string address(const KeyRow& row) {
                                                           {"selector", "fix.1"},
                                                           {"restrain", "restrain.1"},
                                                           {"motion", "initial_velocity.1"},
+                                                          {"boundary", "stage.run.boundary.1"},
                                                           {"move", "stage.run.move.1"},
                                                           {"monitors", "monitors.body"}};
   std::string table(row.table);

@@ -1,0 +1,272 @@
+// The slumping slope with other dips, layers and spacings: the angle at which each is lost and how, by limit analysis,
+// by blocks that slip without opening and by distinct elements.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <optional>
+
+#include "app/limit/limit_analysis.hpp"
+#include "cases/case_tools.hpp"
+#include "cases/slump/loss.hpp"
+#include "reference/slump/elastoplastic.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using verification::CaseReport;
+using verification::Kind;
+
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr double reference_bracket = 0.005;  // deg
+constexpr double moves = 0.1;                // of the farthest corner's way: as the reference's blocks are told apart
+constexpr double turns = 1e-3;  // share of rotation in the kinetic energy: more than settling and rounding leave
+
+struct Variant {
+  double dip, base_dip;       // deg
+  double thickness, spacing;  // m
+  int layers;
+  std::string label;  // what differs from S0
+
+  reference::LayeredSlope slope() const {
+    return {dip / degrees, base_dip / degrees, thickness, spacing, 50, layers, 2500, 9.81, 10e9, 10e9};
+  }
+
+  std::string name() const {
+    return fmt::format("dip {}, base {}, {} x {} m, spacing {} m", dip, base_dip, layers, thickness, spacing);
+  }
+};
+
+// S0 first; then one thing varied at a time. One base dips out of the slope
+const std::vector<Variant> variants{{60, 5, 4, 8, 3, "S0"},
+                                    {50, 5, 4, 8, 3, "dip 50°"},
+                                    {55, 5, 4, 8, 3, "dip 55°"},
+                                    {65, 5, 4, 8, 3, "dip 65°"},
+                                    {70, 5, 4, 8, 3, "dip 70°"},
+                                    {60, -10, 4, 8, 3, "base −10°"},
+                                    {60, 0, 4, 8, 3, "base 0°"},
+                                    {60, 8, 4, 8, 3, "base 8°"},
+                                    {60, 5, 2, 8, 3, "layers of 2 m"},
+                                    {60, 5, 6, 8, 3, "layers of 6 m"},
+                                    {60, 5, 4, 5, 3, "spacing 5 m"},
+                                    {60, 5, 4, 16, 3, "spacing 16 m"},
+                                    {60, 5, 4, 8, 1, "1 layer"},
+                                    {60, 5, 4, 8, 5, "5 layers"}};
+
+void write_plane(std::ofstream& out, const std::string& kind, const std::string& name, double dip, double direction,
+                 double x, double y) {
+  if (dip < 0) {
+    dip = -dip;
+    direction = 360 - direction;
+  }
+  out << fmt::format("{}\nname = \"{}\"\ndip = {}\ndip_direction = {}\npoint = [{:.17g}, {:.17g}]\n", kind, name, dip,
+                     direction, x, y);
+}
+
+// scene.toml with other numbers, in the case's output folder, so that it can be run by itself
+std::filesystem::path write_scene(const Variant& v) {
+  const reference::LayeredSlope slope = v.slope();
+  const std::filesystem::path file =
+      verification::case_output("slump") /
+      fmt::format("variant_{}_{}_{}_{}_{}.toml", v.dip, v.base_dip, v.thickness, v.spacing, v.layers);
+  std::ofstream out(file);
+  const double layer = v.thickness / std::sin(slope.dip), row = v.spacing / std::cos(slope.base_dip);
+  const double right = slope.height / std::tan(slope.dip) + v.layers * layer + 10;
+  out << fmt::format("title = \"{}\"\ndimension = 2\ngravity = [0, -{}]\ndensity = {}\n", v.name(), slope.gravity,
+                     slope.density);
+  out << fmt::format("[domain]\nbox = {{ min = [-5, -20], max = [{:.17g}, {}] }}\n", right, slope.height);
+  write_plane(out, "[[domain.planes]]", "face", v.dip, 270, 0, 0);
+  out << "keep = \"below\"\n";
+  write_plane(out, "[[joints]]", "base", v.base_dip, 90, 0, 0);
+  write_plane(out, "[[joints]]", "back", v.dip, 270, v.layers * layer, 0);
+  for (int i = 1; i < v.layers; ++i)
+    write_plane(out, "[[joints]]", fmt::format("bedding {}", i), v.dip, 270, i * layer, 0);
+  // the rows above the base, as far up as the top of the last layer
+  const double last_top = slope.height + right * std::abs(std::tan(slope.base_dip));
+  for (int i = 1; i * row < last_top; ++i)
+    write_plane(out, "[[joints]]", fmt::format("cross {}", i), v.base_dip, 90, 0, i * row);
+  out << fmt::format(
+      "[[joint_properties]]\nname = \"rock\"\nnormal_stiffness = {}\nshear_stiffness = {}\n"
+      "friction_deg = 60\nsub_contacts = 4\n",
+      slope.normal_stiffness, slope.shear_stiffness);
+  out << "[[fix]]\nbelow = [\"base\"]\n[[fix]]\nbelow = [\"back\"]\n"
+         "[[stage]]\nname = \"settle\"\nkind = \"settle\"\ngravity_ramp_s = 0.5\n"
+         "[[stage]]\nname = \"critical\"\nkind = \"reduce\"\nmethod = \"bisection\"\nfrom_deg = 60\nto_deg = 2\n"
+         "tolerance_deg = 0.05\nfailure_displacement = 0.1\n";
+  if (!out) throw std::runtime_error("cannot write " + file.string());
+  return file;
+}
+
+// How a slope is lost: which of its layers, and whether by rotation.
+struct Manner {
+  double friction = 0;         // deg
+  double rotation_share = 0;   // of the kinetic energy
+  int moving = 0;              // blocks
+  std::vector<int> of_layers;  // those of each layer, from the face
+
+  bool rotates() const { return rotation_share > turns; }
+};
+
+int layer_of(const Variant& v, const Model<2>& model, int body) {
+  const Vector<2> place = model.origin + model.bodies[body].reference;
+  const double dip = v.dip / degrees;
+  return static_cast<int>((place[0] * std::sin(dip) - place[1] * std::cos(dip)) / v.thickness);
+}
+
+// blocks of each layer from the base upwards, as the reference numbers them
+std::vector<std::vector<int>> layered_blocks(const Variant& v, const Model<2>& model) {
+  std::vector<std::vector<int>> layers(v.layers);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.bodies[b].fixed) layers.at(layer_of(v, model, static_cast<int>(b))).push_back(static_cast<int>(b));
+  for (std::vector<int>& layer : layers)
+    std::sort(layer.begin(), layer.end(),
+              [&](int a, int b) { return model.bodies[a].reference[1] < model.bodies[b].reference[1]; });
+  return layers;
+}
+
+double farthest_corner(const Body<2>& body, const BodyVelocity& motion) {
+  double largest = 0;
+  for (const Vector<2>& corner : body.parts.front().vertices)
+    largest = std::max(largest, (motion.velocity + cross(Spin<2>(motion.spin), corner)).norm());
+  return largest;
+}
+
+Manner manner_of(const Variant& v, const Model<2>& model, double friction, const std::vector<BodyVelocity>& motions) {
+  Manner manner{friction, describe_mechanism(model, motions).rotation_share, 0, std::vector<int>(v.layers)};
+  double most = 0;
+  for (std::size_t b = 0; b < motions.size(); ++b)
+    most = std::max(most, farthest_corner(model.bodies[b], motions[b]));
+  for (std::size_t b = 0; b < motions.size(); ++b)
+    if (farthest_corner(model.bodies[b], motions[b]) > moves * most) {
+      ++manner.moving;
+      ++manner.of_layers.at(layer_of(v, model, static_cast<int>(b)));
+    }
+  return manner;
+}
+
+Manner by_limit_analysis(const Variant& v, const std::filesystem::path& scene) {
+  const LimitAnalysis analysis = analyse_limit(load_scene(scene));
+  if (analysis.status != LimitStatus::found) throw std::runtime_error(v.name() + ": " + analysis.message);
+  return manner_of(v, analysis.model, analysis.values.front().second.value, analysis.state.velocities);
+}
+
+Manner without_dilation(const Variant& v, const Model<2>& model) {
+  const reference::SlopeCollapse collapse =
+      reference::elastoplastic_collapse(v.slope(), 60 / degrees, 1 / degrees, reference_bracket / degrees);
+  const std::vector<std::vector<int>> layers = layered_blocks(v, model);
+  std::vector<BodyVelocity> motions(model.bodies.size());
+  for (const reference::SlopeBlockMotion& block : collapse.motion)
+    motions[layers.at(block.layer).at(block.row)] = {{block.x, block.y}, block.turn};
+  return manner_of(v, model, 0.5 * (collapse.stands + collapse.collapses) * degrees, motions);
+}
+
+Manner by_distinct_elements(const Variant& v, const Loss<2>& loss) {
+  std::vector<BodyVelocity> motions(loss.model().bodies.size());
+  for (const BlockLoss& block : motions_of_loss(loss))
+    motions[block.body] = {loss.lost.motions[block.body].displacement - loss.settled.motions[block.body].displacement,
+                           block.turn};
+  return manner_of(v, loss.model(), value(loss.run, "critical_friction"), motions);
+}
+
+std::string words(const Manner& m) {
+  std::string layers;
+  for (const int count : m.of_layers)
+    layers += fmt::format("{}{}", layers.empty() ? "" : "+", count);
+  return fmt::format("{}: blocks of each layer {}; {:.3g} % of the kinetic energy in rotation",
+                     m.rotates() ? "rotation" : "translation", layers, 100 * m.rotation_share);
+}
+
+// as each method lost a variant; only limit analysis is cheap enough for all of them in every build
+struct Losses {
+  Manner limit;
+  std::optional<Manner> plastic, dem;
+};
+
+std::string number(const std::optional<Manner>& manner) {
+  return manner ? fmt::format("{}", manner->friction) : "";
+}
+
+void write_table(const std::vector<Losses>& all) {
+  std::ofstream out(verification::case_output("slump") / "variants.csv");
+  out << "variant,limit_deg,plastic_deg,dem_deg\n";
+  for (std::size_t i = 0; i < all.size(); ++i)
+    out << variants[i].label << ',' << all[i].limit.friction << ',' << number(all[i].plastic) << ','
+        << number(all[i].dem) << '\n';
+  if (!out) throw std::runtime_error("cannot write variants.csv");
+}
+
+void judge(CaseReport& report, const Variant& v, const Losses& lost) {
+  const std::string name = ", " + v.label, source = "elastic, perfectly plastic blocks without dilation";
+  const Manner& limit = lost.limit;
+  EXPECT_TRUE(limit.rotates()) << v.label;
+  if (!lost.plastic) {
+    report.report("critical friction, limit analysis" + name, "deg", limit.friction, words(limit));
+    return;
+  }
+  const Manner& plastic = *lost.plastic;
+  report.report("critical friction, without dilation" + name, "deg", plastic.friction, words(plastic));
+  report.record({"critical friction, limit analysis" + name,
+                 "deg",
+                 Kind::limit,
+                 source,
+                 plastic.friction,
+                 {0.0026, 0},
+                 "half the reference's bracket, 0.0025, and what its trials leave unbalanced. " + words(limit)},
+                limit.friction);
+  EXPECT_EQ(limit.of_layers, plastic.of_layers) << v.label;
+  EXPECT_TRUE(plastic.rotates()) << v.label;
+  if (!lost.dem) return;
+  report.record(
+      {"critical friction, DEM" + name,
+       "deg",
+       Kind::limit,
+       source,
+       plastic.friction,
+       {0.2, 0},
+       "elastic corners give way before they carry what rigid ones do: 0.1 for S0 at this stiffness (README), "
+       "twice that where blocks are larger. " +
+           words(*lost.dem)},
+      lost.dem->friction);
+  // the second layer is as weak as the first one and may follow where it has gone
+  EXPECT_EQ(lost.dem->of_layers.front(), plastic.of_layers.front()) << v.label;
+  EXPECT_TRUE(lost.dem->rotates()) << v.label;
+}
+
+enum class Roads { limit_only, two, three };
+
+template <class Choice>
+void try_variants(CaseReport& report, const Choice& roads_of) {
+  std::vector<Losses> all;
+  for (const Variant& v : variants) {
+    const std::filesystem::path scene = write_scene(v);
+    const Roads roads = roads_of(v);
+    Losses lost{by_limit_analysis(v, scene), {}, {}};
+    if (roads != Roads::limit_only) {
+      const LoadedScene loaded = load_scene(scene);
+      lost.plastic = without_dilation(v, std::get<Prepared<2>>(loaded.prepared).model);
+    }
+    if (roads == Roads::three) lost.dem = by_distinct_elements(v, lose<2>(scene));
+    judge(report, v, lost);
+    all.push_back(lost);
+  }
+  write_table(all);
+}
+
+TEST(SlumpVariants, AreLostAsBlocksThatDoNotDilate) {
+  CaseReport report("slump", {"critical friction, limit analysis, dip 70°", "critical friction, DEM, 1 layer"});
+  try_variants(report, [](const Variant& v) {
+    if (v.layers == 1) return Roads::three;
+    return v.dip == 70 || v.base_dip == 0 || v.spacing == 16 ? Roads::two : Roads::limit_only;
+  });
+}
+
+TEST(SlumpVariants, DISABLED_AreLostByDistinctElements) {
+  CaseReport report("slump");
+  try_variants(report, [](const Variant&) { return Roads::three; });
+}
+
+}  // namespace
+}  // namespace voussoir::cases

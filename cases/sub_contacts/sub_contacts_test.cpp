@@ -1,0 +1,193 @@
+// What the number of points that carry a joint face buys and costs: stiffness and strength of a square face against the
+// distributed joint, and the time of a step.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <numbers>
+
+#include "cases/case_tools.hpp"
+#include "core/stages.hpp"
+#include "core/step.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using verification::CaseReport;
+using verification::Kind;
+
+constexpr std::array numbers{1, 2, 4, 8, 16};  // of points along a face
+constexpr double width = 1, arm = 0.25;        // m: of the face; of the centroid above it
+constexpr double depth = 1e-5;                 // m: of the face in the plate
+constexpr double small = 1e-7;  // rad, m: keeps the whole face closed, and every point below its strength
+constexpr double slide = 1e-2;  // rad: far beyond the strength of every point
+constexpr double kn = 1e9, ks = 5e8, friction_deg = 40;  // as the scenes state them
+
+// about the middle of the face
+template <int Dim>
+struct Answer {
+  Vector<Dim> force;
+  Spin<Dim> moment;
+};
+
+// A block of the scene, pressed into the plate; the answer of its joint to small motions, one after the other.
+template <int Dim>
+struct Pressed {
+  LoadedScene scene;
+  Model<Dim> model;
+  Settings settings;
+  State<Dim> state;
+  int block;
+
+  explicit Pressed(int along)
+      : scene(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / (Dim == 2 ? "strip.toml" : "square.toml"),
+                         {fmt::format("joint_properties.rock.sub_contacts={}", along)})) {
+    const auto& prepared = std::get<Prepared<Dim>>(scene.prepared);
+    model = prepared.model;
+    settings = prepared.settings;
+    state = prepared.state;
+    block = select(model, {.names = {"block"}, .above = {}, .below = {}, .inside = {}}).front();
+    state.motions[block].displacement[Dim - 1] = -depth;
+    answer();
+  }
+
+  Answer<Dim> answer() {
+    find_neighbours(model, settings, state);
+    find_contacts(model, settings, state);
+    apply_joint_laws(model, settings, state);
+    sum_loads(model, state);
+    const Load<Dim>& load = state.loads[block];
+    const Vector<Dim> from_face = matrix(state.motions[block].rotation) * (arm * Vector<Dim>::Unit(Dim - 1));
+    return {load.force, load.moment + moment(from_face, load.force)};
+  }
+
+  // the face's middle goes by `way` while the block turns by `turn` about it, within a second
+  Answer<Dim> go(const Vector<Dim>& way, const Spin<Dim>& turn) {
+    Motion<Dim>& motion = state.motions[block];
+    const Rotation<Dim> turned_to = turned(motion.rotation, turn);
+    const Vector<Dim> lift = arm * Vector<Dim>::Unit(Dim - 1);
+    const Vector<Dim> path = way + matrix(turned_to) * lift - matrix(motion.rotation) * lift;
+    motion.rotation = turned_to;
+    motion.displacement += path;
+    motion.velocity = path;
+    motion.angular_momentum = angular_momentum(model.bodies[block], motion.rotation, turn);
+    state.time_step = 1;
+    return answer();
+  }
+};
+
+template <int Dim>
+constexpr double face = Dim == 2 ? width : width* width;
+
+// as a share of the distributed joint
+struct Stiffness {
+  double normal = 0, shear = 0, rocking = 0, spin = 1, spin_strength = 1;
+};
+
+template <int Dim>
+Stiffness stiffness_of(int along) {
+  Stiffness s;
+  const Vector<Dim> up = Vector<Dim>::Unit(Dim - 1), right = Vector<Dim>::Unit(0);
+  const Vector<Dim> still = Vector<Dim>::Zero();
+  const Spin<Dim> no_turn = Spin<Dim>::Zero();
+  {
+    Pressed<Dim> pressed(along);
+    const double before = pressed.answer().force.dot(up);
+    s.normal = (pressed.go(-small * up, no_turn).force.dot(up) - before) / (kn * face<Dim> * small);
+  }
+  s.shear = -Pressed<Dim>(along).go(small * right, no_turn).force.dot(right) / (ks * face<Dim> * small);
+  {
+    Spin<Dim> rock = no_turn;
+    rock[Dim == 2 ? 0 : 1] = small;
+    const double inertia = face<Dim> * width * width / 12;
+    s.rocking = -Pressed<Dim>(along).go(still, rock).moment[Dim == 2 ? 0 : 1] / (kn * inertia * small);
+  }
+  if constexpr (Dim == 3) {
+    const double polar = std::pow(width, 4) / 6;
+    s.spin = -Pressed<3>(along).go(still, {0, 0, small}).moment[2] / (ks * polar * small);
+    // the mean distance of a square's points from its middle
+    const double mean = width * (std::sqrt(2) + std::asinh(1)) / 6;
+    const double strength = std::tan(friction_deg * std::numbers::pi / 180) * kn * depth * face<3> * mean;
+    s.spin_strength = -Pressed<3>(along).go(still, {0, 0, slide}).moment[2] / strength;
+  }
+  return s;
+}
+
+// of a contact in a step, ns of the processor: the fastest of some rounds, since anything else only adds to it
+template <int Dim>
+double step_nanoseconds(int along) {
+  constexpr int rounds = 5, steps = 400;
+  Pressed<Dim> pressed(along);
+  Body<Dim>& body = pressed.model.bodies[pressed.block];
+  body.free_translation.fill(false);  // it stays where it is
+  body.free_rotation.fill(false);
+  double least = std::numeric_limits<double>::infinity();
+  for (int r = 0; r < rounds; ++r) {
+    const std::clock_t began = std::clock();
+    const long long evaluations = pressed.state.counters.contact_evaluations;
+    for (int i = 0; i < steps; ++i)
+      step(pressed.model, pressed.settings, pressed.state);
+    const double seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+    least =
+        std::min(least, 1e9 * seconds / static_cast<double>(pressed.state.counters.contact_evaluations - evaluations));
+  }
+  return least;
+}
+
+void judge(CaseReport& report, const std::string& what, double expected, double tolerance, const std::string& because,
+           double found) {
+  report.record({what, "1", Kind::exact, "distributed joint", expected, {tolerance, 0}, because}, found);
+}
+
+// the normal of a tilted contact lies between the two faces', and its point is known to rounding over the tilt
+constexpr double measured_to = 1e-5;
+
+template <int Dim>
+void measure(CaseReport& report, const std::string& file) {
+  std::vector<std::vector<double>> columns(8);
+  for (const int along : numbers) {
+    const Stiffness s = stiffness_of<Dim>(along);
+    const double time = step_nanoseconds<Dim>(along);
+    const std::string name = fmt::format(", {} points in {}-D", Dim == 2 ? along : along * along, Dim);
+    judge(report, "normal stiffness" + name, 1, measured_to, "exact with one point", s.normal);
+    judge(report, "shear stiffness" + name, 1, measured_to, "exact with one point", s.shear);
+    if (along > 1)
+      judge(report, "rocking stiffness" + name, 1, measured_to, "a point is its cell's centre of pressure", s.rocking);
+    else
+      report.report("rocking stiffness" + name, "1", s.rocking,
+                    "of the distributed joint; the point is the centre of "
+                    "the overlap, which moves more than the pressure");
+    if (Dim == 3)
+      judge(report, "spin stiffness" + name, 1 - 1.0 / (along * along), measured_to,
+            "each cell lacks its own spin, which together is 1/n² of the face's", s.spin);
+    if (Dim == 3) report.report("spin strength" + name, "1", s.spin_strength, "of the distributed joint");
+    report.report("contact in a step" + name, "ns", time, "processor time, fastest of five rounds of this run");
+    // what a logarithmic axis can show: rounding stands at 1e-8
+    const auto error = [](double share) { return std::max(1e-8, std::abs(share - 1)); };
+    const std::array row{static_cast<double>(along),
+                         std::pow(along, Dim - 1),
+                         error(s.normal),
+                         error(s.shear),
+                         error(s.rocking),
+                         error(s.spin),
+                         error(s.spin_strength),
+                         time};
+    for (std::size_t k = 0; k < row.size(); ++k)
+      columns[k].push_back(row[k]);
+  }
+  write_csv("sub_contacts", file,
+            {"along", "points", "normal", "shear", "rocking", "spin", "spin_strength", "nanoseconds"}, columns);
+}
+
+TEST(SubContacts, AccuracyAgainstCost) {
+  CaseReport report("sub_contacts", {"rocking stiffness, 2 points in 2-D", "spin stiffness, 16 points in 3-D"});
+  measure<2>(report, "strip.csv");
+  measure<3>(report, "square.csv");
+}
+
+}  // namespace
+}  // namespace voussoir::cases

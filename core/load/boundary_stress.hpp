@@ -1,0 +1,34 @@
+// Stress brought in from outside: forces on the faces that no joint made.
+#pragma once
+
+#include <vector>
+
+#include "core/geometry/polytope.hpp"
+
+namespace voussoir {
+
+// a force that keeps its size and direction while the body moves
+template <int Dim>
+struct DeadLoad {
+  Vector<Dim> place = Vector<Dim>::Zero();  // where it acts, body frame, m
+  Vector<Dim> force = Vector<Dim>::Zero();  // world axes, N (2-D: N/m)
+};
+
+// What a stress (Pa, compression positive, world axes) does to the faces of an unturned part that no joint made:
+// -stress n A at the centroid of each, n its outward normal. Faces that it does not load are left out.
+template <int Dim>
+std::vector<DeadLoad<Dim>> boundary_loads(const Polytope<Dim>& part, const Matrix<Dim>& stress);
+
+// a symmetric tensor from its components: 2-D xx, yy, xy; 3-D xx, yy, zz, yz, zx, xy
+Matrix<2> stress_tensor_2d(const std::vector<double>& components);
+Matrix<3> stress_tensor_3d(const std::vector<double>& components);
+
+template <int Dim>
+Matrix<Dim> stress_tensor(const std::vector<double>& components) {
+  if constexpr (Dim == 2)
+    return stress_tensor_2d(components);
+  else
+    return stress_tensor_3d(components);
+}
+
+}  // namespace voussoir

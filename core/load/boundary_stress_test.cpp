@@ -1,0 +1,130 @@
+// Stress on outer faces: its resultants, what a joint bears under it, and its place in the energy ledger.
+#include "core/load/boundary_stress.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/motion/integrate.hpp"
+#include "core/run.hpp"
+#include "core/testing/models.hpp"
+
+namespace voussoir {
+namespace {
+
+using namespace shapes;
+
+template <int Dim>
+Matrix<Dim> some_stress() {
+  return stress_tensor<Dim>(Dim == 2 ? std::vector<double>{3e5, 1e5, -0.7e5}
+                                     : std::vector<double>{3e5, 1e5, 2e5, 0.4e5, -0.3e5, -0.7e5});
+}
+
+// blocks given directly: no face was made by a joint
+template <int Dim>
+Body<Dim> outer_body(const HalfSpaces<Dim>& planes, bool fixed, const char* name) {
+  Body<Dim> body = make_body<Dim>({make_block<Dim>(planes, std::vector<int>(planes.size(), no_joint)).part}, density);
+  body.fixed = fixed;
+  body.name = name;
+  return body;
+}
+
+template <int Dim>
+BoundaryPlan on_all(const std::vector<double>& stress) {
+  return {.bodies = {.all = true, .names = {}, .above = {}, .below = {}, .inside = {}}, .stress = stress};
+}
+
+// A stress that is the same everywhere balances itself on any closed surface: no force, no moment.
+TEST(BoundaryStress, BalancesItselfOnEveryBlock) {
+  Random random(7);
+  for (int i = 0; i < 20; ++i) {
+    HalfSpaces<3> planes = cube<3>(1);
+    for (int k = 0; k < 4; ++k)
+      planes.push_back({normal_vector<3>(random).normalized(), uniform(random, 0.5, 1)});
+    Body<3> body = outer_body<3>(planes, false, "block");
+    body.boundary = boundary_loads<3>(body.parts.front(), some_stress<3>());
+    ASSERT_GE(body.boundary.size(), 4u);
+    const Load<3> sum = boundary_load<3>(body, Matrix<3>::Identity());
+    EXPECT_LT(sum.force.norm(), 1e-13 * 3e5 * 24);
+    EXPECT_LT(sum.moment.norm(), 1e-12 * 3e5 * 24);
+  }
+  Body<2> body = outer_body<2>(cube<2>(1), false, "block");
+  body.boundary = boundary_loads<2>(body.parts.front(), some_stress<2>());
+  const Load<2> sum = boundary_load<2>(body, Matrix<2>::Identity());
+  EXPECT_LT(sum.force.norm() + sum.moment.norm(), 1e-12 * 3e5 * 8);
+}
+
+// Compression pushes inwards, shear along; a face that a joint made bears nothing.
+TEST(BoundaryStress, LoadsOuterFacesOnly) {
+  Polytope<3> part = make_block<3>(cube<3>(1), {no_joint, 0, 0, 0, 0, 0}).part;
+  const Matrix<3> stress = some_stress<3>();
+  const std::vector<DeadLoad<3>> loads = boundary_loads<3>(part, stress);
+  ASSERT_EQ(loads.size(), 1u);
+  std::size_t outer = 0;
+  while (part.joints[outer] != no_joint)
+    ++outer;
+  const Vector<3>& n = part.faces[outer].normal;
+  EXPECT_LT((loads[0].place - n).norm(), 1e-14);
+  EXPECT_LT((loads[0].force + 4 * stress * n).norm(), 1e-9);
+  EXPECT_TRUE(boundary_loads<3>(part, Matrix<3>::Zero()).empty());
+}
+
+// A block on a plate, whose base a joint made, is pushed down and sideways on its other faces: at rest the joint bears
+// that and the weight. The settled block then turns freely under a couple, and both balances of energy close.
+template <int Dim>
+void expect_pressed_joint() {
+  Vector<Dim> low = Vector<Dim>::Constant(-3), high = Vector<Dim>::Constant(3);
+  high[Dim - 1] = 0;
+  Vector<Dim> block_low = Vector<Dim>::Constant(-0.5), block_high = Vector<Dim>::Constant(0.5);
+  block_low[Dim - 1] = 0;
+  Body<Dim> pressed = outer_body<Dim>(box<Dim>(block_low, block_high), false, "block");
+  Polytope<Dim>& part = pressed.parts.front();
+  for (std::size_t f = 0; f < part.faces.size(); ++f)
+    if (part.faces[f].normal[Dim - 1] < -0.5) part.joints[f] = 0;
+  Model<Dim> model = model_of<Dim>({outer_body<Dim>(box<Dim>(low, high), true, "plate"), pressed});
+  const Matrix<Dim> stress = some_stress<Dim>();
+  const int block = index_of(model, "block");
+  model.bodies[block].free_rotation.fill(false);
+  model = apply(model, {.fix = {},
+                        .release = {},
+                        .remove = {},
+                        .move = {},
+                        .boundary = {on_all<Dim>(Dim == 2 ? std::vector<double>{3e5, 1e5, -0.7e5}
+                                                          : std::vector<double>{3e5, 1e5, 2e5, 0.4e5, -0.3e5, -0.7e5})},
+                        .friction = {}});
+  Settings settings;
+  State<Dim> state = initial_state(model);
+  const RunReport report = run(model, settings, {.rest = true, .step_limit = 100000}, {.properties = {}}, state);
+  ASSERT_EQ(report.reason, StopReason::equilibrium);
+  Vector<Dim> expected = model.bodies[block].mass * model.gravity;
+  expected -= stress.col(Dim - 1);  // what the faces but the base leave: the base's own share, area 1
+  Vector<Dim> borne = Vector<Dim>::Zero();
+  for (const Contact<Dim>& c : state.contacts)
+    borne += (model.parts[c.part_a].body == block ? 1.0 : -1.0) * c.force;
+  EXPECT_LT((borne - expected).norm(), 1e-5 * expected.norm());
+  EXPECT_LT(state.energy.closure(), 1e-3) << "of linear springs whose area stays";
+  EXPECT_GT(state.energy.flows.boundary, 0);
+}
+
+TEST(BoundaryStress, IsBorneByTheJoint) {
+  expect_pressed_joint<3>();
+  expect_pressed_joint<2>();
+}
+
+// One sheared face turns a block that is free in space: what the load gives is what the motion has.
+TEST(BoundaryStress, WorkOnATurningBlockIsItsKineticEnergy) {
+  Model<3> model = model_of<3>({outer_body<3>(cube<3>(1), false, "block")});
+  model.gravity.setZero();
+  model.bodies[0].boundary = {{{0, 0.3, 1}, {1e4, 0, 0}}};
+  Settings settings;
+  settings.damping.local = 0;
+  settings.time.step = 1e-4;
+  State<3> state = initial_state(model);
+  run(model, settings, {.end_time = 0.2}, {.properties = {}}, state);
+  const EnergyLedger& e = state.energy;
+  EXPECT_GT(rotation_vector(state.motions[0].rotation).norm(), 1e-3);
+  EXPECT_NEAR(e.kinetic, e.external(), 1e-3 * e.kinetic) << "the flow is half of 2,000 steps' last ahead";
+  EXPECT_LT(std::abs(e.flows.contacts), 1e-12 * e.turnover);
+  EXPECT_LT(e.closure(), 1e-12);
+}
+
+}  // namespace
+}  // namespace voussoir
