@@ -365,10 +365,6 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Laws, Bad,
     testing::Values(
-        BadInput{"growth_without_law", "friction_deg = 40", "friction_deg = 40\nnormal_growth = 1e4 #!",
-                 "joint_properties.rock.normal_growth = 10000", "applies only where normal_law"},
-        BadInput{"law_without_growth", "friction_deg = 40", "friction_deg = 40\nshear_law = \"linear\"",
-                 "joint_properties.rock.shear_growth is missing", "shear_growth = 9.7e4"},
         BadInput{"law_on_springs", "friction_deg = 40",
                  "friction_deg = 40\ncohesion = 1e6\nconstant_stiffness = true #!",
                  "joint_properties.rock.constant_stiffness", "give the stiffness per area"},
