@@ -36,7 +36,7 @@ function(voussoir_case name)
   if(arg_LONG)
     add_test(NAME case.${name}.long CONFIGURATIONS Long WORKING_DIRECTORY ${output}
       COMMAND case_${name} --gtest_brief=1 --gtest_also_run_disabled_tests --gtest_filter=*DISABLED_*)
-    set_tests_properties(case.${name}.long PROPERTIES LABELS long
+    set_tests_properties(case.${name}.long PROPERTIES LABELS long TIMEOUT 14400
       ENVIRONMENT "VOUSSOIR_VERDICTS=${PROJECT_BINARY_DIR}/verdicts-long;VOUSSOIR_CASE_OUTPUT=${PROJECT_BINARY_DIR}/cases-long")
   endif()
 

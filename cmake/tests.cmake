@@ -17,6 +17,6 @@ function(voussoir_test name)
   if(arg_LONG)
     add_test(NAME ${name}.long CONFIGURATIONS Long WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
       COMMAND ${target} --gtest_brief=1 --gtest_also_run_disabled_tests --gtest_filter=*DISABLED_*)
-    set_tests_properties(${name}.long PROPERTIES LABELS long)
+    set_tests_properties(${name}.long PROPERTIES LABELS long TIMEOUT 14400)
   endif()
 endfunction()
