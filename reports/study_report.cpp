@@ -123,7 +123,7 @@ std::string recommendation_table(const Study& study, const std::string& quantity
 }
 
 std::string order_text(const ObservedOrder& order) {
-  return fmt::format("{:.3f} ± {:.3f}", order.order, order.uncertainty);
+  return fmt::format("{:.3f} ± {:.1g}", order.order, order.uncertainty);
 }
 
 std::string order_table(const Study& study, const std::string& quantity) {

@@ -157,7 +157,7 @@ std::string order_table(const std::vector<CaseStudy>& studies) {
       if (order.at("order").is_null())
         text += "none | |\n";
       else
-        text += fmt::format("{:.3f} ± {:.3f} | {} |\n", order.at("order").get<double>(),
+        text += fmt::format("{:.3f} ± {:.1g} | {} |\n", order.at("order").get<double>(),
                             order.at("uncertainty").get<double>(), order.at("count").get<int>());
     }
   return text;
