@@ -13,6 +13,10 @@
 namespace voussoir {
 namespace {
 
+// A duration is over when less than this share of a step is left of it: the sum of a million steps may miss it by a
+// ten-thousandth of one.
+constexpr double last_step = 1e-3;
+
 // sets the scheduled values; true while they still change
 template <int Dim>
 bool follow(const RunSchedule& plan, State<Dim>& state) {
@@ -172,7 +176,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
     if (goal.moved_away > 0 && farthest(model, state, progress.begin) > goal.moved_away)
       return stop(StopReason::moved_away);
-    if (state.time >= goal.end_time - 1e-9 * state.time_step) return stop(StopReason::end_time);
+    if (state.time >= goal.end_time - last_step * state.time_step) return stop(StopReason::end_time);
     if (state.time >= goal.time_limit) return stop(StopReason::time_limit);
     if (goal.step_limit > 0 && progress.steps >= goal.step_limit) return stop(StopReason::step_limit);
   }

@@ -248,15 +248,9 @@ void write_closed_forms() {
 
 TEST(RoofWedge, NeedsTheFrictionOfItsStiffnessRatioAndStress) {
   CaseReport report("roofwedge");
-  try_ratios(report, {0.1, 0.5, 2, 10});
-  try_stresses(report, {0.02e6, 0.1e6, 0.2e6});
-  write_closed_forms();
-}
-
-TEST(RoofWedge, DISABLED_NeedsTheFrictionOfManyStiffnessRatiosAndStresses) {
-  CaseReport report("roofwedge");
   try_ratios(report, {0.1, 0.2, 0.5, 1, 2, 5, 10});
   try_stresses(report, {0.02e6, 0.03e6, 0.05e6, 0.075e6, 0.1e6, 0.15e6, 0.2e6});
+  write_closed_forms();
 }
 
 }  // namespace

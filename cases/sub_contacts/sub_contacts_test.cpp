@@ -120,7 +120,7 @@ Stiffness stiffness_of(int along) {
 // of a contact in a step, ns of the processor: the fastest of some rounds, since anything else only adds to it
 template <int Dim>
 double step_nanoseconds(int along) {
-  constexpr int rounds = 5, steps = 400;
+  constexpr int rounds = 20, steps = 100;
   Pressed<Dim> pressed(along);
   Body<Dim>& body = pressed.model.bodies[pressed.block];
   body.free_translation.fill(false);  // it stays where it is
@@ -165,7 +165,7 @@ void measure(CaseReport& report, const std::string& file) {
       judge(report, "spin stiffness" + name, 1 - 1.0 / (along * along), measured_to,
             "each cell lacks its own spin, which together is 1/n² of the face's", s.spin);
     if (Dim == 3) report.report("spin strength" + name, "1", s.spin_strength, "of the distributed joint");
-    report.report("contact in a step" + name, "ns", time, "processor time, fastest of five rounds of this run");
+    report.report("contact in a step" + name, "ns", time, "processor time, fastest of twenty rounds of this run");
     // what a logarithmic axis can show: rounding stands at 1e-8
     const auto error = [](double share) { return std::max(1e-8, std::abs(share - 1)); };
     const std::array row{static_cast<double>(along),
