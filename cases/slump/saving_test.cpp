@@ -2,26 +2,22 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "cases/saving.hpp"
-#include "reference/slump/elastoplastic.hpp"
 
 namespace voussoir::cases {
 namespace {
 
-// long: the thesis' way takes five million steps of forty-five contacts
+// Long: the thesis' way takes four million steps of fifty contacts. Sought is the angle of this model with this failure
+// displacement, found by a finer bracket: the slope yields and rests again while it moves, so that the angle goes with
+// the displacement that counts as failure (README), which is no matter of the search.
 TEST(SlumpSaving, DISABLED_BisectionAgainstTheThesisRate) {
-  constexpr double degrees = 180 / std::numbers::pi;
-  const reference::LayeredSlope slope{60 / degrees, 5 / degrees, 4, 8, 50, 3, 2500, 9.81, 10e9, 10e9};
-  const reference::SlopeCollapse collapse =
-      reference::elastoplastic_collapse(slope, 60 / degrees, 5 / degrees, 0.0005 / degrees);
-  const SoughtAngle sought{0.5 * (collapse.stands + collapse.collapses) * degrees, "blocks that slip without dilation",
-                           "as demanded; the bracket leaves 0.04"};
   verification::CaseReport report("slump", {"critical friction, bisection over ten degrees"});
+  const SceneRun fine = run("scene.toml");
+  const SoughtAngle sought{value(fine, "critical_friction"), "the same model, bisection to 0.013 degrees",
+                           "as demanded; the brackets leave 0.04 and 0.013"};
   const SceneRun thesis = run("thesis_rate.toml");
-  report.report("critical friction, the thesis' rate", "deg", value(thesis, "critical_friction"),
-                "found too late by a lag that grows with the rate", cost(thesis));
+  expect_honest_bar(report, sought, "the thesis' rate", thesis);
   expect_saving(report, sought, "bisection over ten degrees", run("narrow.toml"), thesis);
 }
 
