@@ -318,33 +318,35 @@ TEST(JointedBeam, ComesNearerWithSubContacts) {
   write_csv("jointedbeam", "sub_contacts.csv", {"sub_contacts", "thrust_percent", "deflection_percent"}, columns);
 }
 
-// One point at the centroid of the overlap bears 4/3 of what a triangle of stress does, so the joint is too stiff.
-TEST(JointedBeam, IsTooStiffOnOnePoint) {
+// One point at the centroid of the overlap bears 4/3 of what a triangle of stress does: the joint is too stiff. One at
+// the analytic centre bears what it should, half of the contact from the edge instead of a third: the arm is short.
+TEST(JointedBeam, DeviatesOnOnePointAsItsChainDoes) {
   CaseReport report("jointedbeam");
   const JointedBeam beam = full_block();
   const std::vector<BeamState> chain = raise_gravity(beam, judged, full_closure);
-  const std::vector<BeamState> point = raise_gravity(with_cells(beam, 1, CellClosure::at_point), judged, full_closure);
-  const std::vector<std::string> one{"joint_properties.rock.sub_contacts=1"};
-  const BeamRun centroid = run_beam(beam, "scene.toml", {one[0], "contact.point=\"centroid\""});
-  const BeamRun centre = run_beam(beam, "scene.toml", one);
-  ASSERT_EQ(centroid.lost + centre.lost, 0) << centroid.results.message << centre.results.message;
-  for (const double gravity : {10.0, 40.0}) {
-    const BeamState& found = at_gravity(centroid.held, gravity);
-    const std::string name = "one centroid point, " + text(gravity);
-    const std::string because =
-        "the same joint: 4/3 of the mean overlap. A chain steps by 0.25 g, and area that a step regains has no shear";
-    record_thrust(report, name, at_gravity(point, gravity), found, 0.005, because, cost(centroid));
-    record_deflection(report, name, at_gravity(point, gravity), found, 0.01, because);
-    for (const auto& [kind, run] : {std::pair{std::string("centroid"), &centroid}, {"analytic centre", &centre}}) {
-      const BeamState &own = at_gravity(run->held, gravity), &expected = at_gravity(chain, gravity);
-      report.report("thrust on one point, " + kind + ", " + text(gravity), "1", own.thrust / expected.thrust - 1,
-                    "deviation from the distributed joint", cost(*run));
-      report.report("deflection on one point, " + kind + ", " + text(gravity), "1",
-                    own.deflection / expected.deflection - 1, "deviation from the distributed joint");
+  struct Variant {
+    std::string name, point;
+    CellClosure closure;
+  };
+  for (const Variant& v : {Variant{"centroid", "centroid", CellClosure::at_point},
+                           Variant{"analytic centre", "analytic_centre", CellClosure::at_centre}}) {
+    const std::vector<BeamState> own_chain = raise_gravity(with_cells(beam, 1, v.closure), judged, full_closure);
+    const BeamRun run =
+        run_beam(beam, "scene.toml", {"joint_properties.rock.sub_contacts=1", "contact.point=\"" + v.point + "\""});
+    ASSERT_EQ(run.lost, 0) << run.results.message;
+    for (const double gravity : {10.0, 40.0}) {
+      const BeamState &found = at_gravity(run.held, gravity), &expected = at_gravity(chain, gravity);
+      const std::string name = "one point, " + v.name + ", " + text(gravity);
+      const std::string because = "the same joint; what a step of 0.25 g leaves of the chain's history";
+      record_thrust(report, name, at_gravity(own_chain, gravity), found, 0.002, because, cost(run));
+      record_deflection(report, name, at_gravity(own_chain, gravity), found, 0.005, because);
+      report.report("error of thrust, " + name, "1", found.thrust / expected.thrust - 1, "against distributed joints",
+                    cost(run));
+      report.report("error of deflection, " + name, "1", found.deflection / expected.deflection - 1,
+                    "against distributed joints");
     }
+    write_build_up("full_" + v.point + ".csv", beam, run.held);
   }
-  write_build_up("full_centroid.csv", beam, centroid.held);
-  write_build_up("full_centre.csv", beam, centre.held);
 }
 
 TEST(JointedBeam, OfHalfBlocksIsLostAsTheChainIs) {

@@ -28,8 +28,9 @@ struct JointFriction {
 };
 
 enum class CellClosure {
-  mean,     // of the overlap over the cell: with linear stiffness exact for any number of cells
-  at_point  // at the centroid of the cell's overlap: 4/3 of the mean where it is a triangle
+  mean,      // of the overlap over the cell: with linear stiffness exact for any number of cells
+  at_point,  // at the centroid of the cell's overlap: 4/3 of the mean where it is a triangle
+  at_centre  // of one cell only: at the analytic centre of the overlap, which all faces of both bodies push
 };
 
 struct JointLaw {
