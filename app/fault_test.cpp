@@ -1,8 +1,11 @@
 // Nothing is lost: a run that is killed, told to stop, locked out, or finds its folder damaged ends, once it goes on,
 // in the bits of the run that nothing disturbed.
+#include <sys/file.h>
+
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 #include <chrono>
+#include <sstream>
 
 #include "app/testing/faults.hpp"
 
@@ -212,6 +215,59 @@ sweep = [{ name = "stiffness", key = "joint_properties.rock.normal_stiffness", v
   const Ended ended =
       Process(VOUSSOIR_PROGRAM, {.arguments = {"slice", scene, "--out", at("study")}}, at("other")).wait();
   expect_one_line(ended, 3, fmt::format("process {} ", study.pid()), "while a study runs ");
+}
+
+// ---- a study, whose runs are processes of their own ---------------------------------------------------------------
+
+// study.csv without the seconds, which come last in a row
+std::string settings_of(const std::string& out) {
+  std::istringstream stream(read(out + "/study.csv"));
+  std::string text;
+  for (std::string row; std::getline(stream, row);)
+    text += row.substr(0, row.rfind(',')) + "\n";
+  return text;
+}
+
+bool is_locked(const fs::path& lock) {
+  const int file = ::open(lock.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool locked = ::flock(file, LOCK_SH | LOCK_NB) != 0;
+  ::close(file);
+  return locked;
+}
+
+TEST_F(Faults, AStudyThatIsStoppedStopsItsRunsAndGoesOn) {
+  write("scene.toml", cubes_scene(2, 2, 3, 0.1, 3));
+  const std::string plan = write("study.toml", R"(scene = "scene.toml"
+quantity = "top_displacement_z"
+sweep = [{ name = "stiffness", key = "joint_properties.rock.normal_stiffness", values = [1e9, 9e8] }]
+)");
+  ASSERT_EQ(run({.arguments = {"study", plan, "--out", at("whole")}}).code, 0);
+  const auto runs_going_on = [](const std::string& out) {
+    int count = 0;
+    if (fs::exists(out + "/runs"))
+      for (const auto& entry : fs::directory_iterator(out + "/runs"))
+        count += is_locked(entry.path() / ".lock");
+    return count;
+  };
+
+  for (const int signal : {SIGINT, SIGKILL}) {
+    const std::string out = at(fmt::format("stopped_{}", signal));
+    const Launch launch{.arguments = {"study", plan, "--out", out, "--jobs", "2"}};
+    Process process = start(launch);
+    ASSERT_TRUE(wait_until([&] { return runs_going_on(out) == 2; }));
+    process.send(signal);
+    const Ended ended = process.wait();
+    // its runs are told, by whoever is left to tell them
+    if (signal == SIGINT) {
+      expect_one_line(ended, 128 + SIGINT, "the same command goes on");
+      EXPECT_EQ(runs_going_on(out), 0);
+    }
+    EXPECT_TRUE(wait_until([&] { return runs_going_on(out) == 0; }));
+    const Ended again = run(launch);
+    EXPECT_EQ(again.code, 0) << again.err << again.out;
+    EXPECT_EQ(settings_of(out), settings_of(at("whole")));
+  }
 }
 
 // ---- folders that refuse, or are no folders -----------------------------------------------------------------------

@@ -16,15 +16,11 @@ if ! (cd "$build" && ctest -L "case|report" --parallel "$jobs" --output-on-failu
   failures+=("cases or figures (log: $shown/reports.log)")
 fi
 
-# what a study's result depends on: its plan, the scenes beside it, and the program
-study_key() {
-  cat "$1"/*.toml "$program" | sha256sum | cut -d ' ' -f 1
-}
-
+# a study keeps the runs whose scene and program did not change; one that hangs is given up, which its report lists
+longest_run=120
 shopt -s nullglob
 for plan in "$source"/cases/*/study.toml; do
-  folder=$(dirname "$plan")
-  name=$(basename "$folder")
+  name=$(basename "$(dirname "$plan")")
   out=$reports/studies/$name
   log=reports/studies/$name.log
   mkdir -p "$reports/studies"
@@ -32,26 +28,27 @@ for plan in "$source"/cases/*/study.toml; do
     failures+=("study of $name (the program voussoir is not built)")
     continue
   fi
-  key=$(study_key "$folder")
-  if [ -s "$out/study.csv" ] && [ "$(cat "$out/key" 2>/dev/null)" = "$key" ]; then
-    echo "study of $name: unchanged"
-  else
-    echo "study of $name: running"
-    rm -rf "${out:?}"
-    (cd "$source" && "$program" study "cases/$name/study.toml" --out "$out") >"$build/$log" 2>&1
-    status=$?
-    # status 1 says that some settings failed: that is a finding of the study, which its report lists
-    if [ $status -gt 1 ] || [ ! -s "$out/study.csv" ]; then
-      tail -n 5 "$build/$log"
-      failures+=("study of $name (log: $shown/$log)")
-      continue
-    fi
-    echo "$key" >"$out/key"
+  rm -f "$out/study.md" "$out/study.json"
+  (cd "$source" && "$program" study "cases/$name/study.toml" --out "$out" --jobs "$jobs" --time-limit $longest_run) \
+      >"$build/$log" 2>&1
+  status=$?
+  # status 1 says that some settings failed: that is a finding of the study, which its report lists
+  if [ $status -gt 1 ] || [ ! -s "$out/study.csv" ]; then
+    tail -n 5 "$build/$log"
+    failures+=("study of $name (log: $shown/$log)")
+    continue
   fi
-  rm -f "$out/study.md"
-  "$build/reports/voussoir_study_report" --study "$out/study.csv" --reference "$build/cases/$name/reference.json" \
+  echo "study of $name: $(sed -n 2p "$build/$log")"
+  "$build/reports/voussoir_study_report" case --study "$out/study.csv" --reference "$build/cases/$name/reference.json" \
       --out "$out" --style "$source/reports" || failures+=("report on the study of $name")
 done
+for out in "$reports"/studies/*/; do
+  [ -e "$source/cases/$(basename "$out")/study.toml" ] || rm -rf "$out"
+done
+if [ -d "$reports/studies" ]; then
+  "$build/reports/voussoir_study_report" compare --studies "$reports/studies" --style "$source/reports" ||
+      failures+=("comparison of the studies")
+fi
 
 # the contact kernel is timed again when it or a peer's harness has changed; `make benchmark` times it at length
 benchmarks=$reports/benchmarks

@@ -9,7 +9,7 @@ void balance(EnergyLedger& ledger) {
   EnergyFlows& f = ledger.flows;
   if (ledger.phase == LedgerPhase::not_begun) f = {};  // half a kick that belongs to the time before
   const double to_motion = f.gravity + f.contacts + f.prescribed - f.local - f.relaxation;
-  const double from_contacts = f.friction + f.dashpots + f.contacts;
+  const double from_contacts = f.friction + f.dashpots + f.stiffening + f.contacts;
 
   // at the start, and where the model has changed, the errors stay what they were
   if (ledger.phase != LedgerPhase::running) {
@@ -25,7 +25,7 @@ void balance(EnergyLedger& ledger) {
   ledger.contact_error = (ledger.elastic - ledger.elastic_origin) + from_contacts;
   ledger.widest = std::max(ledger.widest, std::abs(ledger.unexplained()));
   ledger.turnover = std::max({ledger.turnover, ledger.kinetic, ledger.elastic, std::abs(ledger.potential()), f.friction,
-                              ledger.damping(), std::abs(ledger.external())});
+                              ledger.damping(), std::abs(f.stiffening), std::abs(ledger.external())});
 }
 
 }  // namespace voussoir

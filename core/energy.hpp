@@ -17,6 +17,7 @@ struct EnergyFlows {
   double contacts = 0;    // work of the contact forces on the bodies
   double friction = 0;    // lost to slip
   double dashpots = 0;    // lost to viscous damping
+  double stiffening = 0;  // lost by shear springs that grew stiffer with stress under their force; negative: made
   double local = 0;       // lost to local damping
   double relaxation = 0;  // taken out by relaxation
   double ramp = 0;        // put in by gravity that grows

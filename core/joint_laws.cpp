@@ -1,7 +1,7 @@
 // The step's third stage: what the joints answer (stages.hpp).
 #include <cmath>
 
-#include "core/law/elastic_coulomb.hpp"
+#include "core/law/joint_law.hpp"
 #include "core/stages.hpp"
 
 namespace voussoir {
@@ -74,24 +74,38 @@ Vector<Dim> joint_force(const JointProperties& properties, const Settings& setti
     k.turn = spin_about(n, motion.spin_a, motion.spin_b) * dt;
     // area that is lost takes its stress with it: the rest could not carry the force of a thousand times its size
     if (k.area < history.area) {
-      const double left = k.area / history.area, stiffness = properties.shear_stiffness * history.area;
+      const double left = k.area / history.area;
+      const double stiffness =
+          history.area * (history.shear_stiffness > 0 ? history.shear_stiffness : properties.shear_stiffness);
       if (stiffness > 0) energy.flows.friction += 0.5 * history.shear_force.squaredNorm() / stiffness * (1 - left);
       history.shear_force *= left;
     }
     history.shear_force = carried(history.shear_force, history.normal, n, k.turn);
   }
 
-  double dashpot = 0;
-  if (settings.damping.viscous_ratio > 0 && !state.relaxation.under_way)
-    dashpot = 2 * settings.damping.viscous_ratio *
-              std::sqrt(properties.normal_stiffness * k.area / motion.inverse_mass() * at.share);
-  const JointForce<Dim> answer =
-      elastic_coulomb<Dim>(properties, state.schedule.friction[friction_of], dashpot, k, history.shear_force);
+  const double friction = state.schedule.friction[friction_of];
+  const double damping = state.relaxation.under_way ? 0 : 2 * settings.damping.viscous_ratio;
+  const auto dashpot = [&](double stiffness) {
+    return damping > 0 ? damping * std::sqrt(stiffness * k.area / motion.inverse_mass() * at.share) : 0;
+  };
+  JointForce<Dim> answer;
+  if (properties.laws == 0) {
+    answer = elastic_coulomb<Dim>(properties, friction, dashpot(properties.normal_stiffness), k, history.shear_force);
+    history.plastic_slip += answer.plastic_slip;
+  } else {
+    JointMemory memory{history.plastic_slip, history.shear_stiffness, history.bonded};
+    const double stiffness = damping > 0 ? normal_answer(properties, at.overlap, history.bonded).stiffness : 0;
+    answer = joint_law<Dim>(properties, friction, dashpot(stiffness), k, history.shear_force, memory);
+    history.plastic_slip = memory.plastic_slip;
+    history.shear_stiffness = memory.shear_stiffness;
+    history.bonded = memory.bonded;
+    energy.flows.stiffening += answer.stiffening;
+    if (answer.snap_back) ++state.counters.snap_backs;
+  }
   energy.elastic += answer.elastic;
   energy.flows.friction += answer.friction;
   energy.flows.dashpots += 0.5 * (history.dashpot + answer.dashpot) * k.closing_speed * dt;
   history.normal = n;
-  history.plastic_slip += answer.plastic_slip;
   history.dashpot = answer.dashpot;
   history.area = k.area;
   return answer.force;
@@ -135,6 +149,23 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
   }
 }
 
+template <int Dim>
+void make_bonds(const Model<Dim>& model, State<Dim>& state) {
+  const auto bond = [](const JointProperties& p, double overlap, JointState<Dim>& history) {
+    history.bonded = normal_answer(p, overlap, false).stress > 0;
+  };
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    Contact<Dim>& c = state.contacts[i];
+    const JointProperties& properties = model.properties[c.properties];
+    if (!c.touching() || !(properties.laws & (tension_bond | cohesion_bond))) continue;
+    bond(properties, c.geometry.overlap, c.history);
+    for (SubContact<Dim>& s : subs_of(state, i))
+      if (s.area > 0) bond(properties, s.overlap, s.history);
+  }
+}
+
+template void make_bonds<2>(const Model<2>&, State<2>&);
+template void make_bonds<3>(const Model<3>&, State<3>&);
 template void apply_joint_laws<2>(const Model<2>&, const Settings&, State<2>&);
 template void apply_joint_laws<3>(const Model<3>&, const Settings&, State<3>&);
 

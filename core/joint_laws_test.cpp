@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/contact/sub_contacts.hpp"
+#include "core/law/joint_law.hpp"
+#include "core/motion/time_step.hpp"
 #include "core/stages.hpp"
 #include "core/step.hpp"
 #include "core/testing/models.hpp"
@@ -148,6 +150,57 @@ TEST(SubContacts, RockingKeepsItsEnergy) {
   for (const int along : {2, 8}) {
     EXPECT_LT(closure_of_rocking<2>(along), conserved) << along;
     EXPECT_LT(closure_of_rocking<3>(along), conserved) << along;
+  }
+}
+
+// ---- laws under a block ---------------------------------------------------------------------------------------------
+
+// what a block pressed by `depth` answers through one point or several
+template <int Dim>
+double force_at(Pressed<Dim>& pressed, double depth) {
+  pressed.state.motions[pressed.block].displacement[Dim - 1] = -depth;
+  pressed.answer();
+  return pressed.force();
+}
+
+TEST(Bonds, HoldUntilTheyBreakAndAreMadeUnderCompressionOnly) {
+  for (const int along : {1, 4}) {
+    Pressed<2> pressed(along, 1e-4, 0);
+    JointProperties& joint = pressed.model.properties[0];
+    joint.laws = tension_bond | cohesion_bond;
+    joint.tension = 2e4;  // an offset of 20 µm
+    joint.cohesion = 1e5;
+    EXPECT_NEAR(force_at(pressed, 1e-5), 0, 1e-6);  // never bonded: nothing below the offset
+    make_bonds(pressed.model, pressed.state);
+    EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6) << "nothing was under compression";
+
+    EXPECT_NEAR(force_at(pressed, 1e-4), 8e4, 1);
+    make_bonds(pressed.model, pressed.state);
+    EXPECT_NEAR(force_at(pressed, 1e-4), 8e4, 1) << "a bond changes no force";
+    EXPECT_NEAR(force_at(pressed, 5e-6), -1.5e4, 1);
+    force_at(pressed, -1e-6);  // apart: the bond is lost with the contact
+    EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6);
+    EXPECT_NEAR(force_at(pressed, 1e-4), 8e4, 1) << "the offset stays";
+  }
+}
+
+TEST(StressDependentStiffness, IsTheSameThroughAnyNumberOfPointsAndShortensTheStep) {
+  double limit = 0;
+  for (const int along : {1, 2, 8}) {
+    Pressed<3> pressed(along, 1e-4, 0);
+    JointProperties& joint = pressed.model.properties[0];
+    const double plain = estimate_time_step(pressed.model, pressed.settings, {}, pressed.state).limit;
+    joint.laws = linear_normal | linear_shear;
+    joint.normal_growth = 2e4;  // stress at 0.1 mm: k/c (e² - 1)
+    joint.shear_growth = 2e4;
+    EXPECT_NEAR(force_at(pressed, 1e-4), joint.normal_stiffness / 2e4 * std::expm1(2), 1e-6 * 3e5);
+    EXPECT_TRUE(outgrown(pressed.model, pressed.state));
+    const double stiffened = estimate_time_step(pressed.model, pressed.settings, {}, pressed.state).limit;
+    EXPECT_FALSE(outgrown(pressed.model, pressed.state));
+    EXPECT_LT(stiffened, plain * std::exp(-0.9));
+    EXPECT_GT(stiffened, plain * std::exp(-1.5));
+    if (along == 1) limit = stiffened;
+    EXPECT_LE(stiffened, 1.01 * limit);
   }
 }
 

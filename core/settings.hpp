@@ -147,6 +147,7 @@ struct Change {
   std::vector<Selector> fix, release, remove;
   std::vector<MovePlan> move;      // within the stage only
   std::optional<double> friction;  // rad: new friction angle of every joint
+  bool bond = false;               // closed joints with tensile strength or cohesion are bonded
 };
 
 struct StagePlan {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/motion/prescribed.hpp"
+#include "core/stages.hpp"
 #include "core/state_hash.hpp"
 
 namespace voussoir {
@@ -190,6 +191,7 @@ struct Simulation {
     if (plan().change.friction)
       for (std::size_t p = 0; p < model.properties.size(); ++p)
         state.schedule.friction[p] = model.properties[p].friction;
+    if (plan().change.bond) make_bonds(model, state);
     // candidates and time step belong to the stage
     state.built.clear();
     state.frequency.clear();

@@ -358,7 +358,7 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
 
   // within a stage the step only shrinks, as soon as a contact is stiffer than it was chosen for
   const double last = state.time_step;
-  if (state.frequency.empty() || outgrown(state)) {
+  if (state.frequency.empty() || outgrown(model, state)) {
     const double step = estimate_time_step(model, settings, settings.damping, state).step;
     state.step_allowed = state.step_allowed > 0 ? std::min(state.step_allowed, step) : step;
     demand_time_step(state);

@@ -19,6 +19,10 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
 template <int Dim>
 void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 
+// bonds every joint under compression that has tensile strength or cohesion; no force changes
+template <int Dim>
+void make_bonds(const Model<Dim>& model, State<Dim>& state);
+
 // contact forces and gravity summed on each body, in the order of the contacts
 template <int Dim>
 void sum_loads(const Model<Dim>& model, State<Dim>& state);

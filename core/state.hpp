@@ -77,6 +77,7 @@ struct Counters {
   long long unconverged = 0;       // contacts without an answer: the run fails
   long long normal_fallbacks = 0;  // normals taken from a face or from the LP's multipliers
   long long deep_overlaps = 0;     // overlaps beyond the potential particle's radius
+  long long snap_backs = 0;        // slips in which friction fell faster than the shear spring could unload
   long long neighbour_builds = 0;
 };
 

@@ -44,6 +44,8 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
     bytes.add(history.shear_force);
     bytes.add(history.normal);
     bytes.add(history.plastic_slip);
+    bytes.add(history.shear_stiffness);
+    bytes.add(static_cast<int>(history.bonded));
   };
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     const Contact<Dim>& c = state.contacts[i];

@@ -1,23 +1,28 @@
 # The unit tests of the core. Few programs: linking and Eigen's headers are what costs.
 find_package(Boost 1.74 REQUIRED)
 
+add_library(voussoir_oracle_algebra STATIC testing/dense.cpp)
+target_link_libraries(voussoir_oracle_algebra PUBLIC Eigen3::Eigen PRIVATE voussoir_flags)
+target_include_directories(voussoir_oracle_algebra PUBLIC ${PROJECT_SOURCE_DIR})
+target_compile_definitions(voussoir_oracle_algebra PUBLIC EIGEN_MAX_STATIC_ALIGN_BYTES=16 EIGEN_DONT_VECTORIZE)
+
 voussoir_test(unit.blocks LABEL unit
   SOURCES floating_point_traps_test.cpp geometry/geometry_test.cpp optimise/optimise_test.cpp slicing/slicing_test.cpp
     slicing/sliver_test.cpp
-  LIBS voussoir_core Boost::headers)
+  LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.law_and_motion LABEL unit
-  SOURCES law/law_test.cpp motion/motion_test.cpp
-  LIBS voussoir_core Boost::headers)
+  SOURCES law/law_test.cpp law/joint_law_test.cpp motion/motion_test.cpp
+  LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.extremes LONG LABEL unit
   SOURCES law/law_extremes_test.cpp motion/motion_extremes_test.cpp motion/step_extremes_test.cpp
-  LIBS voussoir_core Boost::headers fmt::fmt)
+  LIBS voussoir_core voussoir_oracle_algebra Boost::headers fmt::fmt)
 
 voussoir_test(unit.contact LABEL unit
   SOURCES contact/contact_test.cpp contact/thin_contact_test.cpp contact/overlap_region_test.cpp
     contact/broad_phase_test.cpp
-  LIBS voussoir_core Boost::headers)
+  LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.scene LABEL unit
   SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
@@ -43,7 +48,7 @@ endif()
 # the exact referee: GPL, so a library of its own that only tests link
 add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exact_programs.cpp
   testing/exact_contacts.cpp)
-target_link_libraries(voussoir_exact_referee PUBLIC voussoir_core gmpxx gmp PRIVATE voussoir_flags cddgmp)
+target_link_libraries(voussoir_exact_referee PUBLIC voussoir_core voussoir_oracle_algebra gmpxx gmp PRIVATE voussoir_flags cddgmp)
 voussoir_test(unit.exact_referee LABEL unit SOURCES testing/exact_referee_test.cpp
   LIBS voussoir_exact_referee Boost::headers)
 

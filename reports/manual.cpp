@@ -10,6 +10,7 @@
 #include "reports/case_page.hpp"
 #include "reports/html.hpp"
 #include "reports/kernel_page.hpp"
+#include "reports/trade_page.hpp"
 #include "reports/verdict_tables.hpp"
 #include "verification/verdicts.hpp"
 
@@ -31,8 +32,9 @@ std::string navigation(const Verdicts& verdicts) {
   text += "<p>Cases</p><ul>\n" + cases + "</ul>\n";
   if (!open.empty()) text += "<p>Not yet modelled</p><ul>\n" + open + "</ul>\n";
   return text +
-         "<p>Speed</p><ul>\n<li><a href=\"#contact-kernel\">The contact "
-         "kernel</a></li>\n</ul>\n<p>Reference</p><ul>\n<li><a href=\"#scene-keys\">Scene keys</a></li>\n</ul></nav>\n";
+         "<p>Speed</p><ul>\n<li><a href=\"#what-accuracy-costs\">What accuracy costs</a></li>\n"
+         "<li><a href=\"#contact-kernel\">The contact kernel</a></li>\n</ul>\n<p>Reference</p><ul>\n<li><a "
+         "href=\"#scene-keys\">Scene keys</a></li>\n</ul></nav>\n";
 }
 
 // commits of the rows that differ from the build's: results of another state of the source
@@ -73,7 +75,8 @@ std::string manual(const Folders& folders, const Verdicts& verdicts, const fs::p
           "</section>\n";
   for (const CaseStatus& status : verdicts.cases)
     text += case_page(folders, verdicts, status, missing);
-  return text + kernel_page(folders, missing) + scene_keys(keys, missing) + "</main>\n</body></html>\n";
+  return text + trade_page(folders, missing) + kernel_page(folders, missing) + scene_keys(keys, missing) +
+         "</main>\n</body></html>\n";
 }
 
 }  // namespace

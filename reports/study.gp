@@ -1,14 +1,14 @@
-# Work and precision of one case's study. draw.sh passes: points (csv), sweeps (names, '|' between them), quantity.
+# Work and precision of one case's study. draw.sh passes: points (csv), sweeps (names, '|' between them), quantity, cost
+# ('contact evaluations' or 'steps', what the recommendation counts), default ('yes': the scene as it is has a result).
 load style
+set terminal svg size 760,820
 set output out
 set datafile missing NaN
 set logscale xy
 set format x '10^{%T}'
 set format y '10^{%T}'
-set offsets graph 0.03, graph 0.06, graph 0.08, graph 0.05
-set xlabel 'contact evaluations'
+set offsets graph 0.04, graph 0.06, graph 0.08, graph 0.06
 set ylabel 'relative error of '.quantity noenhanced
-set key noautotitle
 
 # the three accuracies that a recommendation is given for
 do for [level in '0.05 0.01 0.001'] {
@@ -17,7 +17,6 @@ do for [level in '0.05 0.01 0.001'] {
 set label 1 '5 %'   at graph 1.005, first 0.05  font ',11' tc rgb '#606060'
 set label 2 '1 %'   at graph 1.005, first 0.01  font ',11' tc rgb '#606060'
 set label 3 '0.1 %' at graph 1.005, first 0.001 font ',11' tc rgb '#606060'
-set rmargin 7
 
 # the names are cut at '|': a sweep's name may hold blanks
 count = 1
@@ -31,11 +30,40 @@ do for [i=1:count] {
 }
 
 # a row belongs to the curve when quantity and sweep agree; the others are left out without breaking the line
-of(i, value) = (strcol('quantity') eq quantity && strcol('sweep') eq name[i]) ? value : NaN
+of(sweep, value) = (strcol('quantity') eq quantity && strcol('sweep') eq sweep) ? value : NaN
 best(value) = (strcol('quantity') eq quantity && strcol('pareto') eq 'yes') ? value : NaN
-cost = 'column("contact_evaluations")'
 error = 'column("relative_error")'
 upper = 'column("relative_error_upper")'
-plot for [i=1:count] points using (of(i, @cost)):(@error):(0):(@upper - @error) with vectors nohead lt i lw 1, \
-     for [i=1:count] points using (of(i, @cost)):(@error) with linespoints lt i title name[i] noenhanced, \
-     points using (best(@cost)):(@error) with points pt 6 ps 1.5 lw 1.5 lc rgb '#202020' title 'Pareto front'
+curves = "for [i=1:count] points using (of(name[i], @work)):(@error):(0):(@upper - @error) with vectors nohead lt i lw 1 notitle, \
+     for [i=1:count] points using (of(name[i], @work)):(@error) with linespoints lt i title name[i] noenhanced, \
+     points using (best(@work)):(@error) with points pt 6 ps 1.5 lw 1.5 lc rgb '#202020' title 'Pareto front'"
+if (default eq 'yes') {
+  curves = curves.", points using (of('default', @work)):(@error) with points pt 3 ps 1.2 lw 1.5 lc rgb '#202020' title 'the scene as it is'"
+}
+
+set multiplot
+set lmargin at screen 0.11
+set rmargin at screen 0.93
+set tmargin at screen 0.86
+set bmargin at screen 0.47
+set key at screen 0.52, screen 0.99 center top maxrows 4 samplen 2
+set xlabel cost
+work = cost eq 'steps' ? 'column("steps")' : 'column("contact_evaluations")'
+plot @curves
+
+# the same over steps and over seconds of this machine
+set key off
+unset label
+set tmargin at screen 0.37
+set bmargin at screen 0.08
+set rmargin at screen 0.49
+set xlabel 'steps'
+work = 'column("steps")'
+plot @curves
+set lmargin at screen 0.60
+set rmargin at screen 0.98
+unset ylabel
+set xlabel 'seconds, several runs at a time'
+work = 'column("seconds")'
+plot @curves
+unset multiplot

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
@@ -15,6 +16,9 @@ namespace {
 using verification::csv_line;
 using verification::parse_csv;
 
+// s: study.csv counts no finer, and the figure's axis is a logarithm
+constexpr double shortest_time = 1e-3;
+
 double to_number(const std::string& text, const char* column, std::size_t line) {
   try {
     std::size_t used = 0;
@@ -25,30 +29,58 @@ double to_number(const std::string& text, const char* column, std::size_t line) 
   throw std::runtime_error(fmt::format("study.csv, line {}: {} is '{}', not a number", line, column, text));
 }
 
-double cost_of(const StudyPoint& point) {
-  return static_cast<double>(point.row.contact_evaluations);
-}
-
-bool dominates(const StudyPoint& one, const StudyPoint& other) {
+bool dominates(const StudyPoint& one, const StudyPoint& other, CostUnit unit) {
   const double error = one.relative_error_upper, other_error = other.relative_error_upper;
-  return cost_of(one) <= cost_of(other) && error <= other_error &&
-         (cost_of(one) < cost_of(other) || error < other_error);
+  const double cost = cost_of(one, unit), other_cost = cost_of(other, unit);
+  return cost <= other_cost && error <= other_error && (cost < other_cost || error < other_error);
 }
 
-void mark_pareto_front(std::vector<StudyPoint>& points) {
-  for (StudyPoint& point : points)
-    point.pareto = std::none_of(points.begin(), points.end(), [&](const StudyPoint& other) {
-      return other.row.quantity == point.row.quantity && dominates(other, point);
+void mark_pareto_front(Study& study) {
+  const CostUnit unit = cost_unit(study);
+  for (StudyPoint& point : study.points)
+    point.pareto = std::none_of(study.points.begin(), study.points.end(), [&](const StudyPoint& other) {
+      return other.row.quantity == point.row.quantity && dominates(other, point, unit);
     });
 }
 
-Recommendation recommend(const std::vector<StudyPoint>& points, const std::string& quantity, double level) {
+Recommendation recommend(const Study& study, const std::string& quantity, double level) {
+  const CostUnit unit = cost_unit(study);
   Recommendation best{quantity, level, std::nullopt};
-  for (const StudyPoint& point : points) {
+  for (const StudyPoint& point : study.points) {
     if (point.row.quantity != quantity || point.relative_error_upper > level) continue;
-    if (!best.cheapest || cost_of(point) < cost_of(*best.cheapest)) best.cheapest = point;
+    if (!best.cheapest || cost_of(point, unit) < cost_of(*best.cheapest, unit)) best.cheapest = point;
   }
   return best;
+}
+
+// by the error with its bar, as settings are judged; what reached the floor has left the line
+SweepOrder order_of(const Study& study, const std::string& quantity, const std::string& sweep) {
+  SweepOrder found{quantity, sweep, "", std::nullopt};
+  std::vector<KnobError> settings;
+  for (const StudyPoint& point : study.points) {
+    if (point.row.quantity != quantity || point.row.sweep != sweep) continue;
+    found.key = point.row.key;
+    const std::optional<double> value = point.row.number();
+    if (value && *value > 0.0 && point.relative_error_upper > relative_error_floor)
+      settings.push_back({*value, point.relative_error_upper});
+  }
+  found.order = observed_order(settings);
+  return found;
+}
+
+// sweeps over numbers, not over words, nor the pairs that were extrapolated
+bool has_an_order(const Study& study, const std::string& quantity, const std::string& sweep) {
+  return std::any_of(study.points.begin(), study.points.end(), [&](const StudyPoint& point) {
+    return point.row.quantity == quantity && point.row.sweep == sweep && point.row.number().has_value();
+  });
+}
+
+// what a level in a scene promises; nothing for any other setting
+std::optional<double> promise_of(const StudyRow& row) {
+  if (row.key != level_key) return std::nullopt;
+  for (std::size_t k = 0; k < std::size(level_names); ++k)
+    if (row.value == level_names[k]) return accuracy_levels[k];
+  throw std::runtime_error(fmt::format("study.csv: there is no accuracy level '{}'", row.value));
 }
 
 // text from a csv file that stands in a markdown table
@@ -62,6 +94,7 @@ std::string cell(const std::string& text) {
 }
 
 std::string setting(const StudyRow& row) {
+  if (row.key.empty()) return "the scene as it is";
   const std::string unit = row.unit.empty() || row.unit == "1" ? "" : " " + row.unit;
   return fmt::format("`{} = {}`{}", row.key, row.value, unit);
 }
@@ -87,6 +120,27 @@ std::string recommendation_table(const Study& study, const std::string& quantity
                         point.row.contact_evaluations, point.row.steps, point.row.seconds);
   }
   return text;
+}
+
+std::string order_text(const ObservedOrder& order) {
+  return fmt::format("{:.2f} ± {:.2f}", order.order, order.uncertainty);
+}
+
+std::string order_table(const Study& study, const std::string& quantity) {
+  std::string text;
+  for (const SweepOrder& entry : study.orders) {
+    if (entry.quantity != quantity) continue;
+    text += fmt::format("| {} | `{}` | ", cell(entry.sweep), entry.key);
+    if (entry.order)
+      text += fmt::format("{} | {} | {:g} to {:g} |\n", order_text(*entry.order), entry.order->count,
+                          entry.order->coarsest, entry.order->finest);
+    else
+      text += "none: the error does not fall with it | | |\n";
+  }
+  if (text.empty()) return "";
+  return "Observed order: error with error bar ~ value^order, by regression over the settings that converge, with two "
+         "standard errors.\n\n| sweep | key | order | settings | from coarse to fine |\n|---|---|--:|--:|---|\n" +
+         text + "\n";
 }
 
 std::string point_table(const Study& study, const std::string& quantity) {
@@ -179,11 +233,55 @@ Study judge_study(const std::vector<StudyRow>& rows, const std::map<std::string,
   if (study.points.empty() && !study.unjudged.empty())
     throw std::runtime_error("nothing in the study can be judged; " + study.unjudged.front());
 
-  mark_pareto_front(study.points);
-  for (const std::string& quantity : study.quantities)
+  mark_pareto_front(study);
+  for (const std::string& quantity : study.quantities) {
     for (const double level : accuracy_levels)
-      study.recommendations.push_back(recommend(study.points, quantity, level));
+      study.recommendations.push_back(recommend(study, quantity, level));
+    for (const std::string& sweep : sweeps_of(study, quantity))
+      if (has_an_order(study, quantity, sweep)) study.orders.push_back(order_of(study, quantity, sweep));
+  }
   return study;
+}
+
+std::optional<double> StudyRow::number() const {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(this->value.data(), this->value.data() + this->value.size(), value);
+  const bool whole = error == std::errc{} && end == this->value.data() + this->value.size();
+  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+CostUnit cost_unit(const Study& study) {
+  const bool touches = std::any_of(study.points.begin(), study.points.end(),
+                                   [](const StudyPoint& point) { return point.row.contact_evaluations > 0; });
+  return touches ? CostUnit::contact_evaluations : CostUnit::steps;
+}
+
+const char* name_of(CostUnit unit) {
+  return unit == CostUnit::steps ? "steps" : "contact evaluations";
+}
+
+double cost_of(const StudyPoint& point, CostUnit unit) {
+  return static_cast<double>(unit == CostUnit::steps ? point.row.steps : point.row.contact_evaluations);
+}
+
+const StudyPoint* default_point(const Study& study, std::string_view quantity) {
+  for (const StudyPoint& point : study.points)
+    if (point.row.quantity == quantity && point.row.sweep == default_sweep) return &point;
+  return nullptr;
+}
+
+std::string broken_promises(const Study& study) {
+  std::string text;
+  const auto add = [&](const StudyRow& row, const std::string& what) {
+    text += fmt::format("{}level {} of {} {}", text.empty() ? "" : "; ", row.value, row.quantity, what);
+  };
+  for (const StudyPoint& point : study.points)
+    if (const std::optional<double> promise = promise_of(point.row); promise && point.relative_error_upper > *promise)
+      add(point.row,
+          fmt::format("promises {:g} % and is {:.2g} % off", 100.0 * *promise, 100.0 * point.relative_error_upper));
+  for (const StudyRow& row : study.failed)
+    if (promise_of(row)) add(row, "failed: " + row.status);
+  return text;
 }
 
 std::string study_points_csv(const Study& study) {
@@ -194,7 +292,7 @@ std::string study_points_csv(const Study& study) {
         csv_line({point.row.quantity, point.row.sweep, point.row.key, point.row.value,
                   std::to_string(std::max(point.row.contact_evaluations, 1LL)), fmt::format("{}", point.relative_error),
                   fmt::format("{}", point.relative_error_upper), std::to_string(point.row.steps),
-                  fmt::format("{}", point.row.seconds), point.pareto ? "yes" : "no"}) +
+                  fmt::format("{}", std::max(point.row.seconds, shortest_time)), point.pareto ? "yes" : "no"}) +
         "\n";
   return text;
 }
@@ -203,15 +301,16 @@ std::string study_markdown(const Study& study) {
   std::string text;
   for (const std::string& quantity : study.quantities) {
     text += fmt::format("### Accuracy and cost of {}\n\n", cell(quantity));
-    text +=
-        "Cheapest setting that reaches each accuracy; cost is counted in contact evaluations, and a setting reaches "
-        "an accuracy when its error plus its error bar does.\n\n";
+    text += fmt::format(
+        "Cheapest setting that reaches each accuracy; cost is counted in {}, and a setting reaches an "
+        "accuracy when its error plus its error bar does.\n\n",
+        name_of(cost_unit(study)));
     text += recommendation_table(study, quantity);
     text += fmt::format(
         "\n![Error of {} against cost: one curve per sweep, settings on the Pareto front are ringed, "
         "bars reach up to error plus error bar. Errors below {:g} are drawn there.]({})\n\n",
         cell(quantity), relative_error_floor, study_figure_name(quantity));
-    text += point_table(study, quantity) + "\n";
+    text += order_table(study, quantity) + point_table(study, quantity) + "\n";
   }
   if (!study.failed.empty()) {
     text +=
@@ -228,22 +327,55 @@ std::string study_markdown(const Study& study) {
   return text;
 }
 
-nlohmann::json study_recommendations(const Study& study) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const Recommendation& entry : study.recommendations) {
-    nlohmann::json item{{"quantity", entry.quantity}, {"level", entry.level}, {"reached", entry.cheapest.has_value()}};
-    if (entry.cheapest) {
-      const StudyPoint& point = *entry.cheapest;
-      item["sweep"] = point.row.sweep;
-      item["key"] = point.row.key;
-      item["value"] = point.row.value;
-      item["relative_error"] = point.relative_error;
-      item["relative_error_upper"] = point.relative_error_upper;
-      item["contact_evaluations"] = point.row.contact_evaluations;
+nlohmann::json point_json(const StudyPoint& point, CostUnit unit) {
+  return {{"sweep", point.row.sweep},
+          {"key", point.row.key},
+          {"value", point.row.value},
+          {"unit", point.row.unit},
+          {"relative_error", point.relative_error},
+          {"relative_error_upper", point.relative_error_upper},
+          {"cost", cost_of(point, unit)},
+          {"contact_evaluations", point.row.contact_evaluations},
+          {"steps", point.row.steps},
+          {"seconds", point.row.seconds}};
+}
+
+nlohmann::json study_json(const Study& study) {
+  const CostUnit unit = cost_unit(study);
+  nlohmann::json json{{"cost_unit", name_of(unit)},
+                      {"default", nullptr},
+                      {"recommendations", nlohmann::json::array()},
+                      {"pareto", nlohmann::json::array()},
+                      {"orders", nlohmann::json::array()},
+                      {"levels", nlohmann::json::array()},
+                      {"failed", nlohmann::json::array()}};
+  json["quantity"] = study.quantities.empty() ? "" : study.quantities.front();
+  if (!study.quantities.empty())
+    if (const StudyPoint* point = default_point(study, study.quantities.front()))
+      json["default"] = point_json(*point, unit);
+  for (const Recommendation& entry : study.recommendations)
+    json["recommendations"].push_back(
+        {{"level", entry.level}, {"cheapest", entry.cheapest ? point_json(*entry.cheapest, unit) : nlohmann::json()}});
+  for (const StudyPoint& point : study.points)
+    if (point.pareto) json["pareto"].push_back(point_json(point, unit));
+  for (const SweepOrder& entry : study.orders) {
+    nlohmann::json item{{"sweep", entry.sweep}, {"key", entry.key}, {"order", nullptr}};
+    if (entry.order) {
+      item["order"] = entry.order->order;
+      item["uncertainty"] = entry.order->uncertainty;
+      item["count"] = entry.order->count;
     }
-    list.push_back(item);
+    json["orders"].push_back(item);
   }
-  return list;
+  for (const StudyPoint& point : study.points)
+    if (const std::optional<double> promise = promise_of(point.row)) {
+      json["levels"].push_back(point_json(point, unit));
+      json["levels"].back()["promise"] = *promise;
+    }
+  for (const StudyRow& row : study.failed)
+    json["failed"].push_back(
+        {{"sweep", row.sweep}, {"key", row.key}, {"value", row.value}, {"unit", row.unit}, {"status", row.status}});
+  return json;
 }
 
 std::vector<std::string> sweeps_of(const Study& study, std::string_view quantity) {

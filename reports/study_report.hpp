@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "reports/study_order.hpp"
+
 namespace voussoir::reports {
 
 // Smallest error that is drawn and listed, in place of anything closer: a logarithm needs a number above zero, and a
@@ -26,6 +28,9 @@ struct StudyRow {
   long long contact_evaluations = 0;
   long long steps = 0;
   double seconds = 0.0;
+
+  // the knob, where it is a number
+  std::optional<double> number() const;
 };
 
 struct Reference {
@@ -46,13 +51,39 @@ struct Recommendation {
   std::optional<StudyPoint> cheapest;  // unset when no setting reaches the level
 };
 
+// of one sweep over a knob that is a number
+struct SweepOrder {
+  std::string quantity, sweep, key;
+  std::optional<ObservedOrder> order;  // unset when the error does not fall with the knob
+};
+
 struct Study {
   std::vector<std::string> quantities;  // those with a reference, in order of appearance
   std::vector<StudyPoint> points;
   std::vector<StudyRow> failed;
   std::vector<std::string> unjudged;  // why a quantity has no error: one sentence each
   std::vector<Recommendation> recommendations;
+  std::vector<SweepOrder> orders;
 };
+
+// What [accuracy] level = "…" promises, as the scene's key: the names of accuracy_levels.
+inline constexpr std::string_view level_key = "accuracy.level";
+inline constexpr std::string_view level_names[] = {"fast", "balanced", "reference"};
+
+// One line for every level that a study sweeps and that misses what it promises; empty when all keep it.
+std::string broken_promises(const Study& study);
+
+// The sweep in which `voussoir study` runs the scene as it is.
+inline constexpr std::string_view default_sweep = "default";
+
+// What cost is counted in: contact evaluations, or steps in a study in which nothing ever touches.
+enum class CostUnit { contact_evaluations, steps };
+CostUnit cost_unit(const Study& study);
+const char* name_of(CostUnit unit);
+double cost_of(const StudyPoint& point, CostUnit unit);
+
+// the scene as it is; null when that failed
+const StudyPoint* default_point(const Study& study, std::string_view quantity);
 
 // Throws std::runtime_error, naming the column or the line, for anything else than the columns of `voussoir study`.
 std::vector<StudyRow> read_study(std::string_view csv);
@@ -63,9 +94,9 @@ std::map<std::string, Reference> read_references(const nlohmann::json& text);
 // Throws std::runtime_error when a unit differs between study and reference, or when no quantity can be judged.
 Study judge_study(const std::vector<StudyRow>& rows, const std::map<std::string, Reference>& references);
 
-std::string study_points_csv(const Study& study);          // for gnuplot
-std::string study_markdown(const Study& study);            // for the manual
-nlohmann::json study_recommendations(const Study& study);  // for programs: key and value per quantity and level
+std::string study_points_csv(const Study& study);  // for gnuplot
+std::string study_markdown(const Study& study);    // for the manual
+nlohmann::json study_json(const Study& study);     // for programs: reports/trade.hpp
 
 // Sweeps that have points for the quantity, in order of appearance.
 std::vector<std::string> sweeps_of(const Study& study, std::string_view quantity);

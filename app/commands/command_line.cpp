@@ -128,10 +128,46 @@ void add_limit(CLI::App& program, LimitArguments& arguments, Action& action) {
   command->callback([&] { action = [&] { return limit_command(arguments); }; });
 }
 
+void add_joint_test(CLI::App& program, JointTestArguments& arguments, Action& action) {
+  CLI::App* command =
+      program.add_subcommand("joint-test", "take the joint laws of a scene along laboratory paths, without any block");
+  add_scene(command, arguments.scene);
+  command->add_option("--out", arguments.out, "folder of the results (default: results/<scene>_joint_test)");
+  command->add_option("--joint", arguments.properties, "name of joint_properties; may be repeated (default: all)")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--path", arguments.path,
+                   "normal: compression and back; shear: at constant normal stress; stiffness: in surroundings of "
+                   "constant normal stiffness; cyclic: to slip, -slip and back (default: shear)")
+      ->check(CLI::IsMember({"normal", "shear", "stiffness", "cyclic"}));
+  command
+      ->add_option("--stress", arguments.stresses,
+                   "normal stress in Pa; may be repeated (default: 0.1, 0.5, 1, 2, 5 MPa)")
+      ->allow_extra_args(false)
+      ->check(CLI::PositiveNumber);
+  command->add_option("--slip", arguments.slip, "in m (default: 1e-3)")->check(CLI::PositiveNumber);
+  command->add_option("--surroundings", arguments.surroundings, "of path stiffness, in Pa/m (default: 1e9)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--dilation", arguments.dilation, "of path stiffness: rise over slip (default: 0.05)")
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--cycles", arguments.cycles, "of path cyclic (default: 2)")->check(CLI::Range(1, 1000));
+  command->add_option("--steps", arguments.steps, "points along each leg of a path (default: 200)")
+      ->check(CLI::Range(1, 1000000));
+  command->add_flag("--bonded", arguments.bonded, "tension and cohesion are intact when shear begins");
+  command->add_flag("--overwrite", arguments.overwrite, "replace the results that the folder holds");
+  command->callback([&] { action = [&] { return joint_test_command(arguments); }; });
+}
+
 void add_study(CLI::App& program, StudyArguments& arguments, Action& action) {
   CLI::App* command = program.add_subcommand("study", "run a scene with one setting changed at a time");
   command->add_option("plan", arguments.plan, "study.toml")->required();
-  command->add_option("--out", arguments.out, "folder of study.csv")->required();
+  command->add_option("--out", arguments.out, "folder of study.csv; what it holds of this study is kept")->required();
+  command->add_option("--jobs", arguments.jobs, "runs at the same time (default: as many as there are cores)")
+      ->check(CLI::Range(1, 1024));
+  command
+      ->add_option("--time-limit", arguments.time_limit,
+                   "seconds of wall clock after which a run counts as failed (default: none)")
+      ->check(CLI::PositiveNumber);
   add_threads(command, arguments.threads);
   command->add_flag("--quiet", arguments.quiet, "no progress");
   command->callback([&] { action = [&] { return study_command(arguments); }; });
@@ -199,12 +235,14 @@ int parse_and_act(int argument_count, char** arguments) {
   SceneArguments check;
   SliceArguments slice;
   LimitArguments limit;
+  JointTestArguments joint_test;
   StudyArguments study;
   add_run(program, run, action);
   add_resume(program, resume, action);
   add_check(program, check, action);
   add_slice(program, slice, action);
   add_limit(program, limit, action);
+  add_joint_test(program, joint_test, action);
   add_study(program, study, action);
   CLI::App* docs = program.add_subcommand("docs", "every key a scene may hold, as Markdown");
   docs->callback([&] { action = docs_command; });

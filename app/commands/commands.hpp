@@ -60,10 +60,27 @@ struct LimitArguments {
   bool overwrite = false;
 };
 
+struct JointTestArguments {
+  SceneArguments scene;
+  std::filesystem::path out;            // empty: results/<name of the scene's file>_joint_test
+  std::vector<std::string> properties;  // of these joint_properties; none: of all
+  std::string path = "shear";           // normal, shear, stiffness, cyclic
+  std::vector<double> stresses;         // Pa; none: 0.1, 0.5, 1, 2, 5 MPa
+  double slip = 1e-3;                   // m
+  double surroundings = 1e9;            // Pa/m, of the path `stiffness`
+  double dilation = 0.05;               // of the path `stiffness`
+  int cycles = 2;                       // of the path `cyclic`
+  int steps = 200;
+  bool bonded = false;
+  bool overwrite = false;
+};
+
 struct StudyArguments {
   std::filesystem::path plan;
   std::filesystem::path out;
-  int threads = 1;
+  int jobs = 0;           // runs at the same time; 0: as many as there are cores
+  int threads = 1;        // of each run
+  double time_limit = 0;  // s of wall clock for each run; 0: none
   bool quiet = false;
 };
 
@@ -83,7 +100,11 @@ ExitCode slice_command(const SliceArguments& arguments);
 // mechanism
 ExitCode limit_command(const LimitArguments& arguments);
 
-// runs a scene again and again with one setting changed at a time; writes study.csv
+// takes the joints of a scene through laboratory tests: joint_test.csv and a figure of stress against displacement
+ExitCode joint_test_command(const JointTestArguments& arguments);
+
+// runs a scene as it is and with one setting changed at a time, in processes side by side; writes study.csv. What was
+// done before is kept while scene and program are the same.
 ExitCode study_command(const StudyArguments& arguments);
 
 // every key a scene may hold, as Markdown, on stdout

@@ -2,35 +2,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
+#include "app/child_process.hpp"
 #include "app/commands/commands.hpp"
-#include "app/commands/progress_line.hpp"
+#include "app/commands/study_found.hpp"
 #include "app/commands/study_plan.hpp"
+#include "app/commands/study_runs.hpp"
+#include "app/interruption.hpp"
 #include "app/message.hpp"
 #include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
+#include "core/output/fingerprint.hpp"
 #include "core/output/history_csv.hpp"
-#include "core/output/results_json.hpp"
 
 namespace voussoir {
 namespace {
 
+namespace fs = std::filesystem;
+
 // one line of study.csv
 struct StudyRow {
   std::string curve;  // the sweep's name; extrapolations from it are a curve of their own
-  const Sweep* sweep = nullptr;
-  std::string value;
+  std::string key, value, unit;
   std::optional<double> result, error_bar;  // without a result: the run failed
   std::string result_unit;
   std::string status = "ok";  // or what went wrong
-  Counters counters;
+  long long contact_evaluations = 0, steps = 0;
   double seconds = 0;
 };
 
 std::vector<std::string> overrides_of(const Sweep& sweep, const std::string& value) {
   std::vector<std::string> overrides = sweep.overrides;
-  overrides.push_back(sweep.key + "=" + value);
+  if (!sweep.key.empty()) overrides.push_back(sweep.key + "=" + value);
   // pictures cost time and say nothing here
   overrides.push_back("output.frames=false");
   return overrides;
@@ -40,33 +45,36 @@ std::string shown(const std::string& value) {
   return value.starts_with('"') ? value.substr(1, value.size() - 2) : value;
 }
 
-// a mistake in the last sweep should not show after an hour
-void check_every_run(const StudyPlan& plan) {
+// Every setting of every sweep, in order. Reading them all first: a mistake in the last should not show after an hour.
+std::vector<StudyRun> runs_of(const StudyPlan& plan) {
+  const std::string program = fingerprint(program_bytes());
+  std::vector<StudyRun> runs;
   for (const Sweep& sweep : plan.sweeps)
-    for (const std::string& value : sweep.values)
-      load_scene(sweep.scene, overrides_of(sweep, value));
+    for (const std::string& value : sweep.values) {
+      StudyRun run{sweep.scene, overrides_of(sweep, value), ""};
+      run.name = fingerprint(load_scene(run.scene, run.overrides).hash + program);
+      std::replace(run.name.begin(), run.name.end(), ':', '-');
+      runs.push_back(std::move(run));
+    }
+  return runs;
 }
 
-StudyRow run_row(const StudyPlan& plan, const Sweep& sweep, const std::string& value, const StudyArguments& arguments) {
-  ProgressLine progress(!arguments.quiet);
-  const ProgressHook show = [&](const ProgressReport& report) { progress.show(report); };
-  const Results results = run_scene(sweep.scene, overrides_of(sweep, value), arguments.threads, show).results;
-
+StudyRow row_of(const StudyPlan& plan, const Sweep& sweep, const std::string& value, const fs::path& folder,
+                const std::string& failure) {
   StudyRow row;
-  row.sweep = &sweep;
   row.curve = sweep.name;
+  row.key = sweep.key;
   row.value = shown(value);
-  row.counters = results.counters;
-  row.seconds = results.seconds;
-  const Value* found = results.find(plan.quantity);
-  if (results.outcome != Outcome::done) {
-    row.status = outcome_name(results.outcome) + ": " + results.message;
-  } else if (!found || !std::isfinite(found->value)) {
-    row.status = "no value of this name";
-  } else {
-    row.result = found->value;
-    row.error_bar = found->error_bar;
-    row.result_unit = found->unit;
+  row.unit = sweep.unit;
+  const RunFound found = failure.empty() ? found_in(folder, plan) : RunFound{.status = failure};
+  row.status = found.status;
+  row.contact_evaluations = found.contact_evaluations;
+  row.steps = found.steps;
+  row.seconds = found.seconds;
+  if (found.result) {
+    row.result = found.result->value;
+    row.error_bar = found.result->error_bar;
+    row.result_unit = found.result->unit;
   }
   return row;
 }
@@ -76,11 +84,12 @@ StudyRow run_row(const StudyPlan& plan, const Sweep& sweep, const std::string& v
 // that of both runs.
 StudyRow extrapolate(const Sweep& sweep, const StudyRow& first, double a, const StudyRow& second, double b) {
   StudyRow row;
-  row.sweep = &sweep;
   row.curve = sweep.name + " (extrapolated)";
+  row.key = sweep.key;
+  row.unit = sweep.unit;
   row.value = fmt::format("extrapolated {}->{}", first.value, second.value);
-  row.counters.contact_evaluations = first.counters.contact_evaluations + second.counters.contact_evaluations;
-  row.counters.steps = first.counters.steps + second.counters.steps;
+  row.contact_evaluations = first.contact_evaluations + second.contact_evaluations;
+  row.steps = first.steps + second.steps;
   row.seconds = first.seconds + second.seconds;
   if (!first.result || !second.result) {
     row.status = "a run to extrapolate from failed";
@@ -93,61 +102,70 @@ StudyRow extrapolate(const Sweep& sweep, const StudyRow& first, double a, const 
   return row;
 }
 
+void add_extrapolations(const Sweep& sweep, std::vector<StudyRow>& rows) {
+  const std::size_t first = rows.size() - sweep.values.size();
+  std::optional<double> coarser;
+  for (std::size_t k = 0; k + 1 < sweep.values.size(); ++k) {
+    StudyRow row = extrapolate(sweep, rows[first + k], *sweep.numbers[k], rows[first + k + 1], *sweep.numbers[k + 1]);
+    if (row.result && coarser) row.error_bar = std::abs(*row.result - *coarser);
+    coarser = row.result;
+    rows.push_back(row);
+  }
+}
+
+std::vector<StudyRow> rows_of(const StudyPlan& plan, const std::vector<StudyRun>& runs, const RunsEnded& ended,
+                              const fs::path& folder) {
+  std::vector<StudyRow> rows;
+  std::size_t next = 0;
+  for (const Sweep& sweep : plan.sweeps) {
+    for (const std::string& value : sweep.values) {
+      rows.push_back(row_of(plan, sweep, value, folder / runs[next].name, ended.failures[next]));
+      ++next;
+    }
+    if (sweep.power) add_extrapolations(sweep, rows);
+  }
+  return rows;
+}
+
 std::string study_csv(const StudyPlan& plan, const std::vector<StudyRow>& rows) {
   std::string text =
       "sweep,key,value,unit,quantity,result,error_bar,result_unit,status,contact_evaluations,steps,seconds\n";
   for (const StudyRow& row : rows)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.3f}\n", csv_cell(row.curve), csv_cell(row.sweep->key),
-                        csv_cell(row.value), csv_cell(row.sweep->unit), csv_cell(plan.quantity),
-                        row.result ? csv_cell(*row.result) : "", row.error_bar ? csv_cell(*row.error_bar) : "",
-                        csv_cell(row.result_unit), csv_cell(row.status), row.counters.contact_evaluations,
-                        row.counters.steps, row.seconds);
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.3f}\n", csv_cell(row.curve), csv_cell(row.key),
+                    csv_cell(row.value), csv_cell(row.unit), csv_cell(plan.quantity),
+                    row.result ? csv_cell(*row.result) : "", row.error_bar ? csv_cell(*row.error_bar) : "",
+                    csv_cell(row.result_unit), csv_cell(row.status), row.contact_evaluations, row.steps, row.seconds);
   return text;
 }
 
-void tell_row(const StudyArguments& arguments, const StudyPlan& plan, const StudyRow& row) {
-  if (arguments.quiet) return;
-  const std::string result =
-      row.result ? fmt::format("{} = {:.8g} {}", plan.quantity, *row.result, row.result_unit) : row.status;
-  tell("{}: {} = {}: {} ({} contact evaluations, {})\n", row.curve, row.sweep->key, row.value, result,
-       row.counters.contact_evaluations, duration_text(row.seconds));
-}
-
-std::vector<StudyRow> run_sweep(const StudyPlan& plan, const Sweep& sweep, const StudyArguments& arguments) {
-  std::vector<StudyRow> rows;
-  for (const std::string& value : sweep.values) {
-    rows.push_back(run_row(plan, sweep, value, arguments));
-    tell_row(arguments, plan, rows.back());
-  }
-  if (!sweep.power) return rows;
-  std::optional<double> coarser;
-  for (std::size_t k = 0; k + 1 < sweep.values.size(); ++k) {
-    StudyRow row = extrapolate(sweep, rows[k], *sweep.numbers[k], rows[k + 1], *sweep.numbers[k + 1]);
-    if (row.result && coarser) row.error_bar = std::abs(*row.result - *coarser);
-    coarser = row.result;
-    rows.push_back(row);
-    tell_row(arguments, plan, rows.back());
-  }
-  return rows;
+ExitCode tell_end(const std::vector<StudyRow>& rows, const RunsEnded& ended, const fs::path& file) {
+  const auto failed = std::count_if(rows.begin(), rows.end(), [](const StudyRow& row) { return !row.result; });
+  fmt::print("{} settings, {} failed: {}\n", rows.size(), failed, file.string());
+  fmt::print("{} different runs, {} of them kept from before\n", ended.runs, ended.kept);
+  for (const StudyRow& row : rows)
+    if (!row.result) fmt::print("failed: {}: {} = {}: {}\n", row.curve, row.key, row.value, row.status);
+  return failed > 0 ? ExitCode::incomplete : ExitCode::done;
 }
 
 }  // namespace
 
 ExitCode study_command(const StudyArguments& arguments) {
   const StudyPlan plan = read_study_plan(arguments.plan);
-  check_every_run(plan);
+  const std::vector<StudyRun> runs = runs_of(plan);
   const FolderLock lock(arguments.out);
 
-  std::vector<StudyRow> rows;
-  for (const Sweep& sweep : plan.sweeps) {
-    const std::vector<StudyRow> more = run_sweep(plan, sweep, arguments);
-    rows.insert(rows.end(), more.begin(), more.end());
+  RunsConduct conduct{arguments.out / "runs", arguments.jobs, arguments.threads, arguments.time_limit, arguments.quiet};
+  if (conduct.jobs == 0) conduct.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const RunsEnded ended = carry_out_runs(runs, conduct);
+  if (ended.interrupted) {
+    tell("voussoir: interrupted: the same command goes on with what is done in '{}'\n", arguments.out.string());
+    return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + interruption());
   }
-  write_file(arguments.out / "study.csv", study_csv(plan, rows));
-
-  const auto failed = std::count_if(rows.begin(), rows.end(), [](const StudyRow& row) { return !row.result; });
-  fmt::print("{} settings, {} failed: {}\n", rows.size(), failed, (arguments.out / "study.csv").string());
-  return failed > 0 ? ExitCode::incomplete : ExitCode::done;
+  const std::vector<StudyRow> rows = rows_of(plan, runs, ended, conduct.folder);
+  const fs::path file = arguments.out / "study.csv";
+  write_file(file, study_csv(plan, rows));
+  return tell_end(rows, ended, file);
 }
 
 }  // namespace voussoir

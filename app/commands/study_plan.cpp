@@ -54,6 +54,27 @@ std::string override_text(const Node& value, const std::string& path) {
   }
 }
 
+std::optional<HistoryQuantity> read_history(const Subject& top) {
+  const Node* node = top.node->find("history");
+  if (!node) return std::nullopt;
+  if (node->kind != Node::Kind::table)
+    refuse(top, "history", "must be a table { column = …, take = \"largest\", unit = … }");
+  const Subject table{node, "history"};
+  refuse_unknown_keys(table, {"column", "take", "unit"});
+  HistoryQuantity quantity;
+  quantity.column = text_of(table, "column", "must name a column of history.csv");
+  quantity.unit = text_of(table, "unit", "must be a text, e.g. \"N\"");
+  const std::string rule = "must be one of \"largest\", \"smallest\", \"last\"";
+  const std::string& take = text_of(table, "take", rule);
+  if (take == "largest")
+    quantity.take = Take::largest;
+  else if (take == "smallest")
+    quantity.take = Take::smallest;
+  else if (take != "last")
+    refuse(table, "take", rule);
+  return quantity;
+}
+
 void read_values(const Subject& table, Sweep& sweep) {
   const Node* list = table.node->find("values");
   if (!list || list->kind != Node::Kind::list || list->items.empty())
@@ -85,15 +106,17 @@ void read_extrapolation(const Subject& table, Sweep& sweep) {
       refuse(table, "values", "must differ from one to the next to be extrapolated");
 }
 
-void read_overrides(const Subject& table, Sweep& sweep) {
+std::vector<std::string> read_overrides(const Subject& table) {
+  std::vector<std::string> overrides;
   const Node* list = table.node->find("set");
-  if (!list) return;
+  if (!list) return overrides;
   const std::string rule = "must be a list of texts \"key=value\"";
   if (list->kind != Node::Kind::list) refuse(table, "set", rule);
   for (const Node& item : list->items) {
     if (item.kind != Node::Kind::text) refuse(item, key_path(table.path, "set"), rule);
-    sweep.overrides.push_back(item.text);
+    overrides.push_back(item.text);
   }
+  return overrides;
 }
 
 Sweep read_sweep(const Subject& table, const std::string& scene, const fs::path& folder) {
@@ -106,7 +129,7 @@ Sweep read_sweep(const Subject& table, const std::string& scene, const fs::path&
   if (table.node->find("scene"))
     sweep.scene = folder / text_of(table, "scene", "must be a scene's file name, relative to the study");
   read_values(table, sweep);
-  read_overrides(table, sweep);
+  sweep.overrides = read_overrides(table);
   read_extrapolation(table, sweep);
   return sweep;
 }
@@ -116,19 +139,27 @@ Sweep read_sweep(const Subject& table, const std::string& scene, const fs::path&
 StudyPlan read_study_plan(const fs::path& path) {
   const Node tree = read_tree(path);
   const Subject top{&tree, ""};
-  refuse_unknown_keys(top, {"scene", "quantity", "sweep"});
+  refuse_unknown_keys(top, {"scene", "quantity", "history", "set", "sweep"});
   const std::string scene = text_of(top, "scene", "must be a scene's file name, relative to the study");
   StudyPlan plan;
   plan.quantity = text_of(top, "quantity", "must name a value of results.json, e.g. \"critical_friction\"");
+  plan.history = read_history(top);
 
   const Node* sweeps = tree.find("sweep");
   if (!sweeps || sweeps->kind != Node::Kind::list || sweeps->items.empty())
     refuse(top, "sweep", "must be at least one table; begin it with [[sweep]]");
+
+  // what everything else is compared with comes first
+  plan.sweeps.push_back(
+      {.name = "default", .values = {""}, .numbers = {std::nullopt}, .scene = path.parent_path() / scene});
   for (std::size_t k = 0; k < sweeps->items.size(); ++k) {
     const Node& item = sweeps->items[k];
     if (item.kind != Node::Kind::table) refuse(item, "sweep", "must be a table; begin it with [[sweep]]");
     plan.sweeps.push_back(read_sweep({&item, item_path("sweep", item, k)}, scene, path.parent_path()));
   }
+  const std::vector<std::string> everywhere = read_overrides(top);
+  for (Sweep& sweep : plan.sweeps)
+    sweep.overrides.insert(sweep.overrides.begin(), everywhere.begin(), everywhere.end());
   return plan;
 }
 

@@ -11,18 +11,28 @@ namespace voussoir {
 // one key, several values
 struct Sweep {
   std::string name;
-  std::string key;                             // as after --set
-  std::vector<std::string> values;             // as after --set key=
-  std::vector<std::optional<double>> numbers;  // the same where they are numbers
-  std::string unit;                            // of the values; may be empty
-  std::filesystem::path scene;
-  std::vector<std::string> overrides;  // key=value, for every run of this sweep
-  std::optional<double> power;         // fit result against value^power and extrapolate to value 0
+  std::string key = {};                             // as after --set; empty: the scene as it is
+  std::vector<std::string> values = {};             // as after --set key=
+  std::vector<std::optional<double>> numbers = {};  // the same where they are numbers
+  std::string unit = {};                            // of the values; may be empty
+  std::filesystem::path scene = {};
+  std::vector<std::string> overrides = {};  // key=value, for every run of this sweep; the plan's own first
+  std::optional<double> power = {};         // fit result against value^power and extrapolate to value 0
+};
+
+enum class Take { largest, smallest, last };
+
+// a number out of a column of history.csv
+struct HistoryQuantity {
+  std::string column;
+  Take take = Take::last;
+  std::string unit;
 };
 
 struct StudyPlan {
-  std::string quantity;  // a name in the values of results.json
-  std::vector<Sweep> sweeps;
+  std::string quantity;                    // a name in the values of results.json
+  std::optional<HistoryQuantity> history;  // or what this name stands for
+  std::vector<Sweep> sweeps;               // the first is the scene as it is, under the name "default"
 };
 
 // Paths in the plan are relative to it. Strict: whatever it does not know is a SceneError with line and repair.

@@ -178,6 +178,7 @@ TEST(HingedBeamPeak, IsThatOfALevelCorner) {
   for (const Variant& v : {variants[0], variants[2]}) {
     const reference::HingedBeamState level = reference::hinged_beam_peak(v.model);
     const HingedBeamLoad own = reference::peak_of(expected_curve(v.model, shear_stiffness));
+    if (v.scene == "scene.toml") report.reference("peak_weight", own.weight, "N");
     report.record({"peak weight of the reference, " + v.name,
                    "N",
                    Kind::limit,
@@ -195,7 +196,6 @@ TEST(HingedBeamPeak, IsThatOfALevelCorner) {
   write_curve("first_order", first);
   write_curve("second_order", second);
   const HingedBeamLoad peak = reference::hinged_beam_second_order_peak(beam);
-  report.reference("peak_weight", peak.weight, "N");
   report.report("peak weight of E.2", "N", peak.weight,
                 "the arm of the weight stays half a block: drawn, not compared");
 }

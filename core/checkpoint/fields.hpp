@@ -76,8 +76,8 @@ void serialize(Archive& archive, ContactGeometry<Dim>& g) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, JointState<Dim>& j) {
-  auto& [shear_force, normal, plastic_slip, dashpot, area] = j;
-  archive(shear_force, normal, plastic_slip, dashpot, area);
+  auto& [shear_force, normal, plastic_slip, dashpot, area, shear_stiffness, bonded] = j;
+  archive(shear_force, normal, plastic_slip, dashpot, area, shear_stiffness, bonded);
 }
 
 template <class Archive, int Dim>
@@ -115,15 +115,15 @@ void serialize(Archive& archive, Schedule& s) {
 template <class Archive>
 void serialize(Archive& archive, Counters& c) {
   auto& [steps, evaluations, skips, hits, colds, solves, pivots, iterations, rescues, areas, undecided, unconverged,
-         fallbacks, deep, builds] = c;
+         fallbacks, deep, snaps, builds] = c;
   archive(steps, evaluations, skips, hits, colds, solves, pivots, iterations, rescues, areas, undecided, unconverged,
-          fallbacks, deep, builds);
+          fallbacks, deep, snaps, builds);
 }
 
 template <class Archive>
 void serialize(Archive& archive, EnergyFlows& f) {
-  auto& [gravity, contacts, friction, dashpots, local, relaxation, ramp, changes, prescribed] = f;
-  archive(gravity, contacts, friction, dashpots, local, relaxation, ramp, changes, prescribed);
+  auto& [gravity, contacts, friction, dashpots, stiffening, local, relaxation, ramp, changes, prescribed] = f;
+  archive(gravity, contacts, friction, dashpots, stiffening, local, relaxation, ramp, changes, prescribed);
 }
 
 template <class Archive>

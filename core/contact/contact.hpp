@@ -37,6 +37,8 @@ struct JointState {
   double plastic_slip = 0;                        // m, accumulated
   double dashpot = 0;                             // N: its share of the normal force, of the step before
   double area = 0;                                // m², of the step before; 1 for a constant stiffness
+  double shear_stiffness = 0;                     // Pa/m, of the step before, where a law lets it vary; else 0
+  bool bonded = false;                            // its strength in tension and its cohesion are intact
 };
 
 enum class ProofKind {
@@ -86,7 +88,8 @@ struct Contact {
   Proof<Dim> proof;
   Vector<Dim> force = Vector<Dim>::Zero();  // N on the second body
   double free_until = 0;                    // m: a separated pair cannot meet before its bodies' travels add up to this
-  double area_rated = -1;                   // m²: the area the time step was last chosen for; negative: not yet
+  // m²: the area the time step was last chosen for, times what stress stiffened it; negative: not yet
+  double area_rated = -1;
 
   bool touching() const { return status == ContactStatus::touching; }
   bool unanswered() const { return status > ContactStatus::touching; }

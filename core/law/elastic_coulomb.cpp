@@ -4,14 +4,16 @@
 #include <cmath>
 
 namespace voussoir {
-namespace {
 
-// scaled first: the square of a force of 1e-200 N is zero
 template <int Dim>
 double length_of(const Vector<Dim>& v) {
   const double largest = v.cwiseAbs().maxCoeff();
   return largest > 0 ? largest * (v / largest).norm() : 0;
 }
+template double length_of<2>(const Vector<2>&);
+template double length_of<3>(const Vector<3>&);
+
+namespace {
 
 // Gives `turned` the length of `shear`, from which it differs by rounding. The difference of their squares is taken as
 // (a - b)·(a + b), where nothing cancels, and added as a correction: the quotient of the two lengths is rounded so
@@ -66,7 +68,7 @@ JointForce<Dim> elastic_coulomb(const JointProperties& properties, double fricti
     shear *= limit / trial;
     if (shear_stiffness > 0) {
       result.plastic_slip = (trial - limit) / shear_stiffness;
-      result.friction = 0.5 * (old_shear + shear).dot(excess) / shear_stiffness;
+      result.friction = std::max(0.5 * (old_shear + shear).dot(excess) / shear_stiffness, 0.0);
     }
   }
   result.force = normal_force * kinematics.normal + shear;

@@ -23,9 +23,16 @@ struct JointForce {
   Vector<Dim> force;        // N on the second body
   double plastic_slip = 0;  // m, of this step
   double elastic = 0;       // J held by the normal and the shear spring
-  double friction = 0;  // J lost to slip in this step: mean of the old and the new shear force times the plastic slip
+  double friction = 0;  // J lost to slip in this step: mean of the old and the new shear force times the plastic slip,
+                        // never negative
   double dashpot = 0;   // N: the dashpot's share of the normal force
+  double stiffening = 0;   // J the shear spring lost as it grew stiffer under its force; negative: gained
+  bool snap_back = false;  // friction fell faster than the spring could unload
 };
+
+// of a force or slip of any size: the square of 1e-200 N is zero
+template <int Dim>
+double length_of(const Vector<Dim>& v);
 
 // Carries a shear force to a new contact plane: turned with the normal, then with the bodies' spin about it, its length
 // kept. (Decision: Eq. 4.4 lengthens it on every turn and misses the spin.)

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
+
+#include "core/law/joint_law.hpp"
 
 namespace voussoir {
 namespace {
@@ -40,10 +43,34 @@ double largest_face(const Polytope<Dim>& part) {
   return largest;
 }
 
+// tangent stiffness at an overlap, Pa/m, or N/m when it is constant
+struct Tangent {
+  double normal, shear;
+};
+
+Tangent tangent(const JointProperties& p, double overlap) {
+  if (p.laws == 0) return {p.normal_stiffness, p.shear_stiffness};
+  // as if bonded: a bond's loss makes nothing stiffer
+  const NormalAnswer answer = normal_answer(p, overlap, true);
+  return {answer.stiffness, shear_stiffness_at(p, answer.stress)};
+}
+
+// how much stress stiffens a contact, against what its joint's properties state; 1 for the plain law
 template <int Dim>
-Matrix<Dim> contact_stiffness(const JointProperties& p, double area, const Vector<Dim>& normal) {
+double stiffening(const JointProperties& p, const Contact<Dim>& c, std::span<const SubContact<Dim>> subs) {
+  constexpr unsigned stress_dependent = linear_normal | power_normal | linear_shear | power_shear;
+  if (!(p.laws & stress_dependent)) return 1;
+  double overlap = c.cells == 0 ? c.geometry.overlap : 0;
+  for (const SubContact<Dim>& s : subs)
+    if (s.area > 0) overlap = std::max(overlap, s.overlap);
+  const Tangent now = tangent(p, overlap);
+  return std::max(now.normal / p.normal_stiffness, p.shear_stiffness > 0 ? now.shear / p.shear_stiffness : 0);
+}
+
+template <int Dim>
+Matrix<Dim> contact_stiffness(const Tangent& k, double area, const Vector<Dim>& normal) {
   const Matrix<Dim> nn = normal * normal.transpose();
-  return area * (p.normal_stiffness * nn + p.shear_stiffness * (Matrix<Dim>::Identity() - nn));
+  return area * (k.normal * nn + k.shear * (Matrix<Dim>::Identity() - nn));
 }
 
 double stiffest_joint(const std::vector<JointProperties>& properties, double area) {
@@ -51,6 +78,15 @@ double stiffest_joint(const std::vector<JointProperties>& properties, double are
   for (const JointProperties& p : properties)
     stiffest = std::max(stiffest, std::max(p.normal_stiffness, p.shear_stiffness) * (p.constant_stiffness ? 1 : area));
   return stiffest;
+}
+
+// of run-time size within fixed storage: no memory is asked for, and one solver serves both dimensions
+using FreeBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, freedoms<3>, freedoms<3>>;
+
+double largest_eigenvalue(const FreeBlock& stiffness, const FreeBlock& inertia) {
+  return Eigen::GeneralizedSelfAdjointEigenSolver<FreeBlock>(stiffness, inertia, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
 }
 
 // stiffest square frequency of a body: eigenvalue of M⁻¹K over its free freedoms
@@ -65,8 +101,6 @@ double largest_eigenvalue(const Body<Dim>& body, const Rotation<Dim>& rotation, 
   } else {
     mass(Dim, Dim) = body.inertia[0];
   }
-  // of run-time size within fixed storage: no memory is asked for
-  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, freedoms<Dim>, freedoms<Dim>>;
   std::array<int, freedoms<Dim>> free;
   int count = 0;
   for (int i = 0; i < Dim; ++i)
@@ -74,15 +108,13 @@ double largest_eigenvalue(const Body<Dim>& body, const Rotation<Dim>& rotation, 
   for (int i = 0; i < spin_freedoms<Dim>; ++i)
     if (body.free_rotation[i]) free[count++] = Dim + i;
   if (count == 0) return 0;
-  Block stiffness(count, count), inertia(count, count);
+  FreeBlock stiffness(count, count), inertia(count, count);
   for (int i = 0; i < count; ++i)
     for (int j = 0; j < count; ++j) {
       stiffness(i, j) = k(free[i], free[j]);
       inertia(i, j) = mass(free[i], free[j]);
     }
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Block>(stiffness, inertia, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
+  return largest_eigenvalue(stiffness, inertia);
 }
 
 // adds one contact to a body at lever arm r
@@ -108,13 +140,15 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
     const double factor = a.fixed || b.fixed ? 1 : 2;
     if (c.status == ContactStatus::apart) continue;
     if (c.touching()) {
-      c.area_rated = area_margin * c.geometry.area;
       const JointProperties& p = model.properties[c.properties];
+      const auto subs = subs_of(std::as_const(state), &c - state.contacts.data());
+      c.area_rated = area_margin * c.geometry.area * stiffening<Dim>(p, c, subs);
       const Vector<Dim> apart = between(model, state, ia, ib);
       // `gyration2` times the area: what the cell about its own point adds to rocking and spin, at most
-      const auto bear = [&](const Vector<Dim>& point, double area, double gyration2) {
-        const Matrix<Dim> k = contact_stiffness<Dim>(p, area, c.geometry.normal);
-        const double turning = factor * area * std::max(p.normal_stiffness, p.shear_stiffness) * gyration2;
+      const auto bear = [&](const Vector<Dim>& point, double overlap, double area, double gyration2) {
+        const Tangent now = tangent(p, overlap);
+        const Matrix<Dim> k = contact_stiffness<Dim>(now, area, c.geometry.normal);
+        const double turning = factor * area * std::max(now.normal, now.shear) * gyration2;
         add<Dim>(stiffness[ia], factor, k, point);
         add<Dim>(stiffness[ib], factor, k, point - apart);
         for (int i = Dim; i < freedoms<Dim>; ++i) {
@@ -123,12 +157,12 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
         }
       };
       if (c.cells == 0) {
-        bear(c.geometry.point, p.constant_stiffness ? 1 : c.geometry.area, 0);
+        bear(c.geometry.point, c.geometry.overlap, p.constant_stiffness ? 1 : c.geometry.area, 0);
         continue;
       }
       const double unit = p.constant_stiffness ? c.geometry.area : 1;
-      for (const SubContact<Dim>& s : subs_of(state, &c - state.contacts.data()))
-        if (s.area > 0) bear(s.point, s.area / unit, s.gyration2);
+      for (const SubContact<Dim>& s : subs)
+        if (s.area > 0) bear(s.point, s.overlap, s.area / unit, s.gyration2);
       continue;
     }
     c.area_rated = std::min(largest_face(model.polytope(c.part_a)), largest_face(model.polytope(c.part_b)));
@@ -175,16 +209,20 @@ void demand_time_step(const State<Dim>& state) {
 }
 
 template <int Dim>
-bool outgrown(const State<Dim>& state) {
-  return std::any_of(state.contacts.begin(), state.contacts.end(), [](const Contact<Dim>& c) {
-    return c.status != ContactStatus::apart && (c.area_rated < 0 || (c.touching() && c.geometry.area > c.area_rated));
+bool outgrown(const Model<Dim>& model, const State<Dim>& state) {
+  return std::any_of(state.contacts.begin(), state.contacts.end(), [&](const Contact<Dim>& c) {
+    if (c.status == ContactStatus::apart) return false;
+    if (c.area_rated < 0) return true;
+    return c.touching() && c.geometry.area * stiffening<Dim>(model.properties[c.properties], c,
+                                                             subs_of(state, &c - state.contacts.data())) >
+                               c.area_rated;
   });
 }
 
 template void demand_time_step<2>(const State<2>&);
 template void demand_time_step<3>(const State<3>&);
-template bool outgrown<2>(const State<2>&);
-template bool outgrown<3>(const State<3>&);
+template bool outgrown<2>(const Model<2>&, const State<2>&);
+template bool outgrown<3>(const Model<3>&, const State<3>&);
 template TimeStepEstimate estimate_time_step<2>(const Model<2>&, const Settings&, const DampingSettings&, State<2>&);
 template TimeStepEstimate estimate_time_step<3>(const Model<3>&, const Settings&, const DampingSettings&, State<3>&);
 

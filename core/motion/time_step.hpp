@@ -30,6 +30,6 @@ void demand_time_step(const State<Dim>& state);
 
 // some contact is stiffer than the last estimate rated it for, or new to it
 template <int Dim>
-bool outgrown(const State<Dim>& state);
+bool outgrown(const Model<Dim>& model, const State<Dim>& state);
 
 }  // namespace voussoir

@@ -65,14 +65,21 @@ Json counters_json(const Counters& counters) {
           {"unconverged", counters.unconverged},
           {"normal_fallbacks", counters.normal_fallbacks},
           {"deep_overlaps", counters.deep_overlaps},
+          {"snap_backs", counters.snap_backs},
           {"neighbour_builds", counters.neighbour_builds}};
 }
 
 Json energy_json(const EnergyLedger& energy, NumberWriter& number) {
   const std::pair<const char*, double> entries[] = {
-      {"kinetic", energy.kinetic},           {"elastic", energy.elastic},   {"potential", energy.potential()},
-      {"friction", energy.flows.friction},   {"damping", energy.damping()}, {"external", energy.external()},
-      {"unexplained", energy.unexplained()}, {"closure", energy.closure()},
+      {"kinetic", energy.kinetic},
+      {"elastic", energy.elastic},
+      {"potential", energy.potential()},
+      {"friction", energy.flows.friction},
+      {"damping", energy.damping()},
+      {"external", energy.external()},
+      {"stiffening", energy.flows.stiffening},
+      {"unexplained", energy.unexplained()},
+      {"closure", energy.closure()},
   };
   Json json = {{"unit", "J"}};
   for (const auto& [name, value] : entries)

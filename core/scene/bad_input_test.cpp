@@ -362,6 +362,24 @@ INSTANTIATE_TEST_SUITE_P(
                              "blocks.a.vertices", "do not lie on one line"}),
     by_name);
 
+INSTANTIATE_TEST_SUITE_P(
+    Laws, Bad,
+    testing::Values(
+        BadInput{"growth_without_law", "friction_deg = 40", "friction_deg = 40\nnormal_growth = 1e4 #!",
+                 "joint_properties.rock.normal_growth = 1e4", "applies only where normal_law"},
+        BadInput{"law_without_growth", "friction_deg = 40", "friction_deg = 40\nshear_law = \"linear\"",
+                 "joint_properties.rock.shear_growth is missing", "shear_growth = 9.7e4"},
+        BadInput{"law_on_springs", "friction_deg = 40",
+                 "friction_deg = 40\ncohesion = 1e6\nconstant_stiffness = true #!",
+                 "joint_properties.rock.constant_stiffness", "give the stiffness per area"},
+        BadInput{"tension_of_a_power", "friction_deg = 40",
+                 "friction_deg = 40\nnormal_law = \"power\"\nnormal_exponent = 0.5\ntension = 1e5 #!",
+                 "joint_properties.rock.tension = 1e5", "no stiffness without stress"},
+        BadInput{"softer_than_nothing", "friction_deg = 40",
+                 "friction_deg = 40\nfriction_law = \"softening\"\nsoftening_slip_m = 0.1\nsoftening_drop = 0.9 #!",
+                 "joint_properties.rock.softening_drop = 0.9", "0.8391"}),
+    by_name);
+
 struct BadOverride {
   const char *text, *key, *phrase;
 };

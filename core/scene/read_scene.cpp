@@ -1,4 +1,6 @@
 // From a checked tree to plain structs: units and what one table must state together.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -75,6 +77,42 @@ std::vector<JointSpec> read_joints(const Subject& scene, int dimension) {
   return joints;
 }
 
+void read_laws(const Subject& item, JointProperties& p) {
+  const auto choose = [&](std::string_view key, std::initializer_list<std::pair<std::string_view, unsigned>> laws) {
+    std::string word;
+    read(item, key, word);
+    for (const auto& [name, law] : laws)
+      if (word == name) p.laws |= law;
+  };
+  choose("normal_law", {{"linear", linear_normal}, {"power", power_normal}});
+  choose("shear_law", {{"linear", linear_shear}, {"power", power_shear}});
+  choose("friction_law", {{"hardening", hardening}, {"softening", softening}});
+  read(item, "normal_growth", p.normal_growth);
+  read(item, "normal_exponent", p.normal_exponent);
+  read(item, "shear_growth", p.shear_growth);
+  read(item, "shear_exponent", p.shear_exponent);
+  read(item, "hardening_slip_m", p.hardening_slip);
+  read(item, "hardening_exponent", p.hardening_exponent);
+  read(item, "softening_drop", p.softening_drop);
+  read(item, "softening_slip_m", p.softening_slip);
+  read(item, "tension", p.tension);
+  read(item, "cohesion", p.cohesion);
+  if (p.tension > 0) p.laws |= tension_bond;
+  if (p.cohesion > 0) p.laws |= cohesion_bond;
+
+  if (p.constant_stiffness && p.laws != 0)
+    refuse(
+        item, "constant_stiffness",
+        "knows no stress, on which every other law depends; remove it and give the stiffness per area, or remove the "
+        "laws, tension and cohesion");
+  if (p.laws & power_normal && p.laws & tension_bond)
+    refuse(item, "tension", "a power law has no stiffness without stress; use the linear or the constant law");
+  if (p.laws & softening && p.softening_drop > std::tan(p.friction))
+    refuse(item, "softening_drop",
+           fmt::format("exceeds the friction coefficient tan(friction_deg) = {:.4g} that there is to lose",
+                       std::tan(p.friction)));
+}
+
 std::vector<PropertiesSpec> read_properties(const Subject& scene) {
   std::vector<PropertiesSpec> all;
   for (const Subject& item : children(scene, "joint_properties")) {
@@ -85,6 +123,7 @@ std::vector<PropertiesSpec> read_properties(const Subject& scene) {
     read_degrees(item, "friction_deg", p.friction);
     read(item, "constant_stiffness", p.constant_stiffness);
     read(item, "sub_contacts", p.sub_contacts);
+    read_laws(item, p);
     all.push_back({item, p});
   }
   return all;

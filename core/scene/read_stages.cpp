@@ -185,6 +185,7 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping) {
   stage.moves = read_selectors(table, "move");
   for (const SelectorSpec& spec : stage.moves)
     stage.plan.change.move.push_back(read_move(spec.subject, spec.selector));
+  read(table, "bond", stage.plan.change.bond);
   if (table.node->find("friction_deg")) read_degrees(table, "friction_deg", stage.plan.change.friction.emplace());
   return stage;
 }

@@ -1,9 +1,8 @@
 // Random bodies with random contacts between them, and the frequency of the stiffest of their modes.
 #pragma once
 
-#include <Eigen/Eigenvalues>
-
 #include "core/state.hpp"
+#include "core/testing/dense.hpp"
 #include "core/testing/shapes.hpp"
 
 namespace voussoir::shapes {
@@ -105,7 +104,7 @@ struct RandomAssembly {
             root_of_inverse_mass(c.part_b);
       scaled += j.transpose() * k * j;
     }
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    return oracle::largest_eigenvalue(scaled);
   }
 
  private:

@@ -21,11 +21,35 @@ keep = "below"
 name = "A"
 dip = 0
 point = [0, 0, 0]
+properties = "rock"
 [[joint_properties]]
 name = "rock"
 normal_stiffness = 1e9
 shear_stiffness = 1e8
 friction_deg = 30
+[[joint_properties]]
+name = "linear"
+normal_stiffness = 4e9
+normal_law = "linear"
+normal_growth = 1e4
+shear_stiffness = 1e8
+shear_law = "linear"
+shear_growth = 1e4
+friction_deg = 30
+friction_law = "hardening"
+hardening_slip_m = 1e-6
+[[joint_properties]]
+name = "power"
+normal_stiffness = 2e6
+normal_law = "power"
+normal_exponent = 0.75
+shear_stiffness = 2e6
+shear_law = "power"
+shear_exponent = 0.7
+friction_deg = 30
+friction_law = "softening"
+softening_drop = 0.1
+softening_slip_m = 0.1
 [[blocks]]
 name = "by planes"
 planes = [{ normal = [1, 0, 0], offset = 11 }, { normal = [-2, 0, 0], offset = -20 },
@@ -119,6 +143,9 @@ inline std::string address(const KeyRow& row) {
     const std::string kind(row.when.value.substr(0, row.when.value.find('|')));
     table = "stage." + (kind.empty() ? "settle" : kind == "reduce" ? "bisection" : kind);
   }
+  if (row.table == "joint_properties" && !row.when.value.empty())
+    table = row.when.value == "linear" || row.when.value == "hardening" ? "joint_properties.linear"
+                                                                        : "joint_properties.power";
   if (row.table == "blocks" && row.key == "vertices") table = "blocks.by vertices";
   if (row.table == "blocks.planes" && row.key == "point") table = "blocks.by planes.planes.5";
   if (row.table == "monitors" && row.key == "joint") table = "monitors.joint";

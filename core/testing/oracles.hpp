@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/geometry/polytope.hpp"
+#include "core/testing/dense.hpp"
 
 namespace voussoir::oracle {
 
-using Real = long double;
 template <int Size>
 using RealVector = Eigen::Matrix<Real, Size, 1>;
 template <int Size>
@@ -170,7 +170,7 @@ Barrier<Dim> barrier(const HalfSpaces<Dim>& planes, const RealVector<Dim>& point
   }
   if (!result.interior) return result;
   const Eigen::Matrix<Real, Eigen::Dynamic, 1> ones = Eigen::Matrix<Real, Eigen::Dynamic, 1>::Ones(planes.size());
-  result.step = -rows.colPivHouseholderQr().solve(ones);
+  result.step = -least_squares(rows, ones);
   result.decrement = (rows * result.step).norm();
   return result;
 }

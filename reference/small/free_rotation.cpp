@@ -79,6 +79,20 @@ Motion motion_of(const FreeRotation& body) {
   return motion;
 }
 
+using Quaternion = std::array<double, 4>;  // scalar first
+
+Quaternion product(const Quaternion& a, const Quaternion& b) {
+  return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+          a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
+}
+
+// a + share * b
+Quaternion sum(const Quaternion& a, double share, const Quaternion& b) {
+  return {a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2], a[3] + share * b[3]};
+}
+
+constexpr double largest_turn = 0.005;  // rad in a step of the attitude
+
 }  // namespace
 
 std::array<double, 3> free_rotation(const FreeRotation& body, double time) {
@@ -102,6 +116,33 @@ double free_rotation_period(const FreeRotation& body) {
       gsl_sf_ellint_Kcomp_e(std::sqrt(motion.parameter), GSL_PREC_DOUBLE, &complete) != GSL_SUCCESS)
     return std::numeric_limits<double>::infinity();
   return 4 * complete.val / std::abs(motion.rate);
+}
+
+std::array<double, 3> free_rotation_in_space(const FreeRotation& body, double time) {
+  require(time >= 0, "time must not be negative");
+  double fastest = 0;
+  for (int i = 0; i < 3; ++i)  // the energy bounds what each axis can have
+    for (int k = 0; k < 3; ++k)
+      fastest += body.inertia[k] / body.inertia[i] * body.angular_velocity[k] * body.angular_velocity[k];
+  const auto steps = static_cast<long>(std::ceil(time * std::sqrt(fastest) / largest_turn)) + 1;
+  const double h = time / static_cast<double>(steps);
+  Quaternion attitude{1, 0, 0, 0};
+  const auto rate = [](const Quaternion& q, const std::array<double, 3>& w) {
+    return product(q, {0, w[0] / 2, w[1] / 2, w[2] / 2});
+  };
+  std::array<double, 3> begin = body.angular_velocity;
+  for (long k = 0; k < steps; ++k) {
+    const double t = h * static_cast<double>(k);
+    const std::array<double, 3> middle = free_rotation(body, t + h / 2), end = free_rotation(body, t + h);
+    const Quaternion one = rate(attitude, begin), two = rate(sum(attitude, h / 2, one), middle),
+                     three = rate(sum(attitude, h / 2, two), middle), four = rate(sum(attitude, h, three), end);
+    for (int i = 0; i < 4; ++i)
+      attitude[i] += h / 6 * (one[i] + 2 * two[i] + 2 * three[i] + four[i]);
+    begin = end;
+  }
+  const Quaternion conjugate{attitude[0], -attitude[1], -attitude[2], -attitude[3]};
+  const Quaternion turned = product(product(attitude, {0, begin[0], begin[1], begin[2]}), conjugate);
+  return {turned[1], turned[2], turned[3]};
 }
 
 }  // namespace voussoir::reference

@@ -280,6 +280,31 @@ TEST(FreeRotation, symmetric_body_and_steady_rotation) {
   EXPECT_EQ(free_rotation(ball, 5), ball.angular_velocity);
 }
 
+TEST(FreeRotation, in_space_circles_about_the_momentum) {
+  // A symmetric body: the spin, which lies in the plane of momentum and axis, turns with it about the momentum, L/I1.
+  const FreeRotation disc{{1, 1, 1.8}, {0.3, 0, 2}};
+  const double momentum = std::hypot(0.3, 3.6);
+  const std::array<double, 3> along{0.3 / momentum, 0, 3.6 / momentum};
+  const double share = 0.3 * along[0] + 2 * along[2];
+  const std::array<double, 3> across{0.3 - share * along[0], 0, 2 - share * along[2]};
+  for (const double t : {0.0, 1.0, 20.0}) {
+    const double angle = momentum * t;
+    const auto w = free_rotation_in_space(disc, t);
+    // along x (y) the momentum's cross product with what lies across it: in the y direction alone
+    const double sideways = along[2] * across[0] - along[0] * across[2];
+    EXPECT_NEAR(w[0], share * along[0] + std::cos(angle) * across[0], 1e-9);
+    EXPECT_NEAR(w[1], std::sin(angle) * sideways, 1e-9);
+    EXPECT_NEAR(w[2], share * along[2] + std::cos(angle) * across[2], 1e-9);
+  }
+  // any body keeps its energy, which is the spin times the momentum
+  const FreeRotation box{{1, 1.3, 2}, {0.1, 2, 0.1}};
+  for (const double t : {3.0, 45.0}) {
+    const auto w = free_rotation_in_space(box, t);
+    const double twice_energy = 1 * 0.01 + 1.3 * 4 + 2 * 0.01;
+    EXPECT_NEAR(0.1 * w[0] + 2.6 * w[1] + 0.2 * w[2], twice_energy, 1e-8);
+  }
+}
+
 TEST(FreeRotation, scaling_and_errors) {
   const FreeRotation body{{1, 1.3, 2}, {1, 2, 3}};
   const FreeRotation heavy{{10, 13, 20}, {1, 2, 3}}, fast{{1, 1.3, 2}, {10, 20, 30}};

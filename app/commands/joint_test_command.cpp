@@ -1,0 +1,162 @@
+// Laboratory tests of a scene's joints: normal compression, direct shear, cycles.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "app/bad_input.hpp"
+#include "app/commands/commands.hpp"
+#include "app/message.hpp"
+#include "app/run_folder.hpp"
+#include "core/law/joint_path.hpp"
+#include "core/output/atomic_file.hpp"
+#include "core/output/history_csv.hpp"
+#include "core/scene/scene.hpp"
+
+namespace voussoir {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double usual_stresses[] = {0.1e6, 0.5e6, 1e6, 2e6, 5e6};
+
+// one curve of the table and of the figure
+struct JointTest {
+  std::string name;
+  double stress;  // Pa
+  std::vector<JointPathPoint> points;
+};
+
+JointPath path_of(const JointTestArguments& arguments, double stress) {
+  JointPath path;
+  path.normal_stress = stress;
+  path.steps = arguments.steps;
+  path.bonded = arguments.bonded;
+  if (arguments.path == "normal") {
+    path.unload = true;
+    return path;
+  }
+  path.slip = arguments.slip;
+  if (arguments.path == "cyclic") path.cycles = arguments.cycles;
+  if (arguments.path == "stiffness") {
+    path.surroundings = arguments.surroundings;
+    path.dilation = arguments.dilation;
+  }
+  return path;
+}
+
+std::vector<JointProperties> chosen(const Scene& scene, const std::vector<std::string>& names) {
+  std::vector<JointProperties> all, some;
+  std::string known;
+  for (const PropertiesSpec& spec : scene.properties) {
+    all.push_back(spec.properties);
+    known += (known.empty() ? "" : ", ") + spec.properties.name;
+  }
+  if (all.empty()) throw BadInput(scene.file + ": there is no joint to test; add [[joint_properties]]");
+  for (const std::string& name : names) {
+    const auto at = std::find_if(all.begin(), all.end(), [&](const JointProperties& p) { return p.name == name; });
+    if (at == all.end())
+      throw BadInput(
+          fmt::format("--joint {}: {} has no joint_properties of this name; there are: {}", name, scene.file, known));
+    some.push_back(*at);
+  }
+  for (const JointProperties& p : names.empty() ? all : some)
+    if (p.constant_stiffness)
+      throw BadInput(
+          fmt::format("joint_properties.{}: its stiffness is in N/m and knows no stress; test joints whose "
+                      "stiffness is per area, with --joint",
+                      p.name));
+  return names.empty() ? all : some;
+}
+
+std::string table(const std::vector<JointTest>& tests) {
+  std::string text =
+      "joint,test_stress_Pa,overlap_m,slip_m,normal_stress_Pa,shear_stress_Pa,normal_stiffness_Pa_per_m,"
+      "shear_stiffness_Pa_per_m,plastic_slip_m,friction_coefficient,elastic_J_per_m2,dissipated_J_per_m2,"
+      "stiffening_J_per_m2,bonded,snap_back\n";
+  for (const JointTest& test : tests)
+    for (const JointPathPoint& p : test.points)
+      text +=
+          fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(test.name), test.stress, p.overlap,
+                      p.slip, p.normal_stress, p.shear_stress, p.normal_stiffness, p.shear_stiffness, p.plastic_slip,
+                      p.friction, p.elastic, p.dissipated, p.stiffening, p.bonded ? 1 : 0, p.snap_back ? 1 : 0);
+  return text;
+}
+
+std::string gnuplot_text(std::string text) {
+  for (const char bad : {'\'', '\\', '\n'})
+    std::replace(text.begin(), text.end(), bad, ' ');
+  return text;
+}
+
+std::string figure(const std::vector<JointTest>& tests, bool normal) {
+  std::string text =
+      "# gnuplot joint_test.gp\nset terminal svg size 760,460 background rgb 'white' font 'sans,13'\n"
+      "set output 'joint_test.svg'\nset datafile separator comma\nset key outside right noenhanced\nset grid\n";
+  text += normal ? "set xlabel 'closure u_n (µm)'\nset ylabel 'normal stress (MPa)'\nplot "
+                 : "set xlabel 'slip u_s (mm)'\nset ylabel 'shear stress (MPa)'\nplot ";
+  for (const JointTest& test : tests)
+    text += fmt::format(
+        "{}'joint_test.csv' every ::1 using ((strcol(1) eq '{}' && $2 == {} {}) ? ${} * {} : NaN):(${} * 1e-6) with "
+        "lines lw 2 title '{}, {:g} MPa'",
+        &test == tests.data() ? "" : ", \\\n     ", gnuplot_text(test.name), test.stress,
+        normal ? "" : "&& ($4 != 0 || $6 == 0)", normal ? 3 : 4, normal ? "1e6" : "1e3", normal ? 5 : 6,
+        gnuplot_text(test.name), test.stress * 1e-6);
+  return text + "\n";
+}
+
+// the figure is a help, the table is the result: without gnuplot one line says how to draw it
+void draw(const fs::path& folder) {
+  const std::string place = fs::absolute(folder).string();
+  const bool quotable = place.find('\'') == std::string::npos;
+  const bool drawn =
+      quotable && std::system(("cd '" + place + "' && gnuplot joint_test.gp >/dev/null 2>&1").c_str()) == 0;
+  if (!drawn) tell("voussoir: gnuplot did not draw; the figure's script is {}\n", (folder / "joint_test.gp").string());
+}
+
+}  // namespace
+
+ExitCode joint_test_command(const JointTestArguments& arguments) {
+  const Scene scene = read_scene(arguments.scene.scene, arguments.scene.overrides);
+  std::vector<double> stresses = arguments.stresses;
+  if (stresses.empty()) stresses.assign(std::begin(usual_stresses), std::end(usual_stresses));
+  std::vector<JointTest> tests;
+  for (const JointProperties& p : chosen(scene, arguments.properties))
+    for (const double stress : stresses)
+      tests.push_back({p.name, stress, follow(p, path_of(arguments, stress))});
+
+  const fs::path folder = !arguments.out.empty()
+                              ? arguments.out
+                              : fs::path("results") / (arguments.scene.scene.stem().string() + "_joint_test");
+  const FolderLock lock(folder);
+  if (!arguments.overwrite &&
+      (holds_results(folder) || holds_unfinished_run(folder) || fs::exists(folder / "joint_test.csv")))
+    throw BadInput(
+        fmt::format("'{}' holds results: choose another folder with --out, or add --overwrite", folder.string()));
+  write_file(folder / "joint_test.csv", table(tests));
+  write_file(folder / "joint_test.gp", figure(tests, arguments.path == "normal"));
+  draw(folder);
+
+  fmt::print("{:<16} {:>12} {:>14} {:>14} {:>14} {:>14}\n", "joint", "test MPa", "closure µm", "normal MPa",
+             "peak shear MPa", "last shear MPa");
+  long long snapped = 0;
+  for (const JointTest& test : tests) {
+    double peak = 0;
+    for (const JointPathPoint& p : test.points) {
+      peak = std::max(peak, p.shear_stress);
+      snapped += p.snap_back ? 1 : 0;
+    }
+    const JointPathPoint& last = test.points.back();
+    fmt::print("{:<16} {:>12.4g} {:>14.4g} {:>14.4g} {:>14.4g} {:>14.4g}\n", test.name, test.stress * 1e-6,
+               last.overlap * 1e6, last.normal_stress * 1e-6, peak * 1e-6, last.shear_stress * 1e-6);
+  }
+  if (snapped > 0)
+    tell(
+        "voussoir: warning: {} steps snap back: friction falls faster than the shear spring unloads, so that a stiffer "
+        "spring or a longer softening_slip_m is needed for a curve that a test could follow\n",
+        snapped);
+  fmt::print("table and figure: {}\n", folder.string());
+  return ExitCode::done;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,23 @@
+// What a run of a study found: the quantity that the plan asks for, and what it cost.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/commands/study_plan.hpp"
+#include "core/results.hpp"
+
+namespace voussoir {
+
+struct RunFound {
+  std::optional<Value> result = {};
+  std::string status = "ok";  // or why there is no result
+  long long contact_evaluations = 0, steps = 0;
+  double seconds = 0;
+};
+
+// reads results.json, and history.csv where the plan takes the quantity from there
+RunFound found_in(const std::filesystem::path& folder, const StudyPlan& plan);
+
+}  // namespace voussoir

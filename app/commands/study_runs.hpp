@@ -1,0 +1,34 @@
+// The runs of a study: each in a process and a folder of its own, several at a time, kept for the next time.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace voussoir {
+
+struct StudyRun {
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;
+  std::string name;  // of its folder: tells scene and program apart from all others; equal runs share one
+};
+
+struct RunsConduct {
+  std::filesystem::path folder;  // holds a folder for every run
+  int jobs = 1;                  // at the same time
+  int threads = 1;               // of each run
+  double time_limit = 0;         // s of wall clock for each run; 0: none
+  bool quiet = false;
+};
+
+struct RunsEnded {
+  std::vector<std::string> failures;  // for every run why it has no results; empty where it has
+  int runs = 0, kept = 0;             // different ones, and how many of these were there before
+  bool interrupted = false;           // by a signal: what is done is kept, what was going on has a checkpoint
+};
+
+// Does what is not done yet and forgets folders of other runs. A failure is repeated at the next call, a run that was
+// interrupted goes on from its checkpoint.
+RunsEnded carry_out_runs(const std::vector<StudyRun>& runs, const RunsConduct& conduct);
+
+}  // namespace voussoir

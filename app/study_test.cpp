@@ -1,0 +1,215 @@
+// `voussoir study` as its users meet it: settings in, study.csv out, whatever happens to single runs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/testing/program.hpp"
+
+namespace voussoir {
+namespace {
+
+using namespace program;
+
+const char* const plan = R"(
+scene = "scene.toml"
+quantity = "top_displacement_z"
+[[sweep]]
+name = "stiffness"
+key = "joint_properties.rock.normal_stiffness"
+values = [1e8, 2e8]
+unit = "Pa/m"
+extrapolate = { power = 1 }
+)";
+
+class Study : public Program {
+ protected:
+  Study() { write("scene.toml", read(scenes / "two_cubes.toml")); }
+  std::vector<std::string> rows(const std::string& out = "out") const {
+    return lines_of(read(folder_ / out / "study.csv"));
+  }
+  // all but the seconds, which come last
+  std::string without_seconds(const std::string& out) const {
+    std::string text;
+    for (const std::string& row : rows(out))
+      text += row.substr(0, row.rfind(',')) + "\n";
+    return text;
+  }
+};
+
+TEST_F(Study, HasARowForEverySetting) {
+  write("study.toml", plan);
+  const Ended ended = run("study study.toml --out out");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.err, "") << "no progress where nobody watches";
+  EXPECT_NE(ended.out.find("4 settings, 0 failed: out/study.csv\n2 different runs, 0 of them kept from before\n"),
+            std::string::npos)
+      << ended.out;
+  const std::vector<std::string> rows = this->rows();
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(rows[0],
+            "sweep,key,value,unit,quantity,result,error_bar,result_unit,status,contact_evaluations,steps,seconds");
+  EXPECT_EQ(rows[1].find("default,,,,top_displacement_z,-0.0001999"), 0u) << rows[1];
+  EXPECT_EQ(
+      rows[2].find("stiffness,joint_properties.rock.normal_stiffness,100000000,Pa/m,top_displacement_z,-0.0001999"), 0u)
+      << rows[2];
+  EXPECT_NE(rows[3].find(",m,ok,"), std::string::npos);
+
+  // through (1, -2) and (2, -1): -3 at zero
+  EXPECT_NE(rows[4].find("extrapolated 100000000->200000000,Pa/m,top_displacement_z,-0.000"), std::string::npos)
+      << rows[4];
+  std::istringstream cells(rows[4]);
+  std::string cell;
+  for (int k = 0; k < 6; ++k)
+    std::getline(cells, cell, ',');
+  EXPECT_NEAR(std::stod(cell), -3e-4, 1e-8);
+}
+
+TEST_F(Study, AsManyJobsAsWantedGiveTheSameBytes) {
+  write("study.toml", R"(
+scene = "scene.toml"
+quantity = "top_displacement_z"
+[[sweep]]
+name = "stiffness"
+key = "joint_properties.rock.normal_stiffness"
+values = [1e8, 2e8, 4e8, 3e8]
+[[sweep]]
+name = "damping"
+key = "damping.statics"
+values = ["local", "adaptive"]
+)");
+  ASSERT_EQ(run("study study.toml --out one --jobs 1").code, 0);
+  ASSERT_EQ(run("study study.toml --out four --jobs 4 --threads 2").code, 0);
+  EXPECT_EQ(without_seconds("one"), without_seconds("four"));
+  EXPECT_EQ(rows("one").size(), 8u);
+}
+
+TEST_F(Study, KeepsWhatIsDone) {
+  const auto kept = [&](int different, int before) {
+    const Ended ended = run("study study.toml --out out --jobs 2");
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    const std::string wanted = fmt::format("{} different runs, {} of them kept from before", different, before);
+    EXPECT_NE(ended.out.find(wanted), std::string::npos) << wanted << "\n" << ended.out;
+  };
+  std::string text = plan;
+  write("study.toml", text);
+  kept(2, 0);
+  const std::string first = read(folder_ / "out/study.csv");
+  kept(2, 2);
+  EXPECT_EQ(read(folder_ / "out/study.csv"), first) << "seconds and all";
+
+  // another value is another run; the one that nobody asks for any more is forgotten
+  text.replace(text.find("2e8"), 3, "3e8");
+  write("study.toml", text);
+  kept(2, 1);
+  const auto folders = std::distance(fs::directory_iterator(folder_ / "out/runs"), fs::directory_iterator());
+  EXPECT_EQ(folders, 2);
+
+  // a comment changes nothing, a number of the scene everything
+  const std::string scene = read(folder_ / "scene.toml");
+  write("scene.toml", scene + "# no more\n");
+  kept(2, 2);
+  ASSERT_NE(scene.find("density = 2000"), std::string::npos);
+  std::string denser = scene;
+  denser.replace(denser.find("density = 2000"), 14, "density = 2001");
+  write("scene.toml", denser);
+  kept(2, 0);
+
+  // a run without its results is done again
+  fs::remove(fs::directory_iterator(folder_ / "out/runs")->path() / "results.json");
+  kept(2, 1);
+}
+
+TEST_F(Study, AFailedSettingIsARowToo) {
+  write("study.toml", R"(
+scene = "scene.toml"
+quantity = "top_displacement_z"
+[[sweep]]
+name = "patience"
+key = "stage.settle.step_limit"
+values = [5, 100000]
+set = ["damping.local=0.6"]
+)");
+  const Ended ended = run("study study.toml --out out");
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_NE(ended.out.find("failed: patience: stage.settle.step_limit = 5: incomplete: stage settle"),
+            std::string::npos)
+      << ended.out;
+  ASSERT_EQ(rows().size(), 4u);
+  EXPECT_NE(rows()[2].find("top_displacement_z,,,,"), std::string::npos) << rows()[2];
+  EXPECT_NE(rows()[2].find("incomplete: stage settle"), std::string::npos) << rows()[2];
+  EXPECT_NE(rows()[3].find(",ok,"), std::string::npos) << rows()[3];
+}
+
+TEST_F(Study, TakesAQuantityOutOfTheHistory) {
+  std::string text = plan;
+  text.replace(text.find("[[sweep]]"), 0,
+               "history = { column = \"top_displacement_z_m\", take = \"smallest\", unit = \"m\" }\n");
+  write("study.toml", text);
+  ASSERT_EQ(run("study study.toml --out out").code, 0);
+  EXPECT_NE(rows()[1].find(",top_displacement_z,-0.000"), std::string::npos) << rows()[1];
+  EXPECT_NE(rows()[1].find(",m,ok,"), std::string::npos) << rows()[1];
+
+  text.replace(text.find("_z_m"), 4, "_w_m");
+  write("study.toml", text);
+  const Ended ended = run("study study.toml --out out");
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_NE(ended.out.find("no column top_displacement_w_m with numbers"), std::string::npos) << ended.out;
+}
+
+// the first never rests; what ends it must not end the others
+const char* const endless = R"(
+scene = "scene.toml"
+quantity = "top_displacement_z"
+[[sweep]]
+name = "rest"
+key = "stage.settle.gravity_ramp_s"
+values = [1e8, 0]
+set = ["stage.settle.step_limit=1000000000000", "damping.statics=local"]
+)";
+
+TEST_F(Study, ARunThatHangsLosesOneSetting) {
+  write("study.toml", endless);
+  const Ended ended = run("study study.toml --out out --jobs 2 --time-limit 0.7");
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  ASSERT_EQ(rows().size(), 4u);
+  EXPECT_NE(rows()[2].find("not done after 0.7 s"), std::string::npos) << rows()[2];
+  const auto has_checkpoint = [](const fs::directory_entry& entry) { return fs::exists(entry.path() / "checkpoint"); };
+  const fs::directory_iterator runs(folder_ / "out/runs");
+  EXPECT_EQ(std::count_if(runs, {}, has_checkpoint), 1) << "with more time it would go on from there";
+  EXPECT_NE(rows()[3].find(",ok,"), std::string::npos) << rows()[3];
+}
+
+TEST_F(Study, ARunThatIsKilledLosesOneSetting) {
+  write("study.toml", endless);
+  // the processor time that each process may take
+  const Ended ended = run("study study.toml --out out --jobs 2", "ulimit -t 1 && ");
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  ASSERT_EQ(rows().size(), 4u);
+  EXPECT_NE(rows()[2].find("ended by signal"), std::string::npos) << rows()[2];
+  EXPECT_NE(rows()[3].find(",ok,"), std::string::npos) << rows()[3];
+}
+
+TEST_F(Study, IsReadStrictly) {
+  const std::pair<std::string, std::string> edits[] = {
+      {"unit", "units"},
+      {"values = [1e8, 2e8]", "values = 3"},
+      {"power = 1", "power = 0"},
+      {"[[sweep]]", "[sweep]"},
+      {"\"joint_properties.rock.normal_stiffness\"", "\"joint_properties.rock.stiffness\""},
+      {"values = [1e8, 2e8]", "values = [1e8, -2e8]"},
+      {"[[sweep]]", "history = { column = \"x\", take = \"mean\", unit = \"m\" }\n[[sweep]]"},
+      {"\"scene.toml\"", "\"no.toml\""}};
+  for (const auto& [from, to] : edits) {
+    std::string text = plan;
+    text.replace(text.find(from), from.size(), to);
+    write("study.toml", text);
+    const Ended ended = run("study study.toml --out out");
+    expect_one_line(ended, 2, "");
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << to;
+  }
+  write("study.toml", "scene = \"scene.toml\"\nquantity = \"x\"\nswep = []\n");
+  expect_one_line(run("study study.toml --out out"), 2, "study.toml:3: swep = []: no such key; did you mean 'sweep'?");
+}
+
+}  // namespace
+}  // namespace voussoir

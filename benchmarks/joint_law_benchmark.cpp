@@ -1,0 +1,153 @@
+// What the joint laws cost: plain Coulomb as the core applies it, every other law, and a loop written by hand that
+// knows nothing but plain Coulomb. With `--count <way> <calls>` it only does the work, for price_of_laws.sh, which
+// counts instructions.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "core/law/elastic_coulomb.hpp"
+#include "core/stages.hpp"
+#include "core/step.hpp"
+#include "core/testing/models.hpp"
+
+namespace voussoir {
+namespace {
+
+struct Scene {
+  Model<3> model;
+  Settings settings;
+  State<3> state;
+};
+
+// a jointed box that has settled for a while under its own weight
+Scene settled(const JointProperties& properties) {
+  Scene scene;
+  scene.model = shapes::model_of<3>(shapes::jointed_box());
+  scene.model.properties = {properties};
+  scene.state = initial_state(scene.model);
+  for (int i = 0; i < 400; ++i)
+    step(scene.model, scene.settings, scene.state);
+  return scene;
+}
+
+JointProperties plain() {
+  return {"joint", 1e9, 5e8, 35 * shapes::degree, false};
+}
+
+std::map<std::string, JointProperties> ways() {
+  std::map<std::string, JointProperties> all;
+  all["plain"] = plain();
+  JointProperties p = plain();
+  p.sub_contacts = 2;
+  all["sub_contacts_2x2"] = p;
+  p = plain();
+  p.laws = linear_normal | linear_shear;
+  p.normal_growth = p.shear_growth = 1e4;
+  all["linear_stiffness"] = p;
+  p = plain();
+  p.laws = power_normal | power_shear;
+  p.normal_stiffness = 2e6;
+  p.shear_stiffness = 2e6;
+  p.normal_exponent = 0.5;
+  p.shear_exponent = 0.5;
+  all["power_stiffness"] = p;
+  p = plain();
+  p.laws = hardening;
+  p.hardening_slip = 1e-6;
+  p.hardening_exponent = 0.2;
+  all["hardening"] = p;
+  p = plain();
+  p.laws = softening;
+  p.softening_drop = 0.3;
+  p.softening_slip = 1e-3;
+  all["softening"] = p;
+  p = plain();
+  p.laws = tension_bond | cohesion_bond;
+  p.tension = 1e5;
+  p.cohesion = 1e6;
+  all["bonds"] = p;
+  return all;
+}
+
+// Plain Coulomb and nothing else, one point a contact: the same sums as core/joint_laws.cpp for this case, with the
+// same ledger.
+void by_hand(const Model<3>& model, State<3>& state) {
+  state.energy.elastic = 0;
+  const double dt = state.time_step;
+  for (Contact<3>& c : state.contacts) {
+    if (!c.touching()) continue;
+    const JointProperties& p = model.properties[c.properties];
+    const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
+    const Vector<3> spin_a = angular_velocity(model.bodies[a], state.motions[a]);
+    const Vector<3> spin_b = angular_velocity(model.bodies[b], state.motions[b]);
+    const Vector<3>& n = c.geometry.normal;
+    const Vector<3> velocity = state.motions[b].velocity +
+                               spin_b.cross(c.geometry.point - between(model, state, a, b)) -
+                               state.motions[a].velocity - spin_a.cross(c.geometry.point);
+    JointKinematics<3> k;
+    k.normal = n;
+    k.overlap = c.geometry.overlap;
+    k.area = c.geometry.area;
+    k.closing_speed = -velocity.dot(n);
+    k.slip.setZero();
+    if (!c.history.normal.isZero(0)) {
+      k.slip = (velocity + k.closing_speed * n) * dt;
+      k.turn = 0.5 * n.dot(spin_a + spin_b) * dt;
+      if (k.area < c.history.area) {
+        const double left = k.area / c.history.area, stiffness = p.shear_stiffness * c.history.area;
+        if (stiffness > 0)
+          state.energy.flows.friction += 0.5 * c.history.shear_force.squaredNorm() / stiffness * (1 - left);
+        c.history.shear_force *= left;
+      }
+      c.history.shear_force = carried(c.history.shear_force, c.history.normal, n, k.turn);
+    }
+    const JointForce<3> answer =
+        elastic_coulomb<3>(p, state.schedule.friction[c.properties], 0, k, c.history.shear_force);
+    state.energy.elastic += answer.elastic;
+    state.energy.flows.friction += answer.friction;
+    c.history.plastic_slip += answer.plastic_slip;
+    c.history.normal = n;
+    c.history.area = k.area;
+    c.force = answer.force;
+  }
+}
+
+void run(const std::string& way, benchmark::State& bench) {
+  const bool hand = way == "by_hand";
+  Scene scene = settled(hand ? plain() : ways().at(way));
+  for (auto _ : bench)
+    hand ? by_hand(scene.model, scene.state) : apply_joint_laws(scene.model, scene.settings, scene.state);
+  int touching = 0;
+  for (const Contact<3>& c : scene.state.contacts)
+    touching += c.touching();
+  bench.counters["contacts"] = touching;
+  bench.counters["ns_per_contact"] =
+      benchmark::Counter(touching, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+int count(const std::string& way, int calls) {
+  const bool hand = way == "by_hand";
+  if (!hand && !ways().contains(way)) return 2;
+  Scene scene = settled(hand ? plain() : ways().at(way));
+  for (int i = 0; i < calls; ++i)
+    hand ? by_hand(scene.model, scene.state) : apply_joint_laws(scene.model, scene.settings, scene.state);
+  return 0;
+}
+
+}  // namespace
+}  // namespace voussoir
+
+int main(int argument_count, char** arguments) {
+  using namespace voussoir;
+  if (argument_count == 4 && std::string(arguments[1]) == "--count")
+    return count(arguments[2], std::atoi(arguments[3]));
+  benchmark::RegisterBenchmark("joint_laws/by_hand", [](benchmark::State& s) { run("by_hand", s); });
+  for (const auto& [way, properties] : ways())
+    benchmark::RegisterBenchmark(("joint_laws/" + way).c_str(), [way = way](benchmark::State& s) { run(way, s); });
+  benchmark::Initialize(&argument_count, arguments);
+  benchmark::RunSpecifiedBenchmarks();
+}

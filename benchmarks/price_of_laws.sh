@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# price_of_laws.sh [build]: instructions per contact that the existence of the other joint laws costs a scene of plain
+# Coulomb joints, against a loop written by hand, and those of each law. Counted, so that any machine gives the same;
+# needs valgrind. The set-up is counted out by two numbers of calls.
+set -euo pipefail
+build=${1:-build}
+program=$build/benchmarks/bench_joint_law
+calls=200
+count() {
+  valgrind --tool=callgrind --callgrind-out-file=/dev/null "$program" --count "$1" "$2" 2>&1 |
+    sed -n 's/.*Collected : *\([0-9]*\).*/\1/p'
+}
+contacts=$("$program" --benchmark_filter=by_hand --benchmark_min_time=0.01 2>/dev/null |
+  sed -n 's/.*contacts=\([0-9.k]*\).*/\1/p' | head -1)
+echo "contacts: $contacts"
+printf '%-20s %14s %10s\n' way instructions ratio
+for way in by_hand plain sub_contacts_2x2 linear_stiffness power_stiffness hardening softening bonds; do
+  few=$(count $way 1) many=$(count $way $((calls + 1)))
+  each=$(((many - few) / calls))
+  [ $way = by_hand ] && hand=$each
+  printf '%-20s %14d %10.4f\n' $way $each "$(echo "$each / $hand" | bc -l)"
+done

@@ -1,0 +1,169 @@
+// Block on an incline: the mode map of sliding and toppling, on both sides of each of its borders.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "cases/case_tools.hpp"
+#include "reference/small/toppling.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using reference::BlockMode;
+using reference::InclinedBlock;
+using verification::CaseReport;
+using verification::Kind;
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+// as the scenes state it
+constexpr double breadth = 1, height = 2, weight = 2500 * 9.81 * breadth * height, stiffness = 100e9;
+
+// What counts as moved. A hinge gives by T/(k_s a) = 0.07 mm at most while the block turns by 0.1 rad, where the start
+// ends; at rest it turns by 0.002 rad.
+constexpr double slid = 2e-4, turned = 0.02, started = 0.1;  // m, rad, rad
+
+struct Point {
+  double slope, friction;  // deg
+};
+
+struct Variant {
+  std::string scene, name, test;
+  int dimension;
+};
+
+void PrintTo(const Variant& v, std::ostream* out) {
+  *out << v.name;
+}
+
+std::string text(double number) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%.15g", number);
+  return buffer;
+}
+
+// deg: the slope, or where it slides the friction angle, at which the block overturns on its elastic joint
+double overturns_at(double slope_deg) {
+  return degrees * reference::overturning_angle(breadth, height, weight * std::cos(slope_deg / degrees), stiffness);
+}
+
+// two points on either side of each of the four borders, and one far inside each region
+std::vector<Point> points() {
+  constexpr double apart = 0.3, steep = 35;  // deg
+  const double flat = 20, overturns = overturns_at(26), sliding = overturns_at(steep);
+  const double both = degrees * reference::least_toppling_friction({breadth, height, steep / degrees, 0});
+  return {{flat, flat + apart},
+          {flat, flat - apart},
+          {overturns - apart, 40},
+          {overturns + apart, 40},
+          {steep, sliding - apart},
+          {steep, sliding + apart},
+          {steep, both - apart},
+          {steep, both + apart},
+          {10, 35},
+          {30, 15},
+          {40, 50},
+          {42, 29}};
+}
+
+// the reference's mode, on elastic joints: the borders of overturning lie where the joint puts them
+BlockMode expected_mode(const Point& p) {
+  const InclinedBlock block{breadth, height, p.slope / degrees, p.friction / degrees};
+  const double overturns = overturns_at(p.slope);
+  if (std::min(p.slope, p.friction) < overturns) return p.slope < p.friction ? BlockMode::stays : BlockMode::slides;
+  // between the elastic border and the rigid one all friction angles above the border hold the block's foot
+  if (std::tan(block.slope) <= breadth / height) return BlockMode::topples;
+  return block.friction_angle < reference::least_toppling_friction(block) ? BlockMode::slides_and_topples
+                                                                          : BlockMode::topples;
+}
+
+// how the lower corner and the block have moved when the start is over
+struct Start {
+  double slip = 0, turn = 0;  // m down the plane, rad down the slope
+  SceneRun run;
+
+  BlockMode mode() const {
+    if (slip > slid) return turn > turned ? BlockMode::slides_and_topples : BlockMode::slides;
+    return turn > turned ? BlockMode::topples : BlockMode::stays;
+  }
+};
+
+Start start(const Variant& v, const Point& p) {
+  const double along = 9.81 * std::sin(p.slope / degrees), into = -9.81 * std::cos(p.slope / degrees);
+  const std::string middle = v.dimension == 3 ? ", 0, " : ", ";
+  Start start;
+  start.run = run(v.scene, {"gravity=[" + text(along) + middle + text(into) + "]",
+                            "joint_properties.rock.friction_deg=" + text(p.friction)});
+  const std::vector<double> moved = column(start.run, "column_displacement_x_m");
+  const std::vector<double> turn =
+      column(start.run, v.dimension == 3 ? "column_rotation_y_deg" : "column_rotation_deg");
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    start.turn = (v.dimension == 3 ? 1 : -1) * turn[i] / degrees;
+    // of the lower corner, breadth/2 down the slope and height/2 below the centroid
+    start.slip = moved[i] + 0.5 * breadth * (std::cos(start.turn) - 1) - 0.5 * height * std::sin(start.turn);
+    if (start.turn > started) break;
+  }
+  return start;
+}
+
+class Toppling : public testing::TestWithParam<Variant> {};
+
+TEST_P(Toppling, HasTheModesOfTheMap) {
+  const Variant& v = GetParam();
+  CaseReport report("toppling");
+  std::map<BlockMode, std::vector<std::vector<double>>> found;
+  for (const Point& p : points()) {
+    const BlockMode expected = expected_mode(p);
+    const Start moved = start(v, p);
+    char where[60];
+    std::snprintf(where, sizeof where, "slope %.2f, friction %.2f: ", p.slope, p.friction);
+    report.record({where + std::string(name_of(expected)) + ", " + v.name,
+                   "1",
+                   Kind::exact,
+                   "Sagaseta (1986), with the border of overturning on an elastic joint",
+                   static_cast<double>(expected),
+                   {0, 0},
+                   "the number of the mode: 0 stays, 1 slides, 2 topples, 3 both"},
+                  static_cast<double>(moved.mode()), cost(moved.run));
+    std::vector<std::vector<double>>& columns = found[moved.mode()];
+    columns.resize(2);
+    columns[0].push_back(p.slope);
+    columns[1].push_back(p.friction);
+  }
+  if (v.dimension == 3) return;
+  for (const auto& [mode, columns] : found)
+    write_csv("toppling", "mode_" + std::to_string(static_cast<int>(mode)) + ".csv", {"slope_deg", "friction_deg"},
+              columns);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, Toppling,
+                         testing::Values(Variant{"plane.toml", "2-D", "Plane", 2},
+                                         Variant{"scene.toml", "3-D", "Space", 3}),
+                         [](const auto& chosen) { return chosen.param.test; });
+
+// What the map says of points where statics says something else: inertia shares in the balance.
+TEST(TopplingMap, IsNotThatOfStatics) {
+  std::vector<double> slope, least;
+  const double rigid = degrees * std::atan(breadth / height), end = 50;
+  for (int i = 0; i <= 100; ++i) {
+    slope.push_back(rigid + 1e-9 + (end - rigid) * i / 100);
+    least.push_back(degrees * reference::least_toppling_friction({breadth, height, slope.back() / degrees, 0}));
+  }
+  write_csv("toppling", "toppling_alone.csv", {"slope_deg", "friction_deg", "rigid_deg"},
+            {slope, least, std::vector<double>(slope.size(), rigid)});
+  CaseReport report("toppling");
+  const double elastic = overturns_at(26);
+  report.report("slope that overturns the block on its elastic joint", "deg", elastic,
+                "26.565 for a rigid block; the points stand on either side of the elastic border");
+  int apart = 0;
+  for (const Point& p : points()) {
+    const InclinedBlock block{breadth, height, p.slope / degrees, p.friction / degrees};
+    apart += block_mode(block) != block_mode_of_statics(block);
+  }
+  EXPECT_GE(apart, 2) << "the points tell the two maps apart";
+}
+
+}  // namespace
+}  // namespace voussoir::cases

@@ -1,0 +1,58 @@
+// Joint laws beyond the plain one (Boon 2013, Eqs 4.10-4.18, 6.3-6.7, App. F; decisions in method.md section 4):
+// stiffness that depends on the normal stress, strength in tension and cohesion with brittle loss, friction that
+// hardens or softens with slip. The table of scene keys (scene/keys.cpp) repeats parameters and equations for users.
+#pragma once
+
+#include "core/law/elastic_coulomb.hpp"
+
+namespace voussoir {
+
+// what a joint remembers beside its shear force
+struct JointMemory {
+  double plastic_slip = 0;     // m, accumulated: β
+  double shear_stiffness = 0;  // Pa/m, of the step before; 0 at first
+  bool bonded = false;         // tension and cohesion are intact, both or neither
+};
+
+struct NormalAnswer {
+  double stress = 0;     // Pa, compression positive
+  double stiffness = 0;  // Pa/m, tangent
+  double energy = 0;     // J/m², ∫σ du from no stress
+};
+
+// Stress of a joint closed by `overlap`, m, >= 0. A tensile strength σt shifts the origin to δ0 = σt/kn, where it
+// stays: the stress reaches -σt as the overlap reaches 0, and without a bond there is none below δ0 (Eqs 6.5, 6.6).
+//   constant  σ = kn u
+//   linear    σ = (k0/c)(e^(c u) - 1)                 integral of dσ/du = k0 + c σ        (Eqs 4.10, 4.12)
+//   power     σ = ((1-m) k1 u)^(1/(1-m))              integral of dσ/du = k1 (σ/1 Pa)^m   (Eq. 4.13)
+NormalAnswer normal_answer(const JointProperties& properties, double overlap, bool bonded);
+
+// the overlap, m, at a compressive stress, Pa
+double overlap_at(const JointProperties& properties, double stress);
+
+// Pa/m at a normal stress, Pa; none at all under tension where it is a power of the stress (Eqs 4.11, 4.17)
+double shear_stiffness_at(const JointProperties& properties, double stress);
+
+// tan φ after a plastic slip `slip`, m, under a normal stress, Pa, where `friction`, rad, is the joint's own
+// (Eqs 4.16, 4.18, 6.7), and its derivative, 1/m
+struct FrictionAnswer {
+  double coefficient = 0, slope = 0;
+};
+FrictionAnswer friction_answer(const JointProperties& properties, double friction, double slip, double stress);
+
+// The plastic slip p of a return to the cone: trial - K p = μ(β + p) N, within [0, trial/K], where the left side less
+// the right goes from positive to not positive. Hardening makes that difference convex, softening concave: one root
+// either way, to which Newton's method runs from one side. Needs K > 0 and trial > μ(β) N.
+struct SlipReturn {
+  double slip = 0;         // m
+  bool snap_back = false;  // friction fell faster than the spring unloads, N |μ'| > K: no quasi-static path leads here
+};
+SlipReturn return_to_cone(const JointProperties& properties, double friction, const JointMemory& memory, double trial,
+                          double stiffness, double normal_force, double stress);
+
+// As elastic_coulomb, for a joint with any laws; stiffness per area only.
+template <int Dim>
+JointForce<Dim> joint_law(const JointProperties& properties, double friction, double dashpot,
+                          const JointKinematics<Dim>& kinematics, Vector<Dim>& shear, JointMemory& memory);
+
+}  // namespace voussoir

@@ -1,0 +1,103 @@
+#include "reference/arch/arch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace voussoir::reference {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+TEST(RigidArch, IsMilankovitchsForManyVoussoirs) {
+  // 0.1075 is rounded to four digits; 1000 voussoirs are within 1e-6 of infinitely many
+  EXPECT_NEAR(minimum_thickness({1000, 1, 1}), 0.1075, 5e-5);
+  EXPECT_NEAR(minimum_thickness({1000, 1, 1}), minimum_thickness({500, 1, 1}), 1e-5);
+}
+
+// Five hinges: outside at the crown, inside at `haunch`, outside at the springing. The half arch turns about its ends:
+// moments about them leave one equation for the thickness. Weights and centroids from the corners.
+double five_hinge_misfit(const Arch& arch, double thickness, int haunch) {
+  const double inside = arch.radius - 0.5 * thickness, outside = arch.radius + 0.5 * thickness;
+  double weight = 0, moment = 0, weight_above = 0, moment_above = 0;
+  for (int k = arch.voussoirs / 2; k < arch.voussoirs; ++k) {
+    const std::vector<Corner> c = voussoir_corners(arch, thickness, k);
+    double area = 0, first = 0;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      const Corner &p = c[i], &q = c[(i + 1) % c.size()];
+      area += 0.5 * (p.x * q.y - q.x * p.y);
+      first += (p.x + q.x) * (p.x * q.y - q.x * p.y) / 6;
+    }
+    weight += arch.weight * area;
+    moment += arch.weight * first;
+    if (k - arch.voussoirs / 2 < haunch) weight_above = weight, moment_above = moment;
+  }
+  const double angle = haunch * pi / arch.voussoirs;
+  // about the springing's outer end, (outside, 0): the thrust acts at the height `outside`
+  const double thrust = (weight * outside - moment) / outside;
+  return thrust * (outside - inside * std::cos(angle)) - (weight_above * inside * std::sin(angle) - moment_above);
+}
+
+TEST(RigidArch, StandsOnFiveHinges) {
+  const Arch arch{10, 3, 7};
+  const double thickness = minimum_thickness(arch);
+  const double scale = arch.weight * std::pow(arch.radius, 3);
+  EXPECT_NEAR(five_hinge_misfit(arch, thickness, 3) / scale, 0, 1e-12);  // the joint at 54 degrees
+  EXPECT_GT(std::abs(five_hinge_misfit(arch, 1.001 * thickness, 3)) / scale, 1e-6);
+}
+
+TEST(RigidArch, HoldsItsThrustLineWhenThick) {
+  const Arch arch{15, 5, 1};
+  const double least = minimum_thickness(arch);
+  EXPECT_GT(best_thrust_line(arch, 1.01 * least).margin, 0);
+  EXPECT_LT(best_thrust_line(arch, 0.99 * least).margin, 0);
+  EXPECT_NEAR(minimum_thickness({15, 50, 3}), 10 * least, 1e-10);
+}
+
+TEST(ElasticArch, IsTheRigidOneOnHardJoints) {
+  const Arch arch{11, 5, 25e3};
+  const double rigid = minimum_thickness(arch);
+  double last = 0;
+  for (const double stiffness : {1e12, 1e13, 1e14}) {
+    const double added = thinnest_elastic_arch(arch, {stiffness, stiffness}).thickness / rigid - 1;
+    EXPECT_GT(added, 0);
+    // a tenth of the stiffness adds 10^(1/3) as much, and the next power of it a share like what is added
+    if (last > 0) {
+      EXPECT_NEAR(last / added, std::cbrt(10.0), 2 * last * std::cbrt(10.0));
+    }
+    last = added;
+  }
+}
+
+TEST(ElasticArch, KnowsOnlyWeightOverStiffness) {
+  const ElasticArch one = thinnest_elastic_arch({15, 5, 25e3}, {1e11, 1e11}),
+                    other = thinnest_elastic_arch({15, 0.7, 50e3}, {2e11, 2e11});
+  EXPECT_NEAR(one.thickness / 5, other.thickness / 0.7, 1e-10);
+  EXPECT_NEAR(one.drop / 5, other.drop / 0.7, 1e-6);  // the thickness hardly depends on it there
+}
+
+TEST(ElasticArch, HasTheThrustOfTheRigidOne) {
+  const Arch arch{15, 5, 25e3};
+  const ElasticArch limit = thinnest_elastic_arch(arch, {1e14, 1e14});
+  const ThrustLine line = best_thrust_line(arch, minimum_thickness(arch));
+  EXPECT_NEAR(limit.thrust / line.thrust, 1, 0.005);  // 0.44 % thicker, of which its hinges press as much
+  for (std::size_t k = 0; k < line.radius.size(); ++k)
+    EXPECT_NEAR(limit.crossing[k], line.radius[line.radius.size() - 1 - k] - arch.radius, 0.005 * limit.thickness);
+}
+
+TEST(ElasticArch, StandsOnTheStableSideOnly) {
+  const Arch arch{15, 5, 25e3};
+  const ArchJoints joints{1e11, 1e11};
+  const ElasticArch limit = thinnest_elastic_arch(arch, joints);
+  const ElasticArch thicker = elastic_arch(arch, joints, 1.01 * limit.thickness);
+  EXPECT_NEAR(thicker.thickness, 1.01 * limit.thickness, 1e-10);
+  EXPECT_LT(thicker.drop, limit.drop);
+  EXPECT_THROW(elastic_arch(arch, joints, 0.99 * limit.thickness), std::runtime_error);
+  EXPECT_THROW(elastic_arch_path({10, 5, 25e3}, joints), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace voussoir::reference

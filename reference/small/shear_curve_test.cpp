@@ -1,0 +1,38 @@
+#include "reference/small/shear_curve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace voussoir::reference;
+
+namespace {
+
+const ShearCurve curve{2e6, 5e10, 0.6};
+constexpr double scale = 4e-5, drop = 0.3;
+
+TEST(ShearCurve, worked_values) {
+  EXPECT_DOUBLE_EQ(perfectly_plastic_shear(curve, 1e-5), 5e5);
+  EXPECT_DOUBLE_EQ(perfectly_plastic_shear(curve, 1e-3), 2e6 * std::tan(0.6));
+}
+
+// the other way round: slip by shear stress, with the logarithm in place of the search
+TEST(ShearCurve, inverts_the_slip_at_a_stress) {
+  for (const double share : {0.01, 0.3, 0.7, 0.99}) {
+    const double hard = share * 2e6 * std::tan(0.6);
+    const double hard_slip = hard / 5e10 - scale * std::log1p(-share);
+    EXPECT_NEAR(hardening_shear(curve, scale, hard_slip), hard, 1e-12 * hard);
+    const double soft = 2e6 * (std::tan(0.6) - share * drop);
+    const double soft_slip = soft / 5e10 - scale * std::log1p(-share);
+    EXPECT_NEAR(softening_shear(curve, drop, scale, soft_slip), soft, 1e-12 * soft);
+  }
+}
+
+TEST(ShearCurve, limits) {
+  EXPECT_NEAR(hardening_shear(curve, 1e-12, 1e-3), 2e6 * std::tan(0.6), 1e-6);
+  EXPECT_NEAR(hardening_shear(curve, scale, 40 * scale + 1e-4), 2e6 * std::tan(0.6), 1);
+  EXPECT_DOUBLE_EQ(softening_shear(curve, drop, scale, 1e-5), 5e5);
+  EXPECT_NEAR(softening_shear(curve, drop, scale, 1e-2), 2e6 * (std::tan(0.6) - drop), 1e-3);
+}
+
+}  // namespace

@@ -1,0 +1,37 @@
+# What accuracy costs, over all cases. draw.sh passes: data (trade.csv), cases (names, '|' between them).
+load style
+set terminal svg size 760,620
+set output out
+set datafile missing NaN
+set logscale xy
+set format x '%g'
+set format y '10^{%T}'
+set offsets graph 0.04, graph 0.06, graph 0.04, graph 0.04
+set xlabel 'cost, the scene as it is = 1'
+set ylabel 'relative error with error bar'
+set key maxrows 4 samplen 2
+set rmargin 7
+
+do for [level in '0.05 0.01 0.001'] {
+  set arrow from graph 0, first level + 0 to graph 1, first level + 0 nohead dt 3 lw 1 lc rgb '#808080' back
+}
+set label 1 '5 %'   at graph 1.005, first 0.05  font ',11' tc rgb '#606060'
+set label 2 '1 %'   at graph 1.005, first 0.01  font ',11' tc rgb '#606060'
+set label 3 '0.1 %' at graph 1.005, first 0.001 font ',11' tc rgb '#606060'
+set arrow from first 1, graph 0 to first 1, graph 1 nohead lw 1 lc rgb '#c0c0c0' back
+
+count = 1
+do for [i=1:strlen(cases)] { if (cases[i:i] eq '|') { count = count + 1 } }
+array name[count]
+rest = cases
+do for [i=1:count] {
+  cut = strstrt(rest, '|')
+  name[i] = cut > 0 ? rest[1:cut-1] : rest
+  rest = rest[cut+1:*]
+}
+# seven colours; those that return are dashed, with open points
+open(i) = i == 1 ? 6 : i == 2 ? 4 : i == 3 ? 8 : i == 4 ? 12 : i == 5 ? 10 : i == 6 ? 5 : 7
+turn(i) = 1 + (i - 1) % 7
+plot for [i=1:count] data using (strcol('case') eq name[i] ? column('relative_cost') : NaN):(column('relative_error')) \
+     with linespoints lt turn(i) dt (i > 7 ? 2 : 1) pt (i > 7 ? open(turn(i)) : turn(i) == 6 ? 4 : turn(i) == 7 ? 6 : 5 + 2 * ((turn(i) + 0) % 5)) \
+     ps 0.8 title name[i] noenhanced
