@@ -456,12 +456,19 @@ TEST_P(JointedBeamUnder, ItsLawIsTheChain) {
     const BeamRun run = run_beam(beam, half ? "half.toml" : "scene.toml", overrides(law, closure));
     ASSERT_EQ(run.lost, 0) << run.results.message;
     const std::vector<BeamState> chain = raise_gravity(with_cells(beam, 64), gravities, closure);
-    ASSERT_EQ(chain.size(), gravities.size());
+    const std::vector<BeamState> cells = raise_gravity(with_cells(beam, 16), gravities, closure);
+    ASSERT_EQ(chain.size() + cells.size(), 2 * gravities.size());
     for (const double gravity : gravities) {
-      const BeamState &found = at_gravity(run.held, gravity), &expected = at_gravity(chain, gravity);
+      const BeamState &found = at_gravity(run.held, gravity), &same = at_gravity(cells, gravity);
       const std::string name = (half ? "half block, " : "full block, ") + text(gravity) + ", " + law.name;
-      record_thrust(report, name, expected, found, 0.01, "to be derived", cost(run));
-      record_deflection(report, name, expected, found, 0.03, "to be derived");
+      const std::string because =
+          "a chain of 16 cells deviates by at most 0.6 % in thrust and 0.8 % in deflection: the "
+          "stress at a cell's mean overlap misses some of its exponential growth";
+      record_thrust(report, name, at_gravity(chain, gravity), found, 0.01, because, cost(run));
+      record_deflection(report, name, at_gravity(chain, gravity), found, 0.015, because);
+      const std::string steps = "the same cells under the same law: the chain's steps of 0.25 g leave 1e-4";
+      record_thrust(report, name + ", chain of 16 cells", same, found, 5e-4, steps);
+      record_deflection(report, name + ", chain of 16 cells", same, found, 1e-3, steps);
     }
     const std::string file = (half ? "half_" : "full_") + law.file;
     write_build_up(file + ".csv", beam, run.held);

@@ -108,10 +108,12 @@ Cell cell_of(const JointLaw& law, double width, const Meeting& m, double low, do
 
 // The shear force of a cell, N on the right body, after a slip; true: it is at the limit of friction.
 bool slide(const JointLaw& law, const Cell& cell, double slip, const CellHistory& was, CellHistory& now) {
-  const double stress = cell.normal / cell.area, stiffness = stiffness_at(law.shear, stress) * cell.area;
+  const double stress = cell.normal / cell.area, before = was.area > 0 ? was.stress : stress;
+  const double stiffness = 0.5 * (stiffness_at(law.shear, before) + stiffness_at(law.shear, stress)) * cell.area;
   // area that is lost takes its stress with it; a cell that has just closed has not slipped yet
   now = was;
   now.area = cell.area;
+  now.stress = stress;
   if (cell.area < was.area) now.shear *= cell.area / was.area;
   if (was.area > 0) now.shear -= stiffness * slip;
 

@@ -195,6 +195,19 @@ TEST(JointedBeam, converges_with_the_number_of_cells) {
   EXPECT_NEAR(at_forty(400, CellClosure::at_point).deflection / exact.deflection, 1, 1e-3);
 }
 
+// stiffness that changes with stress is followed from step to step
+TEST(JointedBeam, does_not_depend_on_its_steps) {
+  JointedBeam beam = with_cells(full_block(), 8, CellClosure::mean);
+  beam.joint.normal = {2e9, 3.7e4, 1};
+  beam.joint.shear = {0, 1.9e6, 0.7};
+  beam.joint.friction = {.angle = 40 * degrees, .peak_slip = 2e-6, .peak_power = 0.213};
+  const double closure = 79.64e-6;
+  const BeamState coarse = raise_gravity(beam, {20}, closure).at(0);
+  const BeamState fine = raise_gravity(beam, {20}, closure, {.gravity = 0.05}).at(0);
+  EXPECT_NEAR(coarse.deflection / fine.deflection, 1, 1e-4);
+  EXPECT_NEAR(coarse.thrust / fine.thrust, 1, 1e-5);
+}
+
 // sums that know nothing of joints: of forces on all blocks, and of moments on the left half where it has gone
 TEST(JointedBeam, balances_as_a_whole_and_by_halves) {
   for (const JointedBeam& beam : {full_block(), half_block()}) {
