@@ -453,11 +453,12 @@ TEST_P(JointedBeamUnder, ItsLawIsTheChain) {
     beam.joint = law.joint;
     const std::vector<double> gravities = half ? std::vector<double>{10, 30, 50, 70, 90} : judged;
     const double closure = half ? law.half_closure : law.full_closure;
-    const BeamRun run = run_beam(beam, half ? "half.toml" : "scene.toml", overrides(law, closure));
+    const BeamRun run = run_beam(beam, half ? "half_laws.toml" : "scene.toml", overrides(law, closure));
     ASSERT_EQ(run.lost, 0) << run.results.message;
-    const std::vector<BeamState> chain = raise_gravity(with_cells(beam, 64), gravities, closure);
+    const double most = gravities.back();
+    const std::vector<BeamState> chain = raise_gravity(with_cells(beam, 64), from_to(1, most, 1), closure);
     const std::vector<BeamState> cells = raise_gravity(with_cells(beam, 16), gravities, closure);
-    ASSERT_EQ(chain.size() + cells.size(), 2 * gravities.size());
+    ASSERT_EQ(cells.size(), gravities.size());
     for (const double gravity : gravities) {
       const BeamState &found = at_gravity(run.held, gravity), &same = at_gravity(cells, gravity);
       const std::string name = (half ? "half block, " : "full block, ") + text(gravity) + ", " + law.name;
