@@ -153,6 +153,7 @@ const Harmless harmless[] = {
     {"slicing", "smallest_inscribed_radius", "0", is_default},
     {"stage", "failure_displacement", "0", is_default},
     {"stage", "gravity_ramp_s", "0", is_default},
+    {"stage", "gravity_to", "0", "no gravity"},
     {"contact", "newton_tolerance", "times 1e3", "1e-8 becomes the default, 1e-5"},
     {"stage", "tolerance_deg", "radians as degrees", "0.6 degrees is an honest bracket, which the results state"},
 };

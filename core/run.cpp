@@ -22,9 +22,12 @@ template <int Dim>
 bool follow(const RunSchedule& plan, State<Dim>& state) {
   const double elapsed = state.time - state.schedule.started;
   bool changing = false;
-  if (plan.gravity_ramp > 0) {
-    state.schedule.gravity_factor = std::min(1.0, elapsed / plan.gravity_ramp);
-    changing = state.schedule.gravity_factor < 1;
+  if (plan.gravity.ramp > 0) {
+    const double from = plan.gravity.from, share = std::min(1.0, elapsed / plan.gravity.ramp);
+    state.schedule.gravity_factor = from + (plan.gravity.to.value_or(1) - from) * share;
+    changing = share < 1;
+  } else if (plan.gravity.to) {
+    state.schedule.gravity_factor = *plan.gravity.to;
   }
   if (plan.friction_rate > 0) {
     const double friction = std::max(plan.friction_to, plan.friction_from - plan.friction_rate * elapsed);

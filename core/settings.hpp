@@ -79,17 +79,25 @@ struct Settings {
 
 // ---- plans: what a scene asks for ---------------------------------------------------------------------------------
 
+// The model's gravity times a factor: from one to the other within the time of the ramp; without ramp `to` at once, or
+// no change where it is not given.
+struct GravityPlan {
+  double ramp = 0;                // s
+  double from = 0;                // factor at which a ramp begins
+  std::optional<double> to = {};  // where it ends; 1 if not given
+};
+
 // run to equilibrium
 struct SettlePlan {
-  double gravity_ramp = 0;  // s: gravity grows from 0 to full within this time
+  GravityPlan gravity;
   double time_limit = 1e9;  // s
   long long step_limit = 1'000'000;
 };
 
 // run for a given time
 struct RunPlan {
-  double duration = 0;      // s
-  double gravity_ramp = 0;  // s
+  double duration = 0;  // s
+  GravityPlan gravity;
 };
 
 enum class ReductionMethod { bisection, steps, rate, two_rates };

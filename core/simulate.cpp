@@ -138,17 +138,18 @@ struct Simulation {
     goal.rest = true;
     goal.time_limit = progress.stage_began + settle.time_limit;
     goal.step_limit = settle.step_limit;
-    return go("settle", goal, settle.gravity_ramp, StopReason::equilibrium);
+    return go("settle", goal, settle.gravity, StopReason::equilibrium);
   }
 
   std::optional<Executed> execute(const RunPlan& timed) {
     RunGoal goal;
     goal.end_time = progress.stage_began + timed.duration;
-    return go("run", goal, timed.gravity_ramp, StopReason::end_time);
+    return go("run", goal, timed.gravity, StopReason::end_time);
   }
 
-  std::optional<Executed> go(const std::string& kind, const RunGoal& goal, double gravity_ramp, StopReason wanted) {
-    const RunSchedule schedule{.gravity_ramp = gravity_ramp, .properties = {}};
+  std::optional<Executed> go(const std::string& kind, const RunGoal& goal, const GravityPlan& gravity,
+                             StopReason wanted) {
+    const RunSchedule schedule{.gravity = gravity, .properties = {}};
     const RunReport report = run(model, settings, goal, schedule, state, progress.run, record_run(goal.end_time));
     if (report.reason == StopReason::interrupted) return {};
     finish_rows();

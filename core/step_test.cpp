@@ -351,11 +351,27 @@ TEST(Run, DoesNotRestWhileGravityGrows) {
   const Model<2> model = block_on_plate<2>(0, 35 * degree);
   State<2> state = initial_state(model);
   RunSchedule schedule;
-  schedule.gravity_ramp = 0.2;
+  schedule.gravity.ramp = 0.2;
   const RunReport report = run<2>(model, {}, {.rest = true, .step_limit = 200'000}, schedule, state);
   EXPECT_EQ(report.reason, StopReason::equilibrium);
   EXPECT_GE(state.time, 0.2);
   EXPECT_EQ(state.schedule.gravity_factor, 1);
+}
+
+TEST(Run, TakesGravityFromOneMultipleToAnother) {
+  const Model<2> model = block_on_plate<2>(0, 35 * degree);
+  State<2> state = initial_state(model);
+  const RunGoal goal{.rest = true, .step_limit = 200'000};
+  run<2>(model, {}, goal, {.gravity = {.ramp = 0.1, .from = 0, .to = 3}, .properties = {}}, state);
+  EXPECT_EQ(state.schedule.gravity_factor, 3);
+  const double overlap = state.contacts.front().geometry.overlap;
+  state.schedule.started = state.time;
+  run<2>(model, {}, goal, {.gravity = {.ramp = 0.1, .from = 3, .to = 6}, .properties = {}}, state);
+  EXPECT_NEAR(state.contacts.front().geometry.overlap / overlap, 2, 1e-5);
+  run<2>(model, {}, goal, {.gravity = {}, .properties = {}}, state);  // nothing stated: nothing changes
+  EXPECT_EQ(state.schedule.gravity_factor, 6);
+  run<2>(model, {}, goal, {.gravity = {.to = 1}, .properties = {}}, state);
+  EXPECT_NEAR(state.contacts.front().geometry.overlap / overlap, 1.0 / 3, 1e-5);
 }
 
 TEST(Model, RemovedBodiesTouchNothingAndIdsStay) {

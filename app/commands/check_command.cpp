@@ -95,9 +95,9 @@ std::string damping_text(const DampingSettings& damping) {
 }
 
 struct PlanText {
-  std::string operator()(const SettlePlan& plan) const { return "settle until at rest" + ramp(plan.gravity_ramp); }
+  std::string operator()(const SettlePlan& plan) const { return "settle until at rest" + gravity(plan.gravity); }
   std::string operator()(const RunPlan& plan) const {
-    return fmt::format("run for {:g} s", plan.duration) + ramp(plan.gravity_ramp);
+    return fmt::format("run for {:g} s", plan.duration) + gravity(plan.gravity);
   }
   std::string operator()(const ReducePlan& plan) const {
     std::string of = "all joint properties";
@@ -107,8 +107,12 @@ struct PlanText {
     return fmt::format("reduce the friction of {} from {:g} to {:g} deg {}; failed after {}", of, plan.from * degrees,
                        plan.to * degrees, how(plan), failure);
   }
-  static std::string ramp(double seconds) {
-    return seconds > 0 ? fmt::format(", gravity put on within {:g} s", seconds) : "";
+  static std::string gravity(const GravityPlan& plan) {
+    if (plan.ramp > 0 && !plan.to && plan.from == 0) return fmt::format(", gravity put on within {:g} s", plan.ramp);
+    if (plan.ramp > 0)
+      return fmt::format(", gravity taken from {:g} to {:g} times itself within {:g} s", plan.from, plan.to.value_or(1),
+                         plan.ramp);
+    return plan.to ? fmt::format(", under {:g} times the gravity", *plan.to) : "";
   }
   static std::string how(const ReducePlan& plan) {
     switch (plan.method) {

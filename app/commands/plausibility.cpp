@@ -83,7 +83,7 @@ struct Forecaster {
   double g;         // m/s²
   double smallest;  // m: inscribed radius of a free block
 
-  double operator()(const SettlePlan& plan) const { return plan.gravity_ramp + settling; }
+  double operator()(const SettlePlan& plan) const { return plan.gravity.ramp + settling; }
   double operator()(const RunPlan& plan) const { return plan.duration; }
   double operator()(const ReducePlan& plan) const {
     const double range = std::abs(plan.from - plan.to);
@@ -300,9 +300,9 @@ void judge_times(const StagePlan& stage, const StageForecast& forecast, double p
   };
   const std::string where = "stage." + stage.name;
   double ramp = 0;
-  if (const auto* plan = std::get_if<RunPlan>(&stage.plan)) ramp = plan->gravity_ramp;
+  if (const auto* plan = std::get_if<RunPlan>(&stage.plan)) ramp = plan->gravity.ramp;
   if (const auto* plan = std::get_if<SettlePlan>(&stage.plan)) {
-    ramp = plan->gravity_ramp;
+    ramp = plan->gravity.ramp;
     if (plan->time_limit < forecast.duration)
       warn(where + ".time_limit_s", plan->time_limit,
            fmt::format("rest is expected after about {:.2g} s", forecast.duration));

@@ -68,7 +68,7 @@ TEST(Checkpoint, EveryStepMayBeTheLastBeforeAnInterruption) {
   StagePlan slide = stage("slide", RunPlan{.duration = 2e-3});
   slide.change.friction = 5 * degree;
   Prepared<3> scene = scene_of<3>(model_of<3>(jointed_box({0.05})),
-                                  {stage("load", RunPlan{.duration = 2.2e-3, .gravity_ramp = 1e-3}), slide});
+                                  {stage("load", RunPlan{.duration = 2.2e-3, .gravity = {.ramp = 1e-3}}), slide});
   scene.settings.time.step = 2e-5;
   const Progress<3> whole = whole_run(scene);
   const long long steps = whole.state.counters.steps;

@@ -76,8 +76,8 @@ TEST(Relaxation, ABlockThatMayTurnComesToTheSameRest) {
     Settings settings;
     settings.damping.statics = statics;
     State<3> state = initial_state(model);
-    const RunReport report =
-        run<3>(model, settings, {.rest = true, .step_limit = 200'000}, {.gravity_ramp = 0.2, .properties = {}}, state);
+    const RunReport report = run<3>(model, settings, {.rest = true, .step_limit = 200'000},
+                                    {.gravity = {.ramp = 0.2}, .properties = {}}, state);
     EXPECT_EQ(report.reason, StopReason::equilibrium);
     return state.motions[index_of(model, "block")].displacement;
   };

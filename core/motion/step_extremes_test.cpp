@@ -271,7 +271,7 @@ void expect_rest(double local_damping, int steps) {
   const int block = index_of(model, "block");
   State<Dim> state = initial_state(model);
   RunSchedule ramp;
-  ramp.gravity_ramp = 0.5;  // s: slow against a swing, or inertia carries the block past its friction
+  ramp.gravity.ramp = 0.5;  // s: slow against a swing, or inertia carries the block past its friction
   Settings settings;
   settings.equilibrium.unbalanced = 1e-9;
   ASSERT_EQ(run<Dim>(model, settings, {.rest = true, .step_limit = 100'000}, ramp, state).reason,

@@ -132,7 +132,7 @@ struct Search {
     goal.moved_away = failure_displacement;
     goal.step_limit = relaxes() ? std::max(1LL, plan.step_limit / relaxation_share) : plan.step_limit;
     if (falls()) goal.time_limit = progress.time_limit;
-    const RunSchedule schedule{0, progress.friction_rate, progress.friction_from, progress.target, properties};
+    const RunSchedule schedule{{}, progress.friction_rate, progress.friction_from, progress.target, properties};
     Settings own = settings;
     if (progress.true_motion) own.damping.statics = Statics::local;
     report.last = run(model, own, goal, schedule, state, progress.run, hooks);

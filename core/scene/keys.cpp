@@ -23,6 +23,7 @@ constexpr Range usual_dip{.low = 1.6, .high = 90, .or_zero = true};         // 9
 constexpr Range usual_direction{.low = 6.3, .high = 360, .or_zero = true};  // 360 degrees are 6.28 radians
 constexpr Range usual_friction{1.6, 85};
 constexpr Range usual_speed{.low = 1e-3, .high = 100, .above_low = true, .or_zero = true};
+constexpr Range usual_factor{.low = 0.01, .high = 200, .or_zero = true};  // a centrifuge
 constexpr Range usual_ramp{.low = 0.01, .high = 100, .or_zero = true};
 
 constexpr std::string_view dip_repair =
@@ -333,6 +334,11 @@ const KeyRow rows[] = {
      .example = "0.5",
      .when = {"kind", "settle|run"}, .meaning = "gravity grows from none to full within this time",
      .breaks = "0 loads the joints dynamically, to twice their weight without damping", .slip = "was it given in ms?"},
+    {.table = "stage", .key = "gravity_to", .unit = "1", .range = {0, 1e6}, .usual = usual_factor, .example = "2",
+     .when = {"kind", "settle|run"},
+     .meaning = "multiple of the scene's gravity that acts at the end of the ramp, which then begins at what acted in the "
+         "stage before, or at once where there is no ramp. Without it a ramp goes from none to 1, and a stage without "
+         "ramp leaves gravity as it is"},
     {.table = "stage", .key = "time_limit_s", .unit = "s", .range = {0, 1e9, true}, .usual = {0.1, 1e4},
      .fallback = "1e9", .example = "60",
      .when = {"kind", "settle"}, .meaning = "gives up when not at rest by then", .slip = "was it given in ms?"},

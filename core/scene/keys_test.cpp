@@ -37,9 +37,9 @@ std::string dump(const Scene& s) {
     out << b.fixed << '\n';
   for (const StageSpec& stage : s.stages) {
     if (const auto* settle = std::get_if<SettlePlan>(&stage.plan.plan))
-      out << settle->gravity_ramp << ' ' << settle->time_limit << ' ' << settle->step_limit << '\n';
+      out << settle->gravity.ramp << ' ' << settle->time_limit << ' ' << settle->step_limit << '\n';
     if (const auto* run = std::get_if<RunPlan>(&stage.plan.plan))
-      out << run->gravity_ramp << ' ' << run->duration << '\n';
+      out << run->gravity.ramp << ' ' << run->duration << '\n';
     if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan.plan))
       out << static_cast<int>(reduce->method) << ' ' << reduce->failure_displacement << ' ' << reduce->ramp_steps << ' '
           << reduce->step_limit << '\n';

@@ -64,12 +64,41 @@ ReducePlan read_reduction(const Subject& table) {
   return plan;
 }
 
+GravityPlan read_gravity(const Subject& table) {
+  GravityPlan plan;
+  read(table, "gravity_ramp_s", plan.ramp);
+  read(table, "gravity_to", plan.to);
+  return plan;
+}
+
+// A ramp to a stated gravity begins at the one the stages before have left, one to full gravity at none.
+void chain_gravity(std::vector<StageSpec>& stages) {
+  double acting = 0;
+  for (StageSpec& stage : stages) {
+    auto* settle = std::get_if<SettlePlan>(&stage.plan.plan);
+    auto* run = std::get_if<RunPlan>(&stage.plan.plan);
+    const bool first = &stage == &stages.front();
+    if (!settle && !run) {
+      if (first) acting = 1;
+      continue;
+    }
+    GravityPlan& gravity = settle ? settle->gravity : run->gravity;
+    if (gravity.ramp > 0) {
+      if (gravity.to) gravity.from = acting;
+      const double share = run ? std::min(1.0, run->duration / gravity.ramp) : 1;
+      acting = gravity.from + (gravity.to.value_or(1) - gravity.from) * share;
+    } else if (gravity.to || first) {
+      acting = gravity.to.value_or(1);
+    }
+  }
+}
+
 SettlePlan read_settle(const Subject& table) {
   SettlePlan plan;
-  read(table, "gravity_ramp_s", plan.gravity_ramp);
+  plan.gravity = read_gravity(table);
   read(table, "time_limit_s", plan.time_limit);
   read(table, "step_limit", plan.step_limit);
-  if (plan.gravity_ramp >= plan.time_limit) {
+  if (plan.gravity.ramp >= plan.time_limit) {
     const Node* limit = table.node->find("time_limit_s");
     refuse(table, "gravity_ramp_s",
            "must be less than time_limit_s (" + (limit ? value_text(*limit) : "by default 1e9") +
@@ -81,7 +110,7 @@ SettlePlan read_settle(const Subject& table) {
 RunPlan read_run(const Subject& table) {
   RunPlan plan;
   read(table, "duration_s", plan.duration);
-  read(table, "gravity_ramp_s", plan.gravity_ramp);
+  plan.gravity = read_gravity(table);
   return plan;
 }
 
@@ -262,6 +291,7 @@ std::vector<StageSpec> read_stages(const Subject& scene, const DampingSettings& 
   std::vector<StageSpec> stages;
   for (const Subject& item : children(scene, "stage"))
     stages.push_back(read_stage(item, damping, scene_dimension(*scene.node)));
+  chain_gravity(stages);
   if (stages.empty())
     refuse(scene, "stage",
            "nothing would happen; write for example [[stage]] with name = \"settle\" and kind = \"settle\"");

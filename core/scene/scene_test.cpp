@@ -102,6 +102,43 @@ TEST(ReadScene, DampingOfAStageTakesTheRestFromTheScene) {
   EXPECT_EQ(s.stages[0].plan.damping->viscous_ratio, 0.1);
 }
 
+TEST(ReadScene, GravityGoesOnFromWhereAStageLeftIt) {
+  const Scene scene = parse_scene(R"(dimension = 2
+[[stage]]
+name = "none"
+kind = "run"
+duration_s = 1
+gravity_to = 0
+[[stage]]
+name = "to ten"
+kind = "settle"
+gravity_ramp_s = 2
+gravity_to = 10
+[[stage]]
+name = "half way to twenty"
+kind = "run"
+duration_s = 1
+gravity_ramp_s = 2
+gravity_to = 20
+[[stage]]
+name = "on"
+kind = "settle"
+gravity_ramp_s = 2
+gravity_to = 16
+[[stage]]
+name = "from none"
+kind = "settle"
+gravity_ramp_s = 2
+)",
+                                  "scene.toml");
+  const double from[] = {0, 0, 10, 15, 0};
+  for (std::size_t i = 0; i < scene.stages.size(); ++i) {
+    const auto& plan = scene.stages[i].plan.plan;
+    const auto* settle = std::get_if<SettlePlan>(&plan);
+    EXPECT_EQ(settle ? settle->gravity.from : std::get<RunPlan>(plan).gravity.from, from[i]) << i;
+  }
+}
+
 TEST(Prepare, CutsTheWedgeAndResolvesSelectors) {
   const Prepared<3> p = prepare<3>(parse(wedge));
   ASSERT_EQ(p.model.bodies.size(), 4u);

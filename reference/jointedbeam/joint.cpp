@@ -1,6 +1,7 @@
 #include "reference/jointedbeam/joint.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,7 +17,8 @@ struct Meeting {
   Point n, t;
   double apart_n = 0, apart_t = 0;  // m, of the right face's middle
   double slope = 0;                 // tangent of half the angle between the faces; the overlap grows with twice of it
-  double low = 0, high = 0;         // m: where both faces are
+  double low = 0, high = 0;         // m: where both faces are and overlap
+  std::array<double, 4> edges{};    // m: where each face ends
 
   double overlap(double at) const { return slope * (2 * at - apart_t) - apart_n; }
   // the line half-way between the faces is parallel to t
@@ -33,8 +35,10 @@ Meeting meeting(const BeamFace& left, const BeamFace& right) {
   m.apart_t = dot(m.t, apart);
   m.slope = std::tan(half);
   const double shortened = 0.5 * std::cos(half);
-  m.low = std::max(-shortened * left.height, m.apart_t - shortened * right.height);
-  m.high = std::min(shortened * left.height, m.apart_t + shortened * right.height);
+  m.edges = {-shortened * left.height, shortened * left.height, m.apart_t - shortened * right.height,
+             m.apart_t + shortened * right.height};
+  m.low = std::max(m.edges[0], m.edges[2]);
+  m.high = std::min(m.edges[1], m.edges[3]);
   // only where they overlap
   if (m.slope != 0) {
     const double edge = 0.5 * (m.apart_t + m.apart_n / m.slope);
@@ -67,6 +71,27 @@ struct Cell {
   double at = 0;                // m along the joint: where the normal force acts
 };
 
+// Analytic centre of the overlap, m along the joint: greatest sum of the logarithms of the distances to the faces that
+// meet (both half the overlap on the line between them) and to the four edges. The bodies' far ends are as many heights
+// away as the overlap is smaller than they, and count for nothing.
+double analytic_centre(const Meeting& m) {
+  const auto slope = [&](double at) {
+    const double overlap = 2 * 2 * m.slope / m.overlap(at);
+    double edges = 0;
+    for (const double edge : m.edges)
+      edges += 1 / (at - edge);
+    return overlap + edges;
+  };
+  // the sum is concave, its slope falls from +∞ to -∞ over the contact
+  double low = m.low, high = m.high;
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (slope(middle) > 0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 // what one cell of the face, from `low` to `high`, bears
 Cell cell_of(const JointLaw& law, double width, const Meeting& m, double low, double high) {
   Cell cell;
@@ -74,7 +99,8 @@ Cell cell_of(const JointLaw& law, double width, const Meeting& m, double low, do
   const double breadth = high - low, middle = 0.5 * (low + high), mean = m.overlap(middle);
   if (!(mean > 0)) return cell;
   // the overlap falls off linearly: the centroid of the trapezoid is also the centre of its pressure
-  cell.at = middle + breadth * breadth / 12 * 2 * m.slope / mean;
+  cell.at =
+      law.closure == CellClosure::at_centre ? analytic_centre(m) : middle + breadth * breadth / 12 * 2 * m.slope / mean;
   cell.area = breadth * width;
   cell.normal = cell.area * normal_stress(law.normal, law.closure == CellClosure::mean ? mean : m.overlap(cell.at));
   return cell;
@@ -82,10 +108,12 @@ Cell cell_of(const JointLaw& law, double width, const Meeting& m, double low, do
 
 // The shear force of a cell, N on the right body, after a slip; true: it is at the limit of friction.
 bool slide(const JointLaw& law, const Cell& cell, double slip, const CellHistory& was, CellHistory& now) {
-  const double stress = cell.normal / cell.area, stiffness = stiffness_at(law.shear, stress) * cell.area;
+  const double stress = cell.normal / cell.area, before = was.area > 0 ? was.stress : stress;
+  const double stiffness = 0.5 * (stiffness_at(law.shear, before) + stiffness_at(law.shear, stress)) * cell.area;
   // area that is lost takes its stress with it; a cell that has just closed has not slipped yet
   now = was;
   now.area = cell.area;
+  now.stress = stress;
   if (cell.area < was.area) now.shear *= cell.area / was.area;
   if (was.area > 0) now.shear -= stiffness * slip;
 
@@ -119,6 +147,8 @@ double normal_stress(const StressStiffness& k, double overlap) {
 
 JointForce joint_force(const JointLaw& law, double width, const BeamFace& left, const BeamFace& right,
                        const JointHistory& history, JointHistory& next) {
+  if (law.closure == CellClosure::at_centre && law.cells != 1)
+    throw std::invalid_argument("jointed beam: the analytic centre is that of the whole joint");
   const Meeting m = meeting(left, right);
   next.slip = m.apart_t;
   next.cells.assign(law.cells, {});

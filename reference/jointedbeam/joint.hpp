@@ -28,8 +28,9 @@ struct JointFriction {
 };
 
 enum class CellClosure {
-  mean,     // of the overlap over the cell: with linear stiffness exact for any number of cells
-  at_point  // at the centroid of the cell's overlap: 4/3 of the mean where it is a triangle
+  mean,      // of the overlap over the cell: with linear stiffness exact for any number of cells
+  at_point,  // at the centroid of the cell's overlap: 4/3 of the mean where it is a triangle
+  at_centre  // of one cell only: at the analytic centre of the overlap, which all faces of both bodies push
 };
 
 struct JointLaw {
@@ -48,6 +49,7 @@ struct BeamFace {
 
 struct CellHistory {
   double area = 0, shear = 0, plastic_slip = 0;  // m², N on the right body upwards, m
+  double stress = 0;                             // Pa, normal
 };
 struct JointHistory {
   double slip = 0;  // m, of the right face along the joint, upwards
@@ -66,7 +68,8 @@ struct JointForce {
 };
 
 // The answer at a place to which the joint came from `history`, and the history it then has. Slip is taken in one
-// increment: exact for constant shear stiffness without friction while the area does not grow, else of first order.
+// increment, with the mean of the stiffness before and after: exact for constant shear stiffness without friction while
+// the area does not grow.
 JointForce joint_force(const JointLaw& law, double width, const BeamFace& left, const BeamFace& right,
                        const JointHistory& history, JointHistory& next);
 

@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <stdexcept>
-#include <string>
 
 namespace voussoir::reference {
 namespace {
