@@ -124,7 +124,8 @@ void begin_motion(State<Dim>& state) {
 template <int Dim>
 void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   Relaxation<Dim>& r = state.relaxation;
-  if (state.frequency.empty() || r.until_renewal-- == 0 || outgrown(model, state)) scale_inertia(model, settings, state);
+  if (state.frequency.empty() || r.until_renewal-- == 0 || outgrown(model, state))
+    scale_inertia(model, settings, state);
   const double dt = state.step_allowed, half = 0.5 * dt * critical_damping(model, state);
 
   // the kick is central: damping acts at the mean of the velocities before and after it
