@@ -33,7 +33,7 @@ struct RunGoal {
 
 // values that change while the run goes on, from State::schedule.started
 struct RunSchedule {
-  GravityPlan gravity;
+  GravityPlan gravity{};
   double friction_rate = 0;  // rad/s: friction of `properties` falls from `friction_from` to `friction_to`
   double friction_from = 0, friction_to = 0;  // rad
   std::vector<int> properties;

@@ -89,7 +89,7 @@ struct GravityPlan {
 
 // run to equilibrium
 struct SettlePlan {
-  GravityPlan gravity;
+  GravityPlan gravity{};
   double time_limit = 1e9;  // s
   long long step_limit = 1'000'000;
 };
@@ -97,7 +97,7 @@ struct SettlePlan {
 // run for a given time
 struct RunPlan {
   double duration = 0;  // s
-  GravityPlan gravity;
+  GravityPlan gravity{};
 };
 
 enum class ReductionMethod { bisection, steps, rate, two_rates };

@@ -368,7 +368,7 @@ TEST(Run, TakesGravityFromOneMultipleToAnother) {
   state.schedule.started = state.time;
   run<2>(model, {}, goal, {.gravity = {.ramp = 0.1, .from = 3, .to = 6}, .properties = {}}, state);
   EXPECT_NEAR(state.contacts.front().geometry.overlap / overlap, 2, 1e-5);
-  run<2>(model, {}, goal, {.gravity = {}, .properties = {}}, state);  // nothing stated: nothing changes
+  run<2>(model, {}, goal, {.properties = {}}, state);  // nothing stated: nothing changes
   EXPECT_EQ(state.schedule.gravity_factor, 6);
   run<2>(model, {}, goal, {.gravity = {.to = 1}, .properties = {}}, state);
   EXPECT_NEAR(state.contacts.front().geometry.overlap / overlap, 1.0 / 3, 1e-5);
