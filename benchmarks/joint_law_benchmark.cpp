@@ -130,11 +130,16 @@ void run(const std::string& way, benchmark::State& bench) {
 }
 
 int count(const std::string& way, int calls) {
-  const bool hand = way == "by_hand";
-  if (!hand && !ways().contains(way)) return 2;
-  Scene scene = settled(hand ? plain() : ways().at(way));
+  const bool hand = way == "by_hand", whole = way == "whole_step";
+  if (!hand && !whole && !ways().contains(way)) return 2;
+  Scene scene = settled(hand || whole ? plain() : ways().at(way));
   for (int i = 0; i < calls; ++i)
-    hand ? by_hand(scene.model, scene.state) : apply_joint_laws(scene.model, scene.settings, scene.state);
+    if (whole)
+      step(scene.model, scene.settings, scene.state);
+    else if (hand)
+      by_hand(scene.model, scene.state);
+    else
+      apply_joint_laws(scene.model, scene.settings, scene.state);
   return 0;
 }
 

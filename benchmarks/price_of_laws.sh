@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # price_of_laws.sh [build]: instructions per contact that the existence of the other joint laws costs a scene of plain
-# Coulomb joints, against a loop written by hand, and those of each law. Counted, so that any machine gives the same;
+# Coulomb joints, against a loop written by hand, those of each law, and those of a whole step of the plain scene. Counted, so that any machine gives the same;
 # needs valgrind. The set-up is counted out by two numbers of calls.
 set -euo pipefail
 build=${1:-build}
@@ -14,7 +14,7 @@ contacts=$("$program" --benchmark_filter=by_hand --benchmark_min_time=0.01 2>/de
   sed -n 's/.*contacts=\([0-9.k]*\).*/\1/p' | head -1)
 echo "contacts: $contacts"
 printf '%-20s %14s %10s\n' way instructions ratio
-for way in by_hand plain sub_contacts_2x2 linear_stiffness power_stiffness hardening softening bonds; do
+for way in by_hand plain sub_contacts_2x2 linear_stiffness power_stiffness hardening softening bonds whole_step; do
   few=$(count $way 1) many=$(count $way $((calls + 1)))
   each=$(((many - few) / calls))
   [ $way = by_hand ] && hand=$each

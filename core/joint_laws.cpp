@@ -47,11 +47,28 @@ struct Bearing {
   double share = 1;      // of the contact's area
 };
 
-// force on the second body; the history goes on
+// the answer of a joint with laws of its own
 template <int Dim>
-Vector<Dim> joint_force(const JointProperties& properties, const Settings& settings, State<Dim>& state,
-                        const PairMotion<Dim>& motion, const Bearing<Dim>& at, int friction_of,
-                        JointState<Dim>& history) {
+JointForce<Dim> answer_of_laws(const JointProperties& properties, double friction, double damping,
+                               const JointKinematics<Dim>& k, State<Dim>& state, JointState<Dim>& history) {
+  JointMemory memory{history.plastic_slip, history.shear_stiffness, history.bonded};
+  const double stiffness = damping > 0 ? normal_answer(properties, k.overlap, history.bonded).stiffness : 0;
+  const JointForce<Dim> answer =
+      joint_law<Dim>(properties, friction, damping * std::sqrt(stiffness), k, history.shear_force, memory);
+  history.shear_stiffness = memory.shear_stiffness;
+  history.bonded = memory.bonded;
+  state.energy.flows.stiffening += answer.stiffening;
+  if (answer.snap_back) ++state.counters.snap_backs;
+  return answer;
+}
+
+// Force on the second body; the history goes on. Inlined by force: the call and what it passes would cost a plain joint
+// some percent of its law (benchmarks/price_of_laws.sh).
+template <int Dim>
+[[gnu::always_inline]] inline Vector<Dim> joint_force(const JointProperties& properties, const Settings& settings,
+                                                      State<Dim>& state, const PairMotion<Dim>& motion,
+                                                      const Bearing<Dim>& at, int friction_of,
+                                                      JointState<Dim>& history) {
   // the slip is the one of the step that led here
   const double dt = state.time_step;
   EnergyLedger& energy = state.energy;
@@ -83,29 +100,21 @@ Vector<Dim> joint_force(const JointProperties& properties, const Settings& setti
     history.shear_force = carried(history.shear_force, history.normal, n, k.turn);
   }
 
+  // the dashpot over the root of the normal stiffness
   const double friction = state.schedule.friction[friction_of];
-  const double damping = state.relaxation.under_way ? 0 : 2 * settings.damping.viscous_ratio;
-  const auto dashpot = [&](double stiffness) {
-    return damping > 0 ? damping * std::sqrt(stiffness * k.area / motion.inverse_mass() * at.share) : 0;
-  };
-  JointForce<Dim> answer;
-  if (properties.laws == 0) {
-    answer = elastic_coulomb<Dim>(properties, friction, dashpot(properties.normal_stiffness), k, history.shear_force);
-    history.plastic_slip += answer.plastic_slip;
-  } else {
-    JointMemory memory{history.plastic_slip, history.shear_stiffness, history.bonded};
-    const double stiffness = damping > 0 ? normal_answer(properties, at.overlap, history.bonded).stiffness : 0;
-    answer = joint_law<Dim>(properties, friction, dashpot(stiffness), k, history.shear_force, memory);
-    history.plastic_slip = memory.plastic_slip;
-    history.shear_stiffness = memory.shear_stiffness;
-    history.bonded = memory.bonded;
-    energy.flows.stiffening += answer.stiffening;
-    if (answer.snap_back) ++state.counters.snap_backs;
-  }
+  const double damping = settings.damping.viscous_ratio > 0 && !state.relaxation.under_way
+                             ? 2 * settings.damping.viscous_ratio * std::sqrt(k.area / motion.inverse_mass() * at.share)
+                             : 0;
+  const JointForce<Dim> answer =
+      properties.laws == 0 ? elastic_coulomb<Dim>(properties, friction,
+                                                  damping > 0 ? damping * std::sqrt(properties.normal_stiffness) : 0, k,
+                                                  history.shear_force)
+                           : answer_of_laws<Dim>(properties, friction, damping, k, state, history);
   energy.elastic += answer.elastic;
   energy.flows.friction += answer.friction;
   energy.flows.dashpots += 0.5 * (history.dashpot + answer.dashpot) * k.closing_speed * dt;
   history.normal = n;
+  history.plastic_slip += answer.plastic_slip;
   history.dashpot = answer.dashpot;
   history.area = k.area;
   return answer.force;
