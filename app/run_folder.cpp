@@ -10,7 +10,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/paraview.hpp"
 #include "core/simulate.hpp"
@@ -109,6 +108,11 @@ RunConduct read_conduct(const fs::path& folder) {
     throw BadInput(
         fmt::format("'{}' is damaged ({}): start again with 'voussoir run --overwrite'", path.string(), error.what()));
   }
+}
+
+BadInput folder_is_taken(const fs::path& folder) {
+  return BadInput(
+      fmt::format("'{}' holds results: choose another folder with --out, or add --overwrite", folder.string()));
 }
 
 bool holds_results(const fs::path& folder) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/bad_input.hpp"
 #include "core/checkpoint/checkpoint.hpp"
 
 namespace voussoir {
@@ -48,6 +49,8 @@ void write_conduct(const std::filesystem::path& folder, const RunConduct& conduc
 // throws BadInput with the file's name when it cannot be understood
 RunConduct read_conduct(const std::filesystem::path& folder);
 
+// what a command says that would replace results
+BadInput folder_is_taken(const std::filesystem::path& folder);
 bool holds_results(const std::filesystem::path& folder);
 bool holds_unfinished_run(const std::filesystem::path& folder);
 bool holds_checkpoints(const std::filesystem::path& folder);

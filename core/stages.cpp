@@ -381,12 +381,11 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
       kick = advance(body, state.loads[b], {.local_damping = settings.damping.local}, times, state.motions[b]);
     if (body.prescribed) force(body, *prescribed++, state.loads[b], elapsed, times, state.motions[b], kick);
     const Vector<Dim> gravity = weight(model, state, b);
-    const Load<Dim> push = boundary_load(body, state.axes[b]);
+    const BoundaryWork push = boundary_work(body, state.axes[b], kick);
     energy.kinetic += kick.kinetic;
-    book(energy.flows, gravity.dot(kick.path_before), work_before(push, kick), kick.load_before, kick.damping_before,
+    book(energy.flows, gravity.dot(kick.path_before), push.before, kick.load_before, kick.damping_before,
          kick.prescribed_before);
-    book(after, gravity.dot(kick.path_after), work_after(push, kick), kick.load_after, kick.damping_after,
-         kick.prescribed_after);
+    book(after, gravity.dot(kick.path_after), push.after, kick.load_after, kick.damping_after, kick.prescribed_after);
   }
   balance(energy);
   energy.flows.gravity += after.gravity;

@@ -130,8 +130,7 @@ ExitCode joint_test_command(const JointTestArguments& arguments) {
   const FolderLock lock(folder);
   if (!arguments.overwrite &&
       (holds_results(folder) || holds_unfinished_run(folder) || fs::exists(folder / "joint_test.csv")))
-    throw BadInput(
-        fmt::format("'{}' holds results: choose another folder with --out, or add --overwrite", folder.string()));
+    throw folder_is_taken(folder);
   write_file(folder / "joint_test.csv", table(tests));
   write_file(folder / "joint_test.gp", figure(tests, arguments.path == "normal"));
   draw(folder);

@@ -101,9 +101,7 @@ ExitCode limit_command(const LimitArguments& arguments) {
   const LimitAnalysis analysis =
       analyse_limit(load_scene(arguments.scene.scene, arguments.scene.overrides), request_of(arguments));
   const FolderLock lock(folder);
-  if (!arguments.overwrite && (holds_results(folder) || holds_unfinished_run(folder)))
-    throw BadInput(
-        fmt::format("'{}' holds results: choose another folder with --out, or add --overwrite", folder.string()));
+  if (!arguments.overwrite && (holds_results(folder) || holds_unfinished_run(folder))) throw folder_is_taken(folder);
   remove_old_run(folder);
   for (const std::string& warning : analysis.warnings)
     tell("voussoir: warning: {}\n", warning);

@@ -27,9 +27,7 @@ fs::path results_folder(const RunArguments& arguments) {
 }
 
 void refuse_to_overwrite(const fs::path& folder) {
-  if (holds_results(folder))
-    throw BadInput(
-        fmt::format("'{}' holds results: choose another folder with --out, or add --overwrite", folder.string()));
+  if (holds_results(folder)) throw folder_is_taken(folder);
   if (holds_unfinished_run(folder))
     throw BadInput(
         fmt::format("'{0}' holds a run that was interrupted: go on with 'voussoir resume {0}', or add "

@@ -29,14 +29,16 @@ struct KickEnergy {
   Spin<Dim> turn_before = Spin<Dim>::Zero(), turn_after = Spin<Dim>::Zero();        // rad: the same of its turn
 };
 
-// the two halves of the work of a part of the load
+// The part of that load's work that the stress on a body's outer faces does; bodies without any pay for none.
+struct BoundaryWork {
+  double before = 0, after = 0;
+};
 template <int Dim>
-double work_before(const Load<Dim>& load, const KickEnergy<Dim>& kick) {
-  return load.force.dot(kick.path_before) + load.moment.dot(kick.turn_before);
-}
-template <int Dim>
-double work_after(const Load<Dim>& load, const KickEnergy<Dim>& kick) {
-  return load.force.dot(kick.path_after) + load.moment.dot(kick.turn_after);
+BoundaryWork boundary_work(const Body<Dim>& body, const Matrix<Dim>& axes, const KickEnergy<Dim>& kick) {
+  if (body.boundary.empty()) return {};
+  const Load<Dim> push = boundary_load(body, axes);
+  return {push.force.dot(kick.path_before) + push.moment.dot(kick.turn_before),
+          push.force.dot(kick.path_after) + push.moment.dot(kick.turn_after)};
 }
 
 // what a kick makes of a velocity: v -> keeps v + gain kick f/m, f the force that local damping leaves

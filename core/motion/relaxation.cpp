@@ -140,15 +140,14 @@ void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>&
     const KickEnergy<Dim> kick = advance(model.bodies[b], state.loads[b], rule, {dt, dt}, motion);
     const Vector<Dim> gravity = weight(model, state, b);
     const double down_before = gravity.dot(kick.path_before), down_after = gravity.dot(kick.path_after);
-    const Load<Dim> push = boundary_load(model.bodies[b], state.axes[b]);
-    const double push_before = work_before(push, kick), push_after = work_after(push, kick);
+    const BoundaryWork push = boundary_work(model.bodies[b], state.axes[b], kick);
     energy.flows.gravity += down_before;
-    energy.flows.boundary += push_before;
-    energy.flows.contacts += kick.load_before - down_before - push_before;
+    energy.flows.boundary += push.before;
+    energy.flows.contacts += kick.load_before - down_before - push.before;
     energy.flows.relaxation += kick.load_before;
     after.gravity += down_after;
-    after.boundary += push_after;
-    after.contacts += kick.load_after - down_after - push_after;
+    after.boundary += push.after;
+    after.contacts += kick.load_after - down_after - push.after;
     after.relaxation += kick.load_after;
   }
   balance(energy);

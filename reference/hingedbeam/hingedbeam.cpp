@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "reference/hingedbeam/overlap.hpp"
+#include "reference/parabola.hpp"
 
 namespace voussoir::reference {
 namespace {
@@ -198,14 +199,10 @@ HingedBeamLoad peak_of(const std::vector<HingedBeamLoad>& curve) {
   if (curve.size() < 3 || greatest == curve.begin() || greatest + 1 == curve.end())
     throw std::domain_error("hinged beam: the curve has no peak inside");
   const HingedBeamLoad &a = greatest[-1], &b = greatest[0], &c = greatest[1];
-  // Newton's parabola: b + first (θ - θ_b) + second (θ - θ_b)²
-  const double left = (b.weight - a.weight) / (b.rotation - a.rotation);
-  const double right = (c.weight - b.weight) / (c.rotation - b.rotation);
-  const double second = (right - left) / (c.rotation - a.rotation);
-  const double first = left + second * (b.rotation - a.rotation), aside = second < 0 ? -0.5 * first / second : 0;
-  HingedBeamLoad peak{b.rotation + aside, b.weight + 0.5 * first * aside, 0};
-  const HingedBeamLoad& other = aside < 0 ? a : c;
-  peak.thrust = b.thrust + (other.thrust - b.thrust) * aside / (other.rotation - b.rotation);
+  const ParabolaTop top = parabola_top({a.rotation, a.weight}, {b.rotation, b.weight}, {c.rotation, c.weight});
+  HingedBeamLoad peak{b.rotation + top.aside, top.y, 0};
+  const HingedBeamLoad& other = top.aside < 0 ? a : c;
+  peak.thrust = b.thrust + (other.thrust - b.thrust) * top.aside / (other.rotation - b.rotation);
   return peak;
 }
 

@@ -11,6 +11,8 @@
 #include <new>
 #include <stdexcept>
 
+#include "reference/parabola.hpp"
+
 namespace voussoir::reference {
 namespace {
 
@@ -316,11 +318,9 @@ BeamLimit limit_of(const std::vector<BeamState>& path) {
   if (path.size() < 3 || top == path.begin() || top + 1 == path.end())
     throw std::domain_error("jointed beam: the path has no peak inside");
   const BeamState &a = top[-1], &b = top[0], &c = top[1];
-  const double left = (b.gravity - a.gravity) / (b.deflection - a.deflection);
-  const double right = (c.gravity - b.gravity) / (c.deflection - b.deflection);
-  const double second = (right - left) / (c.deflection - a.deflection);
-  const double first = left + second * (b.deflection - a.deflection), aside = second < 0 ? -0.5 * first / second : 0;
-  return {b.gravity + 0.5 * first * aside, b.deflection + aside};
+  const ParabolaTop peak =
+      parabola_top({a.deflection, a.gravity}, {b.deflection, b.gravity}, {c.deflection, c.gravity});
+  return {peak.y, b.deflection + peak.aside};
 }
 
 }  // namespace voussoir::reference
