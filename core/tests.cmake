@@ -8,7 +8,7 @@ target_compile_definitions(voussoir_oracle_algebra PUBLIC EIGEN_MAX_STATIC_ALIGN
 
 voussoir_test(unit.blocks LABEL unit
   SOURCES floating_point_traps_test.cpp geometry/geometry_test.cpp optimise/optimise_test.cpp slicing/slicing_test.cpp
-    slicing/sliver_test.cpp
+    slicing/sliver_test.cpp slicing/joints_test.cpp slicing/tiling_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.law_and_motion LABEL unit
