@@ -103,8 +103,8 @@ SharedFace shared(const std::vector<Polytope<Dim>>& parts, const Cut<Dim>& cut, 
   const double area = size_of(region);
   if (area <= least_share * std::min(size, size_of(corners(other, above.face)))) return face;
   face.area = area;
-  const double rounding =
-      extent_rounding * (cut.extent.infinite() ? 0 : cut.extent.radius + (below.high - below.low).norm());
+  const double reach = std::isinf(cut.extent.radius) ? 0 : cut.extent.radius;
+  const double rounding = extent_rounding * (reach + (below.high - below.low).norm());
   for (const HalfSpace<Dim>& bound : cut.extent.bounds)
     for (const Vector<Dim>& p : region)
       face.covered = face.covered && signed_distance<Dim>(bound, p) <= rounding;
