@@ -8,7 +8,7 @@ target_compile_definitions(voussoir_oracle_algebra PUBLIC EIGEN_MAX_STATIC_ALIGN
 
 voussoir_test(unit.blocks LABEL unit
   SOURCES floating_point_traps_test.cpp geometry/geometry_test.cpp optimise/optimise_test.cpp slicing/slicing_test.cpp
-    slicing/sliver_test.cpp
+    slicing/sliver_test.cpp slicing/joints_test.cpp slicing/tiling_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.law_and_motion LABEL unit
@@ -26,7 +26,7 @@ voussoir_test(unit.contact LABEL unit
 
 voussoir_test(unit.scene LABEL unit
   SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
-    scene/permuted_input_test.cpp scene/accuracy_level_test.cpp
+    scene/permuted_input_test.cpp scene/accuracy_level_test.cpp scene/slicing_scene_test.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)
 
 voussoir_test(unit.output LABEL unit SOURCES output/output_test.cpp
@@ -49,7 +49,7 @@ endif()
 add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exact_programs.cpp
   testing/exact_contacts.cpp)
 target_link_libraries(voussoir_exact_referee PUBLIC voussoir_core voussoir_oracle_algebra gmpxx gmp PRIVATE voussoir_flags cddgmp)
-voussoir_test(unit.exact_referee LABEL unit SOURCES testing/exact_referee_test.cpp
+voussoir_test(unit.exact_referee LABEL unit SOURCES testing/exact_referee_test.cpp slicing/exact_slicing_test.cpp
   LIBS voussoir_exact_referee Boost::headers)
 
 

@@ -11,17 +11,6 @@ namespace {
 // rounding of coordinates, far below what anyone would state as two corners
 constexpr double same_corner = 1e-6;
 
-template <int Dim>
-HalfSpaces<Dim> box_planes(const BoxSpec& box, const Vector<Dim>& origin) {
-  HalfSpaces<Dim> planes;
-  const Vector<Dim> low = to_vector<Dim>(box.min) - origin, high = to_vector<Dim>(box.max) - origin;
-  for (int k = 0; k < Dim; ++k) {
-    planes.push_back({-Vector<Dim>::Unit(k), -low[k]});
-    planes.push_back({Vector<Dim>::Unit(k), high[k]});
-  }
-  return planes;
-}
-
 // an unnamed normal of any length; the offset moves with the origin
 template <int Dim>
 HalfSpace<Dim> to_half_space(const BlockPlaneSpec& plane, const Vector<Dim>& origin) {
@@ -181,6 +170,17 @@ HalfSpace<2> to_half_space(const PlaneSpec& plane, const Vector<2>& origin) {
 }
 
 template <int Dim>
+HalfSpaces<Dim> box_planes(const BoxSpec& box, const Vector<Dim>& origin) {
+  HalfSpaces<Dim> planes;
+  const Vector<Dim> low = to_vector<Dim>(box.min) - origin, high = to_vector<Dim>(box.max) - origin;
+  for (int k = 0; k < Dim; ++k) {
+    planes.push_back({-Vector<Dim>::Unit(k), -low[k]});
+    planes.push_back({Vector<Dim>::Unit(k), high[k]});
+  }
+  return planes;
+}
+
+template <int Dim>
 Vector<Dim> find_origin(const Scene& scene) {
   std::vector<Vector<Dim>> points;
   for (const StatedPoint<Dim>& p : stated_points<Dim>(scene))
@@ -224,6 +224,8 @@ Polytope<Dim> make_solid(const Scene& scene, const BlockSpec& block, const Vecto
   return checked<Dim>(scene, result, *block.subject.node->find(key), key_path(block.subject.path, key), "block");
 }
 
+template HalfSpaces<2> box_planes<2>(const BoxSpec&, const Vector<2>&);
+template HalfSpaces<3> box_planes<3>(const BoxSpec&, const Vector<3>&);
 template Vector<2> find_origin<2>(const Scene&);
 template Vector<3> find_origin<3>(const Scene&);
 template Polytope<2> make_domain<2>(const Scene&, const Vector<2>&);

@@ -15,6 +15,10 @@ Vector<Dim> to_vector(const std::vector<double>& numbers) {
 template <int Dim>
 HalfSpace<Dim> to_half_space(const PlaneSpec& plane, const Vector<Dim>& origin);
 
+// the six half-spaces of a box, four in 2-D
+template <int Dim>
+HalfSpaces<Dim> box_planes(const BoxSpec& box, const Vector<Dim>& origin);
+
 // Centre of everything solid, so that a scene far from the file's origin keeps all its digits.
 template <int Dim>
 Vector<Dim> find_origin(const Scene& scene);

@@ -29,7 +29,9 @@ std::string dump(const Scene& s) {
       << ' ' << c.newton_limit << ' ' << c.skin << '\n'
       << static_cast<int>(s.settings.damping.statics) << ' ' << s.settings.damping.local << ' '
       << s.settings.damping.viscous_ratio << ' ' << s.settings.time.fraction << ' ' << s.settings.equilibrium.unbalanced
-      << ' ' << s.settings.equilibrium.window << ' ' << s.smallest_inscribed_radius << '\n'
+      << ' ' << s.settings.equilibrium.window << ' ' << s.smallest_inscribed_radius << ' '
+      << s.slicing.largest_aspect_ratio << ' ' << s.slicing.most_blocks << ' ' << static_cast<int>(s.slicing.order)
+      << ' ' << static_cast<int>(s.slicing.ends) << '\n'
       << s.output.history_interval << ' ' << s.output.frame_interval << ' ' << s.output.frames << '\n';
   for (const PropertiesSpec& p : s.properties)
     out << p.properties.constant_stiffness << '\n';

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "core/scene/bodies.hpp"
+#include "core/scene/domain_blocks.hpp"
 #include "core/scene/scene.hpp"
-#include "core/slicing/slice.hpp"
 
 namespace voussoir {
 namespace {
@@ -70,19 +70,10 @@ template <int Dim>
 void add_domain(const Scene& scene, Model<Dim>& model) {
   if (!scene.domain) return;
   const double density = density_of(scene, {});
-  std::vector<Cut<Dim>> cuts;
-  for (std::size_t j = 0; j < model.joints.size(); ++j)
-    cuts.push_back({model.joints[j].plane, static_cast<int>(j)});
-  SlicingLimits limits;
-  limits.smallest_inscribed_radius = scene.smallest_inscribed_radius;
-  SlicingCounters counters;
-  std::vector<Polytope<Dim>> parts = slice<Dim>(make_domain<Dim>(scene, model.origin), cuts, limits, counters);
-  if (counters.given_up)
-    refuse(top_of(scene), "joints",
-           "cut the domain into more than " + std::to_string(limits.most_blocks) +
-               " blocks; state fewer joints, a smaller domain or slicing.smallest_inscribed_radius");
-  for (Polytope<Dim>& part : parts)
-    model.bodies.push_back(make_body<Dim>({std::move(part)}, density));
+  for (DomainBody<Dim>& body : cut_domain<Dim>(scene, model)) {
+    model.bodies.push_back(make_body<Dim>(std::move(body.parts), density));
+    model.bodies.back().fixed = body.fixed;
+  }
 }
 
 // the block whose body a further part belongs to
@@ -176,6 +167,8 @@ void add_supports(const Scene& scene, Model<Dim>& model) {
       std::all_of(model.bodies.begin(), model.bodies.end(), [](const Body<Dim>& body) { return body.fixed; });
   if (!all_fixed || loosens(scene)) return;
   const std::string rule = "no block is free to move, all " + std::to_string(model.bodies.size()) + " are fixed; ";
+  if (scene.fix.empty() && scene.blocks.empty())
+    refuse(top_of(scene), "joints", rule + "leave a side of the boundary joints free");
   if (scene.fix.empty()) refuse(scene.blocks.front().subject, "fixed", rule + "leave one block free");
   refuse(*scene.fix.back().subject.node, scene.fix.back().subject.path,
          rule + "choose fewer blocks, or check that the joints cut the domain");

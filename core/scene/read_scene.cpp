@@ -8,6 +8,7 @@
 #include "core/scene/base_scene.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/overrides.hpp"
+#include "core/scene/read_slicing.hpp"
 #include "core/scene/read_stages.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_text.hpp"
@@ -16,67 +17,6 @@
 
 namespace voussoir {
 namespace {
-
-void read_plane(const Subject& subject, int dimension, PlaneSpec& plane) {
-  read(subject, "point", plane.point);
-  read_degrees(subject, "dip", plane.dip);
-  const bool stated = subject.node->find("dip_direction");
-  if (!stated && plane.dip > 0)
-    refuse(subject, "dip_direction",
-           std::string("a plane that dips needs it; write for example dip_direction = ") +
-               (dimension == 2 ? "90 (to the right) or 270 (to the left)" : "130 (clockwise from north)"));
-  read_degrees(subject, "dip_direction", plane.dip_direction);
-  if (dimension == 2 && stated) {
-    const double degrees = subject.node->find("dip_direction")->number;
-    if (degrees != 90 && degrees != 270)
-      refuse(subject, "dip_direction",
-             "must be 90 (dips to the right) or 270 (to the left) because dimension = 2; choose one");
-  }
-  if (dimension == 2 && !stated) plane.dip_direction = std::numbers::pi / 2;
-}
-
-BoxSpec read_box(const Subject& subject) {
-  BoxSpec box{subject, {}, {}};
-  read(subject, "min", box.min);
-  read(subject, "max", box.max);
-  for (std::size_t k = 0; k < box.min.size(); ++k)
-    if (!(box.max[k] > box.min[k]))
-      refuse(subject, "max",
-             std::string("must exceed min along ") + "xyz"[k] + " (" + value_text(*subject.node->find("min")) +
-                 "); swap the two or move a corner");
-  return box;
-}
-
-std::optional<DomainSpec> read_domain(const Subject& scene, int dimension) {
-  const auto subject = child(scene, "domain");
-  if (!subject) return {};
-  DomainSpec domain{*subject, {}, {}};
-  if (const auto box = child(*subject, "box")) domain.box = read_box(*box);
-  for (const Subject& item : children(*subject, "planes")) {
-    DomainPlaneSpec plane{item, {}, true};
-    read_plane(item, dimension, plane.plane);
-    std::string keep;
-    read(item, "keep", keep);
-    plane.keep_below = keep == "below";
-    domain.planes.push_back(plane);
-  }
-  if (!domain.box && domain.planes.empty())
-    refuse(*subject, "box",
-           "a domain needs a box, planes or both; write for example box = { min = [-4, -4, -4], max = [4, 4, 0] }");
-  return domain;
-}
-
-std::vector<JointSpec> read_joints(const Subject& scene, int dimension) {
-  std::vector<JointSpec> joints;
-  for (const Subject& item : children(scene, "joints")) {
-    JointSpec joint{item, {}, {}, {}};
-    read(item, "name", joint.name);
-    read(item, "properties", joint.properties);
-    read_plane(item, dimension, joint.plane);
-    joints.push_back(joint);
-  }
-  return joints;
-}
 
 void read_laws(const Subject& item, JointProperties& p) {
   const auto choose = [&](std::string_view key, std::initializer_list<std::pair<std::string_view, unsigned>> laws) {
@@ -242,8 +182,11 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   scene.restrain = read_restrain(top);
   scene.initial_velocity = read_initial_velocity(top);
   scene.settings = read_settings(top);
-  if (const auto slicing = child(top, "slicing"))
+  if (const auto slicing = child(top, "slicing")) {
     read(*slicing, "smallest_inscribed_radius", scene.smallest_inscribed_radius);
+    scene.slicing = read_slicing(*slicing);
+  }
+  scene.excavations = read_excavations(top, scene.dimension);
   scene.stages = read_stages(top, scene.settings.damping);
   scene.monitors = read_monitors(top);
   scene.output = read_output(top);

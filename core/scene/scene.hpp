@@ -12,6 +12,7 @@
 #include "core/scene/node.hpp"
 #include "core/scene/prepared.hpp"
 #include "core/settings.hpp"
+#include "core/slicing/slice.hpp"
 
 namespace voussoir {
 
@@ -40,11 +41,55 @@ struct DomainSpec {
   std::vector<DomainPlaneSpec> planes;
 };
 
+enum class OutlineShape { none, rectangle, ellipse, polygon, trace };
+
+// how far a joint reaches in its plane, about the plane's point
+struct OutlineSpec {
+  OutlineShape shape = OutlineShape::none;   // none: no end
+  double length = 0, width = 0;              // m: along the strike (2-D: of the trace), down the dip
+  std::vector<std::vector<double>> corners;  // m, of a polygon, in space
+};
+
 struct JointSpec {
   Subject subject;
   std::string name;
   PlaneSpec plane;
   std::optional<std::string> properties;
+  OutlineSpec outline;
+  std::string set;  // joints of one name are a set; or empty
+  JointKind kind = JointKind::rock;
+  JointSide whole = JointSide::none;
+};
+
+// a tunnel or, in 2-D, a circle: a prism whose sides touch it from outside
+struct CylinderSpec {
+  Subject subject;
+  std::vector<double> from, to;  // m; 2-D: the centre alone
+  double radius = 0;             // m
+  int sides = 24;
+};
+
+// what is taken out before anything else happens; of box and cylinder at most one
+struct ExcavationSpec {
+  Subject subject;
+  std::string name;
+  std::optional<BoxSpec> box;
+  std::optional<CylinderSpec> cylinder;
+  std::vector<DomainPlaneSpec> planes;
+  bool outline = false;  // construction joints along its faces
+};
+
+enum class JointEnds {
+  extended,  // at the faces of the blocks that the joint meets
+  healed,    // likewise, and blocks that it does not wholly separate are joined again
+  ignored    // nowhere: every joint is persistent
+};
+
+struct SlicingSpec {
+  CuttingOrder order = CuttingOrder::given;
+  JointEnds ends = JointEnds::extended;
+  double largest_aspect_ratio = 0;  // of the box along the axes; 0: any
+  int most_blocks = 1'000'000;
 };
 
 struct PropertiesSpec {
@@ -110,7 +155,7 @@ struct Scene {
   std::optional<std::vector<double>> gravity;  // m/s²
   std::optional<double> density;               // kg/m³
   std::optional<DomainSpec> domain;
-  std::vector<JointSpec> joints;  // in slicing order
+  std::vector<JointSpec> joints;  // in the order of the file
   std::vector<PropertiesSpec> properties;
   std::vector<BlockSpec> blocks;
   std::vector<SelectorSpec> fix;
@@ -118,6 +163,8 @@ struct Scene {
   std::vector<InitialVelocitySpec> initial_velocity;
   Settings settings;
   double smallest_inscribed_radius = 0;  // m
+  SlicingSpec slicing;
+  std::vector<ExcavationSpec> excavations;
   std::vector<StageSpec> stages;
   std::vector<MonitorSpec> monitors;
   OutputPlan output;

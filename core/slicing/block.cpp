@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/geometry/surface.hpp"
 #include "core/optimise/feasibility.hpp"
@@ -93,13 +94,27 @@ Surface<Dim> surface_around(HalfSpaces<Dim> planes, const FeasibilityResult<Dim>
 }
 
 template <int Dim>
-BlockStatus judge(const Surface<Dim>& surface, double inscribed_radius) {
-  if (surface.status == SurfaceStatus::open) return BlockStatus::open;
+double extent_of(const Surface<Dim>& surface) {
   double extent = 0;
   for (const Vector<Dim>& v : surface.vertices)
     extent = std::max(extent, v.norm());
-  const bool solid = surface.status == SurfaceStatus::ok && inscribed_radius >= thinnest * extent;
+  return extent;
+}
+
+template <int Dim>
+BlockStatus judge(const Surface<Dim>& surface, double inscribed_radius) {
+  if (surface.status == SurfaceStatus::open) return BlockStatus::open;
+  const bool solid = surface.status == SurfaceStatus::ok && inscribed_radius >= thinnest * extent_of(surface);
   return solid ? BlockStatus::ok : BlockStatus::flat;
+}
+
+// whether the largest inscribed ball, of bounded planes, is that of a solid near enough to the origin
+template <int Dim>
+BlockStatus judge(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& ball) {
+  // faces may be too nearly parallel for the program
+  if (ball.status == FeasibilityStatus::iteration_limit) return BlockStatus::flat;
+  if (!holds_ball(planes, ball)) return BlockStatus::empty;
+  return ball.point.norm() > farthest * std::abs(ball.value) ? BlockStatus::far : BlockStatus::ok;
 }
 
 // Where fewer faces carry the inscribed ball than the LP has tight planes, as two opposite ones do, the rest of the
@@ -170,6 +185,18 @@ BlockStatus describe(Polytope<Dim>& part) {
   return BlockStatus::ok;
 }
 
+// Faces in canonical order: every bit of the part follows from them.
+template <int Dim>
+void fill(BlockResult<Dim>& result, const HalfSpaces<Dim>& planes, const std::vector<int>& joints,
+          std::vector<std::size_t> kept) {
+  std::sort(kept.begin(), kept.end(), [&](std::size_t i, std::size_t j) { return before(planes[i], planes[j]); });
+  for (const std::size_t i : kept) {
+    result.part.faces.push_back(planes[i]);
+    result.part.joints.push_back(joints[i]);
+  }
+  result.status = describe(result.part);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -191,18 +218,8 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
     result.status = BlockStatus::open;
     return result;
   }
-  if (ball.status == FeasibilityStatus::iteration_limit) {
-    result.status = BlockStatus::flat;  // faces too nearly parallel for the program
-    return result;
-  }
-  if (!holds_ball(planes, ball)) {
-    result.status = BlockStatus::empty;
-    return result;
-  }
-  if (ball.point.norm() > farthest * std::abs(ball.value)) {
-    result.status = BlockStatus::far;
-    return result;
-  }
+  result.status = judge(planes, ball);
+  if (result.status != BlockStatus::ok) return result;
 
   // redundant planes have no loop and go; of equal ones the last, and with it the newest joint, stays
   const Surface<Dim> all = surface_around(planes, ball);
@@ -211,14 +228,56 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < planes.size(); ++i)
     if (!all.loops[i].empty()) kept.push_back(i);
+  fill(result, planes, joints, std::move(kept));
+  return result;
+}
 
-  // from here on the faces stand in canonical order, and every bit of the part follows from them
-  std::sort(kept.begin(), kept.end(), [&](std::size_t i, std::size_t j) { return before(planes[i], planes[j]); });
-  for (const std::size_t i : kept) {
-    result.part.faces.push_back(planes[i]);
-    result.part.joints.push_back(joints[i]);
+template <int Dim>
+Draft<Dim> make_draft(const Polytope<Dim>& part) {
+  Draft<Dim> draft{part.faces, part.joints, part.vertices, solve_feasibility<Dim>(part.faces, {}), 0};
+  for (const Vector<Dim>& v : part.vertices)
+    draft.extent = std::max(draft.extent, (v - draft.ball.point).norm());
+  return draft;
+}
+
+template <int Dim>
+BlockStatus cut_draft(const Draft<Dim>& whole, const HalfSpace<Dim>& plane, int joint, Draft<Dim>& below) {
+  HalfSpaces<Dim> planes = whole.faces;
+  planes.push_back(plane);
+  const bool warm = *std::min_element(whole.ball.basis.begin(), whole.ball.basis.end()) >= 0;
+  FeasibilityRequest<Dim> request;
+  if (warm) request.start = &whole.ball.basis;
+  below.ball = solve_feasibility<Dim>(planes, request);
+  if (const BlockStatus status = judge(planes, below.ball); status != BlockStatus::ok) return status;
+
+  Surface<Dim> surface = surface_around(planes, below.ball);
+  if (const BlockStatus status = judge(surface, below.inscribed_radius() / 2); status != BlockStatus::ok) return status;
+  below.extent = extent_of(surface);
+  below.vertices = std::move(surface.vertices);
+  for (Vector<Dim>& v : below.vertices)
+    v += below.ball.point;
+
+  // what the cut took away goes, and with it its number in the ball's basis
+  std::vector<int> number(planes.size(), -1);
+  below.faces.clear();
+  below.joints.clear();
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    if (surface.loops[i].empty()) continue;
+    number[i] = static_cast<int>(below.faces.size());
+    below.faces.push_back(planes[i]);
+    below.joints.push_back(i < whole.joints.size() ? whole.joints[i] : joint);
   }
-  result.status = describe(result.part);
+  for (int& face : below.ball.basis)
+    if (face >= 0) face = number[face];
+  return BlockStatus::ok;
+}
+
+template <int Dim>
+BlockResult<Dim> finish(Draft<Dim> draft) {
+  std::vector<std::size_t> all(draft.faces.size());
+  std::iota(all.begin(), all.end(), 0);
+  BlockResult<Dim> result;
+  fill(result, draft.faces, draft.joints, std::move(all));
   return result;
 }
 
@@ -295,5 +354,11 @@ HalfSpaces<3> hull_planes(const std::vector<Vector<3>>& stated, int* hidden) {
 
 template BlockResult<2> make_block<2>(const HalfSpaces<2>&, const std::vector<int>&);
 template BlockResult<3> make_block<3>(const HalfSpaces<3>&, const std::vector<int>&);
+template Draft<2> make_draft<2>(const Polytope<2>&);
+template Draft<3> make_draft<3>(const Polytope<3>&);
+template BlockStatus cut_draft<2>(const Draft<2>&, const HalfSpace<2>&, int, Draft<2>&);
+template BlockStatus cut_draft<3>(const Draft<3>&, const HalfSpace<3>&, int, Draft<3>&);
+template BlockResult<2> finish<2>(Draft<2>);
+template BlockResult<3> finish<3>(Draft<3>);
 
 }  // namespace voussoir

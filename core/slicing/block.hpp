@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/geometry/polytope.hpp"
+#include "core/optimise/feasibility.hpp"
 
 namespace voussoir {
 
@@ -31,6 +32,30 @@ struct BlockResult {
 // Coordinates as given: the caller keeps the origin near the block.
 template <int Dim>
 BlockResult<Dim> make_block(const HalfSpaces<Dim>& planes, const std::vector<int>& joints);
+
+// A part that is still being cut: what decides about the next cut, and nothing that only the finished part needs.
+template <int Dim>
+struct Draft {
+  HalfSpaces<Dim> faces;              // unit normals, none redundant
+  std::vector<int> joints;            // as in Polytope
+  std::vector<Vector<Dim>> vertices;  // m
+  FeasibilityResult<Dim> ball;        // the largest inscribed one; its basis are faces of this draft, or negative
+  double extent = 0;                  // largest distance of a vertex from the ball's centre, m
+
+  double inscribed_radius() const { return -ball.value; }
+};
+
+template <int Dim>
+Draft<Dim> make_draft(const Polytope<Dim>& part);
+
+// The draft's part below a plane of unit normal. Refused as in make_block, and as flat from twice its thickness on, so
+// that a draft never fails to be finished.
+template <int Dim>
+BlockStatus cut_draft(const Draft<Dim>& whole, const HalfSpace<Dim>& plane, int joint, Draft<Dim>& below);
+
+// the same bits as make_block with the draft's faces
+template <int Dim>
+BlockResult<Dim> finish(Draft<Dim> draft);
 
 // The half-spaces of the convex hull of points. 2-D and 3-D; coplanar points share one plane. Fewer than Dim+1 points
 // or points without volume give an empty list. `hidden` counts the points that are no vertices of the hull.

@@ -22,6 +22,33 @@ name = "A"
 dip = 0
 point = [0, 0, 0]
 properties = "rock"
+[[joints]]
+name = "ellipse"
+dip = 90
+dip_direction = 90
+point = [0.2, 0, 0]
+shape = "ellipse"
+length = 5
+width = 5
+properties = "rock"
+[[joints]]
+name = "polygon"
+dip = 0
+point = [0, 0, 0.5]
+shape = "polygon"
+corners = [[-0.5, -0.5, 0.5], [0.6, -0.5, 0.5], [0.5, 0.7, 0.5]]
+properties = "rock"
+[[joints]]
+name = "boundary"
+dip = 0
+point = [0, 0, -0.8]
+kind = "boundary"
+whole = "below"
+properties = "rock"
+[[excavations]]
+name = "tunnel"
+cylinder = { from = [0.3, -2, -0.3], to = [0.3, 2, -0.3], radius = 0.2 }
+outline = true
 [[joint_properties]]
 name = "rock"
 normal_stiffness = 1e9
@@ -129,6 +156,8 @@ inline std::string address(const KeyRow& row) {
   const std::map<std::string_view, std::string> tables = {{"box", "domain.box"},
                                                           {"domain.planes", "domain.planes.1"},
                                                           {"joints", "joints.A"},
+                                                          {"excavations", "excavations.tunnel"},
+                                                          {"cylinder", "excavations.tunnel.cylinder"},
                                                           {"joint_properties", "joint_properties.rock"},
                                                           {"blocks", "blocks.by planes"},
                                                           {"blocks.planes", "blocks.by planes.planes.1"},
@@ -148,6 +177,9 @@ inline std::string address(const KeyRow& row) {
   if (row.table == "joint_properties" && !row.when.value.empty())
     table = row.when.value == "linear" || row.when.value == "hardening" ? "joint_properties.linear"
                                                                         : "joint_properties.power";
+  if (row.table == "joints" && row.when.key == "shape")
+    table = row.when.value == "polygon" ? "joints.polygon" : "joints.ellipse";
+  if (row.table == "joints" && row.when.key == "kind") table = "joints.boundary";
   if (row.table == "blocks" && row.key == "vertices") table = "blocks.by vertices";
   if (row.table == "blocks.planes" && row.key == "point") table = "blocks.by planes.planes.5";
   if (row.table == "monitors" && row.key == "joint") table = "monitors.joint";

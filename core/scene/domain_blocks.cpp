@@ -1,0 +1,166 @@
+#include "core/scene/domain_blocks.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "core/scene/bodies.hpp"
+#include "core/slicing/clump.hpp"
+
+namespace voussoir {
+namespace {
+
+// a corner of an outline lies in the joint's plane within this share of its distance from the joint's point: far above
+// the rounding of coordinates and angles of six digits, far below what anyone would state as out of the plane
+constexpr double in_plane = 1e-4;
+
+// of the polygon about an ellipse, which is 1.3 % larger
+constexpr int ellipse_sides = 16;
+
+Extent<2> extent_of(const JointSpec& joint, const Vector<2>& normal, const Vector<2>& origin) {
+  if (joint.outline.shape == OutlineShape::none) return {};
+  return trace_extent(normal, to_vector<2>(joint.plane.point) - origin, joint.outline.length);
+}
+
+Extent<3> polygon_of(const JointSpec& joint, const Vector<3>& normal, const Vector<3>& point, const Vector<3>& origin) {
+  const auto axes = joint_axes(normal);
+  std::vector<Vector<2>> corners;
+  const Node& list = *joint.subject.node->find("corners");
+  for (std::size_t i = 0; i < list.items.size(); ++i) {
+    const Vector<3> corner = to_vector<3>(joint.outline.corners[i]) - origin - point;
+    if (std::abs(normal.dot(corner)) > in_plane * corner.norm())
+      refuse(list.items[i], key_path(joint.subject.path, "corners") + "." + std::to_string(i + 1),
+             "does not lie in the joint's plane; move the corner, or correct dip, dip_direction or point");
+    corners.push_back(axes.transpose() * corner);
+  }
+  const Extent<3> extent = polygon_extent(normal, point, corners);
+  if (extent.infinite())
+    refuse(joint.subject, "corners",
+           "are not the corners of a convex polygon in order; give at least three, one after the other around it, or "
+           "make two joints of it");
+  return extent;
+}
+
+Extent<3> extent_of(const JointSpec& joint, const Vector<3>& normal, const Vector<3>& origin) {
+  const Vector<3> point = to_vector<3>(joint.plane.point) - origin;
+  const OutlineSpec& outline = joint.outline;
+  switch (outline.shape) {
+    case OutlineShape::rectangle:
+      return rectangle_extent(normal, point, outline.length, outline.width);
+    case OutlineShape::ellipse:
+      return ellipse_extent(normal, point, outline.length, outline.width, ellipse_sides);
+    case OutlineShape::polygon:
+      return polygon_of(joint, normal, point, origin);
+    default:
+      return {};
+  }
+}
+
+template <int Dim>
+std::vector<Cut<Dim>> cuts_of(const Scene& scene, const Model<Dim>& model) {
+  std::vector<Cut<Dim>> cuts;
+  std::map<std::string, int> sets;
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    const JointSpec& joint = scene.joints[j];
+    const int number = static_cast<int>(j);
+    Cut<Dim> cut{model.joints[j].plane, number};
+    const Extent<Dim> extent = extent_of(joint, cut.plane.normal, model.origin);
+    if (scene.slicing.ends != JointEnds::ignored) cut.extent = extent;
+    // a joint without a set is one of its own
+    cut.set = joint.set.empty() ? number : sets.try_emplace(joint.set, number).first->second;
+    cut.kind = joint.kind;
+    cut.whole = joint.whole;
+    cuts.push_back(std::move(cut));
+  }
+  put_in_order(cuts, scene.slicing.order);
+  return cuts;
+}
+
+HalfSpaces<2> region_of(const CylinderSpec& c, const Vector<2>& origin) {
+  return circle_region(to_vector<2>(c.from) - origin, c.radius, c.sides);
+}
+HalfSpaces<3> region_of(const CylinderSpec& c, const Vector<3>& origin) {
+  return cylinder_region(to_vector<3>(c.from) - origin, to_vector<3>(c.to) - origin, c.radius, c.sides);
+}
+
+template <int Dim>
+HalfSpaces<Dim> region_of(const ExcavationSpec& spec, const Vector<Dim>& origin) {
+  HalfSpaces<Dim> region;
+  if (spec.box) region = box_planes<Dim>(*spec.box, origin);
+  if (spec.cylinder) region = region_of(*spec.cylinder, origin);
+  for (const DomainPlaneSpec& p : spec.planes) {
+    const HalfSpace<Dim> plane = to_half_space<Dim>(p.plane, origin);
+    region.push_back(p.keep_below ? plane : HalfSpace<Dim>{-plane.normal, -plane.offset});
+  }
+  return region;
+}
+
+// construction joints along the region's faces, each confined to its face
+template <int Dim>
+void add_outline(const Scene& scene, const ExcavationSpec& spec, const HalfSpaces<Dim>& region, Model<Dim>& model,
+                 std::vector<Cut<Dim>>& cuts) {
+  for (std::size_t f = 0; f < region.size(); ++f) {
+    Cut<Dim> cut{region[f], static_cast<int>(model.joints.size())};
+    for (std::size_t other = 0; other < region.size(); ++other)
+      if (other != f) cut.extent.bounds.push_back(region[other]);
+    cut.kind = JointKind::construction;
+    const std::string name = spec.name + " face " + std::to_string(f + 1);
+    for (const JointSpec& joint : scene.joints)
+      if (joint.name == name) refuse(joint.subject, "name", "is that of a face of an excavation; choose another name");
+    model.joints.push_back({name, cut.plane, model.default_properties});
+    cuts.push_back(std::move(cut));
+  }
+}
+
+SlicingLimits limits_of(const Scene& scene) {
+  SlicingLimits limits;
+  limits.smallest_inscribed_radius = scene.smallest_inscribed_radius;
+  if (scene.slicing.largest_aspect_ratio > 0) limits.largest_aspect_ratio = scene.slicing.largest_aspect_ratio;
+  limits.most_blocks = scene.slicing.most_blocks;
+  limits.threads = scene.settings.threads;
+  return limits;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
+  // the cuts: the scene's joints, then what outlines excavations
+  std::vector<Cut<Dim>> cuts = cuts_of<Dim>(scene, model);
+  std::vector<HalfSpaces<Dim>> regions;
+  for (const ExcavationSpec& spec : scene.excavations) {
+    regions.push_back(region_of<Dim>(spec, model.origin));
+    if (spec.outline) add_outline<Dim>(scene, spec, regions.back(), model, cuts);
+  }
+
+  SlicingCounters counters;
+  const SlicingLimits limits = limits_of(scene);
+  std::vector<Polytope<Dim>> parts = slice<Dim>(make_domain<Dim>(scene, model.origin), cuts, limits, counters);
+  if (counters.given_up)
+    refuse({scene.tree.get(), ""}, "joints",
+           "cut the domain into more than " + std::to_string(limits.most_blocks) +
+               " blocks; state fewer joints, a smaller domain, slicing.smallest_inscribed_radius or a larger "
+               "slicing.most_blocks");
+  for (std::size_t e = 0; e < regions.size(); ++e) {
+    const std::size_t before = parts.size();
+    parts = excavated<Dim>(std::move(parts), regions[e]);
+    if (parts.size() == before)
+      refuse(*scene.excavations[e].subject.node, scene.excavations[e].subject.path,
+             "takes out no block: no block's centroid lies inside; check its place, or write outline = true to cut the "
+             "blocks along it");
+  }
+
+  // what is held together is one body
+  const std::vector<int> body = bodies_of<Dim>(parts, cuts, scene.slicing.ends == JointEnds::healed);
+  const std::vector<int> whole = boundary_parts<Dim>(parts, cuts);
+  std::vector<DomainBody<Dim>> bodies(parts.empty() ? 0 : *std::max_element(body.begin(), body.end()) + 1);
+  for (const int part : whole)
+    bodies[body[part]].fixed = true;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    bodies[body[p]].parts.push_back(std::move(parts[p]));
+  return bodies;
+}
+
+template std::vector<DomainBody<2>> cut_domain<2>(const Scene&, Model<2>&);
+template std::vector<DomainBody<3>> cut_domain<3>(const Scene&, Model<3>&);
+
+}  // namespace voussoir

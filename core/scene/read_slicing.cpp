@@ -1,0 +1,165 @@
+#include "core/scene/read_slicing.hpp"
+
+#include <numbers>
+
+#include "core/scene/values.hpp"
+
+namespace voussoir {
+namespace {
+
+void read_plane(const Subject& subject, int dimension, PlaneSpec& plane) {
+  read(subject, "point", plane.point);
+  read_degrees(subject, "dip", plane.dip);
+  const bool stated = subject.node->find("dip_direction");
+  if (!stated && plane.dip > 0)
+    refuse(subject, "dip_direction",
+           std::string("a plane that dips needs it; write for example dip_direction = ") +
+               (dimension == 2 ? "90 (to the right) or 270 (to the left)" : "130 (clockwise from north)"));
+  read_degrees(subject, "dip_direction", plane.dip_direction);
+  if (dimension == 2 && stated) {
+    const double degrees = subject.node->find("dip_direction")->number;
+    if (degrees != 90 && degrees != 270)
+      refuse(subject, "dip_direction",
+             "must be 90 (dips to the right) or 270 (to the left) because dimension = 2; choose one");
+  }
+  if (dimension == 2 && !stated) plane.dip_direction = std::numbers::pi / 2;
+}
+
+std::vector<DomainPlaneSpec> read_planes(const Subject& region, int dimension) {
+  std::vector<DomainPlaneSpec> planes;
+  for (const Subject& item : children(region, "planes")) {
+    DomainPlaneSpec plane{item, {}, true};
+    read_plane(item, dimension, plane.plane);
+    std::string keep;
+    read(item, "keep", keep);
+    plane.keep_below = keep == "below";
+    planes.push_back(plane);
+  }
+  return planes;
+}
+
+// what a choice of the key table means; the first value is its default
+template <class T>
+T chosen(const Subject& subject, std::string_view key, std::initializer_list<std::pair<std::string_view, T>> meanings) {
+  std::string word;
+  read(subject, key, word);
+  for (const auto& [name, meaning] : meanings)
+    if (word == name) return meaning;
+  return meanings.begin()->second;
+}
+
+OutlineSpec read_outline(const Subject& item, int dimension) {
+  OutlineSpec outline;
+  outline.shape = chosen<OutlineShape>(item, "shape",
+                                       {{"infinite", OutlineShape::none},
+                                        {"rectangle", OutlineShape::rectangle},
+                                        {"ellipse", OutlineShape::ellipse},
+                                        {"polygon", OutlineShape::polygon},
+                                        {"trace", OutlineShape::trace}});
+  if (outline.shape != OutlineShape::none && (outline.shape == OutlineShape::trace) != (dimension == 2))
+    refuse(item, "shape",
+           dimension == 2 ? "has no place in a plane because dimension = 2; write shape = \"trace\" and its length"
+                          : "belongs to a plane but dimension = 3; write \"rectangle\", \"ellipse\" or \"polygon\"");
+  read(item, "length", outline.length);
+  read(item, "width", outline.width);
+  read(item, "corners", outline.corners);
+  return outline;
+}
+
+CylinderSpec read_cylinder(const Subject& subject, int dimension) {
+  CylinderSpec cylinder;
+  cylinder.subject = subject;
+  read(subject, "from", cylinder.from);
+  read(subject, "to", cylinder.to);
+  read(subject, "radius", cylinder.radius);
+  read(subject, "sides", cylinder.sides);
+  if (dimension == 2 && !cylinder.to.empty())
+    refuse(subject, "to", "a circle has only a centre because dimension = 2; remove it");
+  if (dimension == 3 && (cylinder.to.empty() || cylinder.to == cylinder.from))
+    refuse(subject, "to", "a tunnel needs the other end of its axis; write for example to = [0, 10, 0]");
+  return cylinder;
+}
+
+}  // namespace
+
+BoxSpec read_box(const Subject& subject) {
+  BoxSpec box{subject, {}, {}};
+  read(subject, "min", box.min);
+  read(subject, "max", box.max);
+  for (std::size_t k = 0; k < box.min.size(); ++k)
+    if (!(box.max[k] > box.min[k]))
+      refuse(subject, "max",
+             std::string("must exceed min along ") + "xyz"[k] + " (" + value_text(*subject.node->find("min")) +
+                 "); swap the two or move a corner");
+  return box;
+}
+
+std::optional<DomainSpec> read_domain(const Subject& scene, int dimension) {
+  const auto subject = child(scene, "domain");
+  if (!subject) return {};
+  DomainSpec domain{*subject, {}, {}};
+  if (const auto box = child(*subject, "box")) domain.box = read_box(*box);
+  domain.planes = read_planes(*subject, dimension);
+  if (!domain.box && domain.planes.empty())
+    refuse(*subject, "box",
+           "a domain needs a box, planes or both; write for example box = { min = [-4, -4, -4], max = [4, 4, 0] }");
+  return domain;
+}
+
+std::vector<JointSpec> read_joints(const Subject& scene, int dimension) {
+  std::vector<JointSpec> joints;
+  for (const Subject& item : children(scene, "joints")) {
+    JointSpec joint;
+    joint.subject = item;
+    read(item, "name", joint.name);
+    read(item, "properties", joint.properties);
+    read_plane(item, dimension, joint.plane);
+    joint.outline = read_outline(item, dimension);
+    read(item, "set", joint.set);
+    joint.kind = chosen<JointKind>(item, "kind",
+                                   {{"rock", JointKind::rock},
+                                    {"boundary", JointKind::boundary},
+                                    {"construction", JointKind::construction},
+                                    {"fictitious", JointKind::fictitious}});
+    joint.whole = chosen<JointSide>(item, "whole",
+                                    {{"", JointSide::none}, {"below", JointSide::below}, {"above", JointSide::above}});
+    joints.push_back(std::move(joint));
+  }
+  return joints;
+}
+
+std::vector<ExcavationSpec> read_excavations(const Subject& scene, int dimension) {
+  std::vector<ExcavationSpec> all;
+  for (const Subject& item : children(scene, "excavations")) {
+    ExcavationSpec spec;
+    spec.subject = item;
+    read(item, "name", spec.name);
+    if (const auto box = child(item, "box")) spec.box = read_box(*box);
+    if (const auto cylinder = child(item, "cylinder")) spec.cylinder = read_cylinder(*cylinder, dimension);
+    spec.planes = read_planes(item, dimension);
+    read(item, "outline", spec.outline);
+    if (spec.box && spec.cylinder)
+      refuse(item, "box", "an excavation takes only one of box and cylinder; remove one, or state two excavations");
+    if (!spec.box && !spec.cylinder && spec.planes.empty())
+      refuse(item, "box",
+             "an excavation needs a box, a cylinder or planes; write for example box = { min = [-1, -1, -1], max = "
+             "[1, 1, 1] }");
+    all.push_back(std::move(spec));
+  }
+  return all;
+}
+
+SlicingSpec read_slicing(const Subject& slicing) {
+  SlicingSpec spec;
+  spec.order = chosen<CuttingOrder>(
+      slicing, "order",
+      {{"given", CuttingOrder::given}, {"size", CuttingOrder::by_size}, {"alternating", CuttingOrder::alternating}});
+  spec.ends = chosen<JointEnds>(
+      slicing, "ends",
+      {{"extended", JointEnds::extended}, {"healed", JointEnds::healed}, {"ignored", JointEnds::ignored}});
+  read(slicing, "largest_aspect_ratio", spec.largest_aspect_ratio);
+  read(slicing, "most_blocks", spec.most_blocks);
+  return spec;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,14 @@
+// Reads what becomes blocks by cutting: domain, joints, excavations and how the cuts are made.
+#pragma once
+
+#include "core/scene/scene.hpp"
+
+namespace voussoir {
+
+BoxSpec read_box(const Subject& subject);
+std::optional<DomainSpec> read_domain(const Subject& scene, int dimension);
+std::vector<JointSpec> read_joints(const Subject& scene, int dimension);
+std::vector<ExcavationSpec> read_excavations(const Subject& scene, int dimension);
+SlicingSpec read_slicing(const Subject& slicing);
+
+}  // namespace voussoir

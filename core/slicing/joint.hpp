@@ -1,0 +1,68 @@
+// A joint as slicing sees it: a plane, how far it reaches in it, and what its faces mean (Boon 2013, chapter 3.2).
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "core/geometry/half_space.hpp"
+
+namespace voussoir {
+
+enum class JointKind {
+  rock,
+  boundary,      // one side of it stays in one piece and never moves
+  construction,  // the blocks on its two sides are one body: it only shapes slopes and openings
+  fictitious     // a plane through intact rock, whose strength its properties state; cuts like rock
+};
+
+// which side of a joint, seen along its normal
+enum class JointSide { none, below, above };
+
+// The part of a joint's plane that exists: no half-space, and it has no end. Every half-space that bounds it counts,
+// those of an outline, perpendicular to the joint, and those of a subdomain to which it is confined.
+template <int Dim>
+struct Extent {
+  HalfSpaces<Dim> bounds;
+  Vector<Dim> centre = Vector<Dim>::Zero();                 // of a ball that holds it, m
+  double radius = std::numeric_limits<double>::infinity();  // m
+
+  bool infinite() const { return bounds.empty(); }
+};
+
+template <int Dim>
+struct Cut {
+  HalfSpace<Dim> plane;  // upward normal, unit
+  int joint;             // the number that the faces it makes remember
+  Extent<Dim> extent{};
+  int set = 0;  // of the same joint set
+  JointKind kind = JointKind::rock;
+  JointSide whole = JointSide::none;  // boundary: the side that stays whole
+};
+
+// Axes of a joint's plane: 3-D along the strike and down the dip (Eqs 3.11 and 3.12; along x where it does not dip),
+// 2-D down the dip.
+Eigen::Matrix<double, 3, 2> joint_axes(const Vector<3>& upward_normal);
+Eigen::Matrix<double, 2, 1> joint_axes(const Vector<2>& upward_normal);
+
+// Outlines about a point of the plane, from coordinates along its axes (m). A polygon has at least three corners, in
+// either sense; of one that is not convex or has no area, the extent is empty of bounds: the caller refuses it. An
+// ellipse becomes the polygon of `sides` sides that touches it from outside, which is larger by sides/π tan(π/sides).
+Extent<3> polygon_extent(const Vector<3>& upward_normal, const Vector<3>& point, const std::vector<Vector<2>>& corners);
+Extent<3> rectangle_extent(const Vector<3>& upward_normal, const Vector<3>& centre, double along_strike,
+                           double down_dip);
+Extent<3> ellipse_extent(const Vector<3>& upward_normal, const Vector<3>& centre, double along_strike, double down_dip,
+                         int sides);
+
+// a trace in the plane, of this length about its centre
+Extent<2> trace_extent(const Vector<2>& upward_normal, const Vector<2>& centre, double length);
+
+enum class CuttingOrder {
+  given,
+  by_size,      // large extents first, those of one size as given: a small joint then ends at the large ones
+  alternating,  // the first of every set, the second of every set, …
+};
+
+template <int Dim>
+void put_in_order(std::vector<Cut<Dim>>& cuts, CuttingOrder order);
+
+}  // namespace voussoir
