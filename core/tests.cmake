@@ -49,7 +49,7 @@ endif()
 add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exact_programs.cpp
   testing/exact_contacts.cpp)
 target_link_libraries(voussoir_exact_referee PUBLIC voussoir_core voussoir_oracle_algebra gmpxx gmp PRIVATE voussoir_flags cddgmp)
-voussoir_test(unit.exact_referee LABEL unit SOURCES testing/exact_referee_test.cpp
+voussoir_test(unit.exact_referee LABEL unit SOURCES testing/exact_referee_test.cpp slicing/exact_slicing_test.cpp
   LIBS voussoir_exact_referee Boost::headers)
 
 
