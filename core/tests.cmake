@@ -12,7 +12,7 @@ voussoir_test(unit.blocks LABEL unit
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.joint_sets LABEL unit
-  SOURCES joint_sets/joint_sets_test.cpp exchange/exchange_test.cpp
+  SOURCES joint_sets/joint_sets_test.cpp exchange/exchange_test.cpp scene/scene_files_test.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)
 
 voussoir_test(unit.law_and_motion LABEL unit

@@ -198,7 +198,7 @@ void judge_joints(const Scene& scene, const Model<Dim>& model, Warnings& warning
     for (const Polytope<Dim>& part : body.parts)
       for (const int joint : part.joints)
         if (joint != no_joint) cuts[joint] = true;
-  for (std::size_t j = 0; j < cuts.size(); ++j)
+  for (std::size_t j = 0; j < scene.joints.size(); ++j)
     if (!cuts[j])
       warnings.push_back(complaint(*scene.joints[j].subject.node, scene.joints[j].subject.path,
                                    "cuts no block: it misses the domain, or its blocks would be smaller than "

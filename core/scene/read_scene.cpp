@@ -8,6 +8,7 @@
 #include "core/scene/base_scene.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/overrides.hpp"
+#include "core/scene/read_joint_sets.hpp"
 #include "core/scene/read_stages.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_text.hpp"
@@ -16,24 +17,6 @@
 
 namespace voussoir {
 namespace {
-
-void read_plane(const Subject& subject, int dimension, PlaneSpec& plane) {
-  read(subject, "point", plane.point);
-  read_degrees(subject, "dip", plane.dip);
-  const bool stated = subject.node->find("dip_direction");
-  if (!stated && plane.dip > 0)
-    refuse(subject, "dip_direction",
-           std::string("a plane that dips needs it; write for example dip_direction = ") +
-               (dimension == 2 ? "90 (to the right) or 270 (to the left)" : "130 (clockwise from north)"));
-  read_degrees(subject, "dip_direction", plane.dip_direction);
-  if (dimension == 2 && stated) {
-    const double degrees = subject.node->find("dip_direction")->number;
-    if (degrees != 90 && degrees != 270)
-      refuse(subject, "dip_direction",
-             "must be 90 (dips to the right) or 270 (to the left) because dimension = 2; choose one");
-  }
-  if (dimension == 2 && !stated) plane.dip_direction = std::numbers::pi / 2;
-}
 
 BoxSpec read_box(const Subject& subject) {
   BoxSpec box{subject, {}, {}};
@@ -236,6 +219,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   read(top, "density", scene.density);
   scene.domain = read_domain(top, scene.dimension);
   scene.joints = read_joints(top, scene.dimension);
+  scene.joint_sets = read_joint_sets(top, scene.dimension);
   scene.properties = read_properties(top);
   scene.blocks = read_blocks(top);
   scene.fix = read_selectors(top, "fix");

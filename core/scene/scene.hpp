@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/joint_sets/joint_set.hpp"
 #include "core/law/joint_properties.hpp"
 #include "core/scene/node.hpp"
 #include "core/scene/prepared.hpp"
@@ -21,6 +22,7 @@ namespace voussoir {
 struct PlaneSpec {
   double dip = 0, dip_direction = 0;  // rad
   std::vector<double> point;          // m
+  std::vector<double> normal;         // upward, unit: the plane to the last bit where it is stated; or empty
 };
 
 struct BoxSpec {
@@ -44,6 +46,12 @@ struct JointSpec {
   Subject subject;
   std::string name;
   PlaneSpec plane;
+  std::optional<std::string> properties;
+};
+
+struct JointSetSpec {
+  Subject subject;
+  JointSet set;
   std::optional<std::string> properties;
 };
 
@@ -110,7 +118,8 @@ struct Scene {
   std::optional<std::vector<double>> gravity;  // m/s²
   std::optional<double> density;               // kg/m³
   std::optional<DomainSpec> domain;
-  std::vector<JointSpec> joints;  // in slicing order
+  std::vector<JointSpec> joints;  // in slicing order, before those of the sets
+  std::vector<JointSetSpec> joint_sets;
   std::vector<PropertiesSpec> properties;
   std::vector<BlockSpec> blocks;
   std::vector<SelectorSpec> fix;
