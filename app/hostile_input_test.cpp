@@ -125,5 +125,64 @@ TEST_F(Hostile, BasesChainSixteenDeepAndEndInNoCircle) {
   refused("a.toml", "leads back to itself");
 }
 
+// files of joints and blocks that a scene names
+TEST_F(Hostile, TablesAndMeshesAreRefusedWithTheirPlace) {
+  const std::string stage =
+      "joint_properties = [{ name = \"r\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]\n"
+      "stage = [{ name = \"s\", kind = \"settle\" }]\n";
+  const auto refused_file = [&](const std::string& key, const std::string& name, const std::string& content,
+                                const std::string& part) {
+    write(name, content);
+    refused_text("dimension = 3\ndensity = 1\n" + key + " = \"" + name + "\"\n" + stage, part);
+  };
+  const std::string joints = "dip_deg,dip_direction_deg,x_m,y_m,z_m\n";
+  const std::string planes = "block,normal_x,normal_y,normal_z,offset_m\n";
+  refused_file("joints_file", "a.csv", "", "a.csv:1: is empty");
+  refused_file("joints_file", "a.csv", std::string(1'000'000, '\0'), "a.csv:1:1: a control character");
+  refused_file("joints_file", "a.csv", std::string(15'000'000, ','), "a.csv:1:201: more than 200 columns");
+  refused_file("joints_file", "a.csv", std::string(15'000'000, '"'), "a.csv:1:");
+  refused_file("joints_file", "a.csv", repeated("\n", 15'000'000), "a.csv:1: is empty");
+  refused_file("joints_file", "a.csv", joints + repeated("1,2,3,4,5\n", 1'000'000),
+               "a.csv:10002: more than 10000 rows");
+  refused_file("joints_file", "a.csv", joints + "1,2,3,4," + repeated("1", 10'000'000) + "\n",
+               "a.csv:2:9: z_m = '1111");
+  refused_file("joints_file", "a.csv", joints + "1,2,3,4\n", "a.csv:2: has 4 cells");
+  refused_file("joints_file", "a.csv", joints + "1e400,2,3,4,5\n", "a.csv:2:1: dip_deg = '1e400'");
+  refused_file("blocks_file", "b.csv", planes + repeated("a,1,0,0,1\n", 1'000'000),
+               "b.csv:100002: more than 100000 rows");
+  refused_file("blocks_file", "b.csv", planes + repeated("a,1,0,0,1\n", 300), "at most 200 planes");
+  refused_file("blocks_file", "b.csv", planes + "a,1,0,0,1\n", "b.csv:2: blocks.a.planes");
+  refused_file("blocks_file", "b.csv", planes + "a,0,0,0,1\n", "b.csv:2: blocks.a.planes.1.normal");
+  refused_file("blocks_file", "b.obj", repeated("v 0 0 0\n", 1'500'000), "b.obj:1: holds no face");
+  refused_file("blocks_file", "b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + repeated("f 1 2 3\n", 1'500'000),
+               "b.obj:5004: more than 5000 facets");
+  refused_file("blocks_file", "b.obj", "f" + repeated(" 1", 7'000'000), "b.obj:1:2001: more than 1000 words");
+  refused_file("blocks_file", "b.obj", "f -9223372036854775808 1 1\n", "b.obj:1:3: corner");
+  refused_file("blocks_file", "b.stl", "solid" + repeated(" a", 7'000'000), "b.stl:1:2005: more than 1000 words");
+  refused_file("blocks_file", "b.stl", std::string(80, ' ') + "\xff\xff\xff\xff" + std::string(50, 'x'), "is no STL");
+  refused_file("blocks_file", "b.stl", std::string(80, '\0') + std::string("\1\0\0\0", 4) + std::string(50, '\xff'),
+               "facet 1: a coordinate is not finite");
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.csv").c_str(), 0600), 0);
+  refused_text("dimension = 3\njoints_file = \"pipe.csv\"\n", "no such file");
+  fs::create_symlink("/dev/zero", folder_ / "device.csv");
+  refused_text("dimension = 3\nblocks_file = \"device.csv\"\n", "no such file");
+  refused_text("dimension = 3\njoints_file = 7\n", "name of a file in quotes");
+  write("sparse.csv", "");
+  fs::resize_file(folder_ / "sparse.csv", std::uintmax_t{10} << 30);
+  refused_text("dimension = 3\njoints_file = \"sparse.csv\"\n", "larger than 16 MB");
+}
+
+TEST_F(Hostile, JointSetsOfTooManyJointsAreRefusedBeforeTheyAreDrawn) {
+  const std::string scene =
+      "dimension = 3\ndensity = 1\ndomain = { box = { min = [0, 0, 0], max = [1, 1, 1] } }\n"
+      "joint_properties = [{ name = \"r\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]\n"
+      "stage = [{ name = \"s\", kind = \"settle\" }]\n[[joint_sets]]\nname = \"A\"\ndip = 0\n";
+  refused_text(scene + "spacing = 1e-12\n", "more than 1e+06");
+  refused_text(scene + "intensity = 1e12\n", "more than 1e+06");
+  // a law whose large joints come from everywhere
+  refused_text(scene + "intensity = 1\nsize = \"lognormal\"\nsize_mean = 1e-6\nsize_deviation = 1e12\n",
+               "more than 1e+06");
+}
+
 }  // namespace
 }  // namespace voussoir

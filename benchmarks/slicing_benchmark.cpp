@@ -190,7 +190,7 @@ std::vector<HalfSpaces<2>> sections() {
   std::vector<HalfSpaces<2>> all;
   for (const Polytope<3>& block : slice<3>(cube(0.5), three_sets(4), {}, counters)) {
     const Vector<3> normal = shapes::direction<3>(random);
-    const auto axes = joint_axes(normal.z() < 0 ? Vector<3>(-normal) : normal);
+    const auto axes = plane_axes(normal.z() < 0 ? Vector<3>(-normal) : normal);
     HalfSpaces<2> section;
     for (const HalfSpace<3>& face : block.faces)
       section.push_back({axes.transpose() * face.normal, -signed_distance<3>(face, block.mass.centroid)});

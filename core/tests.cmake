@@ -11,6 +11,10 @@ voussoir_test(unit.blocks LABEL unit
     slicing/sliver_test.cpp slicing/joints_test.cpp slicing/tiling_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
+voussoir_test(unit.joint_sets LABEL unit
+  SOURCES joint_sets/joint_sets_test.cpp exchange/exchange_test.cpp scene/scene_files_test.cpp
+  LIBS voussoir_core Boost::headers fmt::fmt)
+
 voussoir_test(unit.law_and_motion LABEL unit
   SOURCES law/law_test.cpp law/joint_law_test.cpp motion/motion_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)

@@ -24,7 +24,8 @@ void require_one_line(const std::string& message) {
 bool is_small(const Scene& scene) {
   constexpr std::size_t many = 12;
   const bool domain = !scene.domain || scene.domain->planes.size() <= many;
-  return scene.joints.size() <= many / 2 && scene.blocks.size() <= many && domain &&
+  return scene.joints.size() <= many / 2 && scene.joint_sets.empty() && scene.excavations.empty() &&
+         scene.blocks.size() <= many && domain &&
          std::all_of(scene.blocks.begin(), scene.blocks.end(), [](const BlockSpec& block) {
            return block.vertices.size() <= many && block.planes.size() <= many;
          });

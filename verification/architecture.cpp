@@ -23,9 +23,9 @@ constexpr std::array top_folders{"core", "app", "reference", "verification", "ca
 // from the ground up; a room may include the rooms of the lines above its own
 const std::vector<std::vector<std::string>> layers{
     {"geometry", "settings", "accuracy", "energy", "floating_point_traps"},
-    {"law"},
+    {"law", "exchange"},
     {"optimise", "load", "support"},
-    {"contact", "slicing", "model"},
+    {"contact", "slicing", "joint_sets", "model"},
     {"state", "limit"},
     {"results", "scene"},
     {"motion", "monitor", "output"},

@@ -67,8 +67,9 @@ void print_blocks(const Model<Dim>& model) {
 
 template <int Dim>
 void print_joints(const Model<Dim>& model) {
+  constexpr std::size_t most_shown = 30;  // joint sets make thousands
   const char* label = "joints";
-  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+  for (std::size_t j = 0; j < std::min(model.joints.size(), most_shown); ++j) {
     int faces = 0;
     for (const Body<Dim>& body : model.bodies)
       for (const Polytope<Dim>& part : body.parts)
@@ -78,6 +79,7 @@ void print_joints(const Model<Dim>& model) {
                             model.properties[joint.properties].name));
     label = "";
   }
+  if (model.joints.size() > most_shown) line("", fmt::format("and {} more", model.joints.size() - most_shown));
   label = "properties";
   for (const JointProperties& p : model.properties) {
     line(label, fmt::format("{}: normal {:g}, shear {:g} {}, friction {:g} deg", p.name, p.normal_stiffness,

@@ -102,6 +102,13 @@ void add_slice(CLI::App& program, SliceArguments& arguments, Action& action) {
   CLI::App* command = program.add_subcommand("slice", "cut the blocks and write them, without running");
   add_scene(command, arguments.scene);
   command->add_option("--out", arguments.out, "folder of blocks.vtp and blocks.csv")->required();
+  command->add_flag(
+      "--report", arguments.report,
+      "hold the joint sets against what was stated: report.md, joints.csv, stereonet, spacings, block sizes");
+  command->add_flag("--planes", arguments.planes,
+                    "the planes of the blocks: block_planes.csv, readable as blocks_file");
+  command->add_flag("--stl", arguments.stl, "the blocks as blocks.stl (ASCII; 3-D)");
+  command->add_flag("--obj", arguments.obj, "the blocks as blocks.obj (3-D), readable as blocks_file");
   command->callback([&] { action = [&] { return slice_command(arguments); }; });
 }
 

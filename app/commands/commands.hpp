@@ -50,6 +50,8 @@ struct ResumeArguments {
 struct SliceArguments {
   SceneArguments scene;
   std::filesystem::path out;
+  bool report = false;                            // on the joint sets, and joints.csv
+  bool planes = false, stl = false, obj = false;  // further formats of the blocks
 };
 
 struct LimitArguments {
@@ -93,7 +95,7 @@ ExitCode resume_command(const ResumeArguments& arguments);
 // says what a scene activates, what follows from its numbers, and what looks wrong; writes nothing
 ExitCode check_command(const SceneArguments& arguments);
 
-// cuts the blocks and writes them with a table of their sizes
+// cuts the blocks and writes them with a table of their sizes; on request in other formats, and a report on the joints
 ExitCode slice_command(const SliceArguments& arguments);
 
 // the collapse load or critical friction of a scene in the plane by rigid-block limit analysis, with its forces and

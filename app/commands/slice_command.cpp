@@ -1,14 +1,20 @@
 #include <fmt/format.h>
 
+#include "app/bad_input.hpp"
 #include "app/commands/commands.hpp"
+#include "app/commands/slice_report.hpp"
 #include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
+#include "core/exchange/mesh.hpp"
+#include "core/exchange/tables.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/history_csv.hpp"
 #include "core/output/paraview.hpp"
 
 namespace voussoir {
 namespace {
+
+namespace fs = std::filesystem;
 
 template <int Dim>
 std::string block_table(const Model<Dim>& model) {
@@ -31,8 +37,63 @@ std::string block_table(const Model<Dim>& model) {
   return text;
 }
 
+// a name that a scene may give it
 template <int Dim>
-void write_blocks(const Prepared<Dim>& prepared, const std::filesystem::path& folder) {
+std::string name_of(const Model<Dim>& model, std::size_t b) {
+  return model.bodies[b].name.empty() ? fmt::format("block-{}", b) : model.bodies[b].name;
+}
+
+// calls `add` for every part of every block: name of the block, number and planes of the part, and where its frame lies
+template <int Dim, class Add>
+void for_parts(const Model<Dim>& model, const Add& add) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    for (std::size_t k = 0; k < model.bodies[b].parts.size(); ++k)
+      add(name_of(model, b), static_cast<int>(k), model.bodies[b].parts[k],
+          Vector<Dim>(model.origin + model.bodies[b].reference));
+}
+
+template <int Dim>
+std::string planes(const Model<Dim>& model) {
+  std::vector<PlaneRow> rows;
+  for_parts(model, [&](const std::string& block, int k, const Polytope<Dim>& part, const Vector<Dim>& place) {
+    for (std::size_t f = 0; f < part.faces.size(); ++f) {
+      const HalfSpace<Dim> plane = moved_origin<Dim>(part.faces[f], -place);
+      const std::string joint = part.joints[f] == no_joint ? "" : model.joints[part.joints[f]].name;
+      rows.push_back({0, block, k, joint, {plane.normal.data(), plane.normal.data() + Dim}, plane.offset});
+    }
+  });
+  return plane_table(rows, Dim);
+}
+
+std::vector<Mesh> meshes(const Model<3>& model) {
+  std::vector<Mesh> all;
+  for_parts(model, [&](const std::string& block, int k, const Polytope<3>& part, const Vector<3>& place) {
+    Mesh mesh{k == 0 ? block : fmt::format("{}-part-{}", block, k), 0, {}, {}};
+    for (const Vector<3>& v : part.vertices)
+      mesh.points.push_back(place + v);
+    for (const std::vector<int>& loop : part.loops)
+      mesh.facets.push_back({loop, 0});
+    all.push_back(std::move(mesh));
+  });
+  return all;
+}
+
+template <int Dim>
+void write_formats(const Model<Dim>& model, const SliceArguments& arguments) {
+  if (arguments.planes) write_file(arguments.out / "block_planes.csv", planes(model));
+  if constexpr (Dim == 3) {
+    if (arguments.stl) write_file(arguments.out / "blocks.stl", stl_text(meshes(model)));
+    if (arguments.obj) write_file(arguments.out / "blocks.obj", obj_text(meshes(model)));
+  } else {
+    if (arguments.stl || arguments.obj)
+      throw BadInput("--stl and --obj write blocks in space but the scene has dimension = 2; use --planes");
+  }
+}
+
+template <int Dim>
+void write_blocks(const Prepared<Dim>& prepared, const SliceArguments& arguments) {
+  const fs::path& folder = arguments.out;
+  write_formats(prepared.model, arguments);
   write_file(folder / "blocks.vtp", vtp(block_faces(prepared.model, prepared.state, 0)));
   write_file(folder / "blocks.csv", block_table(prepared.model));
   fmt::print("{} blocks: {}, {}\n", prepared.model.bodies.size(), (folder / "blocks.vtp").string(),
@@ -42,9 +103,15 @@ void write_blocks(const Prepared<Dim>& prepared, const std::filesystem::path& fo
 }  // namespace
 
 ExitCode slice_command(const SliceArguments& arguments) {
-  const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides);
+  const LoadedScene loaded = load_scene(arguments.scene.scene, arguments.scene.overrides);
   const FolderLock lock(arguments.out);
-  std::visit([&](const auto& prepared) { write_blocks(prepared, arguments.out); }, scene.prepared);
+  std::visit([&](const auto& prepared) { write_blocks(prepared, arguments); }, loaded.prepared);
+  if (arguments.report) {
+    const Scene scene = read_scene(arguments.scene.scene, arguments.scene.overrides);
+    const BlockSizes sizes =
+        std::visit([](const auto& prepared) { return block_sizes(prepared.model); }, loaded.prepared);
+    fmt::print("\n{}", write_slice_report(scene, sizes, arguments.out));
+  }
   return ExitCode::done;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/scene/scene_files.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/scene/toml_text.hpp"
 
@@ -66,38 +67,24 @@ void lay_over(Node& base, const Node& scene) {
   base.place = scene.place;
 }
 
-void forget_base(Node& scene) {
-  std::erase_if(scene.members, [](const Member& m) { return m.key == "base"; });
+void forget(Node& scene, std::initializer_list<std::string_view> keys) {
+  std::erase_if(scene.members,
+                [&](const Member& m) { return std::find(keys.begin(), keys.end(), m.key) != keys.end(); });
 }
 
 namespace fs = std::filesystem;
 
-bool is_below(const fs::path& file, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-}
-
-// The file a scene names as its base: a regular file in its folder, wherever links point.
-fs::path base_file(const Node& stated, const fs::path& folder) {
-  if (stated.kind != Node::Kind::text) refuse(stated, "base", "must be the name of a scene file in quotes");
-  const fs::path relative = stated.text;
-  const bool escapes = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
-  if (escapes) refuse(stated, "base", "must lie in the scene's own folder: give its name without .. or a leading /");
-  std::error_code error;
-  const bool control =
-      std::any_of(stated.text.begin(), stated.text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
-  if (control || !fs::is_regular_file(folder / relative, error))
-    refuse(stated, "base", "there is no such file beside the scene");
-  const fs::path file = fs::canonical(folder / relative, error);
-  if (error || !is_below(file, fs::canonical(folder.empty() ? "." : folder, error)))
-    refuse(stated, "base", "is a link that leaves the scene's own folder; copy the file beside the scene");
-  return file;
-}
-
 // `chain` holds the bases that led here
 Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain) {
+  // what files of joints and blocks state lies below the scene that names them, as a base does
+  Node files = tables_of_files(scene, folder);
+  lay_over(files, scene);
+  scene = std::move(files);
+  forget(scene, {"joints_file", "blocks_file"});
+
   const Node* stated = scene.find("base");
   if (!stated) return scene;
-  const fs::path file = base_file(*stated, folder);
+  const fs::path file = file_beside(*stated, "base", folder);
   if (std::find(chain.begin(), chain.end(), file) != chain.end())
     refuse(*stated, "base", "leads back to itself; name another file, or remove one base of the circle");
   if (chain.size() == most_bases)
@@ -108,7 +95,7 @@ Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain) {
   const auto source = std::make_shared<const std::string>(shown.string());
   Node base = load(parse_toml(file_text(file), source), shown.parent_path(), chain);
   lay_over(base, scene);
-  forget_base(base);
+  forget(base, {"base"});
   return base;
 }
 

@@ -159,13 +159,15 @@ bool has_planes(const Scene& scene) {
 
 template <>
 HalfSpace<3> to_half_space(const PlaneSpec& plane, const Vector<3>& origin) {
-  const Vector<3> normal = upward_normal_3d(plane.dip, plane.dip_direction);
+  const Vector<3> normal =
+      plane.normal.empty() ? upward_normal_3d(plane.dip, plane.dip_direction) : to_vector<3>(plane.normal);
   return {normal, normal.dot(to_vector<3>(plane.point) - origin)};
 }
 
 template <>
 HalfSpace<2> to_half_space(const PlaneSpec& plane, const Vector<2>& origin) {
-  const Vector<2> normal = upward_normal_2d(plane.dip, plane.dip_direction);
+  const Vector<2> normal =
+      plane.normal.empty() ? upward_normal_2d(plane.dip, plane.dip_direction) : to_vector<2>(plane.normal);
   return {normal, normal.dot(to_vector<2>(plane.point) - origin)};
 }
 

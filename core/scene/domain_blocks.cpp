@@ -4,56 +4,14 @@
 #include <map>
 
 #include "core/scene/bodies.hpp"
+#include "core/scene/joint_outline.hpp"
 #include "core/slicing/clump.hpp"
 
 namespace voussoir {
 namespace {
 
-// a corner of an outline lies in the joint's plane within this share of its distance from the joint's point: far above
-// the rounding of coordinates and angles of six digits, far below what anyone would state as out of the plane
-constexpr double in_plane = 1e-4;
-
 // of the polygon about an ellipse, which is 1.3 % larger
 constexpr int ellipse_sides = 16;
-
-Extent<2> extent_of(const JointSpec& joint, const Vector<2>& normal, const Vector<2>& origin) {
-  if (joint.outline.shape == OutlineShape::none) return {};
-  return trace_extent(normal, to_vector<2>(joint.plane.point) - origin, joint.outline.length);
-}
-
-Extent<3> polygon_of(const JointSpec& joint, const Vector<3>& normal, const Vector<3>& point, const Vector<3>& origin) {
-  const auto axes = joint_axes(normal);
-  std::vector<Vector<2>> corners;
-  const Node& list = *joint.subject.node->find("corners");
-  for (std::size_t i = 0; i < list.items.size(); ++i) {
-    const Vector<3> corner = to_vector<3>(joint.outline.corners[i]) - origin - point;
-    if (std::abs(normal.dot(corner)) > in_plane * corner.norm())
-      refuse(list.items[i], key_path(joint.subject.path, "corners") + "." + std::to_string(i + 1),
-             "does not lie in the joint's plane; move the corner, or correct dip, dip_direction or point");
-    corners.push_back(axes.transpose() * corner);
-  }
-  const Extent<3> extent = polygon_extent(normal, point, corners);
-  if (extent.infinite())
-    refuse(joint.subject, "corners",
-           "are not the corners of a convex polygon in order; give at least three, one after the other around it, or "
-           "make two joints of it");
-  return extent;
-}
-
-Extent<3> extent_of(const JointSpec& joint, const Vector<3>& normal, const Vector<3>& origin) {
-  const Vector<3> point = to_vector<3>(joint.plane.point) - origin;
-  const OutlineSpec& outline = joint.outline;
-  switch (outline.shape) {
-    case OutlineShape::rectangle:
-      return rectangle_extent(normal, point, outline.length, outline.width);
-    case OutlineShape::ellipse:
-      return ellipse_extent(normal, point, outline.length, outline.width, ellipse_sides);
-    case OutlineShape::polygon:
-      return polygon_of(joint, normal, point, origin);
-    default:
-      return {};
-  }
-}
 
 template <int Dim>
 std::vector<Cut<Dim>> cuts_of(const Scene& scene, const Model<Dim>& model) {
@@ -63,8 +21,8 @@ std::vector<Cut<Dim>> cuts_of(const Scene& scene, const Model<Dim>& model) {
     const JointSpec& joint = scene.joints[j];
     const int number = static_cast<int>(j);
     Cut<Dim> cut{model.joints[j].plane, number};
-    const Extent<Dim> extent = extent_of(joint, cut.plane.normal, model.origin);
-    if (scene.slicing.ends != JointEnds::ignored) cut.extent = extent;
+    const Outline<Dim> outline = outline_of<Dim>(joint, cut.plane.normal, model.origin);
+    if (scene.slicing.ends != JointEnds::ignored) cut.extent = extent_of(cut.plane.normal, outline, ellipse_sides);
     // a joint without a set is one of its own
     cut.set = joint.set.empty() ? number : sets.try_emplace(joint.set, number).first->second;
     cut.kind = joint.kind;

@@ -1,43 +1,10 @@
-#include "core/scene/keys.hpp"
+#include "core/scene/key_ranges.hpp"
 
 namespace voussoir {
 namespace {
 
 using enum KeyType;
-
-// lengths and the like: far beyond any rock mass, and squares of them still are numbers
-constexpr Range sane{-1e12, 1e12};
-constexpr Range positive{0, 1e12, true};
-constexpr Range not_negative{0, 1e12};
-constexpr Range share{0, 1, false, true};
-constexpr Range stiffness{0, 1e20, true};
-constexpr Range dip_range{0, 90};
-constexpr Range direction_range{0, 360};
-constexpr Range friction_range{0, 90, false, true};
-constexpr Range count{1, 1e15};
-
-// what rock and its models usually are: a value outside is told before a run
-constexpr Range usual_density{500, 8000};
-constexpr Range usual_length{0.05, 1000};
-constexpr Range usual_stiffness{1e6, 1e12};
-constexpr Range usual_dip{.low = 1.6, .high = 90, .or_zero = true};         // 90 degrees are 1.57 radians
-constexpr Range usual_direction{.low = 6.3, .high = 360, .or_zero = true};  // 360 degrees are 6.28 radians
-constexpr Range usual_friction{1.6, 85};
-constexpr Range usual_speed{.low = 1e-3, .high = 100, .above_low = true, .or_zero = true};
-constexpr Range usual_factor{.low = 0.01, .high = 200, .or_zero = true};  // a centrifuge
-constexpr Range usual_ramp{.low = 0.01, .high = 100, .or_zero = true};
-
-constexpr std::string_view dip_repair =
-    "measure the dip downwards from the horizontal; dip_direction tells to which side";
-constexpr std::string_view direction_repair = "clockwise from north (y): 0 north, 90 east, 180 south, 270 west";
-constexpr std::string_view dip_direction_meaning =
-    "direction in which the plane dips, clockwise from north (y); in 2-D 90 (to the right) or 270 (to the left); "
-    "may be left out where dip = 0";
-
-constexpr std::string_view density_slip = "was it given in g/cm³ or t/m³?";
-constexpr std::string_view stiffness_slip = "was it given in MPa/m or GPa/m?";
-constexpr std::string_view angle_slip = "was it given in radians?";
-constexpr std::string_view friction_slip = "was it given in radians, or as its tangent?";
+using namespace key_ranges;
 
 // a row is a paragraph: what the key is, then what it means
 // clang-format off
@@ -63,6 +30,13 @@ const KeyRow rows[] = {
      .meaning = "a convex region that the joints cut into blocks"},
     {.table = "", .key = "joints", .type = tables, .holds = {"joints"},
      .meaning = "planes that cut the domain, with or without an end"},
+    {.table = "", .key = "joints_file", .type = text, .example = "\"joints.csv\"",
+     .meaning = "a table of joints in the same folder, one a row, before those of [[joints]], which may change one of its "
+         "name; columns x_m, y_m, z_m, and dip_deg, dip_direction_deg or normal_x, normal_y, normal_z; if wanted name, "
+         "set, properties, shape with length_m and width_m or corners_m. The scene that names the file states its dimension"},
+    {.table = "", .key = "joint_sets", .type = tables, .holds = {"joint_sets"},
+     .meaning = "random joints that fill the domain, cut after [[joints]], set by set; every set is drawn by itself and "
+         "gives the same joints on every platform"},
     {.table = "", .key = "excavations", .type = tables, .holds = {"excavations"},
      .meaning = "convex regions: blocks of the domain whose centroids lie inside are taken out before the first stage"},
     {.table = "", .key = "joint_properties", .type = tables, .holds = {"joint_properties"},
@@ -70,6 +44,9 @@ const KeyRow rows[] = {
          "between faces that no joint made"},
     {.table = "", .key = "blocks", .type = tables, .holds = {"blocks"},
      .meaning = "blocks given directly, by exactly one of vertices, planes or box"},
+    {.table = "", .key = "blocks_file", .type = text, .example = "\"blocks.obj\"",
+     .meaning = "a file of convex blocks in the same folder: .csv of planes (columns block, normal_x, normal_y, normal_z, "
+         "offset_m; if wanted part), .stl or .obj; [[blocks]] may add density, fixed, … to one of its name"},
     {.table = "", .key = "fix", .type = tables, .holds = {"label", "selector"},
      .meaning = "blocks that never move"},
     {.table = "", .key = "restrain", .type = tables, .holds = {"label", "restrain", "selector"},
@@ -117,13 +94,14 @@ const KeyRow rows[] = {
     {.table = "joints", .key = "name", .type = name, .example = "\"A\"", .required = true,
      .meaning = "unique among the joints"},
     {.table = "joints", .key = "dip", .unit = "deg", .range = dip_range, .usual = usual_dip, .example = "40",
-     .required = true,
-     .meaning = "angle below the horizontal", .repair = dip_repair, .slip = angle_slip},
+     .meaning = "angle below the horizontal; required where no normal is stated", .repair = dip_repair, .slip = angle_slip},
     {.table = "joints", .key = "dip_direction", .unit = "deg", .range = direction_range, .usual = usual_direction,
      .example = "130",
      .meaning = dip_direction_meaning, .repair = direction_repair, .slip = angle_slip},
     {.table = "joints", .key = "point", .type = vector, .unit = "m", .range = sane, .example = "[0, 0, 0]",
      .required = true, .meaning = "any point of the joint"},
+    {.table = "joints", .key = "normal", .type = vector, .range = {-1, 1}, .example = "[0, 0, 1]",
+     .meaning = "unit normal instead of dip and dip_direction: the plane to the last bit, as tables of drawn joints have it"},
     {.table = "joints", .key = "properties", .type = name, .example = "\"rock\"",
      .meaning = "name of a joint_properties table; may be left out where only one exists or one is named `default`"},
     {.table = "joints", .key = "set", .type = name, .example = "\"bedding\"",
@@ -501,10 +479,19 @@ const KeyRow rows[] = {
 
 };
 // clang-format on
+
+std::vector<KeyRow> all_rows() {
+  std::vector<KeyRow> all(std::begin(rows), std::end(rows));
+  const std::span<const KeyRow> sets = joint_set_rows();
+  all.insert(all.end(), sets.begin(), sets.end());
+  return all;
+}
+
 }  // namespace
 
 std::span<const KeyRow> key_rows() {
-  return rows;
+  static const std::vector<KeyRow> all = all_rows();
+  return all;
 }
 
 }  // namespace voussoir

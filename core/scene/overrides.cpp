@@ -61,8 +61,8 @@ Target find_target(Node& scene, const std::vector<std::string>& segments, const 
     const KeyRow* row = find_row(groups, segments[i]);
     path = key_path(path, segments[i]);
     if (!row) fail(place, path, "no such key; " + suggestion(segments[i], keys_of(groups)));
-    if (row->table.empty() && row->key == "base")
-      fail(place, path, "cannot be set, because overrides change the scene laid over its base; write it in a file");
+    if (row->table.empty() && (row->key == "base" || row->key == "joints_file" || row->key == "blocks_file"))
+      fail(place, path, "cannot be set, because overrides change the scene laid over its files; write it in a file");
     if (i + 1 == segments.size()) return {table, segments[i]};
 
     Node* next = table->find(row->key);

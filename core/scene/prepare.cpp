@@ -5,6 +5,7 @@
 
 #include "core/scene/bodies.hpp"
 #include "core/scene/domain_blocks.hpp"
+#include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/scene.hpp"
 
 namespace voussoir {
@@ -277,6 +278,7 @@ std::vector<Monitor> find_monitors(const Scene& scene, const Model<Dim>& model) 
 template <int Dim>
 Prepared<Dim> prepare(const Scene& scene) {
   assert(scene.dimension == Dim);
+  if (!scene.joint_sets.empty()) return prepare<Dim>(with_drawn_joints<Dim>(scene));
   Prepared<Dim> prepared;
   Model<Dim>& model = prepared.model;
   prepared.title = scene.title;

@@ -8,6 +8,7 @@
 #include "core/scene/base_scene.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/overrides.hpp"
+#include "core/scene/read_joint_sets.hpp"
 #include "core/scene/read_slicing.hpp"
 #include "core/scene/read_stages.hpp"
 #include "core/scene/scene.hpp"
@@ -176,6 +177,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   read(top, "density", scene.density);
   scene.domain = read_domain(top, scene.dimension);
   scene.joints = read_joints(top, scene.dimension);
+  scene.joint_sets = read_joint_sets(top, scene.dimension);
   scene.properties = read_properties(top);
   scene.blocks = read_blocks(top);
   scene.fix = read_selectors(top, "fix");

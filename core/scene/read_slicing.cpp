@@ -1,29 +1,10 @@
 #include "core/scene/read_slicing.hpp"
 
-#include <numbers>
-
+#include "core/scene/read_plane.hpp"
 #include "core/scene/values.hpp"
 
 namespace voussoir {
 namespace {
-
-void read_plane(const Subject& subject, int dimension, PlaneSpec& plane) {
-  read(subject, "point", plane.point);
-  read_degrees(subject, "dip", plane.dip);
-  const bool stated = subject.node->find("dip_direction");
-  if (!stated && plane.dip > 0)
-    refuse(subject, "dip_direction",
-           std::string("a plane that dips needs it; write for example dip_direction = ") +
-               (dimension == 2 ? "90 (to the right) or 270 (to the left)" : "130 (clockwise from north)"));
-  read_degrees(subject, "dip_direction", plane.dip_direction);
-  if (dimension == 2 && stated) {
-    const double degrees = subject.node->find("dip_direction")->number;
-    if (degrees != 90 && degrees != 270)
-      refuse(subject, "dip_direction",
-             "must be 90 (dips to the right) or 270 (to the left) because dimension = 2; choose one");
-  }
-  if (dimension == 2 && !stated) plane.dip_direction = std::numbers::pi / 2;
-}
 
 std::vector<DomainPlaneSpec> read_planes(const Subject& region, int dimension) {
   std::vector<DomainPlaneSpec> planes;
@@ -50,16 +31,18 @@ T chosen(const Subject& subject, std::string_view key, std::initializer_list<std
 
 OutlineSpec read_outline(const Subject& item, int dimension) {
   OutlineSpec outline;
-  outline.shape = chosen<OutlineShape>(item, "shape",
-                                       {{"infinite", OutlineShape::none},
-                                        {"rectangle", OutlineShape::rectangle},
-                                        {"ellipse", OutlineShape::ellipse},
-                                        {"polygon", OutlineShape::polygon},
-                                        {"trace", OutlineShape::trace}});
-  if (outline.shape != OutlineShape::none && (outline.shape == OutlineShape::trace) != (dimension == 2))
+  std::string shape = "infinite";
+  read(item, "shape", shape);
+  if (shape != "infinite" && (shape == "trace") != (dimension == 2))
     refuse(item, "shape",
            dimension == 2 ? "has no place in a plane because dimension = 2; write shape = \"trace\" and its length"
                           : "belongs to a plane but dimension = 3; write \"rectangle\", \"ellipse\" or \"polygon\"");
+  outline.shape = chosen<OutlineForm>(item, "shape",
+                                      {{"infinite", OutlineForm::none},
+                                       {"rectangle", OutlineForm::rectangle},
+                                       {"ellipse", OutlineForm::ellipse},
+                                       {"polygon", OutlineForm::polygon},
+                                       {"trace", OutlineForm::rectangle}});
   read(item, "length", outline.length);
   read(item, "width", outline.width);
   read(item, "corners", outline.corners);

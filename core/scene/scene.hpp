@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/joint_sets/joint_set.hpp"
 #include "core/law/joint_properties.hpp"
 #include "core/scene/node.hpp"
 #include "core/scene/prepared.hpp"
@@ -22,6 +23,7 @@ namespace voussoir {
 struct PlaneSpec {
   double dip = 0, dip_direction = 0;  // rad
   std::vector<double> point;          // m
+  std::vector<double> normal;         // upward, unit: the plane to the last bit where it is stated; or empty
 };
 
 struct BoxSpec {
@@ -41,11 +43,9 @@ struct DomainSpec {
   std::vector<DomainPlaneSpec> planes;
 };
 
-enum class OutlineShape { none, rectangle, ellipse, polygon, trace };
-
 // how far a joint reaches in its plane, about the plane's point
 struct OutlineSpec {
-  OutlineShape shape = OutlineShape::none;   // none: no end
+  OutlineForm shape = OutlineForm::none;     // 2-D: a trace is a rectangle
   double length = 0, width = 0;              // m: along the strike (2-D: of the trace), down the dip
   std::vector<std::vector<double>> corners;  // m, of a polygon, in space
 };
@@ -90,6 +90,12 @@ struct SlicingSpec {
   JointEnds ends = JointEnds::extended;
   double largest_aspect_ratio = 0;  // of the box along the axes; 0: any
   int most_blocks = 1'000'000;
+};
+
+struct JointSetSpec {
+  Subject subject;
+  JointSet set;
+  std::optional<std::string> properties;
 };
 
 struct PropertiesSpec {
@@ -155,7 +161,8 @@ struct Scene {
   std::optional<std::vector<double>> gravity;  // m/s²
   std::optional<double> density;               // kg/m³
   std::optional<DomainSpec> domain;
-  std::vector<JointSpec> joints;  // in the order of the file
+  std::vector<JointSpec> joints;  // in the order of the file, before those of the sets
+  std::vector<JointSetSpec> joint_sets;
   std::vector<PropertiesSpec> properties;
   std::vector<BlockSpec> blocks;
   std::vector<SelectorSpec> fix;

@@ -74,7 +74,7 @@ std::vector<FacesOfJoint<Dim>> faces_by_joint(const std::vector<Polytope<Dim>>& 
       const auto at = place.find(parts[p].joints[f]);
       if (at == place.end()) continue;
       const Cut<Dim>& cut = cuts[at->second];
-      const auto axes = joint_axes(cut.plane.normal);
+      const auto axes = plane_axes(cut.plane.normal);
       JointFace<Dim> face{static_cast<int>(p), static_cast<int>(f), {}, {}};
       face.low.setConstant(std::numeric_limits<double>::max());
       face.high.setConstant(std::numeric_limits<double>::lowest());

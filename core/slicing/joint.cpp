@@ -6,53 +6,12 @@
 #include <numbers>
 
 namespace voussoir {
-namespace {
-
-// a plane that dips less has no strike that its normal would still tell
-constexpr double least_dip = 1e-12;
-
-// a corner that turns by less than this (rad) lies on an edge: far above the rounding of coordinates
-constexpr double straight = 1e-9;
-
-// convex corners, counter-clockwise; empty when they are not convex
-std::vector<Vector<2>> counter_clockwise(std::vector<Vector<2>> corners) {
-  const std::size_t n = corners.size();
-  double twice_area = 0, turned = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vector<2> a = corners[k] - corners[0], b = corners[(k + 1) % n] - corners[0];
-    twice_area += a[0] * b[1] - a[1] * b[0];
-  }
-  if (n < 3 || twice_area == 0) return {};
-  if (twice_area < 0) std::reverse(corners.begin(), corners.end());
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vector<2> in = corners[(k + 1) % n] - corners[k], out = corners[(k + 2) % n] - corners[(k + 1) % n];
-    const double turn = std::atan2(in[0] * out[1] - in[1] * out[0], in.dot(out));
-    if (in.isZero(0) || turn < -straight || turn > std::numbers::pi - straight) return {};
-    turned += turn;
-  }
-  const bool once = turned < 3 * std::numbers::pi;  // a star turns left at every corner too
-  return once ? corners : std::vector<Vector<2>>{};
-}
-
-}  // namespace
-
-Eigen::Matrix<double, 3, 2> joint_axes(const Vector<3>& n) {
-  const double sine = std::hypot(n[0], n[1]);
-  Eigen::Matrix<double, 3, 2> axes;
-  axes.col(0) = sine > least_dip ? Vector<3>(-n[1] / sine, n[0] / sine, 0) : Vector<3>(1, 0, 0);
-  axes.col(1) = Vector<3>(axes.col(0)).cross(n).normalized();
-  return axes;
-}
-
-Eigen::Matrix<double, 2, 1> joint_axes(const Vector<2>& n) {
-  return n[0] < 0 ? Vector<2>(-n[1], n[0]) : Vector<2>(n[1], -n[0]);
-}
 
 Extent<3> polygon_extent(const Vector<3>& normal, const Vector<3>& point, const std::vector<Vector<2>>& stated) {
   Extent<3> extent;
   const std::vector<Vector<2>> corners = counter_clockwise(stated);
   if (corners.empty()) return extent;
-  const Eigen::Matrix<double, 3, 2> axes = joint_axes(normal);
+  const PlaneAxes<3> axes = plane_axes(normal);
 
   Vector<2> middle = Vector<2>::Zero();
   for (const Vector<2>& c : corners)
@@ -86,9 +45,29 @@ Extent<3> ellipse_extent(const Vector<3>& normal, const Vector<3>& centre, doubl
 }
 
 Extent<2> trace_extent(const Vector<2>& normal, const Vector<2>& centre, double length) {
-  const Vector<2> axis = joint_axes(normal);
+  const Vector<2> axis = plane_axes(normal);
   const double middle = axis.dot(centre);
   return {{{axis, middle + length / 2}, {-axis, length / 2 - middle}}, centre, length / 2};
+}
+
+Extent<2> extent_of(const Vector<2>& normal, const Outline<2>& outline, int) {
+  if (outline.shape == OutlineForm::none) return {};
+  return trace_extent(normal, outline.centre, 2 * outline.half_sizes[0]);
+}
+
+Extent<3> extent_of(const Vector<3>& normal, const Outline<3>& outline, int ellipse_sides) {
+  const double length = 2 * outline.half_sizes[0], width = 2 * outline.half_sizes[1];
+  switch (outline.shape) {
+    case OutlineForm::none:
+      break;
+    case OutlineForm::ellipse:
+      return ellipse_extent(normal, outline.centre, length, width, ellipse_sides);
+    case OutlineForm::rectangle:
+      return rectangle_extent(normal, outline.centre, length, width);
+    case OutlineForm::polygon:
+      return polygon_extent(normal, outline.centre, outline.corners);
+  }
+  return {};
 }
 
 template <int Dim>

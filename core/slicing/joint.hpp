@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/geometry/half_space.hpp"
+#include "core/geometry/outline.hpp"
 
 namespace voussoir {
 
@@ -39,11 +39,6 @@ struct Cut {
   JointSide whole = JointSide::none;  // boundary: the side that stays whole
 };
 
-// Axes of a joint's plane: 3-D along the strike and down the dip (Eqs 3.11 and 3.12; along x where it does not dip),
-// 2-D down the dip.
-Eigen::Matrix<double, 3, 2> joint_axes(const Vector<3>& upward_normal);
-Eigen::Matrix<double, 2, 1> joint_axes(const Vector<2>& upward_normal);
-
 // Outlines about a point of the plane, from coordinates along its axes (m). A polygon has at least three corners, in
 // either sense; of one that is not convex or has no area, the extent is empty of bounds: the caller refuses it. An
 // ellipse becomes the polygon of `sides` sides that touches it from outside, which is larger by sides/π tan(π/sides).
@@ -55,6 +50,10 @@ Extent<3> ellipse_extent(const Vector<3>& upward_normal, const Vector<3>& centre
 
 // a trace in the plane, of this length about its centre
 Extent<2> trace_extent(const Vector<2>& upward_normal, const Vector<2>& centre, double length);
+
+// that of any outline, which lies in the plane with this normal
+Extent<2> extent_of(const Vector<2>& upward_normal, const Outline<2>& outline, int ellipse_sides);
+Extent<3> extent_of(const Vector<3>& upward_normal, const Outline<3>& outline, int ellipse_sides);
 
 enum class CuttingOrder {
   given,

@@ -64,15 +64,15 @@ TEST(Extent, AxesFollowStrikeAndDip) {
   Random random(61);
   for (int i = 0; i < 100; ++i) {
     const double dip = shapes::uniform(random, 0.01, 1.5), direction = shapes::uniform(random, 0, 6.28);
-    const auto axes = joint_axes(upward_normal_3d(dip, direction));
+    const auto axes = plane_axes(upward_normal_3d(dip, direction));
     const Vector<3> strike(std::sin(direction - std::numbers::pi / 2), std::cos(direction - std::numbers::pi / 2), 0);
     const Vector<3> down(std::sin(direction) * std::cos(dip), std::cos(direction) * std::cos(dip), -std::sin(dip));
     EXPECT_LT((axes.col(0) - strike).norm(), 1e-13);
     EXPECT_LT((axes.col(1) - down).norm(), 1e-13);
   }
-  EXPECT_EQ((joint_axes(z).transpose() * joint_axes(z)), (Eigen::Matrix2d::Identity()));
-  EXPECT_LT(joint_axes(upward_normal_2d(0.5, std::numbers::pi / 2))[1], 0);
-  EXPECT_LT(joint_axes(upward_normal_2d(0.5, 3 * std::numbers::pi / 2))[1], 0);
+  EXPECT_EQ((plane_axes(z).transpose() * plane_axes(z)), (Eigen::Matrix2d::Identity()));
+  EXPECT_LT(plane_axes(upward_normal_2d(0.5, std::numbers::pi / 2))[1], 0);
+  EXPECT_LT(plane_axes(upward_normal_2d(0.5, 3 * std::numbers::pi / 2))[1], 0);
 }
 
 // the outline as a prism of height 1: its volume is its area
@@ -133,7 +133,7 @@ std::multiset<double> brute_force(const HalfSpaces<3>& domain, const std::vector
     for (const HalfSpaces<3>& block : blocks) {
       HalfSpaces<3> all = block;
       all.insert(all.end(), cut.extent.bounds.begin(), cut.extent.bounds.end());
-      const auto axes = joint_axes(cut.plane.normal);
+      const auto axes = plane_axes(cut.plane.normal);
       HalfSpaces<2> section;
       for (const HalfSpace<3>& p : all)
         section.push_back({axes.transpose() * p.normal, p.offset - p.normal.dot(cut.plane.normal) * cut.plane.offset});

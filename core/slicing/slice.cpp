@@ -60,17 +60,6 @@ bool may_meet(const Cut<Dim>& cut, const Draft<Dim>& block) {
          std::all_of(cut.extent.bounds.begin(), cut.extent.bounds.end(), reaches_below);
 }
 
-// columns span the plane with this unit normal
-Eigen::Matrix<double, 2, 1> plane_axes(const Vector<2>& n) {
-  return perpendicular(n);
-}
-Eigen::Matrix<double, 3, 2> plane_axes(const Vector<3>& n) {
-  Eigen::Matrix<double, 3, 2> axes;
-  axes.col(0) = perpendicular(n);
-  axes.col(1) = n.cross(axes.col(0));
-  return axes;
-}
-
 // Eq. 3.16 in the joint's own coordinates y, x = x0 + E y: min s : (a_i E)·y - (d_i - a_i·x0) <= s over the block's
 // faces and the extent's bounds
 template <int Dim>

@@ -49,6 +49,28 @@ properties = "rock"
 name = "tunnel"
 cylinder = { from = [0.3, -2, -0.3], to = [0.3, 2, -0.3], radius = 0.2 }
 outline = true
+[[joint_sets]]
+name = "plain"
+dip = 30
+dip_direction = 90
+intensity = 1e-9
+[[joint_sets]]
+name = "fisher"
+dip = 30
+dip_direction = 90
+scatter = "fisher"
+fisher_constant = 100
+intensity = 1e-9
+[[joint_sets]]
+name = "finite"
+dip = 30
+dip_direction = 90
+scatter = "normal"
+dip_deviation_deg = 5
+size = "lognormal"
+size_mean = 5
+size_deviation = 1
+spacing = 1e9
 [[joint_properties]]
 name = "rock"
 normal_stiffness = 1e9
@@ -180,6 +202,10 @@ inline std::string address(const KeyRow& row) {
   if (row.table == "joints" && row.when.key == "shape")
     table = row.when.value == "polygon" ? "joints.polygon" : "joints.ellipse";
   if (row.table == "joints" && row.when.key == "kind") table = "joints.boundary";
+  if (row.table == "joint_sets") {
+    const bool plain = row.when.value.empty() || row.when.value == "persistent";
+    table = plain ? "joint_sets.plain" : row.when.value == "fisher" ? "joint_sets.fisher" : "joint_sets.finite";
+  }
   if (row.table == "blocks" && row.key == "vertices") table = "blocks.by vertices";
   if (row.table == "blocks.planes" && row.key == "point") table = "blocks.by planes.planes.5";
   if (row.table == "monitors" && row.key == "joint") table = "monitors.joint";

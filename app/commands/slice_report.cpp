@@ -1,0 +1,289 @@
+#include "app/commands/slice_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "app/commands/svg_figure.hpp"
+#include "core/exchange/tables.hpp"
+#include "core/joint_sets/statistics.hpp"
+#include "core/output/atomic_file.hpp"
+#include "core/scene/bodies.hpp"
+#include "core/scene/draw_joint_sets.hpp"
+#include "core/scene/joint_outline.hpp"
+
+namespace voussoir {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double degree = std::numbers::pi / 180;
+
+// what all parts of the report look at
+template <int Dim>
+struct Sample {
+  const Scene& scene;
+  Vector<Dim> origin;
+  Polytope<Dim> domain;
+  Ball<Dim> ball;
+  std::vector<DrawnSet<Dim>> sets;
+  std::vector<SetStatistics<Dim>> statistics;
+};
+
+template <int Dim>
+Sample<Dim> sample_of(const Scene& scene) {
+  if (!scene.domain)
+    refuse({scene.tree.get(), ""}, "domain",
+           "joints are measured in a domain; add for example domain = { box = { min = …, max = … } }");
+  const Vector<Dim> origin = find_origin<Dim>(scene);
+  Sample<Dim> sample{scene, origin, make_domain<Dim>(scene, origin), {}, {}, {}};
+  sample.ball = ball_around<Dim>(sample.domain, origin);
+  sample.sets = draw_joint_sets<Dim>(scene, sample.domain, origin);
+  for (const DrawnSet<Dim>& drawn : sample.sets)
+    sample.statistics.push_back(measure<Dim>(drawn.spec->set, drawn.joints, sample.ball, sample.domain, origin));
+  return sample;
+}
+
+// ---- joints.csv
+
+struct DipAndDirection {
+  double dip, direction;  // deg
+};
+
+DipAndDirection angles_of(const Vector<3>& n) {
+  const double direction = std::atan2(n[0], n[1]) / degree;
+  return {std::atan2(std::hypot(n[0], n[1]), n[2]) / degree, direction < 0 ? direction + 360 : direction};
+}
+
+DipAndDirection angles_of(const Vector<2>& n) {
+  return {std::atan2(std::abs(n[0]), n[1]) / degree, n[0] < 0 ? 270.0 : 90.0};
+}
+
+template <int Dim>
+std::vector<double> numbers_of(const Vector<Dim>& v) {
+  return {v.data(), v.data() + Dim};
+}
+
+template <int Dim>
+JointRow row_of(const Vector<Dim>& normal, const Vector<Dim>& point, const Outline<Dim>& outline, double inside) {
+  JointRow row;
+  const DipAndDirection angles = angles_of(normal);
+  row.dip_deg = angles.dip;
+  row.dip_direction_deg = angles.direction;
+  row.normal = numbers_of<Dim>(normal);
+  row.point = numbers_of<Dim>(point);
+  row.shape = outline.shape;
+  if (outline.shape == OutlineForm::ellipse || outline.shape == OutlineForm::rectangle)
+    for (const double half : outline.half_sizes)
+      row.extents.push_back(2 * half);
+  row.inside = inside;
+  return row;
+}
+
+template <int Dim>
+std::string joints_csv(const Sample<Dim>& sample) {
+  std::vector<JointRow> rows;
+  for (const JointSpec& spec : sample.scene.joints) {
+    const HalfSpace<Dim> plane = to_half_space<Dim>(spec.plane, sample.origin);
+    const Outline<Dim> outline = outline_of<Dim>(spec, plane.normal, sample.origin);
+    rows.push_back(row_of<Dim>(plane.normal, to_vector<Dim>(spec.plane.point), outline,
+                               measure_inside(plane, outline, sample.domain)));
+    rows.back().name = spec.name;
+    rows.back().set = spec.set;
+    rows.back().properties = spec.properties.value_or("");
+    rows.back().corners = spec.outline.corners;
+  }
+  for (std::size_t s = 0; s < sample.sets.size(); ++s)
+    for (std::size_t j = 0; j < sample.sets[s].joints.size(); ++j) {
+      const DrawnJoint<Dim>& joint = sample.sets[s].joints[j];
+      JointRow row = row_of<Dim>(joint.normal, joint.point, joint.outline, sample.statistics[s].measures[j]);
+      row.name = sample.sets[s].name_of(j);
+      row.set = sample.sets[s].spec->set.name;
+      row.properties = sample.sets[s].spec->properties.value_or("");
+      rows.push_back(std::move(row));
+    }
+  return joint_table(rows, Dim);
+}
+
+// ---- report.md
+
+std::string row(const std::string& quantity, const std::string& unit, const std::string& stated,
+                const std::string& found, double error) {
+  return fmt::format("| {} | {} | {} | {} | {} |\n", quantity, unit, stated, found,
+                     error > 0 ? fmt::format("{:.2g}", error) : "");
+}
+
+std::string row(const std::string& quantity, const std::string& unit, double stated, const Estimate& found) {
+  return row(quantity, unit, fmt::format("{:.5g}", stated), fmt::format("{:.5g}", found.value), found.error);
+}
+
+template <int Dim>
+std::string orientation_rows(const JointSet& set, const SetStatistics<Dim>& found) {
+  if (Dim == 2 || found.fisher_constant.value == 0) return "";
+  if (set.scatter == Scatter::fisher) return row("Fisher's constant", "1", set.fisher_constant, found.fisher_constant);
+  return row("Fisher's constant", "1", "", fmt::format("{:.5g}", found.fisher_constant.value),
+             found.fisher_constant.error);
+}
+
+template <int Dim>
+std::string size_rows(const JointSet& set, const SetStatistics<Dim>& found) {
+  if (set.size_law == SizeLaw::persistent) return "";
+  const double deviation = set.size_law == SizeLaw::lognormal     ? set.size_deviation
+                           : set.size_law == SizeLaw::exponential ? set.size_mean
+                                                                  : 0;
+  return row("joints centred in the domain", "1", "", fmt::format("{}", found.centred), 0) +
+         row("mean size of these", "m", set.size_mean, found.size) +
+         row("deviation of these", "m", fmt::format("{:.5g}", deviation), fmt::format("{:.5g}", found.size_deviation),
+             0);
+}
+
+template <int Dim>
+std::string set_text(const JointSet& set, const SetStatistics<Dim>& found) {
+  std::string text = fmt::format(
+      "## {}\n\n| quantity | unit | stated | measured | standard error |\n|---|---|---|---|---|\n", set.name);
+  text += row("joints that meet the domain", "1", "", fmt::format("{}", found.inside), 0);
+  text +=
+      row(Dim == 3 ? "P32, area per volume" : "P21, length per area", "1/m", found.stated_intensity, found.intensity);
+  text += row("P10 along the mean normal", "1/m", found.stated_frequency, found.frequency);
+  for (std::size_t k = 0; k < found.traces.size(); ++k)
+    text +=
+        row(fmt::format("P21 on the section normal to {}", "xyz"[k]), "1/m", found.stated_traces[k], found.traces[k]);
+  const Moments spacing = moments_of(found.spacings);
+  if (!found.spacings.empty())
+    text += row("spacing along the mean normal", "m", 1 / found.stated_frequency,
+                {spacing.mean.value, 0}) +  // lines share joints: their spacings are no sample of independent ones
+            row("its deviation over its mean", "1",
+                set.size_law == SizeLaw::persistent && set.arrangement == Arrangement::equal ? "0" : "1",
+                fmt::format("{:.4g}", spacing.deviation / spacing.mean.value), 0);
+  return text + orientation_rows<Dim>(set, found) + size_rows<Dim>(set, found) + "\n";
+}
+
+std::string block_text(const BlockSizes& blocks, int dimension) {
+  const std::vector<double>& v = blocks.volumes;
+  const char* unit = dimension == 3 ? "m³" : "m²";
+  const double total = std::accumulate(v.begin(), v.end(), 0.0);
+  std::string text =
+      fmt::format("## Blocks\n\n{} blocks, {:.6g} {} in all.\n\n| blocks up to this size make up | {} |\n|---|---|\n",
+                  v.size(), total, unit, unit);
+  for (const int share : {10, 25, 50, 75, 90})
+    text += fmt::format("| {} % of the whole | {:.4g} |\n", share, size_at_share(v, share / 100.0));
+  return text + fmt::format("| smallest block | {:.4g} |\n| largest block | {:.4g} |\n", v.front(), v.back());
+}
+
+template <int Dim>
+std::string report_text(const Sample<Dim>& sample, const BlockSizes& blocks) {
+  std::string text = fmt::format(
+      "# Joints of {}\n\nDrawn in unbounded rock and measured inside the domain ({:.6g} {}). A standard error is that "
+      "of a "
+      "Poisson process: what another seed would change. Scanlines are as short as the domain is: they miss wide "
+      "spacings.\n\n",
+      sample.scene.title.empty() ? sample.scene.file : sample.scene.title, sample.domain.mass.volume,
+      Dim == 3 ? "m³" : "m²");
+  for (std::size_t s = 0; s < sample.sets.size(); ++s)
+    text += set_text<Dim>(sample.sets[s].spec->set, sample.statistics[s]);
+  text += block_text(blocks, Dim);
+  return text;
+}
+
+// ---- figures
+
+// at most some hundred points of a cumulative distribution
+Points cumulative(const std::vector<double>& ascending, const std::vector<double>& weights) {
+  constexpr std::size_t most_points = 400;
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const std::size_t stride = std::max<std::size_t>(1, ascending.size() / most_points);
+  Points points;
+  double sum = 0;
+  for (std::size_t i = 0; i < ascending.size(); ++i) {
+    sum += weights[i];
+    if (i % stride == stride - 1 || i + 1 == ascending.size()) points.emplace_back(ascending[i], 100 * sum / total);
+  }
+  return points;
+}
+
+template <int Dim>
+std::string spacing_figure(const Sample<Dim>& sample) {
+  Diagram diagram{"Spacing along the mean normals", "spacing (m)", "spacings up to this (%)", false, {}};
+  for (std::size_t s = 0; s < sample.sets.size(); ++s) {
+    const std::vector<double>& spacings = sample.statistics[s].spacings;
+    const std::string& name = sample.sets[s].spec->set.name;
+    diagram.curves.push_back(
+        {Curve::Kind::line, name, cumulative(spacings, std::vector<double>(spacings.size(), 1.0))});
+  }
+  // what a Poisson process along a line has, for the widest set
+  double rarest = 0, widest = 0;
+  for (const SetStatistics<Dim>& found : sample.statistics) {
+    if (found.spacings.empty()) continue;
+    widest = std::max(widest, found.spacings.back());
+    rarest = rarest == 0 ? found.stated_frequency : std::min(rarest, found.stated_frequency);
+  }
+  Curve exponential{Curve::Kind::line, fmt::format("exponential, {:.3g} /m", rarest), {}};
+  constexpr int steps = 100;
+  for (int k = 0; k <= steps && rarest > 0; ++k)
+    exponential.points.emplace_back(widest * k / steps, 100 * (1 - std::exp(-rarest * widest * k / steps)));
+  diagram.curves.push_back(std::move(exponential));
+  return svg(diagram);
+}
+
+std::string block_figure(const BlockSizes& blocks, int dimension) {
+  const std::vector<double>& v = blocks.volumes;
+  return svg({"Block sizes",
+              dimension == 3 ? "volume (m³)" : "area (m²)",
+              "in blocks up to this (%)",
+              true,
+              {{Curve::Kind::line, "of their number", cumulative(v, std::vector<double>(v.size(), 1.0))},
+               {Curve::Kind::line, "of the whole", cumulative(v, v)}}});
+}
+
+std::string stereonet(const Sample<3>& sample) {
+  std::vector<PoleSet> sets;
+  for (const DrawnSet<3>& drawn : sample.sets) {
+    PoleSet set{fmt::format("{} ({})", drawn.spec->set.name, drawn.joints.size()), {}};
+    for (const DrawnJoint<3>& joint : drawn.joints) {
+      // the pole is the downward normal: it plunges as steeply as the joint is flat, away from the dip direction
+      const DipAndDirection angles = angles_of(joint.normal);
+      set.poles.emplace_back((angles.direction + 180) * degree, (90 - angles.dip) * degree);
+    }
+    sets.push_back(std::move(set));
+  }
+  return stereonet_svg("Poles of the joints", sets);
+}
+
+template <int Dim>
+std::string write_report(const Scene& scene, const BlockSizes& blocks, const fs::path& folder) {
+  const Sample<Dim> sample = sample_of<Dim>(scene);
+  const std::string text = report_text<Dim>(sample, blocks);
+  write_file(folder / "joints.csv", joints_csv<Dim>(sample));
+  write_file(folder / "report.md", text);
+  if constexpr (Dim == 3) write_file(folder / "stereonet.svg", stereonet(sample));
+  write_file(folder / "spacing.svg", spacing_figure<Dim>(sample));
+  write_file(folder / "block_sizes.svg", block_figure(blocks, Dim));
+  return text;
+}
+
+}  // namespace
+
+template <int Dim>
+BlockSizes block_sizes(const Model<Dim>& model) {
+  BlockSizes sizes;
+  for (const Body<Dim>& body : model.bodies) {
+    double volume = 0;
+    for (const Polytope<Dim>& part : body.parts)
+      volume += part.mass.volume;
+    sizes.volumes.push_back(volume);
+  }
+  std::sort(sizes.volumes.begin(), sizes.volumes.end());
+  return sizes;
+}
+
+std::string write_slice_report(const Scene& scene, const BlockSizes& blocks, const fs::path& folder) {
+  return scene.dimension == 2 ? write_report<2>(scene, blocks, folder) : write_report<3>(scene, blocks, folder);
+}
+
+template BlockSizes block_sizes<2>(const Model<2>&);
+template BlockSizes block_sizes<3>(const Model<3>&);
+
+}  // namespace voussoir

@@ -1,0 +1,172 @@
+#include "app/commands/svg_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace voussoir {
+namespace {
+
+constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#404040"};
+
+constexpr double width = 760, height = 460;                         // as the manual's figures
+constexpr double left = 80, right = 730, top = 70, bottom = 400;    // the frame
+constexpr double middle_x = 260, middle_y = 245, net_radius = 185;  // of a stereonet
+
+const char* colour(std::size_t i) {
+  return colours[i % std::size(colours)];
+}
+
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text)
+    safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return safe;
+}
+
+std::string head(const std::string& title) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
+      "font-family=\"DejaVu Sans,Helvetica,Arial,sans-serif\" font-size=\"13\" fill=\"#202020\">\n"
+      "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n"
+      "<text x=\"{2}\" y=\"24\" text-anchor=\"middle\" font-size=\"15\">{3}</text>\n",
+      width, height, width / 2, escaped(title));
+}
+
+std::string label(double x, double y, const char* anchor, const std::string& text, const std::string& more = "") {
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
+                     escaped(text));
+}
+
+std::string stroke(double x1, double y1, double x2, double y2, const char* colour, double thickness) {
+  return fmt::format(
+      "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"{}\"/>\n", x1, y1, x2,
+      y2, colour, thickness);
+}
+
+// an axis from value to place on the paper
+struct Axis {
+  double low = 0, high = 1, from = 0, to = 1;
+  bool logarithmic = false;
+  std::vector<double> tics;
+
+  double place(double x) const {
+    const double share = logarithmic ? std::log(x / low) / std::log(high / low) : (x - low) / (high - low);
+    return from + share * (to - from);
+  }
+};
+
+// 1, 2 or 5 times a power of ten, some five of them to the span
+Axis linear_axis(double low, double high, double from, double to) {
+  if (!(high > low)) high = low + 1;
+  const double rough = (high - low) / 5, decade = std::pow(10, std::floor(std::log10(rough)));
+  const double step = decade * (rough / decade < 1.5 ? 1 : rough / decade < 3.5 ? 2 : rough / decade < 7.5 ? 5 : 10);
+  Axis axis{std::floor(low / step) * step, std::ceil(high / step) * step, from, to, false, {}};
+  const auto count = static_cast<int>(std::round((axis.high - axis.low) / step));
+  for (int k = 0; k <= count; ++k)
+    axis.tics.push_back(axis.low + k * step);
+  return axis;
+}
+
+Axis logarithmic_axis(double low, double high, double from, double to) {
+  const double first = std::floor(std::log10(low)), last = std::max(first + 1, std::ceil(std::log10(high)));
+  Axis axis{std::pow(10, first), std::pow(10, last), from, to, true, {}};
+  for (double e = first; e <= last; ++e)
+    axis.tics.push_back(std::pow(10, e));
+  return axis;
+}
+
+std::string number(double x) {
+  return fmt::format("{:.6g}", x);
+}
+
+std::string frame(const Diagram& diagram, const Axis& x, const Axis& y) {
+  std::string text;
+  for (const double tic : x.tics)
+    text += stroke(x.place(tic), bottom, x.place(tic), top, "#e2e2e2", 1) +
+            label(x.place(tic), bottom + 20, "middle", number(tic));
+  for (const double tic : y.tics)
+    text += stroke(left, y.place(tic), right, y.place(tic), "#e2e2e2", 1) +
+            label(left - 8, y.place(tic) + 4, "end", number(tic));
+  text += stroke(left, bottom, right, bottom, "#606060", 1) + stroke(left, bottom, left, top, "#606060", 1);
+  text += label((left + right) / 2, height - 18, "middle", diagram.x_label);
+  const double across = (top + bottom) / 2;
+  return text + label(22, across, "middle", diagram.y_label, fmt::format(" transform=\"rotate(-90 22 {})\"", across));
+}
+
+std::string drawn(const Curve& curve, const Axis& x, const Axis& y, const char* colour) {
+  std::string text;
+  Points places;
+  for (const auto& [px, py] : curve.points)
+    if (!x.logarithmic || px > 0) places.emplace_back(x.place(px), y.place(py));
+  if (curve.kind == Curve::Kind::points) {
+    for (const auto& [px, py] : places)
+      text += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"{}\"/>\n", px, py, colour);
+    return text;
+  }
+  if (places.empty()) return text;
+  std::string path = fmt::format("M{:.1f} {:.1f}", places[0].first, places[0].second);
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    if (curve.kind == Curve::Kind::steps) path += fmt::format("H{:.1f}", places[k].first);
+    path += fmt::format("L{:.1f} {:.1f}", places[k].first, places[k].second);
+  }
+  return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", path, colour);
+}
+
+}  // namespace
+
+std::string svg(const Diagram& diagram) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  double low = none, high = -none, highest = 0;
+  for (const Curve& curve : diagram.curves)
+    for (const auto& [px, py] : curve.points) {
+      if (diagram.logarithmic_x && !(px > 0)) continue;
+      low = std::min(low, px);
+      high = std::max(high, px);
+      highest = std::max(highest, py);
+    }
+  if (!(low <= high)) low = high = 1;
+  const Axis x = diagram.logarithmic_x ? logarithmic_axis(low, high, left, right) : linear_axis(low, high, left, right);
+  const Axis y = linear_axis(0, highest, bottom, top);
+
+  std::string text = head(diagram.title) + frame(diagram, x, y);
+  const double share = (right - left) / static_cast<double>(std::max<std::size_t>(1, diagram.curves.size()));
+  for (std::size_t i = 0; i < diagram.curves.size(); ++i) {
+    text += drawn(diagram.curves[i], x, y, colour(i));
+    const double at = left + share * static_cast<double>(i);
+    text += stroke(at, 48, at + 24, 48, colour(i), 2) + label(at + 30, 52, "start", diagram.curves[i].title);
+  }
+  return text + "</svg>\n";
+}
+
+std::string stereonet_svg(const std::string& title, const std::vector<PoleSet>& sets) {
+  std::string text = head(title);
+  for (const double share : {1.0, 2.0 / 3, 1.0 / 3}) {
+    // circles of equal plunge: 0, 30, 60 degrees
+    const double radius = net_radius * std::numbers::sqrt2 * std::sin(share * std::numbers::pi / 4);
+    text += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{:.1f}\" fill=\"none\" stroke=\"{}\"/>\n", middle_x, middle_y,
+                        radius, share == 1 ? "#606060" : "#e2e2e2");
+  }
+  text += stroke(middle_x - net_radius, middle_y, middle_x + net_radius, middle_y, "#e2e2e2", 1);
+  text += stroke(middle_x, middle_y - net_radius, middle_x, middle_y + net_radius, "#e2e2e2", 1);
+  text += label(middle_x, middle_y - net_radius - 6, "middle", "N") +
+          label(middle_x + net_radius + 6, middle_y + 4, "start", "E") +
+          label(middle_x, middle_y + net_radius + 16, "middle", "S") +
+          label(middle_x - net_radius - 6, middle_y + 4, "end", "W");
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (const auto& [trend, plunge] : sets[i].poles) {
+      const double radius = net_radius * std::numbers::sqrt2 * std::sin((std::numbers::pi / 2 - plunge) / 2);
+      text += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"{}\" fill-opacity=\"0.6\"/>\n",
+                          middle_x + radius * std::sin(trend), middle_y - radius * std::cos(trend), colour(i));
+    }
+    const double y = 80 + 22 * static_cast<double>(i);
+    text += fmt::format("<circle cx=\"500\" cy=\"{}\" r=\"4\" fill=\"{}\"/>\n", y, colour(i)) +
+            label(514, y + 4, "start", sets[i].title);
+  }
+  return text + label(500, height - 20, "start", "lower hemisphere, equal area") + "</svg>\n";
+}
+
+}  // namespace voussoir

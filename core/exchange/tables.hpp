@@ -1,0 +1,51 @@
+// The two tables that users own: joints, and the planes of blocks. Numbers are written with the fewest digits that read
+// back to the same number, so that planes return exactly.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/geometry/outline.hpp"
+
+namespace voussoir {
+
+// A joint as a row: columns name, dip_deg, dip_direction_deg or normal_x … (which wins where both stand, and then is
+// exact), x_m, y_m, z_m of any point (of a finite joint its centre), shape (infinite, or empty; ellipse, rectangle,
+// polygon; in 2-D trace), length_m along the strike and width_m down the dip (2-D: length_m), of a polygon corners_m as
+// "x y z; x y z; …", properties, set. inside_m2 (2-D: inside_m) is written for information and not read.
+struct JointRow {
+  int line = 0;  // of the file it came from
+  std::string name, set, properties;
+  std::optional<double> dip_deg, dip_direction_deg;
+  std::vector<double> normal;  // empty where the row states none; upward, unit
+  std::vector<double> point;   // m
+  OutlineForm shape = OutlineForm::none;
+  std::vector<double> extents;               // m, along the strike and down the dip; 2-D: the length; empty: persistent
+  std::vector<std::vector<double>> corners;  // m, of a polygon
+  std::optional<double> inside;              // m² (2-D: m)
+};
+
+// as scenes and tables name it
+std::string shape_text(OutlineForm shape, int dimension);
+
+// Throws FileFault, but leaves the ranges of angles and coordinates to the scene.
+std::vector<JointRow> read_joint_table(std::string_view text, int dimension);
+std::string joint_table(const std::vector<JointRow>& rows, int dimension);
+
+// A face of a convex part: normal · x <= offset. Columns block, part (from 0; may be left out), joint (which made it,
+// not read), normal_x …, offset_m.
+struct PlaneRow {
+  int line = 0;
+  std::string block;
+  int part = 0;
+  std::string joint;
+  std::vector<double> normal;
+  double offset = 0;  // m
+};
+
+std::vector<PlaneRow> read_plane_table(std::string_view text, int dimension);
+std::string plane_table(const std::vector<PlaneRow>& rows, int dimension);
+
+}  // namespace voussoir

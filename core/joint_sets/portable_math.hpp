@@ -1,0 +1,18 @@
+// Elementary functions from +, -, *, / and exact scaling alone, in a fixed order: the same bits wherever doubles are
+// IEEE 754 and nothing is fused. The C library's differ in the last bit from one system to the next, and with them
+// every joint drawn by them would.
+#pragma once
+
+namespace voussoir::portable {
+
+// natural logarithm of a positive finite number; within 2 ulp, near 1 within 2 ulp of x - 1
+double log(double x);
+
+// |x| <= 700; within 2 ulp
+double exp(double x);
+
+// |x| <= 100 rad; within 3e-16 absolute
+double sine(double x);
+double cosine(double x);
+
+}  // namespace voussoir::portable

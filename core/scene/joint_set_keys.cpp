@@ -1,0 +1,69 @@
+#include "core/scene/key_ranges.hpp"
+
+namespace voussoir {
+namespace {
+
+using enum KeyType;
+using namespace key_ranges;
+
+// clang-format off
+const KeyRow rows[] = {
+    {.table = "joint_sets", .key = "name", .type = name, .example = "\"bedding\"", .required = true,
+     .meaning = "unique among the sets; its joints are bedding-1, bedding-2, …"},
+    {.table = "joint_sets", .key = "dip", .unit = "deg", .range = dip_range, .usual = usual_dip, .example = "30",
+     .required = true, .meaning = "of the mean plane, below the horizontal", .repair = dip_repair, .slip = angle_slip},
+    {.table = "joint_sets", .key = "dip_direction", .unit = "deg", .range = direction_range, .usual = usual_direction,
+     .example = "90",
+     .meaning = dip_direction_meaning, .repair = direction_repair, .slip = angle_slip},
+    {.table = "joint_sets", .key = "spacing", .unit = "m", .range = positive, .usual = {0.05, 100}, .example = "2",
+     .meaning = "mean distance from joint to joint along the normal of the mean plane; this or intensity",
+     .slip = "was it given in mm?"},
+    {.table = "joint_sets", .key = "intensity", .unit = "1/m", .range = positive, .usual = {0.01, 20},
+     .example = "0.5", .meaning = "area of joints per volume, P32 (2-D: length per area, P21); this or spacing"},
+    {.table = "joint_sets", .key = "scatter", .type = choice, .fallback = "\"none\"", .example = "\"normal\"",
+     .choices = {"none", "fisher", "normal"},
+     .meaning = "of orientation; fisher: of the poles about the mean (3-D); normal: of dip and dip direction, each by "
+         "itself"},
+    {.table = "joint_sets", .key = "fisher_constant", .unit = "1", .range = {1e-3, 1e6}, .usual = {3, 1000},
+     .example = "100", .required = true, .when = {"scatter", "fisher"},
+     .meaning = "half of the poles lie within acos(1 + ln(0.5)/constant) of the mean: 6.7 degrees for 100"},
+    {.table = "joint_sets", .key = "dip_deviation_deg", .unit = "deg", .range = {0, 30}, .example = "5",
+     .required = true, .when = {"scatter", "normal"}, .meaning = "standard deviation of the dip (2-D: of the trace's angle)"},
+    {.table = "joint_sets", .key = "dip_direction_deviation_deg", .unit = "deg", .range = {0, 30}, .fallback = "0",
+     .example = "5", .when = {"scatter", "normal"}, .meaning = "standard deviation of the dip direction; 3-D only"},
+    {.table = "joint_sets", .key = "size", .type = choice, .fallback = "\"persistent\"", .example = "\"persistent\"",
+     .choices = {"persistent", "constant", "exponential", "lognormal"},
+     .meaning = "law of the extent along the strike (2-D: of the trace); persistent: joints never end",
+     .breaks = "joints of every size reach the domain from outside as in unbounded rock: there is no edge effect"},
+    {.table = "joint_sets", .key = "size_mean", .unit = "m", .range = size_range, .usual = {0.1, 1000}, .example = "5",
+     .required = true, .when = {"size", "constant|exponential|lognormal"},
+     .meaning = "mean of the size itself, not of its logarithm: the whole extent along the strike"},
+    {.table = "joint_sets", .key = "size_deviation", .unit = "m", .range = size_range, .example = "1", .required = true,
+     .when = {"size", "lognormal"}, .meaning = "standard deviation of the size itself"},
+    {.table = "joint_sets", .key = "shape", .type = choice, .fallback = "\"ellipse\"", .example = "\"rectangle\"",
+     .when = {"size", "constant|exponential|lognormal"}, .choices = {"ellipse", "rectangle"},
+     .meaning = "outline of finite joints; 3-D only"},
+    {.table = "joint_sets", .key = "elongation", .unit = "1", .range = {0.01, 100}, .fallback = "1", .example = "0.5",
+     .when = {"size", "constant|exponential|lognormal"},
+     .meaning = "extent down the dip over that along the strike: 1 makes discs and squares; 3-D only"},
+    {.table = "joint_sets", .key = "persistence", .unit = "1", .range = {0, 1, true}, .fallback = "1", .example = "0.6",
+     .when = {"size", "constant|exponential|lognormal"},
+     .meaning = "with spacing: that of planes, of whose area this share is joint (Einstein et al. 1983); 1: the spacing is "
+         "that of joints met along the mean normal"},
+    {.table = "joint_sets", .key = "arrangement", .type = choice, .fallback = "\"poisson\"", .example = "\"equal\"",
+     .when = {"size", "persistent"}, .choices = {"poisson", "equal"},
+     .meaning = "poisson: joints anywhere, spacings exponential; equal: at one distance, the first anywhere"},
+    {.table = "joint_sets", .key = "seed", .type = integer, .range = {0, 1e15}, .fallback = "0", .example = "7",
+     .meaning = "another seed, another sample; sets of different names are independent although their seed is one"},
+    {.table = "joint_sets", .key = "properties", .type = name, .example = "\"rock\"",
+     .meaning = "as of joints"},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const KeyRow> joint_set_rows() {
+  return rows;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,10 @@
+// A plane as joints, joint sets, domains and excavations state it.
+#pragma once
+
+#include "core/scene/scene.hpp"
+
+namespace voussoir {
+
+void read_plane(const Subject& subject, int dimension, PlaneSpec& plane);
+
+}  // namespace voussoir

@@ -1,0 +1,19 @@
+// Files of joints and blocks that a scene names: read as the tables that the scene could have stated itself, so that
+// checks, overrides, the scene's fingerprint and a resumed run know no difference.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "core/scene/node.hpp"
+
+namespace voussoir {
+
+// The file that a scene names under a key: a regular file in its folder, wherever links point. SceneError otherwise.
+std::filesystem::path file_beside(const Node& stated, std::string_view key, const std::filesystem::path& folder);
+
+// [[joints]] of `joints_file` (CSV) and [[blocks]] of `blocks_file` (CSV of planes, STL, OBJ); every value has its
+// place in the file. SceneError names file, line, column and reason.
+Node tables_of_files(const Node& scene, const std::filesystem::path& folder);
+
+}  // namespace voussoir
