@@ -82,7 +82,7 @@ TEST_F(SliceReport, WritesTablesFiguresAndFormats) {
   }
 }
 
-TEST_F(SliceReport, ReportsFiniteJointsWithoutBlocks) {
+TEST_F(SliceReport, ReportsFiniteJoints) {
   write("scene.toml", "dimension = 2\ndomain = { box = { min = [0, 0], max = [10, 10] } }\n" + head +
                           "[[joint_sets]]\nname = \"A\"\ndip = 30\ndip_direction = 270\nintensity = 3\nsize = "
                           "\"lognormal\"\nsize_mean = 2\nsize_deviation = 1\n");
