@@ -136,7 +136,7 @@ SlicingSpec read_slicing(const Subject& slicing) {
   SlicingSpec spec;
   spec.order = chosen<CuttingOrder>(
       slicing, "order",
-      {{"given", CuttingOrder::given}, {"size", CuttingOrder::by_size}, {"alternating", CuttingOrder::alternating}});
+      {{"size", CuttingOrder::by_size}, {"given", CuttingOrder::given}, {"alternating", CuttingOrder::alternating}});
   spec.ends = chosen<JointEnds>(
       slicing, "ends",
       {{"extended", JointEnds::extended}, {"healed", JointEnds::healed}, {"ignored", JointEnds::ignored}});

@@ -86,7 +86,7 @@ enum class JointEnds {
 };
 
 struct SlicingSpec {
-  CuttingOrder order = CuttingOrder::given;
+  CuttingOrder order = CuttingOrder::by_size;
   JointEnds ends = JointEnds::extended;
   double largest_aspect_ratio = 0;  // of the box along the axes; 0: any
   int most_blocks = 1'000'000;

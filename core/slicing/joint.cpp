@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 namespace voussoir {
 
@@ -72,18 +73,22 @@ Extent<3> extent_of(const Vector<3>& normal, const Outline<3>& outline, int elli
 
 template <int Dim>
 void put_in_order(std::vector<Cut<Dim>>& cuts, CuttingOrder order) {
-  if (order == CuttingOrder::by_size)
-    std::stable_sort(cuts.begin(), cuts.end(),
-                     [](const Cut<Dim>& a, const Cut<Dim>& b) { return a.extent.radius > b.extent.radius; });
-  if (order != CuttingOrder::alternating) return;
+  if (order == CuttingOrder::given) return;
+  // boundary joints keep one side whole and come first; construction joints shape what the others left
+  const auto stage = [](const Cut<Dim>& cut) {
+    return cut.kind == JointKind::boundary ? 0 : cut.kind == JointKind::construction ? 2 : 1;
+  };
   std::map<int, int> seen;  // joints of each set so far
-  std::vector<std::pair<int, std::size_t>> rank;
-  for (std::size_t i = 0; i < cuts.size(); ++i)
-    rank.emplace_back(seen[cuts[i].set]++, i);
+  std::vector<std::tuple<int, double, int, std::size_t>> rank;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const double size = order == CuttingOrder::by_size ? cuts[i].extent.radius : 0;
+    rank.emplace_back(stage(cuts[i]), -size, seen[cuts[i].set]++, i);
+  }
   std::sort(rank.begin(), rank.end());
   std::vector<Cut<Dim>> ordered;
-  for (const auto& [round, i] : rank)
-    ordered.push_back(cuts[i]);
+  ordered.reserve(cuts.size());
+  for (const auto& entry : rank)
+    ordered.push_back(std::move(cuts[std::get<std::size_t>(entry)]));
   cuts = std::move(ordered);
 }
 

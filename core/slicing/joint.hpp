@@ -55,9 +55,10 @@ Extent<2> trace_extent(const Vector<2>& upward_normal, const Vector<2>& centre, 
 Extent<2> extent_of(const Vector<2>& upward_normal, const Outline<2>& outline, int ellipse_sides);
 Extent<3> extent_of(const Vector<3>& upward_normal, const Outline<3>& outline, int ellipse_sides);
 
+// But for `given`, boundary joints come first and construction joints last, whatever their size and set.
 enum class CuttingOrder {
   given,
-  by_size,      // large extents first, those of one size as given: a small joint then ends at the large ones
+  by_size,      // large extents first: a small joint then ends at the large ones; of one size alternating
   alternating,  // the first of every set, the second of every set, …
 };
 

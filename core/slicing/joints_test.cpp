@@ -190,6 +190,15 @@ TEST(CuttingOrder, BySizeAndByTurns) {
   EXPECT_EQ(joints(cuts, CuttingOrder::given), (std::vector<int>{0, 1, 2, 3, 4, 5}));
   EXPECT_EQ(joints(cuts, CuttingOrder::by_size), (std::vector<int>{1, 2, 5, 4, 0, 3}));
   EXPECT_EQ(joints(cuts, CuttingOrder::alternating), (std::vector<int>{0, 3, 1, 4, 2, 5}));
+
+  // joints of one size alternate; a boundary comes before and a construction joint behind whatever is larger
+  for (Cut<3>& c : cuts)
+    c.extent = {};
+  cuts[0].kind = JointKind::construction;
+  cuts[5].kind = JointKind::boundary;
+  cuts[5].extent = rectangle_extent(z, {0, 0, 0}, 1, 1);
+  EXPECT_EQ(joints(cuts, CuttingOrder::by_size), (std::vector<int>{5, 3, 1, 4, 2, 0}));
+  EXPECT_EQ(joints(cuts, CuttingOrder::given), (std::vector<int>{0, 1, 2, 3, 4, 5}));
 }
 
 // ---- limits -----------------------------------------------------------------------------------------------------
