@@ -70,7 +70,7 @@ TEST(JointTable, TellsWhereItIsMalformed) {
   fault("A,40,90,0,1 2,0,,,\n", 11, "finite decimal number");
   fault("A,40,90,0,,0,,,\n", 11, "the cell is empty");
   fault("A,,90,0,0,0,,,\n", 3, "needs an orientation");
-  fault("A,40,90,0,0,0,round,1,1\n", 15, "must be infinite, ellipse or rectangle");
+  fault("A,40,90,0,0,0,round,1,1\n", 15, "must be infinite, ellipse, rectangle or polygon");
   fault("A,40,90,0,0,0,ellipse,0,1\n", 23, "greater than 0");
   fault("A,40,90,0,0,0,ellipse,1,\n", 25, "the cell is empty");
   fault("A,40,90,0,0,0,,1,\n", 16, "an infinite joint has no extent");
@@ -93,7 +93,11 @@ TEST(JointTable, ReturnsJointsExactly) {
     row.normal = {normal[0], normal[1], normal[2]};
     for (int k = 0; k < 3; ++k)
       row.point.push_back(shapes::power_of_ten(random, -6, 6) * (k == 1 ? -1 : 1));
-    if (i % 3) {
+    if (i % 7 == 0) {
+      row.shape = OutlineForm::polygon;
+      for (int corner = 0; corner < 3 + i % 3; ++corner)
+        row.corners.push_back({shapes::uniform(random, -1, 1), shapes::uniform(random, -9, 9), 1e6 / (corner + 3)});
+    } else if (i % 3) {
       row.shape = i % 3 == 1 ? OutlineForm::ellipse : OutlineForm::rectangle;
       row.extents = {shapes::uniform(random, 1, 9), shapes::uniform(random, 1, 9)};
     }
@@ -109,6 +113,7 @@ TEST(JointTable, ReturnsJointsExactly) {
     EXPECT_EQ(back[i].point, rows[i].point);
     EXPECT_EQ(back[i].shape, rows[i].shape);
     EXPECT_EQ(back[i].extents, rows[i].extents);
+    EXPECT_EQ(back[i].corners, rows[i].corners);
   }
   EXPECT_EQ(joint_table(back, 3), text);
 }

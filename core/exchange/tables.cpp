@@ -159,7 +159,7 @@ std::string shape_text(OutlineForm shape, int dimension) {
 }
 
 std::vector<JointRow> read_joint_table(std::string_view text, int dimension) {
-  constexpr std::size_t most_joints = 1'000'000;  // as sets may draw
+  constexpr std::size_t most_joints = 10'000;  // as a scene may state
   const CsvTable table = parse_csv(text, most_joints);
   const Names orientation = joined({"dip_deg", "dip_direction_deg"}, normal_columns(dimension));
   Names other = joined({"name", "set", "shape", "properties", inside_column(dimension)}, extent_columns(dimension));

@@ -57,7 +57,9 @@ template <int Dim>
 void add_outline(const Scene& scene, const ExcavationSpec& spec, const HalfSpaces<Dim>& region, Model<Dim>& model,
                  std::vector<Cut<Dim>>& cuts) {
   for (std::size_t f = 0; f < region.size(); ++f) {
-    Cut<Dim> cut{region[f], static_cast<int>(model.joints.size())};
+    const HalfSpace<Dim>& face = region[f];
+    const bool upward = face.normal[Dim - 1] >= 0;
+    Cut<Dim> cut{upward ? face : HalfSpace<Dim>{-face.normal, -face.offset}, static_cast<int>(model.joints.size())};
     for (std::size_t other = 0; other < region.size(); ++other)
       if (other != f) cut.extent.bounds.push_back(region[other]);
     cut.kind = JointKind::construction;
@@ -101,10 +103,14 @@ std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
   for (std::size_t e = 0; e < regions.size(); ++e) {
     const std::size_t before = parts.size();
     parts = excavated<Dim>(std::move(parts), regions[e]);
+    const Subject& subject = scene.excavations[e].subject;
     if (parts.size() == before)
-      refuse(*scene.excavations[e].subject.node, scene.excavations[e].subject.path,
-             "takes out no block: no block's centroid lies inside; check its place, or write outline = true to cut the "
-             "blocks along it");
+      refuse(
+          *subject.node, subject.path,
+          "takes out no block: no block's centroid lies inside; check its place against domain.box and domain.planes, "
+          "write outline = true to cut the blocks along it, or relax the limits of slicing that keep them whole");
+    if (parts.empty())
+      refuse(*subject.node, subject.path, "takes out every block of the domain; check its size and its place");
   }
 
   // what is held together is one body

@@ -19,7 +19,7 @@ void check_number(const JointSetSpec& spec, const Ball<Dim>& ball) {
   const char* key = spec.set.spacing ? "spacing" : "intensity";
   refuse(spec.subject, key,
          fmt::format("makes some {:.2g} joints that may reach the domain, more than {:.0g}; state a larger spacing, a "
-                     "smaller intensity, larger joints or a smaller domain",
+                     "smaller intensity, larger joints or a smaller domain (domain.box, domain.planes)",
                      expected, most_joints));
 }
 

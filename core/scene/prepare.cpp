@@ -43,6 +43,7 @@ int properties_of(const Scene& scene, const JointSpec& joint) {
   }
   if (names.size() == 1) return 0;
   const int standard = index_of(names, "default");
+  if (standard < 0 && joint.kind == JointKind::construction) return 0;  // its sides are one body
   if (standard < 0)
     refuse(joint.subject, "properties",
            "the joint has no properties and the scene states several; write for example properties = \"" +

@@ -66,6 +66,8 @@ class SceneFiles : public ::testing::Test {
     }
   }
 
+  void return_from_table(const std::string& text) const;
+
   const fs::path folder_ = fs::temp_directory_path() / fmt::format("voussoir_scene_files_{}", ::getpid());
 };
 
@@ -99,9 +101,8 @@ TEST_F(SceneFiles, PersistentSetsCutTheDomain) {
   EXPECT_NE(joints_of(alone, "cross", {"joint_sets.cross.seed=1"}), joints_of(alone, "cross"));
 }
 
-// what a report writes as joints.csv makes the same blocks to the last bit
-TEST_F(SceneFiles, DrawnJointsReturnFromTheirTableBitForBit) {
-  const Scene scene = parse(base_3d + three_sets);
+void SceneFiles::return_from_table(const std::string& text) const {
+  const Scene scene = parse(text);
   const Prepared<3> drawn = prepare<3>(scene);
   std::vector<JointRow> rows;
   const Polytope<3> domain = make_domain<3>(scene, drawn.model.origin);
@@ -112,17 +113,33 @@ TEST_F(SceneFiles, DrawnJointsReturnFromTheirTableBitForBit) {
       row.normal = {set.joints[j].normal[0], set.joints[j].normal[1], set.joints[j].normal[2]};
       row.point = {set.joints[j].point[0], set.joints[j].point[1], set.joints[j].point[2]};
       row.properties = "rock";
+      row.set = set.spec->set.name;
+      row.shape = set.joints[j].outline.shape;
+      if (row.shape != OutlineForm::none)
+        for (const double half : set.joints[j].outline.half_sizes)
+          row.extents.push_back(2 * half);
       rows.push_back(row);
     }
   write("joints.csv", joint_table(rows, 3));
   const Prepared<3> read = prepare<3>(parse("joints_file = \"joints.csv\"\n" + base_3d));
   ASSERT_EQ(read.model.joints.size(), drawn.model.joints.size());
+  EXPECT_GT(read.model.bodies.size(), 20u);
   for (std::size_t j = 0; j < read.model.joints.size(); ++j) {
     EXPECT_EQ(read.model.joints[j].name, drawn.model.joints[j].name);
     EXPECT_EQ(read.model.joints[j].plane.normal, drawn.model.joints[j].plane.normal);
     EXPECT_EQ(read.model.joints[j].plane.offset, drawn.model.joints[j].plane.offset);
   }
   expect_equal(read.model, drawn.model);
+}
+
+// what a report writes as joints.csv makes the same blocks to the last bit
+TEST_F(SceneFiles, DrawnJointsReturnFromTheirTableBitForBit) {
+  return_from_table(base_3d + three_sets);
+  return_from_table(base_3d +
+                    "[[joint_sets]]\nname = \"A\"\ndip = 30\ndip_direction = 90\nsize = \"exponential\"\n"
+                    "size_mean = 4\nintensity = 0.3\n"
+                    "[[joint_sets]]\nname = \"B\"\ndip = 80\ndip_direction = 200\nsize = \"constant\"\n"
+                    "size_mean = 5\nshape = \"rectangle\"\nelongation = 0.5\nintensity = 0.3\n");
 }
 
 TEST_F(SceneFiles, JointsOfATableAreJointsOfTheScene) {
@@ -153,7 +170,7 @@ TEST_F(SceneFiles, MistakesAreToldWithTheirPlace) {
   refused(head + "A,40,90,0,0,0,,,,\nA,50,90,0,0,0,,,,\n", "joints.csv:3: joints.A.name = \"A\": must be unique");
   refused(head + "A,40,90,0,0,0,clay,,,\n", "no joint_properties of this name");
   refused(head + "A,40,90,0,zero,0,,,,\n", "joints.csv:2:11: y_m = 'zero'");
-  refused(head + "A,40,90,0,0,0,,ellipse,2,1\n", "joints.csv:2: joint A is finite");
+  refused(head + "A,40,90,0,0,0,,ellipse,2e13,1\n", "joints.csv:2: joints.A.length = 2e+13");
   refused("dip_deg,normal_x,normal_y,normal_z,x_m,y_m,z_m\n10,0,0,1,0,0,0\n", "dip_direction is missing");
   refused("dip_deg,dip_direction_deg,normal_x,normal_y,normal_z,x_m,y_m,z_m\n10,0,0,0,1,0,0,0\n", "of another plane");
   expect_refused("joints_file = \"none.csv\"\n" + base_3d, "no such file");

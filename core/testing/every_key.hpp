@@ -203,7 +203,7 @@ inline std::string address(const KeyRow& row) {
     table = row.when.value == "polygon" ? "joints.polygon" : "joints.ellipse";
   if (row.table == "joints" && row.when.key == "kind") table = "joints.boundary";
   if (row.table == "joint_sets") {
-    const bool plain = row.when.value.empty() || row.when.value == "persistent";
+    const bool plain = row.key != "spacing" && (row.when.value.empty() || row.when.value == "persistent");
     table = plain ? "joint_sets.plain" : row.when.value == "fisher" ? "joint_sets.fisher" : "joint_sets.finite";
   }
   if (row.table == "blocks" && row.key == "vertices") table = "blocks.by vertices";
