@@ -1,0 +1,21 @@
+# the assembly in space, seen from east, south and above, without the blocks of one corner
+load style
+set terminal svg size 620,700 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
+    linewidth 1 enhanced
+set output out
+set size ratio -1
+unset border
+unset tics
+unset grid
+unset key
+set lmargin 0
+set rmargin 0
+set tmargin 0
+set bmargin 0
+set xrange [-18.5:18]
+set yrange [-21.5:20]
+load 'assembly_faces.gp'
+# how long a side is
+set arrow 1 from -17.3, -10.8 to -0.4, -19.9 heads size 0.4,20 lc rgb '#404040'
+set label 1 '24 m' at -9.6, -16.2 center rotate by -28
+plot NaN notitle

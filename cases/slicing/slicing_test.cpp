@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -70,6 +71,57 @@ void draw_parts(const std::string& file, const Model<2>& model, const Select& se
       out << '\n';
     }
   }
+}
+
+// an edge of a part without what it shares with other parts of its body: pieces along it, from 0 to 1
+std::vector<std::array<double, 2>> outer_pieces(const Body<2>& body, std::size_t part, std::size_t edge) {
+  const Polytope<2>& own = body.parts[part];
+  const Vector<2> from = own.vertices[own.loops[edge][0]], along = own.vertices[own.loops[edge][1]] - from;
+  std::vector<std::array<double, 2>> pieces{{0, 1}};
+  for (std::size_t p = 0; p < body.parts.size(); ++p) {
+    const Polytope<2>& other = body.parts[p];
+    for (std::size_t f = 0; f < other.faces.size(); ++f) {
+      if (p == part || other.joints[f] == no_joint || other.joints[f] != own.joints[edge]) continue;
+      double a = along.dot(other.vertices[other.loops[f][0]] - from) / along.squaredNorm();
+      double b = along.dot(other.vertices[other.loops[f][1]] - from) / along.squaredNorm();
+      if (a > b) std::swap(a, b);
+      std::vector<std::array<double, 2>> left;
+      for (const auto& [begin, end] : pieces) {
+        if (begin < a) left.push_back({begin, std::min(end, a)});
+        if (end > b) left.push_back({std::max(begin, b), end});
+      }
+      pieces = left;
+    }
+  }
+  return pieces;
+}
+
+void draw_edges(const std::string& file, const Model<2>& model) {
+  constexpr double visible = 1e-6;  // of an edge: shorter pieces are rounding
+  std::vector<std::vector<double>> columns(4);
+  for (const Body<2>& body : model.bodies)
+    for (std::size_t p = 0; p < body.parts.size(); ++p)
+      for (std::size_t f = 0; f < body.parts[p].faces.size(); ++f) {
+        const Polytope<2>& part = body.parts[p];
+        const Vector<2> from = part.vertices[part.loops[f][0]], along = part.vertices[part.loops[f][1]] - from;
+        for (const auto& [begin, end] : outer_pieces(body, p, f)) {
+          if (end - begin < visible) continue;
+          const Vector<2> start = model.origin + body.reference + from + begin * along;
+          for (int k = 0; k < 2; ++k) {
+            columns[k].push_back(start[k]);
+            columns[2 + k].push_back((end - begin) * along[k]);
+          }
+        }
+      }
+  write_csv("slicing", file, {"x_m", "y_m", "length_x_m", "length_y_m"}, columns);
+}
+
+// inscribed radius of its largest part, m
+double largest_radius(const Body<2>& body) {
+  double radius = 0;
+  for (const Polytope<2>& part : body.parts)
+    radius = std::max(radius, part.inscribed_radius);
+  return radius;
 }
 
 // the joints of a scene in the plane from end to end, as far as its domain's size reaches
@@ -221,8 +273,11 @@ TEST(Slicing, OnePatternCutInFourWays) {
       report.report(quantity, "m", smallest, "inscribed radius");
     report.report("pattern: blocks, " + t.name, "1", static_cast<double>(model.bodies.size()), t.label);
     // small blocks apart
-    draw_parts("pattern_" + t.name + ".csv", model, [](const Body<2>& body) { return body.size >= least_radius; });
-    draw_parts("pattern_" + t.name + "_small.csv", model, [](const Body<2>& body) { return body.size < least_radius; });
+    draw_parts("pattern_" + t.name + ".csv", model,
+               [](const Body<2>& body) { return largest_radius(body) >= least_radius; });
+    draw_parts("pattern_" + t.name + "_small.csv", model,
+               [](const Body<2>& body) { return largest_radius(body) < least_radius; });
+    draw_edges("pattern_" + t.name + "_edges.csv", model);
     models.emplace(t.name, std::move(model));
   }
 
