@@ -32,6 +32,7 @@ do for [k = 1:4] {
        'pattern_'.name.'_edges.csv' using 1:2:3:4 with vectors nohead lc rgb '#6f6450' lw 1.2 notitle, \
        'pattern_joints.csv' using 1:2:3:4 with vectors nohead lc rgb '#0072b2' lw 1.6 notitle
 }
+set size nosquare
 # the legend below all four
 set lmargin at screen 0.02
 set rmargin at screen 0.98

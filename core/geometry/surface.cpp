@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
+#include <span>
+#include <utility>
 
 namespace voussoir {
 namespace {
@@ -30,151 +31,179 @@ constexpr double well_conditioned = 1e-4;
 // in an unlucky order, several points where one is meant.
 constexpr double one_corner = 4;
 
-enum class Side { in, on, out };
+enum class Side { unseen, in, on, out };
 
-// what lies between the planes that have cut so far; negative planes are the box's
-template <int Dim>
+// a face: its corners are `size` entries of the solid's from `begin` on; negative planes are the box's
 struct Facet {
   int plane;
-  std::vector<int> loop;
+  std::size_t begin, size;
 };
 
+// what lies between the planes that have cut so far
 template <int Dim>
 struct Solid {
   std::vector<Vector<Dim>> points;
-  std::vector<Facet<Dim>> facets;
-  double band;  // m: closer to a plane than this is on it
+  std::vector<Facet> facets;
+  std::vector<int> corners;  // of one face after the other
+  double band = 0;           // m: closer to a plane than this is on it
+
+  void add(int plane, std::initializer_list<int> loop) {
+    facets.push_back({plane, corners.size(), loop.size()});
+    corners.insert(corners.end(), loop);
+  }
+  std::span<const int> loop(const Facet& f) const { return {corners.data() + f.begin, f.size}; }
+};
+
+// the point where a plane cuts the edge from corner i to corner j > i
+struct Crossing {
+  int i, j, point;
+};
+
+using Edge = std::pair<int, int>;
+
+// memory of one cut after the other
+struct Scratch {
+  std::vector<double> distance;  // of each point from the plane, m
+  std::vector<Side> side;
+  std::vector<Crossing> crossings;
+  std::vector<char> in_plane;  // for each corner of the face in hand whether it lies in the cutting plane
+  std::vector<Facet> facets;   // what is left
+  std::vector<int> corners;
+  std::vector<Edge> rim, links;  // of the new face
+  std::vector<int> ends;         // in the plane: how often a point ends a face, less how often it begins one
 };
 
 Solid<2> box(double half, std::integral_constant<int, 2>) {
-  return {{{-half, -half}, {half, -half}, {half, half}, {-half, half}},
-          {{-1, {0, 1}}, {-2, {1, 2}}, {-3, {2, 3}}, {-4, {3, 0}}},
-          0};
+  Solid<2> solid{{{-half, -half}, {half, -half}, {half, half}, {-half, half}}, {}, {}};
+  for (int k = 0; k < 4; ++k)
+    solid.add(-1 - k, {k, (k + 1) % 4});
+  return solid;
 }
 
 // corner i has coordinate k on the high side when bit k of i is set
 Solid<3> box(double half, std::integral_constant<int, 3>) {
-  Solid<3> solid{{},
-                 {{-1, {0, 4, 6, 2}},
-                  {-2, {1, 3, 7, 5}},
-                  {-3, {0, 1, 5, 4}},
-                  {-4, {2, 6, 7, 3}},
-                  {-5, {0, 2, 3, 1}},
-                  {-6, {4, 5, 7, 6}}},
-                 0};
+  Solid<3> solid;
   for (int i = 0; i < 8; ++i)
     solid.points.emplace_back(i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half);
+  solid.add(-1, {0, 4, 6, 2});
+  solid.add(-2, {1, 3, 7, 5});
+  solid.add(-3, {0, 1, 5, 4});
+  solid.add(-4, {2, 6, 7, 3});
+  solid.add(-5, {0, 2, 3, 1});
+  solid.add(-6, {4, 5, 7, 6});
   return solid;
 }
 
-// the vertices where a plane cuts edges, each made once
+// the point where the plane cuts an edge, made once
 template <int Dim>
-struct Crossings {
-  Solid<Dim>& solid;
-  const std::vector<double>& distance;
-  std::map<std::pair<int, int>, int> made;
-
-  int between(int from, int to) {
-    const std::pair<int, int> edge = std::minmax(from, to);
-    const auto [place, is_new] = made.try_emplace(edge, static_cast<int>(solid.points.size()));
-    if (is_new) {
-      const auto [i, j] = edge;
-      const double share = distance[i] / (distance[i] - distance[j]);
-      solid.points.push_back(solid.points[i] + share * (solid.points[j] - solid.points[i]));
-    }
-    return place->second;
-  }
-};
-
-// what is left of a loop, and for each of its corners whether it lies in the cutting plane
-struct Remainder {
-  std::vector<int> loop;
-  std::vector<bool> in_plane;
-};
-
-template <int Dim>
-Remainder cut_loop(const std::vector<int>& loop, const std::vector<Side>& side, Crossings<Dim>& crossings) {
-  Remainder left;
-  const std::size_t steps = Dim == 2 ? 1 : loop.size();  // in the plane a face is one edge, not a ring
-  const auto keep = [&](int vertex, bool in_plane) {
-    left.loop.push_back(vertex);
-    left.in_plane.push_back(in_plane);
-  };
-  for (std::size_t k = 0; k < steps; ++k) {
-    const int here = loop[k], next = loop[(k + 1) % loop.size()];
-    if (side[here] != Side::out) keep(here, side[here] == Side::on);
-    if ((side[here] == Side::in && side[next] == Side::out) || (side[here] == Side::out && side[next] == Side::in))
-      keep(crossings.between(here, next), true);
-    if (Dim == 2 && side[next] != Side::out) keep(next, side[next] == Side::on);
-  }
-  return left;
+int crossing_between(int from, int to, Solid<Dim>& solid, Scratch& scratch) {
+  const auto [i, j] = std::minmax(from, to);
+  for (const Crossing& known : scratch.crossings)
+    if (known.i == i && known.j == j) return known.point;
+  const double share = scratch.distance[i] / (scratch.distance[i] - scratch.distance[j]);
+  const int point = static_cast<int>(solid.points.size());
+  solid.points.push_back(solid.points[i] + share * (solid.points[j] - solid.points[i]));
+  scratch.crossings.push_back({i, j, point});
+  return point;
 }
 
-// The new face's loop from its edges, each seen from the face beyond it; empty when they form no single ring.
-std::vector<int> ring(const std::vector<std::pair<int, int>>& edges) {
-  std::map<int, int> next;
-  for (const auto& [from, to] : edges)
-    if (std::find(edges.begin(), edges.end(), std::pair(to, from)) == edges.end() && !next.try_emplace(from, to).second)
-      return {};
-  std::vector<int> loop;
-  if (next.empty()) return loop;
-  for (int at = next.begin()->first; loop.size() < next.size();) {
-    loop.push_back(at);
-    const auto step = next.find(at);
-    if (step == next.end()) return {};
-    at = step->second;
-    if (at == loop.front()) break;
+// what is left of a face, behind those that are left already
+template <int Dim>
+void cut_face(const Facet& face, Solid<Dim>& solid, Scratch& scratch) {
+  const std::vector<Side>& side = scratch.side;
+  const std::size_t begin = scratch.corners.size();
+  scratch.in_plane.clear();
+  const auto keep = [&](int vertex, bool in_plane) {
+    scratch.corners.push_back(vertex);
+    scratch.in_plane.push_back(in_plane);
+  };
+  const std::size_t steps = Dim == 2 ? 1 : face.size;  // in the plane a face is one edge, not a ring
+  for (std::size_t k = 0; k < steps; ++k) {
+    const int here = solid.corners[face.begin + k], next = solid.corners[face.begin + (k + 1) % face.size];
+    if (side[here] != Side::out) keep(here, side[here] == Side::on);
+    if ((side[here] == Side::in && side[next] == Side::out) || (side[here] == Side::out && side[next] == Side::in))
+      keep(crossing_between(here, next, solid, scratch), true);
+    if (Dim == 2 && side[next] != Side::out) keep(next, side[next] == Side::on);
   }
-  return loop.size() == next.size() ? loop : std::vector<int>{};
+  scratch.facets.push_back({face.plane, begin, scratch.corners.size() - begin});
+}
+
+// The new face's loop, behind the faces left, from its edges, each seen from the face beyond it; of no size when they
+// form no single ring.
+std::size_t add_ring(Scratch& scratch) {
+  std::vector<Edge>& links = scratch.links;
+  links.clear();
+  for (const Edge& edge : scratch.rim)
+    if (std::find(scratch.rim.begin(), scratch.rim.end(), Edge(edge.second, edge.first)) == scratch.rim.end())
+      links.push_back(edge);
+  if (links.empty()) return 0;
+  std::sort(links.begin(), links.end());
+  const auto same_start = [](const Edge& a, const Edge& b) { return a.first == b.first; };
+  if (std::adjacent_find(links.begin(), links.end(), same_start) != links.end()) return 0;
+  const int first = links.front().first;
+  std::size_t size = 0;
+  for (int at = first; size < links.size();) {
+    scratch.corners.push_back(at);
+    ++size;
+    const auto step = std::lower_bound(links.begin(), links.end(), Edge(at, std::numeric_limits<int>::min()));
+    if (step == links.end() || step->first != at) return 0;
+    at = step->second;
+    if (at == first) break;
+  }
+  return size == links.size() ? size : 0;
 }
 
 // in the plane the new face runs from where the ring of faces now ends to where it begins
-std::vector<int> gap(const std::vector<Facet<2>>& facets) {
-  std::map<int, int> open;  // how often a vertex ends a face, less how often it begins one
-  for (const Facet<2>& f : facets) {
-    --open[f.loop[0]];
-    ++open[f.loop[1]];
+std::size_t add_gap(std::size_t points, Scratch& scratch) {
+  scratch.ends.assign(points, 0);
+  for (const Facet& f : scratch.facets) {
+    --scratch.ends[scratch.corners[f.begin]];
+    ++scratch.ends[scratch.corners[f.begin + 1]];
   }
-  std::vector<int> loop(2, -1);
-  for (const auto& [vertex, count] : open)
-    if (count != 0) loop[count > 0 ? 0 : 1] = vertex;
-  return loop[0] < 0 || loop[1] < 0 ? std::vector<int>{} : loop;
+  int loop[2] = {-1, -1};
+  for (std::size_t v = 0; v < points; ++v)
+    if (const int count = scratch.ends[v]; count != 0) loop[count > 0 ? 0 : 1] = static_cast<int>(v);
+  if (loop[0] < 0 || loop[1] < 0) return 0;
+  scratch.corners.insert(scratch.corners.end(), {loop[0], loop[1]});
+  return 2;
 }
 
 // false when the faces left do not fit together
 template <int Dim>
-bool cut(Solid<Dim>& solid, const HalfSpace<Dim>& plane, int number, double negligible) {
-  std::vector<double> distance(solid.points.size(), 0);
-  std::vector<Side> side(solid.points.size(), Side::on);
+bool cut(Solid<Dim>& solid, const HalfSpace<Dim>& plane, int number, double negligible, Scratch& scratch) {
+  scratch.distance.assign(solid.points.size(), 0);
+  scratch.side.assign(solid.points.size(), Side::unseen);
   double deepest = 0;
-  for (const Facet<Dim>& f : solid.facets)
-    for (const int v : f.loop) {
-      distance[v] = signed_distance(plane, solid.points[v]);
-      if (std::abs(distance[v]) > solid.band) side[v] = distance[v] > 0 ? Side::out : Side::in;
-      deepest = std::max(deepest, distance[v]);
-    }
+  for (const int v : solid.corners) {
+    if (scratch.side[v] != Side::unseen) continue;
+    const double distance = scratch.distance[v] = signed_distance(plane, solid.points[v]);
+    scratch.side[v] = std::abs(distance) <= solid.band ? Side::on : distance > 0 ? Side::out : Side::in;
+    deepest = std::max(deepest, distance);
+  }
   if (deepest <= std::max(negligible, solid.band)) return true;
 
-  Crossings<Dim> crossings{solid, distance, {}};
-  std::vector<Facet<Dim>> left;
-  std::vector<std::pair<int, int>> rim;
-  for (const Facet<Dim>& f : solid.facets) {
-    if (std::none_of(f.loop.begin(), f.loop.end(), [&](int v) { return side[v] == Side::in; })) continue;
-    Remainder r = cut_loop<Dim>(f.loop, side, crossings);
-    for (std::size_t k = 0; Dim == 3 && k < r.loop.size(); ++k) {
-      const std::size_t next = (k + 1) % r.loop.size();
-      if (r.in_plane[k] && r.in_plane[next]) rim.emplace_back(r.loop[next], r.loop[k]);
+  scratch.crossings.clear();
+  scratch.facets.clear();
+  scratch.corners.clear();
+  scratch.rim.clear();
+  for (const Facet& f : solid.facets) {
+    const auto inside = [&](int v) { return scratch.side[v] == Side::in; };
+    const std::span<const int> whole = solid.loop(f);
+    if (std::none_of(whole.begin(), whole.end(), inside)) continue;
+    cut_face<Dim>(f, solid, scratch);
+    const Facet& left = scratch.facets.back();
+    for (std::size_t k = 0; Dim == 3 && k < left.size; ++k) {
+      const std::size_t next = (k + 1) % left.size;
+      if (scratch.in_plane[k] && scratch.in_plane[next])
+        scratch.rim.emplace_back(scratch.corners[left.begin + next], scratch.corners[left.begin + k]);
     }
-    left.push_back({f.plane, std::move(r.loop)});
   }
-  solid.facets = std::move(left);
-  std::vector<int> face;
-  if constexpr (Dim == 3)
-    face = ring(rim);
-  else
-    face = gap(solid.facets);
-  if (static_cast<int>(face.size()) < Dim) return false;
-  solid.facets.push_back({number, std::move(face)});
+  const std::size_t begin = scratch.corners.size();
+  const std::size_t size = Dim == 3 ? add_ring(scratch) : add_gap(solid.points.size(), scratch);
+  if (size < Dim) return false;
+  scratch.facets.push_back({number, begin, size});
+  std::swap(solid.facets, scratch.facets);
+  std::swap(solid.corners, scratch.corners);
   return true;
 }
 
@@ -189,7 +218,7 @@ Vector<Dim> common_point(const Matrix<Dim>& normals, const Vector<Dim>& offsets)
 // The vertex anew from Dim of the planes through it, each chosen to lean most against those before: cutting left the
 // rounding of the box.
 template <int Dim>
-void sharpen(Vector<Dim>& point, const HalfSpaces<Dim>& faces, const std::vector<int>& through) {
+void sharpen(Vector<Dim>& point, const HalfSpaces<Dim>& faces, std::span<const int> through) {
   Matrix<Dim> normals;
   Vector<Dim> offsets;
   double spanned = 1;  // length, area, then volume that the chosen normals span
@@ -258,25 +287,30 @@ Surface<Dim> surface_of(const Solid<Dim>& solid, const HalfSpaces<Dim>& faces) {
   Surface<Dim> surface;
   surface.loops.resize(faces.size());
   std::vector<int> name(solid.points.size(), -1);
-  std::vector<std::vector<int>> through;
-  for (const Facet<Dim>& f : solid.facets) {
+  std::vector<Edge> through;  // vertex and plane
+  through.reserve(solid.corners.size());
+  for (const Facet& f : solid.facets) {
     if (f.plane < 0) {
       surface.status = SurfaceStatus::open;
       return surface;
     }
-    for (const int v : f.loop) {
+    for (const int v : solid.loop(f)) {
       if (name[v] < 0) {
         name[v] = static_cast<int>(surface.vertices.size());
         surface.vertices.push_back(solid.points[v]);
-        through.emplace_back();
       }
-      through[name[v]].push_back(f.plane);
+      through.emplace_back(name[v], f.plane);
       surface.loops[f.plane].push_back(name[v]);
     }
   }
-  for (std::size_t v = 0; v < through.size(); ++v) {
-    std::sort(through[v].begin(), through[v].end());
-    sharpen<Dim>(surface.vertices[v], faces, through[v]);
+  std::sort(through.begin(), through.end());
+  std::vector<int> planes;
+  for (std::size_t k = 0; k < through.size();) {
+    const int vertex = through[k].first;
+    planes.clear();
+    for (; k < through.size() && through[k].first == vertex; ++k)
+      planes.push_back(through[k].second);
+    sharpen<Dim>(surface.vertices[vertex], faces, planes);
   }
   shrink_short_edges(surface, one_corner * solid.band);
   return surface;
@@ -284,8 +318,9 @@ Surface<Dim> surface_of(const Solid<Dim>& solid, const HalfSpaces<Dim>& faces) {
 
 template <int Dim>
 bool cut_all(Solid<Dim>& solid, const HalfSpaces<Dim>& faces, double negligible) {
+  Scratch scratch;
   for (int f = static_cast<int>(faces.size()) - 1; f >= 0; --f)
-    if (!cut<Dim>(solid, faces[f], f, negligible)) return false;
+    if (!cut<Dim>(solid, faces[f], f, negligible, scratch)) return false;
   return true;
 }
 
