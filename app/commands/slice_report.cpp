@@ -43,7 +43,7 @@ Sample<Dim> sample_of(const Scene& scene) {
   sample.ball = ball_around<Dim>(sample.domain, origin);
   sample.sets = draw_joint_sets<Dim>(scene, sample.domain, origin);
   for (const DrawnSet<Dim>& drawn : sample.sets)
-    sample.statistics.push_back(measure<Dim>(drawn.spec->set, drawn.joints, sample.ball, sample.domain, origin));
+    sample.statistics.push_back(measure<Dim>(drawn.spec->set, drawn.joints, sample.ball, drawn.solid, origin));
   return sample;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/scene/bodies.hpp"
 #include "core/scene/joint_outline.hpp"
+#include "core/scene/region.hpp"
 #include "core/slicing/clump.hpp"
 
 namespace voussoir {
@@ -23,6 +24,9 @@ std::vector<Cut<Dim>> cuts_of(const Scene& scene, const Model<Dim>& model) {
     Cut<Dim> cut{model.joints[j].plane, number};
     const Outline<Dim> outline = outline_of<Dim>(joint, cut.plane.normal, model.origin);
     if (scene.slicing.ends != JointEnds::ignored) cut.extent = extent_of(cut.plane.normal, outline, ellipse_sides);
+    if (joint.within)
+      for (const HalfSpace<Dim>& bound : region_planes<Dim>(*joint.within, model.origin))
+        cut.extent.bounds.push_back(bound);
     // a joint without a set is one of its own
     cut.set = joint.set.empty() ? number : sets.try_emplace(joint.set, number).first->second;
     cut.kind = joint.kind;
@@ -31,25 +35,6 @@ std::vector<Cut<Dim>> cuts_of(const Scene& scene, const Model<Dim>& model) {
   }
   put_in_order(cuts, scene.slicing.order);
   return cuts;
-}
-
-HalfSpaces<2> region_of(const CylinderSpec& c, const Vector<2>& origin) {
-  return circle_region(to_vector<2>(c.from) - origin, c.radius, c.sides);
-}
-HalfSpaces<3> region_of(const CylinderSpec& c, const Vector<3>& origin) {
-  return cylinder_region(to_vector<3>(c.from) - origin, to_vector<3>(c.to) - origin, c.radius, c.sides);
-}
-
-template <int Dim>
-HalfSpaces<Dim> region_of(const ExcavationSpec& spec, const Vector<Dim>& origin) {
-  HalfSpaces<Dim> region;
-  if (spec.box) region = box_planes<Dim>(*spec.box, origin);
-  if (spec.cylinder) region = region_of(*spec.cylinder, origin);
-  for (const DomainPlaneSpec& p : spec.planes) {
-    const HalfSpace<Dim> plane = to_half_space<Dim>(p.plane, origin);
-    region.push_back(p.keep_below ? plane : HalfSpace<Dim>{-plane.normal, -plane.offset});
-  }
-  return region;
 }
 
 // construction joints along the region's faces, each confined to its face
@@ -88,7 +73,7 @@ std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
   std::vector<Cut<Dim>> cuts = cuts_of<Dim>(scene, model);
   std::vector<HalfSpaces<Dim>> regions;
   for (const ExcavationSpec& spec : scene.excavations) {
-    regions.push_back(region_of<Dim>(spec, model.origin));
+    regions.push_back(region_planes<Dim>(spec.region, model.origin));
     if (spec.outline) add_outline<Dim>(scene, spec, regions.back(), model, cuts);
   }
 
@@ -103,7 +88,7 @@ std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
   for (std::size_t e = 0; e < regions.size(); ++e) {
     const std::size_t before = parts.size();
     parts = excavated<Dim>(std::move(parts), regions[e]);
-    const Subject& subject = scene.excavations[e].subject;
+    const Subject& subject = scene.excavations[e].region.subject;
     if (parts.size() == before)
       refuse(
           *subject.node, subject.path,

@@ -5,6 +5,8 @@
 #include <set>
 
 #include "core/scene/bodies.hpp"
+#include "core/scene/region.hpp"
+#include "core/slicing/block.hpp"
 
 namespace voussoir {
 namespace {
@@ -23,6 +25,20 @@ void check_number(const JointSetSpec& spec, const Ball<Dim>& ball) {
                      expected, most_joints));
 }
 
+// the part of the domain that a set is confined to
+template <int Dim>
+Polytope<Dim> confined(const JointSetSpec& spec, const Polytope<Dim>& domain, const Vector<Dim>& origin) {
+  if (!spec.within) return domain;
+  HalfSpaces<Dim> planes = domain.faces;
+  for (const HalfSpace<Dim>& bound : region_planes<Dim>(*spec.within, origin))
+    planes.push_back(bound);
+  BlockResult<Dim> part = make_block<Dim>(planes, std::vector<int>(planes.size(), no_joint));
+  if (part.status != BlockStatus::ok)
+    refuse(*spec.within->subject.node, spec.within->subject.path,
+           "has no part of the domain in it; check its place against domain.box and domain.planes");
+  return std::move(part.part);
+}
+
 // its plane and its outline come out as those of the drawn joint, to the last bit
 template <int Dim>
 JointSpec spec_of(const DrawnSet<Dim>& drawn, std::size_t j) {
@@ -32,6 +48,7 @@ JointSpec spec_of(const DrawnSet<Dim>& drawn, std::size_t j) {
   spec.name = drawn.name_of(j);
   spec.set = drawn.spec->set.name;
   spec.properties = drawn.spec->properties;
+  spec.within = drawn.spec->within;
   spec.plane.normal.assign(joint.normal.data(), joint.normal.data() + Dim);
   spec.plane.point.assign(joint.point.data(), joint.point.data() + Dim);
   spec.outline.shape = joint.outline.shape;
@@ -71,9 +88,9 @@ std::vector<DrawnSet<Dim>> draw_joint_sets(const Scene& scene, const Polytope<Di
   std::vector<DrawnSet<Dim>> sets;
   for (const JointSetSpec& spec : scene.joint_sets) {
     check_number<Dim>(spec, ball);
-    DrawnSet<Dim> drawn{&spec, {}};
+    DrawnSet<Dim> drawn{&spec, confined<Dim>(spec, domain, origin), {}};
     for (DrawnJoint<Dim>& joint : draw<Dim>(spec.set, ball))
-      if (measure_inside(plane_of(joint, origin), outline_from(joint, origin), domain) > 0)
+      if (measure_inside(plane_of(joint, origin), outline_from(joint, origin), drawn.solid) > 0)
         drawn.joints.push_back(std::move(joint));
     sets.push_back(std::move(drawn));
   }

@@ -10,6 +10,7 @@ namespace voussoir {
 template <int Dim>
 struct DrawnSet {
   const JointSetSpec* spec = nullptr;
+  Polytope<Dim> solid;  // the domain, or the part of it that the set is confined to
   std::vector<DrawnJoint<Dim>> joints;
 
   // unique in the scene as far as the set's name is

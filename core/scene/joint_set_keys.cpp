@@ -55,6 +55,8 @@ const KeyRow rows[] = {
      .meaning = "poisson: joints anywhere, spacings exponential; equal: at one distance, the first anywhere"},
     {.table = "joint_sets", .key = "seed", .type = integer, .range = {0, 1e15}, .fallback = "0", .example = "7",
      .meaning = "another seed, another sample; sets of different names are independent although their seed is one"},
+    {.table = "joint_sets", .key = "within", .type = table, .holds = {"region"},
+     .meaning = "subdomain that its joints are confined to, as of joints"},
     {.table = "joint_sets", .key = "properties", .type = name, .example = "\"rock\"",
      .meaning = "as of joints"},
 };

@@ -1,6 +1,7 @@
 #include "core/scene/read_joint_sets.hpp"
 
 #include "core/scene/read_plane.hpp"
+#include "core/scene/read_slicing.hpp"
 #include "core/scene/values.hpp"
 
 namespace voussoir {
@@ -68,8 +69,9 @@ JointSet read_set(const Subject& item, int dimension) {
 std::vector<JointSetSpec> read_joint_sets(const Subject& scene, int dimension) {
   std::vector<JointSetSpec> sets;
   for (const Subject& item : children(scene, "joint_sets")) {
-    JointSetSpec spec{item, read_set(item, dimension), {}};
+    JointSetSpec spec{item, read_set(item, dimension), {}, {}};
     read(item, "properties", spec.properties);
+    if (const auto within = child(item, "within")) spec.within = read_region(*within, dimension);
     sets.push_back(std::move(spec));
   }
   return sets;

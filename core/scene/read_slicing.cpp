@@ -106,27 +106,34 @@ std::vector<JointSpec> read_joints(const Subject& scene, int dimension) {
                                     {"fictitious", JointKind::fictitious}});
     joint.whole = chosen<JointSide>(item, "whole",
                                     {{"", JointSide::none}, {"below", JointSide::below}, {"above", JointSide::above}});
+    if (const auto within = child(item, "within")) joint.within = read_region(*within, dimension);
     joints.push_back(std::move(joint));
   }
   return joints;
+}
+
+RegionSpec read_region(const Subject& subject, int dimension) {
+  RegionSpec region;
+  region.subject = subject;
+  if (const auto box = child(subject, "box")) region.box = read_box(*box);
+  if (const auto cylinder = child(subject, "cylinder")) region.cylinder = read_cylinder(*cylinder, dimension);
+  region.planes = read_planes(subject, dimension);
+  if (region.box && region.cylinder)
+    refuse(subject, "box", "a region takes only one of box and cylinder; remove one, or state two regions");
+  if (!region.box && !region.cylinder && region.planes.empty())
+    refuse(
+        subject, "box",
+        "a region needs a box, a cylinder or planes; write for example box = { min = [-1, -1, -1], max = [1, 1, 1] }");
+  return region;
 }
 
 std::vector<ExcavationSpec> read_excavations(const Subject& scene, int dimension) {
   std::vector<ExcavationSpec> all;
   for (const Subject& item : children(scene, "excavations")) {
     ExcavationSpec spec;
-    spec.subject = item;
     read(item, "name", spec.name);
-    if (const auto box = child(item, "box")) spec.box = read_box(*box);
-    if (const auto cylinder = child(item, "cylinder")) spec.cylinder = read_cylinder(*cylinder, dimension);
-    spec.planes = read_planes(item, dimension);
+    spec.region = read_region(item, dimension);
     read(item, "outline", spec.outline);
-    if (spec.box && spec.cylinder)
-      refuse(item, "box", "an excavation takes only one of box and cylinder; remove one, or state two excavations");
-    if (!spec.box && !spec.cylinder && spec.planes.empty())
-      refuse(item, "box",
-             "an excavation needs a box, a cylinder or planes; write for example box = { min = [-1, -1, -1], max = "
-             "[1, 1, 1] }");
     all.push_back(std::move(spec));
   }
   return all;

@@ -8,6 +8,7 @@ namespace voussoir {
 BoxSpec read_box(const Subject& subject);
 std::optional<DomainSpec> read_domain(const Subject& scene, int dimension);
 std::vector<JointSpec> read_joints(const Subject& scene, int dimension);
+RegionSpec read_region(const Subject& subject, int dimension);
 std::vector<ExcavationSpec> read_excavations(const Subject& scene, int dimension);
 SlicingSpec read_slicing(const Subject& slicing);
 

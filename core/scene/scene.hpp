@@ -50,6 +50,22 @@ struct OutlineSpec {
   std::vector<std::vector<double>> corners;  // m, of a polygon, in space
 };
 
+// a tunnel or, in 2-D, a circle: a prism whose sides touch it from outside
+struct CylinderSpec {
+  Subject subject;
+  std::vector<double> from, to;  // m; 2-D: the centre alone
+  double radius = 0;             // m
+  int sides = 24;
+};
+
+// convex; of box and cylinder at most one
+struct RegionSpec {
+  Subject subject;
+  std::optional<BoxSpec> box;
+  std::optional<CylinderSpec> cylinder;
+  std::vector<DomainPlaneSpec> planes;
+};
+
 struct JointSpec {
   Subject subject;
   std::string name;
@@ -59,23 +75,13 @@ struct JointSpec {
   std::string set;  // joints of one name are a set; or empty
   JointKind kind = JointKind::rock;
   JointSide whole = JointSide::none;
+  std::optional<RegionSpec> within;  // the subdomain that it is confined to
 };
 
-// a tunnel or, in 2-D, a circle: a prism whose sides touch it from outside
-struct CylinderSpec {
-  Subject subject;
-  std::vector<double> from, to;  // m; 2-D: the centre alone
-  double radius = 0;             // m
-  int sides = 24;
-};
-
-// what is taken out before anything else happens; of box and cylinder at most one
+// what is taken out before anything else happens
 struct ExcavationSpec {
-  Subject subject;
   std::string name;
-  std::optional<BoxSpec> box;
-  std::optional<CylinderSpec> cylinder;
-  std::vector<DomainPlaneSpec> planes;
+  RegionSpec region;
   bool outline = false;  // construction joints along its faces
 };
 
@@ -96,6 +102,7 @@ struct JointSetSpec {
   Subject subject;
   JointSet set;
   std::optional<std::string> properties;
+  std::optional<RegionSpec> within;
 };
 
 struct PropertiesSpec {

@@ -77,6 +77,27 @@ TEST(SlicingScene, KindsHoldTogetherAndFix) {
   }
 }
 
+TEST(SlicingScene, AJointConfinedToASubdomainCutsWhatItMeetsThere) {
+  // a level joint through everything, but on the right of the wall alone
+  const std::string level = "[[joints]]\nname = \"level\"\ndip = 0\npoint = [0, 0.5]\n";
+  EXPECT_EQ(square(level).model.bodies.size(), 4u);
+  const std::string right =
+      "within = { planes = [{ dip = 90, dip_direction = 90, point = [0, 0], keep = \"above\" }] }\n";
+  EXPECT_EQ(square(level + right).model.bodies.size(), 3u);
+  EXPECT_EQ(square(level + "within = { box = { min = [-0.3, 0], max = [0.2, 1] } }\n").model.bodies.size(), 4u);
+  EXPECT_EQ(square(level + "within = { box = { min = [-0.3, 0.6], max = [0.2, 1] } }\n").model.bodies.size(), 2u);
+
+  const std::string set = "[[joint_sets]]\nname = \"S\"\ndip = 0\nspacing = 0.1\narrangement = \"equal\"\n";
+  EXPECT_EQ(square(set).model.bodies.size(), 42u);
+  EXPECT_EQ(square(set + right).model.bodies.size(), 22u);
+  try {
+    square(set + "within = { box = { min = [3, 3], max = [4, 4] } }\n");
+    ADD_FAILURE() << "accepted";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("joint_sets.S.within"), std::string::npos) << error.what();
+  }
+}
+
 TEST(SlicingScene, ATunnelIsTakenOut) {
   const std::string tunnel = R"(
 [[excavations]]

@@ -179,6 +179,7 @@ inline std::string address(const KeyRow& row) {
                                                           {"domain.planes", "domain.planes.1"},
                                                           {"joints", "joints.A"},
                                                           {"excavations", "excavations.tunnel"},
+                                                          {"region", "excavations.tunnel"},
                                                           {"cylinder", "excavations.tunnel.cylinder"},
                                                           {"joint_properties", "joint_properties.rock"},
                                                           {"blocks", "blocks.by planes"},

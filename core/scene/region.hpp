@@ -1,0 +1,13 @@
+// The half-spaces of a convex region that a scene states.
+#pragma once
+
+#include "core/geometry/half_space.hpp"
+#include "core/scene/scene.hpp"
+
+namespace voussoir {
+
+// seen from `origin`
+template <int Dim>
+HalfSpaces<Dim> region_planes(const RegionSpec& spec, const Vector<Dim>& origin);
+
+}  // namespace voussoir
