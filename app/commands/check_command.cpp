@@ -18,6 +18,9 @@ void line(const char* label, const std::string& text) {
   fmt::print("  {:<12}{}\n", label, text);
 }
 
+// of blocks and of joints: tables and joint sets make thousands
+constexpr std::size_t most_shown = 30;
+
 template <int Dim>
 std::string vector_text(const Vector<Dim>& v) {
   std::string text;
@@ -60,14 +63,15 @@ void print_blocks(const Model<Dim>& model) {
   line("", fmt::format("inscribed radius {:.4g} to {:.4g} m; {} {:.6g} {}; free mass {:.6g} {}", smallest, largest,
                        Dim == 3 ? "volume" : "area", volume, Dim == 3 ? "m³" : "m²", mass, Dim == 3 ? "kg" : "kg/m"));
   std::string names;
+  std::size_t named = 0;
   for (const Body<Dim>& body : model.bodies)
-    if (!body.name.empty()) names += (names.empty() ? "" : ", ") + body.name;
+    if (!body.name.empty() && named++ < most_shown) names += (names.empty() ? "" : ", ") + body.name;
+  if (named > most_shown) names += fmt::format(" and {} more", named - most_shown);
   if (!names.empty()) line("", "named: " + names);
 }
 
 template <int Dim>
 void print_joints(const Model<Dim>& model) {
-  constexpr std::size_t most_shown = 30;  // joint sets make thousands
   const char* label = "joints";
   for (std::size_t j = 0; j < std::min(model.joints.size(), most_shown); ++j) {
     int faces = 0;
