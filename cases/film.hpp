@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -27,9 +28,10 @@ struct Film {
 enum class Goals { demanded, optional };
 
 // Runs a 3-D scene to its end, and demands that it reached its goals unless they are optional.
-inline Film film(const std::filesystem::path& path, Goals goals = Goals::demanded) {
+inline Film film(const std::filesystem::path& path, Goals goals = Goals::demanded,
+                 const std::vector<std::string>& overrides = {}) {
   Film film;
-  film.run.scene = load_scene(path);
+  film.run.scene = load_scene(path, overrides);
   const Prepared<3>& scene = film.scene();
   film.frames.push_back(scene.state);
   Watcher<3> watcher;
@@ -54,8 +56,11 @@ inline std::vector<Vector<3>> corners(const Body<3>& body, const Motion<3>& moti
 
 // parallel projection
 struct Camera {
-  double azimuth_deg = -60, height_deg = 20;  // where the eye stands, from x and from the horizontal
-  std::vector<std::string> hidden = {};       // bodies that are not drawn
+  double azimuth_deg = -60, height_deg = 20;                   // where the eye stands, from x and from the horizontal
+  std::vector<std::string> hidden = {};                        // bodies that are not drawn
+  std::function<std::uint32_t(std::size_t body)> colour = {};  // rgb; without it as write_picture says
+  // the faces to draw, from their corners (world) and outward normals; without it all that look at the eye
+  std::function<bool(std::size_t body, const std::vector<Vector<3>>& corners, const Vector<3>& normal)> drawn = {};
 };
 
 // One picture as CSV: right_m, up_m, colour (rgb as a number); a face is a closed line, faces are parted by a blank
@@ -86,9 +91,11 @@ inline void write_picture(const std::string& case_name, const std::string& file,
         Face face{centroid.dot(eye), 0, {}};
         for (const int v : part.loops[f])
           face.outline.push_back(centroid + axes * part.vertices[v]);
+        if (camera.drawn && !camera.drawn(b, face.outline, normal)) continue;
         // Okabe and Ito's colours, by 4, 6, 8, 12 and 20 faces
         const std::size_t count = part.faces.size();
-        const std::uint32_t base = body.fixed    ? (b % 2 ? 0xd0d0d0 : 0xb8b8a0)
+        const std::uint32_t base = camera.colour ? camera.colour(b)
+                                   : body.fixed  ? (b % 2 ? 0xd0d0d0 : 0xb8b8a0)
                                    : count <= 4  ? 0xd55e00
                                    : count <= 6  ? 0x0072b2
                                    : count <= 8  ? 0x009e73
