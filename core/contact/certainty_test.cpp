@@ -60,11 +60,18 @@ TEST(Certainty, NoAnswerIsWrongAndEveryProofHolds2D) {
   expect_no_promise_broken<2>(0, 6'000);
 }
 
-// Pairs of the million below to which the program in double had a value beyond 64 ulp or none, or left them undecided
-// or without an answer: slivers and folded blocks, whose faces are nearly parallel.
+// ---- what a million pairs found -------------------------------------------------------------------------------------
+
+// the program in double had a value beyond 64 ulp or none, and so the pair was undecided or without an answer
 TEST(Certainty, ProgramsThatDoubleDoesNotSettleAreSettled) {
-  expect_no_promise_broken<3>({126834, 131767, 162027, 220194, 236073, 258353, 282734, 310253, 360366, 437974, 445973,
-                               540294, 592933, 594612, 649274, 759892, 760007, 760647});
+  expect_no_promise_broken<3>({126834, 131767, 162027, 220194, 236073, 258353, 282734, 310253, 360366,
+                               408152, 418094, 437974, 445973, 446372, 450714, 456112, 486567, 540294,
+                               571232, 575512, 592933, 594612, 649274, 759892, 760007, 760647});
+}
+
+// rotations and axes are unit but for rounding
+TEST(Certainty, NormalsAreUnit) {
+  expect_no_promise_broken<3>({25697, 65591, 135417, 153749, 214972, 229089, 348573, 458892, 513414, 571990});
 }
 
 // in eight parts, so that one that was interrupted need not begin anew: --gtest_filter=*DISABLED_AMillionPairs/3
