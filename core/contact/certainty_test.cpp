@@ -69,6 +69,12 @@ TEST(Certainty, ProgramsThatDoubleDoesNotSettleAreSettled) {
                                571232, 575512, 592933, 594612, 649274, 759892, 760007, 760647});
 }
 
+// a face that the normal grazes ends the overlap
+TEST(Certainty, OverlapsThatEndOnGrazingFacesAreExact) {
+  expect_no_promise_broken<3>({289973, 364434, 387692, 413453, 436414, 624014, 757374});
+  expect_no_promise_broken<2>({22874, 187672});
+}
+
 // rotations and axes are unit but for rounding
 TEST(Certainty, NormalsAreUnit) {
   expect_no_promise_broken<3>({25697, 65591, 135417, 153749, 214972, 229089, 348573, 458892, 513414, 571990});
