@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "core/testing/contacts.hpp"
 #include "core/testing/pair_judge.hpp"
 
@@ -43,11 +45,39 @@ void expect_no_promise_broken(long long first, long long last) {
   EXPECT_EQ(tally.counts["centres by another solver"], 0);
 }
 
+template <int Dim>
+void expect_no_promise_broken(const std::vector<long long>& numbers) {
+  Tally tally;
+  for (const long long number : numbers)
+    for (const families::Finding& f : families::judge(families::numbered_case<Dim>(seed, number), tally))
+      ADD_FAILURE() << fmt::format("numbered_case<{}>({}, {}): {}, {}", Dim, seed, number, f.promise, f.figures);
+}
+
 TEST(Certainty, NoAnswerIsWrongAndEveryProofHolds3D) {
   expect_no_promise_broken<3>(0, 14'000);
 }
 TEST(Certainty, NoAnswerIsWrongAndEveryProofHolds2D) {
   expect_no_promise_broken<2>(0, 6'000);
+}
+
+// ---- what a million pairs found -------------------------------------------------------------------------------------
+
+// the program in double had a value beyond 64 ulp or none, and so the pair was undecided or without an answer
+TEST(Certainty, ProgramsThatDoubleDoesNotSettleAreSettled) {
+  expect_no_promise_broken<3>({126834, 131767, 162027, 220194, 236073, 258353, 282734, 310253, 360366,
+                               408152, 418094, 437974, 445973, 446372, 450714, 456112, 486567, 540294,
+                               571232, 575512, 592933, 594612, 649274, 759892, 760007, 760647});
+}
+
+// a face that the normal grazes ends the overlap
+TEST(Certainty, OverlapsThatEndOnGrazingFacesAreExact) {
+  expect_no_promise_broken<3>({289973, 364434, 387692, 413453, 436414, 624014, 757374});
+  expect_no_promise_broken<2>({22874, 187672});
+}
+
+// rotations and axes are unit but for rounding
+TEST(Certainty, NormalsAreUnit) {
+  expect_no_promise_broken<3>({25697, 65591, 135417, 153749, 214972, 229089, 348573, 458892, 513414, 571990});
 }
 
 // in eight parts, so that one that was interrupted need not begin anew: --gtest_filter=*DISABLED_AMillionPairs/3

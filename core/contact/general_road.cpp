@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/contact/bracketing.hpp"
+#include "core/contact/careful_overlap.hpp"
 #include "core/contact/kernel/workspace.hpp"
 #include "core/contact/overlap_region.hpp"
 
@@ -222,6 +223,7 @@ struct Resolver {
     geometry.normal = pair.axes * normal;
     contact.proof.axis = normal;
     contact.proof.tangent = perpendicular(normal);
+    if (settings.overlap == OverlapSearch::closed_form) settle_overlap(pair, contact);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/contact/careful_overlap.hpp"
 #include "core/contact/general_road.hpp"
 #include "core/contact/kernel/kernel.hpp"
 #include "core/optimise/solvers.hpp"
@@ -76,7 +77,9 @@ void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const 
     // the plane between them is cheaper to check next time than the multipliers
     const Vector<Dim> axis = contact.proof.axis;
     separates(pair, axis, support(*pair.a, axis), contact);
+    return;
   }
+  settle_overlap(pair, contact);
 }
 
 template <int Dim>
@@ -131,10 +134,12 @@ void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
   sort_by_work(standing);
   resolve_standing<Dim>(standing, {settings.newton_tolerance, settings.newton_limit}, counters);
   for (KernelTask<Dim>& task : standing) {
-    if (task.answered)
-      ++counters.point_hits;
-    else
+    if (!task.answered) {
       resolve_cold(task, settings, solvers, counters);
+      continue;
+    }
+    ++counters.point_hits;
+    settle_overlap(*task.pair, *task.contact);
   }
 }
 

@@ -1,6 +1,7 @@
 // The contact kernel at its limits: overlaps down to rounding, parts inside each other, warm starts and batches.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
 
 #include "core/testing/contacts.hpp"
@@ -141,6 +142,26 @@ TEST(WarmStart, StandsForTheSameContact) {
       EXPECT_NEAR(warm.contact.geometry.overlap, cold.contact.geometry.overlap, point_tolerance * depth);
       standing = warm.contact;
     }
+  }
+}
+
+// each step turns the axis of the step before into its frame: a length it lacked once would be lacked for ever
+TEST(WarmStart, TheNormalStaysUnitHoweverLongTheContactStands) {
+  Random random(73);
+  for (int i = 0; i < 10; ++i) {
+    const Polytope<3> a = unit_cube<3>(), b = shapes::centred_block<3>(shapes::random_planes<3>(random, 5, 0.5));
+    const double depth = 1e-4;
+    const Matrix<3> turn = matrix(shapes::orientation<3>(random));
+    const Vector<3> offset = Vector<3>(0.1, 0.1, 0.5 - depth) - lowest_corner<3>(b, turn);
+    Contact<3> standing = touch<3>(a, b, turn, offset).contact;
+    for (int step = 0; step < 2000; ++step) {
+      const Vector<3> moved = 0.02 * depth * shapes::direction<3>(random);
+      const Outcome<3> warm = touch<3>(a, b, turn, offset + moved, {}, standing);
+      ASSERT_EQ(warm.counters.point_hits, 1);
+      standing = warm.contact;
+    }
+    // three squares, a sum and a root
+    EXPECT_NEAR(standing.geometry.normal.norm(), 1, 4 * std::numeric_limits<double>::epsilon());
   }
 }
 

@@ -5,15 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "core/optimise/careful_feasibility.hpp"
+#include "core/optimise/far_planes.hpp"
+
 namespace voussoir {
 namespace {
 
-// multipliers below this are zero but for rounding
+// a plane enters against multipliers only by more than rounding
 constexpr double multiplier_rounding = 1e-11;
-
-// The same, against the terms it is summed from. The search passes over multipliers that it takes for rounding; where a
-// true one was among them, it is left negative, and the search is repeated with this.
-constexpr double pivot_rounding = 64 * std::numeric_limits<double>::epsilon();
 
 // a plane violated by no more than this share of the coordinates holds: on rounding alone, degenerate bases would pivot
 // for ever
@@ -25,6 +24,9 @@ constexpr int refinement_steps = 3;
 // a multiplier below this is negative: its basis bounds nothing
 constexpr double negative_multiplier = -8 * std::numeric_limits<double>::epsilon();
 
+// what a value may be off as a share of the planes' extent; if it may be more it is computed anew in twice the digits
+constexpr double value_rounding = 16 * std::numeric_limits<double>::epsilon();
+
 // Tight planes of the dual simplex. With C = columns (a_i, 1) of the basis, C λ = (0, …, 0, 1) and (x, -s) C = d.
 template <int Dim>
 struct Basis {
@@ -35,31 +37,6 @@ struct Basis {
 
   auto multipliers() const { return inverse.col(Dim); }
 };
-
-// A regular simplex of far planes that encloses everything; numbered -1, -2, … They are a legal start for any input and
-// leave the basis unless the program is unbounded.
-template <int Dim>
-HalfSpace<Dim> far_plane(int k, double distance) {
-  Vector<Dim> n;
-  if (k < Dim)
-    n = -Vector<Dim>::Unit(k);
-  else
-    n = Vector<Dim>::Constant(1 / std::sqrt(static_cast<double>(Dim)));
-  return {n, distance};
-}
-
-template <int Dim>
-double largest_offset(const HalfSpaces<Dim>& planes) {
-  double largest = 0;
-  for (const HalfSpace<Dim>& p : planes)
-    largest = std::max(largest, std::abs(p.offset));
-  return largest;
-}
-
-template <int Dim>
-HalfSpace<Dim> basis_plane(const HalfSpaces<Dim>& planes, int index, double far) {
-  return index >= 0 ? planes[index] : far_plane<Dim>(-1 - index, far);
-}
 
 template <int Dim>
 bool factorise(Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far) {
@@ -83,19 +60,18 @@ Basis<Dim> start_basis(const HalfSpaces<Dim>& planes, const FeasibilityRequest<D
     basis.planes = *request.start;
     if (factorise(basis, planes, far) && basis.multipliers().minCoeff() >= -multiplier_rounding) return basis;
   }
-  for (int k = 0; k <= Dim; ++k)
-    basis.planes[k] = -1 - k;
+  basis.planes = far_basis<Dim>();
   factorise(basis, planes, far);
   return basis;
 }
 
 // the tight plane that leaves when the plane (column) enters: the first to lose its multiplier
 template <int Dim>
-int leaving(const Basis<Dim>& basis, const Eigen::Matrix<double, Dim + 1, 1>& mu, bool fine) {
+int leaving(const Basis<Dim>& basis, const Eigen::Matrix<double, Dim + 1, 1>& mu) {
   int leave = -1;
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= Dim; ++k) {
-    if (mu[k] <= (fine ? pivot_rounding * basis.inverse.row(k).cwiseAbs().sum() : multiplier_rounding)) continue;
+    if (mu[k] <= multiplier_rounding) continue;
     const double ratio = std::max(basis.multipliers()[k], 0.0) / mu[k];
     // of equal ratios the far planes go first, then the largest pivot
     if (ratio < best || (ratio == best && mu[k] > mu[leave])) {
@@ -149,11 +125,9 @@ bool meets(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far,
 }
 
 template <int Dim>
-FeasibilityResult<Dim> search(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request, bool fine) {
+FeasibilityResult<Dim> search(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request) {
   const int count = static_cast<int>(planes.size());
-  const double reach =
-      10 * (largest_offset(planes) + std::numeric_limits<double>::min());  // of what the planes enclose
-  const double far = 100 * reach;
+  const double reach = reach_of<Dim>(planes), far = far_in_reaches * reach;
   const int limit = 10 * (count + Dim + 1) + 50;
   const int bland_after = limit / 2;
 
@@ -201,7 +175,7 @@ FeasibilityResult<Dim> search(const HalfSpaces<Dim>& planes, const FeasibilityRe
     Eigen::Matrix<double, Dim + 1, 1> column;
     column << planes[enter].normal, 1;
     const Eigen::Matrix<double, Dim + 1, 1> mu = basis.inverse * column;
-    const int leave = leaving<Dim>(basis, mu, fine);
+    const int leave = leaving<Dim>(basis, mu);
     if (leave < 0) break;  // impossible in exact arithmetic: sum(mu) = 1
     pivot<Dim>(basis, leave, enter, planes[enter].offset, mu);
     polished = false;
@@ -209,17 +183,27 @@ FeasibilityResult<Dim> search(const HalfSpaces<Dim>& planes, const FeasibilityRe
 
   record(basis, result);
   for (int k = 0; k <= Dim; ++k)
-    if (basis.planes[k] < 0 && result.multipliers[k] > multiplier_rounding &&
-        result.status == FeasibilityStatus::optimal)
+    if (basis.planes[k] < 0 && result.multipliers[k] > far_multiplier && result.status == FeasibilityStatus::optimal)
       result.status = FeasibilityStatus::unbounded;
   return result;
 }
 
-// a basis with a multiplier that is negative by more than rounding bounds nothing: the value is shifted by as much
+// Whether the answer proves itself. Its planes are all kept; by weak duality no better one is farther off than what the
+// multipliers leave of the normals where they should cancel, times how far out the optimum lies. A basis of planes that
+// are too near to dependent has multipliers of which some may truly be negative.
 template <int Dim>
-bool answered(const FeasibilityResult<Dim>& result) {
-  const double least = *std::min_element(result.multipliers.begin(), result.multipliers.end());
-  return least >= negative_multiplier && result.status != FeasibilityStatus::iteration_limit;
+bool answered(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& result) {
+  if (result.status == FeasibilityStatus::separated_early) return true;  // proven there
+  if (result.status == FeasibilityStatus::iteration_limit) return false;
+  const double reach = reach_of<Dim>(planes);
+  Vector<Dim> left = Vector<Dim>::Zero();
+  for (int k = 0; k <= Dim; ++k) {
+    if (result.multipliers[k] < negative_multiplier) return false;
+    left += result.multipliers[k] * basis_plane(planes, result.basis[k], far_in_reaches * reach).normal;
+  }
+  if (result.status == FeasibilityStatus::unbounded) return true;
+  const double out = beyond_extent * std::min(result.point.cwiseAbs().maxCoeff() / reach, 1.0);
+  return left.template lpNorm<1>() * (1 + out) <= value_rounding;
 }
 
 }  // namespace
@@ -240,18 +224,11 @@ double proven_bound(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>&
 
 template <int Dim>
 FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request) {
-  FeasibilityResult<Dim> result = search(planes, request, false);
-  if (answered(result)) return result;
-  // A degenerate start (two opposite faces carry all) can end so, or nowhere, and so can faces that are nearly
-  // parallel: then the far planes start anew, first with an eye for small multipliers.
-  const FeasibilityRequest<Dim> afresh{nullptr, request.stop_above, request.tolerance};
-  for (const bool fine : {true, false}) {
-    const int spent = result.pivots;
-    result = search(planes, afresh, fine);
-    result.pivots += spent;
-    if (answered(result)) break;
-  }
-  return result;
+  const FeasibilityResult<Dim> result = search(planes, request);
+  if (answered(planes, result)) return result;
+  FeasibilityResult<Dim> careful = solve_feasibility_carefully(planes, request);
+  careful.pivots += result.pivots;
+  return careful;
 }
 
 template double proven_bound<2>(const HalfSpaces<2>&, const FeasibilityResult<2>&, double);

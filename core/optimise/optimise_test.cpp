@@ -4,6 +4,8 @@
 #include <numeric>
 
 #include "core/optimise/analytic_centre.hpp"
+#include "core/optimise/careful_feasibility.hpp"
+#include "core/optimise/double_double.hpp"
 #include "core/optimise/feasibility.hpp"
 #include "core/testing/oracles.hpp"
 #include "core/testing/shapes.hpp"
@@ -51,6 +53,36 @@ HalfSpaces<Dim> random_pair(Random& random, int extra) {
   return planes;
 }
 
+// ---- numbers of 106 bits --------------------------------------------------------------------------------------------
+
+TEST(DoubleDouble, KeepsTwiceTheDigits) {
+  using Quad = __float128;  // 113 bits
+  const auto quad = [](const DoubleDouble& x) { return Quad(x.high) + Quad(x.low); };
+  const auto expect_near = [&](const DoubleDouble& x, Quad exact, Quad terms) {
+    EXPECT_LE(std::abs(static_cast<double>((quad(x) - exact) / terms)), 0x1p-102);
+    EXPECT_EQ(x.high + x.low, x.high);  // the halves do not overlap
+  };
+  Random random(14);
+  const auto number = [&] {
+    const double high = shapes::uniform(random, -1, 1) * shapes::power_of_ten(random, -12, 12);
+    return exact_sum(high, 0x1p-54 * high * shapes::uniform(random, -1, 1));
+  };
+  for (int i = 0; i < 10'000; ++i) {
+    const DoubleDouble a = number();
+    DoubleDouble b = number();
+    if (i % 3 == 0)
+      b = -a + shapes::uniform(random, -1, 1) * shapes::power_of_ten(random, -31, -1) * a.high;  // cancels
+    const Quad x = quad(a), y = quad(b);
+    const Quad size = (x < 0 ? -x : x) + (y < 0 ? -y : y);
+    expect_near(a + b, x + y, size);
+    expect_near(a - b, x - y, size);
+    expect_near(a * b, x * y, x * y);
+    expect_near(a / b, x / y, x / y);
+    EXPECT_EQ(a < b, x < y);
+    EXPECT_EQ(a > b, x > y);
+  }
+}
+
 // ---- feasibility ----------------------------------------------------------------------------------------------------
 
 template <int Dim>
@@ -63,6 +95,10 @@ void expect_best_of_all_bases(std::uint64_t seed, int trials) {
     ASSERT_EQ(r.status, FeasibilityStatus::optimal);
     EXPECT_NEAR(r.value, static_cast<double>(oracle::feasibility<Dim>(planes)), lp_tolerance);
     expect_certificate<Dim>(planes, r);
+    const FeasibilityResult<Dim> careful = solve_feasibility_carefully<Dim>(planes, {});
+    ASSERT_EQ(careful.status, FeasibilityStatus::optimal);
+    EXPECT_NEAR(careful.value, r.value, lp_tolerance);
+    expect_certificate<Dim>(planes, careful);
     separate += r.value > 0;
   }
   // both answers must have been asked for

@@ -123,7 +123,7 @@ struct Results {
     for (int j = 0; j < Dim; ++j)
       for (int i = 0; i < Dim; ++i)
         world[i][j] = columns[j * Dim + i];
-    const Components<Real, Dim> normal = from_frame(m.frame, m.normal);
+    const Components<Real, Dim> normal = unit_again<L>(from_frame(m.frame, m.normal));
     int next = 0;
     const auto add = [&](const Real& x) HWY_ATTR { values[next++] = x; };
     add(m.least - m.rounding);

@@ -85,6 +85,13 @@ HWY_INLINE Components<Real, Dim> from_frame(const Components<Real, Dim> (&rows)[
   return r;
 }
 
+// A vector that is unit but for rounding, made so by one step of Newton for 1/√: what axes and rotations lack would
+// else gather in the axis that goes from step to step.
+template <class L, int Dim>
+HWY_INLINE Components<typename L::Real, Dim> unit_again(const Components<typename L::Real, Dim>& x) {
+  return scaled(L::real(1.5) - L::real(0.5) * dot(x, x), x);
+}
+
 // ---- the stages -----------------------------------------------------------------------------------------------------
 
 template <class L, int Dim>

@@ -1,0 +1,28 @@
+// The overlap in twice the digits, where rounding would show. Along the normal the distance to a face is its slack over
+// the cosine between both, so a face that the normal grazes, as in slivers and blocks inside others, magnifies what
+// rounding did to its slack.
+#pragma once
+
+#include "core/contact/contact.hpp"
+#include "core/contact/narrow_phase.hpp"
+
+namespace voussoir {
+
+// The overlap against the point's margin bounds both cosines from below. A slack is good to a few ulp of the pair's
+// size, so that below this an overlap is within 64; ordinary contacts stay below 10.
+inline constexpr double most_magnified = 16;
+
+// Measures a touching contact's overlap and the faces that end it anew, at the point and along the axis of its proof,
+// from the parts' own planes.
+template <int Dim>
+void measure_overlap_carefully(const Pair<Dim>& pair, Contact<Dim>& contact);
+
+// the same only where it is needed; of a contact that was resolved that far
+template <int Dim>
+void settle_overlap(const Pair<Dim>& pair, Contact<Dim>& contact) {
+  const bool asked = pair.last >= Stage::overlap;
+  if (asked && contact.geometry.overlap > most_magnified * contact.proof.margin)
+    measure_overlap_carefully(pair, contact);
+}
+
+}  // namespace voussoir
