@@ -391,5 +391,29 @@ TEST(Feasibility, ASmallMultiplierIsNotRounding) {
     EXPECT_GE(multiplier, -2e-15);
 }
 
+// Two blocks of a sliced rock mass that touch along an edge and have turned by 1e-10: opposite faces of two joints,
+// whose bases have an inverse of 1e10. Updates of it, and ratios told apart by its rounding, pivoted in a circle.
+TEST(Feasibility, BlocksAlongAnEdgeBetweenJointsAreAnswered) {
+  const HalfSpaces<3> planes{
+      {{-0x1.d3818faa3d4e2p-1, 0x1.79c4fa9bd7368p-2, -0x1.63a1a7e0b738dp-3}, 0x1.034c8b4bc15a2p-3},
+      {{-0x1.3f289d4ccf0d8p-3, -0x1.f7c5a88755d0ep-1, -0x1.64fd6b8c280ffp-4}, 0x1.034c8b4bc15a4p-3},
+      {{-0x1.e36eb06e422d1p-4, 0x1.2e15030c0bd6ep-4, -0x1.fb046a930947ap-1}, 0x1.034c8b4bc15ap-3},
+      {{0x1.e36eb06e422d1p-4, -0x1.2e15030c0bd6ep-4, 0x1.fb046a930947ap-1}, 0x1.034c8b4bc15ap-3},
+      {{0x1.3f289d4ccf0d8p-3, 0x1.f7c5a88755d0ep-1, 0x1.64fd6b8c280ffp-4}, 0x1.486b489f1112bp-1},
+      {{0x1.d3818faa3d4e2p-1, -0x1.79c4fa9bd7368p-2, 0x1.63a1a7e0b738dp-3}, 0x1.be869cceb826bp-2},
+      {{-0x1.d3818fa9881bep-1, 0x1.79c4fa9bb181ap-2, -0x1.63a1a7f03a96bp-3}, -0x1.be869ccb20c28p-2},
+      {{-0x1.3f289d4b70048p-3, -0x1.f7c5a887601a5p-1, -0x1.64fd6b8d6e5c8p-4}, 0x1.034c8b4cc5706p-3},
+      {{0x1.036b743d112a9p-31, -0x1.eb9840de5a263p-35, -0x1p+0}, 0x1.c09e5c1b1cd36p-2},
+      {{0x1.e36eb04e23ecfp-4, -0x1.2e15030840ca8p-4, 0x1.fb046a938cd0fp-1}, -0x1.034c8b5616f19p-3},
+      {{0x1.3f289d4b70048p-3, 0x1.f7c5a887601a5p-1, 0x1.64fd6b8d6e5c8p-4}, 0x1.bc399cf39c5p-1},
+  };
+  const std::array<int, 4> own{0, 3, 1, 2};
+  const FeasibilityResult<3> answer = solve_feasibility<3>(planes, {&own, 4e-15, 6e-17});
+  ASSERT_EQ(answer.status, FeasibilityStatus::optimal);
+  EXPECT_NEAR(answer.value, static_cast<double>(oracle::feasibility<3>(planes)), 2e-15);  // rounding of 1 m
+  for (const double multiplier : answer.multipliers)
+    EXPECT_GE(multiplier, -2e-15);
+}
+
 }  // namespace
 }  // namespace voussoir
