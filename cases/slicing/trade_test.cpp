@@ -160,7 +160,7 @@ density = 2600
 domain = { box = { min = [0, 0], max = [10, 10] } }
 joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e9, friction_deg = 35 }]
 stage = [{ name = "run", kind = "run", duration_s = 1 }]
-slicing = { smallest_inscribed_radius = 0 }
+slicing = { smallest_inscribed_radius = 0, order = "given" }
 [[joints]]
 name = "corner"
 dip = 45
