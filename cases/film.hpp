@@ -1,18 +1,16 @@
-// A scene run with its frames kept, and pictures of them: blocks as shaded faces that gnuplot fills back to front.
+// A scene run with its frames kept, and pictures of them: blocks as shaded faces.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <functional>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "app/run_scene.hpp"
 #include "cases/case_tools.hpp"
+#include "cases/picture.hpp"
 
 namespace voussoir::cases {
 
@@ -63,22 +61,10 @@ struct Camera {
   std::function<bool(std::size_t body, const std::vector<Vector<3>>& corners, const Vector<3>& normal)> drawn = {};
 };
 
-// One picture as CSV: right_m, up_m, colour (rgb as a number); a face is a closed line, faces are parted by a blank
-// line and stand from back to front. Fixed bodies are grey, the others have a colour for each number of faces.
-inline void write_picture(const std::string& case_name, const std::string& file, const Model<3>& model,
-                          const State<3>& state, const Camera& camera) {
-  const double azimuth = camera.azimuth_deg * std::numbers::pi / 180,
-               height = camera.height_deg * std::numbers::pi / 180;
-  const Vector<3> eye(std::cos(height) * std::cos(azimuth), std::cos(height) * std::sin(azimuth), std::sin(height));
-  const Vector<3> right = Vector<3>::UnitZ().cross(eye).normalized(), up = eye.cross(right);
-  const Vector<3> light = (eye + 0.7 * up - 0.5 * right).normalized();
-
-  struct Face {
-    double depth;
-    std::uint32_t colour;
-    std::vector<Vector<3>> outline;
-  };
-  std::vector<Face> faces;
+// The faces that the camera sees. Fixed bodies are grey, the others have a colour for each number of faces.
+inline std::vector<PictureFace> picture(const Model<3>& model, const State<3>& state, const Camera& camera) {
+  const View view(camera.azimuth_deg, camera.height_deg);
+  std::vector<PictureFace> faces;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<3>& body = model.bodies[b];
     if (std::find(camera.hidden.begin(), camera.hidden.end(), body.name) != camera.hidden.end()) continue;
@@ -87,11 +73,11 @@ inline void write_picture(const std::string& case_name, const std::string& file,
     for (const Polytope<3>& part : body.parts)
       for (std::size_t f = 0; f < part.faces.size(); ++f) {
         const Vector<3> normal = axes * part.faces[f].normal;
-        if (normal.dot(eye) <= 0) continue;
-        Face face{centroid.dot(eye), 0, {}};
+        if (normal.dot(view.eye) <= 0) continue;
+        std::vector<Vector<3>> corners;
         for (const int v : part.loops[f])
-          face.outline.push_back(centroid + axes * part.vertices[v]);
-        if (camera.drawn && !camera.drawn(b, face.outline, normal)) continue;
+          corners.push_back(centroid + axes * part.vertices[v]);
+        if (camera.drawn && !camera.drawn(b, corners, normal)) continue;
         // Okabe and Ito's colours, by 4, 6, 8, 12 and 20 faces
         const std::size_t count = part.faces.size();
         const std::uint32_t base = camera.colour ? camera.colour(b)
@@ -101,26 +87,18 @@ inline void write_picture(const std::string& case_name, const std::string& file,
                                    : count <= 8  ? 0x009e73
                                    : count <= 12 ? 0xcc79a7
                                                  : 0xe69f00;
-        const double shade = 0.55 + 0.45 * std::max(0.0, normal.dot(light));
-        for (int shift = 0; shift < 24; shift += 8)
-          face.colour |= static_cast<std::uint32_t>(shade * ((base >> shift) & 0xff)) << shift;
-        if (body.fixed) face.depth -= 1e6;  // plates lie behind the blocks that stand on them
-        faces.push_back(face);
+        faces.push_back(shaded_face(view, corners, normal, base));
+        faces.back().depth = centroid.dot(view.eye);
+        if (body.fixed) faces.back().depth -= 1e6;  // plates lie behind the blocks that stand on them
       }
   }
-  std::stable_sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.depth < b.depth; });
+  return faces;
+}
 
-  std::ofstream out(verification::case_output(case_name) / file);
-  out.precision(6);
-  out << "right_m,up_m,colour\n";
-  for (const Face& face : faces) {
-    for (std::size_t i = 0; i <= face.outline.size(); ++i) {
-      const Vector<3>& v = face.outline[i % face.outline.size()];
-      out << v.dot(right) << ',' << v.dot(up) << ',' << face.colour << '\n';
-    }
-    out << '\n';
-  }
-  if (!out) throw std::runtime_error("cannot write " + file);
+// the same as CSV
+inline void write_picture(const std::string& case_name, const std::string& file, const Model<3>& model,
+                          const State<3>& state, const Camera& camera) {
+  write_faces(case_name, file, picture(model, state, camera));
 }
 
 }  // namespace voussoir::cases

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <fstream>
 #include <numeric>
 #include <set>
 #include <tuple>
 
 #include "cases/case_tools.hpp"
+#include "cases/picture.hpp"
 #include "core/optimise/feasibility.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/draw_joint_sets.hpp"
@@ -247,23 +247,16 @@ TEST(SlicingGrowth, PersistentSetsMakeAsManyBlocksAsTheirPlanesSay) {
 
 // ---- the assembly of Fig. 4.5
 
-// an isometric view from east, south and above; the third is how near a point is
-Vector<3> seen(const Vector<3>& p) {
-  const Vector<3> near = Vector<3>(1, -1, 0.9).normalized(), right = Vector<3>(1, 1, 0).normalized();
-  return {right.dot(p), near.cross(right).dot(p), near.dot(p)};
-}
-
-// colour of a face: paler on top than on the sides, darker for a smaller block
-std::string colour(const Vector<3>& normal, double share_of_largest) {
-  const double light = 0.68 + 0.32 * std::max({normal[2], 0.55 * normal[0], -0.2 * normal[1]});
+// of a block: brown where it is small
+std::uint32_t colour(double share_of_largest) {
   const double large = std::cbrt(share_of_largest);
-  const Vector<3> shade = light * ((1 - large) * Vector<3>(196, 120, 60) + large * Vector<3>(250, 240, 214));
-  return fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>(shade[0]), static_cast<int>(shade[1]),
-                     static_cast<int>(shade[2]));
+  std::uint32_t rgb = 0;
+  for (const auto& [small_tone, large_tone] : {std::pair(214, 255), std::pair(132, 246), std::pair(70, 222)})
+    rgb = rgb << 8 | static_cast<std::uint32_t>((1 - large) * small_tone + large * large_tone);
+  return rgb;
 }
 
-// The faces one sees of the assembly without the blocks of one corner, back to front, as gnuplot objects: it fills
-// polygons of a plot in one colour only.
+// The assembly without the blocks of one corner.
 void draw_assembly(const std::vector<Polytope<3>>& blocks, const std::vector<SharedFace>& shared) {
   std::vector<bool> kept;
   double largest = 0;
@@ -278,29 +271,20 @@ void draw_assembly(const std::vector<Polytope<3>>& blocks, const std::vector<Sha
     if (kept[face.below] && !kept[face.above]) bare.insert({face.below, face.joint, true});
     if (kept[face.above] && !kept[face.below]) bare.insert({face.above, face.joint, false});
   }
-  const Vector<3> viewer = Vector<3>(1, -1, 0.9).normalized();
-  std::vector<std::pair<double, std::string>> drawn;
+  const View view(-45, 32);
+  std::vector<PictureFace> faces;
   for (std::size_t b = 0; b < blocks.size(); ++b)
     for (std::size_t f = 0; kept[b] && f < blocks[b].faces.size(); ++f) {
       const Vector<3>& normal = blocks[b].faces[f].normal;
       const int joint = blocks[b].joints[f];
       const bool open = joint == no_joint || bare.contains({b, joint, normal[2] > 0});
-      if (!open || normal.dot(viewer) <= 0) continue;
-      std::string corners;
-      double nearness = 0;
-      const std::vector<int>& loop = blocks[b].loops[f];
-      for (std::size_t k = 0; k <= loop.size(); ++k) {
-        const Vector<3> p = seen(blocks[b].vertices[loop[k % loop.size()]]);
-        corners += fmt::format("{}{:.4g},{:.4g}", k == 0 ? "" : " to ", p[0], p[1]);
-        if (k < loop.size()) nearness += p[2] / static_cast<double>(loop.size());
-      }
-      drawn.emplace_back(nearness, fmt::format("polygon from {} fs solid border rgb '#6b4f35' fc rgb '{}' lw 0.5", corners,
-                                               colour(normal, blocks[b].mass.volume / largest)));
+      if (!open || normal.dot(view.eye) <= 0) continue;
+      std::vector<Vector<3>> corners;
+      for (const int v : blocks[b].loops[f])
+        corners.push_back(blocks[b].vertices[v]);
+      faces.push_back(shaded_face(view, corners, normal, colour(blocks[b].mass.volume / largest)));
     }
-  std::sort(drawn.begin(), drawn.end());
-  std::ofstream out(verification::case_output("slicing") / "assembly_faces.gp");
-  for (std::size_t i = 0; i < drawn.size(); ++i)
-    out << "set object " << i + 1 << ' ' << drawn[i].second << '\n';
+  write_objects("slicing", "assembly.gp", std::move(faces));
 }
 
 TEST(SlicingGrowth, AnAssemblyInSpaceFillsItsBoxAndItsFacesMatch) {

@@ -142,7 +142,8 @@ void draw(const Film& settled) {
                       {"floor", "west", "east", "south", "north"},
                       [&](std::size_t body) { return colour(state.motions[body].displacement.norm()); },
                       Exposure{settled.model(), state}};
-  write_picture("slicing", "settled.csv", settled.model(), state, camera);
+  std::vector<PictureFace> faces = picture(settled.model(), state, camera);
+  write_objects("slicing", "settled.gp", std::move(faces));
 }
 
 Film settle(const std::vector<std::string>& overrides = {}) {

@@ -8,15 +8,13 @@ unset tics
 unset grid
 set size ratio -1
 set key outside bottom center horizontal samplen 1.5
-stats 'settled.csv' using 'right_m' nooutput name 'right'
-stats 'settled.csv' using 'up_m' nooutput name 'up'
+set style fill solid 1 noborder
+load 'settled.gp'
 set xrange [right_min:right_max]
 set yrange [up_min:up_max]
-set style fill solid 1 noborder
-plot 'settled.csv' using 'right_m':'up_m':'colour' with filledcurves closed lc rgb variable notitle, \
-     '' using 'right_m':'up_m' with lines lc rgb '#303030' lw 0.5 notitle, \
-     keyentry with filledcurves fc rgb '#deebf7' title 'to 0.1 mm', \
+plot keyentry with filledcurves fc rgb '#deebf7' title 'to 0.1 mm', \
      keyentry with filledcurves fc rgb '#9ecae1' title '0.3 mm', \
      keyentry with filledcurves fc rgb '#3182bd' title '1 mm', \
      keyentry with filledcurves fc rgb '#e69f00' title '10 mm', \
-     keyentry with filledcurves fc rgb '#d55e00' title 'farther'
+     keyentry with filledcurves fc rgb '#d55e00' title 'farther', \
+     NaN notitle
