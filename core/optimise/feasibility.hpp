@@ -29,7 +29,8 @@ struct FeasibilityRequest {
   double tolerance = 0;       // m: a plane violated by no more than this holds
 };
 
-// Dual simplex with an explicit inverse of the Dim+1 tight planes. Normals need not be unit; zero normals are legal.
+// Dual simplex with an explicit inverse of the Dim+1 tight planes; an answer that does not prove itself is computed
+// anew in twice the digits (careful_feasibility.hpp). Normals need not be unit; zero normals are legal.
 template <int Dim>
 FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request);
 
