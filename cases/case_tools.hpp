@@ -44,6 +44,13 @@ inline std::vector<double> column(const SceneRun& run, const std::string& name, 
   return values;
 }
 
+// the vertices of a part in the plane along its boundary, the first again at the end: a closed line to draw
+inline std::vector<int> closed_ring(const Polytope<2>& part) {
+  std::vector<int> ring = boundary_ring(part);
+  ring.push_back(ring.front());
+  return ring;
+}
+
 // A CSV file in the case's output folder, for its figure. All columns have the same length.
 inline void write_csv(const std::string& case_name, const std::string& file, const std::vector<std::string>& header,
                       const std::vector<std::vector<double>>& columns) {

@@ -27,14 +27,6 @@ void find_principal_axes(Body<3>& body, const MassProperties<3>& mass, double de
 }
 
 template <int Dim>
-double volume(const Body<Dim>& body) {
-  double sum = 0;
-  for (const Polytope<Dim>& p : body.parts)
-    sum += p.mass.volume;
-  return sum;
-}
-
-template <int Dim>
 const Joint<Dim>& joint_named(const Model<Dim>& model, const std::string& name) {
   for (const Joint<Dim>& j : model.joints)
     if (j.name == name) return j;
@@ -181,6 +173,14 @@ Body<Dim> make_body(std::vector<Polytope<Dim>> parts, double density) {
 }
 
 template <int Dim>
+double volume(const Body<Dim>& body) {
+  double sum = 0;
+  for (const Polytope<Dim>& p : body.parts)
+    sum += p.mass.volume;
+  return sum;
+}
+
+template <int Dim>
 void number_bodies(Model<Dim>& model) {
   std::stable_sort(model.bodies.begin(), model.bodies.end(), [](const Body<Dim>& a, const Body<Dim>& b) {
     return in_order<Dim>({.volume = volume(a), .centroid = a.reference},
@@ -199,6 +199,8 @@ void list_parts(Model<Dim>& model) {
 
 template Body<2> make_body<2>(std::vector<Polytope<2>>, double);
 template Body<3> make_body<3>(std::vector<Polytope<3>>, double);
+template double volume<2>(const Body<2>&);
+template double volume<3>(const Body<3>&);
 template void number_bodies<2>(Model<2>&);
 template void number_bodies<3>(Model<3>&);
 template std::vector<int> select<2>(const Model<2>&, const Selector&);

@@ -80,6 +80,10 @@ struct Model {
 template <int Dim>
 Body<Dim> make_body(std::vector<Polytope<Dim>> parts, double density);
 
+// of all its parts, m³ (2-D: m²)
+template <int Dim>
+double volume(const Body<Dim>& body);
+
 // Sorts bodies by centroid then volume, so that ids do not depend on the order of input, and lists the parts.
 template <int Dim>
 void number_bodies(Model<Dim>& model);

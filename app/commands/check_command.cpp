@@ -43,7 +43,7 @@ std::string orientation(const Vector<3>& normal) {
 template <int Dim>
 void print_blocks(const Model<Dim>& model) {
   int fixed = 0, restrained = 0, parts = 0;
-  double smallest = 1e300, largest = 0, volume = 0, mass = 0;
+  double smallest = 1e300, largest = 0, whole = 0, mass = 0;
   for (const Body<Dim>& body : model.bodies) {
     fixed += body.fixed;
     const auto held = [](bool free) { return !free; };
@@ -52,8 +52,7 @@ void print_blocks(const Model<Dim>& model) {
     parts += static_cast<int>(body.parts.size());
     smallest = std::min(smallest, body.size);
     largest = std::max(largest, body.size);
-    for (const Polytope<Dim>& part : body.parts)
-      volume += part.mass.volume;
+    whole += volume(body);
     if (!body.fixed) mass += body.mass;
   }
   const int count = static_cast<int>(model.bodies.size());
@@ -61,7 +60,7 @@ void print_blocks(const Model<Dim>& model) {
                              restrained ? fmt::format(" ({} of them restrained)", restrained) : "", fixed));
   if (parts != count) line("", fmt::format("of {} convex parts", parts));
   line("", fmt::format("inscribed radius {:.4g} to {:.4g} m; {} {:.6g} {}; free mass {:.6g} {}", smallest, largest,
-                       Dim == 3 ? "volume" : "area", volume, Dim == 3 ? "m³" : "m²", mass, Dim == 3 ? "kg" : "kg/m"));
+                       Dim == 3 ? "volume" : "area", whole, Dim == 3 ? "m³" : "m²", mass, Dim == 3 ? "kg" : "kg/m"));
   std::string names;
   std::size_t named = 0;
   for (const Body<Dim>& body : model.bodies)

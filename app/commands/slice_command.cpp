@@ -22,13 +22,11 @@ std::string block_table(const Model<Dim>& model) {
                               : "body,name,area_m2,faces,inscribed_radius_m,fixed,x_m,y_m\n";
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
-    double volume = 0;
     std::size_t faces = 0;
-    for (const Polytope<Dim>& part : body.parts) {
-      volume += part.mass.volume;
+    for (const Polytope<Dim>& part : body.parts)
       faces += part.faces.size();
-    }
-    text += fmt::format("{},{},{},{},{},{}", b, csv_cell(body.name), volume, faces, body.size, body.fixed ? 1 : 0);
+    text +=
+        fmt::format("{},{},{},{},{},{}", b, csv_cell(body.name), volume(body), faces, body.size, body.fixed ? 1 : 0);
     const Vector<Dim> centroid = model.origin + body.reference;
     for (int k = 0; k < Dim; ++k)
       text += fmt::format(",{}", centroid[k]);

@@ -269,12 +269,8 @@ std::string write_report(const Scene& scene, const BlockSizes& blocks, const fs:
 template <int Dim>
 BlockSizes block_sizes(const Model<Dim>& model) {
   BlockSizes sizes;
-  for (const Body<Dim>& body : model.bodies) {
-    double volume = 0;
-    for (const Polytope<Dim>& part : body.parts)
-      volume += part.mass.volume;
-    sizes.volumes.push_back(volume);
-  }
+  for (const Body<Dim>& body : model.bodies)
+    sizes.volumes.push_back(volume(body));
   std::sort(sizes.volumes.begin(), sizes.volumes.end());
   return sizes;
 }

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/output/vtp.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -20,25 +22,18 @@ const char* colour(std::size_t i) {
   return colours[i % std::size(colours)];
 }
 
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text)
-    safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
-  return safe;
-}
-
 std::string head(const std::string& title) {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
       "font-family=\"DejaVu Sans,Helvetica,Arial,sans-serif\" font-size=\"13\" fill=\"#202020\">\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n"
       "<text x=\"{2}\" y=\"24\" text-anchor=\"middle\" font-size=\"15\">{3}</text>\n",
-      width, height, width / 2, escaped(title));
+      width, height, width / 2, xml_escaped(title));
 }
 
 std::string label(double x, double y, const char* anchor, const std::string& text, const std::string& more = "") {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
-                     escaped(text));
+                     xml_escaped(text));
 }
 
 std::string stroke(double x1, double y1, double x2, double y2, const char* colour, double thickness) {

@@ -114,11 +114,7 @@ void draw_blocks(const std::string& file, const Trial& trial, const State<2>& st
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Polytope<2>& part = model.bodies[b].parts.front();
     if (model.bodies[b].fixed) continue;
-    std::vector<int> next(part.vertices.size());
-    for (const std::vector<int>& edge : part.loops)
-      next[edge[0]] = edge[1];
-    int vertex = 0;
-    for (std::size_t i = 0; i <= next.size(); ++i, vertex = next[vertex]) {
+    for (const int vertex : closed_ring(part)) {
       const Vector<2> p = model.origin + model.bodies[b].reference + state.motions[b].displacement +
                           matrix(state.motions[b].rotation) * part.vertices[vertex];
       out << p[0] << ',' << p[1] << '\n';

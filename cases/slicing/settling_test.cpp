@@ -143,8 +143,7 @@ void draw(const Film& settled) {
                       {"floor", "west", "east", "south", "north"},
                       [&](std::size_t body) { return colour(state.motions[body].displacement.norm()); },
                       Exposure{settled.model(), state}};
-  std::vector<PictureFace> faces = picture(settled.model(), state, camera);
-  write_objects("slicing", "settled.gp", std::move(faces));
+  write_objects("slicing", "settled.gp", picture(settled.model(), state, camera));
 }
 
 Film settle(const std::string& scene, const std::vector<std::string>& overrides = {}) {

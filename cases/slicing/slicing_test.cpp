@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "cases/case_tools.hpp"
 #include "core/model.hpp"
@@ -22,7 +23,7 @@ using verification::Bound;
 using verification::CaseReport;
 using verification::Kind;
 
-constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double degree = std::numbers::pi / 180;
 
 // volumes are sums of up to 1e5 terms, each within some ulp of the whole
 constexpr double conserved = 1e-12;
@@ -34,16 +35,8 @@ Model<Dim> blocks_of(const std::string& scene, const std::vector<std::string>& o
   return std::get<Prepared<Dim>>(loaded.prepared).model;
 }
 
-template <int Dim>
-double volume(const Body<Dim>& body) {
-  double sum = 0;
-  for (const Polytope<Dim>& part : body.parts)
-    sum += part.mass.volume;
-  return sum;
-}
-
 template <int Dim, class Select>
-double volume(const Model<Dim>& model, const Select& select) {
+double volume_of(const Model<Dim>& model, const Select& select) {
   double sum = 0;
   for (const Body<Dim>& body : model.bodies)
     if (select(body)) sum += volume(body);
@@ -60,11 +53,7 @@ void draw_parts(const std::string& file, const Model<2>& model, const Select& se
   for (const Body<2>& body : model.bodies) {
     if (!select(body)) continue;
     for (const Polytope<2>& part : body.parts) {
-      std::vector<int> next(part.vertices.size());
-      for (const std::vector<int>& edge : part.loops)
-        next[edge[0]] = edge[1];
-      int vertex = 0;
-      for (std::size_t i = 0; i <= next.size(); ++i, vertex = next[vertex]) {
+      for (const int vertex : closed_ring(part)) {
         const Vector<2> p = model.origin + body.reference + part.vertices[vertex];
         out << p[0] << ',' << p[1] << '\n';
       }
@@ -168,7 +157,7 @@ Slope slope(const std::string& scene) {
     found.clumped += body.parts.size() > 1;
     found.parts += static_cast<int>(body.parts.size());
   }
-  found.free_area = volume(found.model, [](const Body<2>& body) { return !body.fixed; });
+  found.free_area = volume_of(found.model, [](const Body<2>& body) { return !body.fixed; });
   return found;
 }
 
@@ -255,7 +244,7 @@ TEST(Slicing, OnePatternCutInFourWays) {
                    .expected = 100,
                    .tolerance = {.relative = conserved},
                    .because = why_conserved},
-                  volume(model, [](const Body<2>&) { return true; }));
+                  volume_of(model, [](const Body<2>&) { return true; }));
     double smallest = std::numeric_limits<double>::max();
     for (const Body<2>& body : model.bodies)
       smallest = std::min(smallest, body.size);

@@ -55,11 +55,7 @@ class Outlines {
   // moved and turned about its centroid
   void add(const Model<2>& model, const Body<2>& body, const Vector<2>& move, double turn) {
     const Polytope<2>& part = body.parts.front();
-    std::vector<int> next(part.vertices.size());
-    for (const std::vector<int>& edge : part.loops)
-      if (edge.size() == 2) next[edge[0]] = edge[1];
-    int vertex = 0;
-    for (std::size_t i = 0; i <= next.size(); ++i, vertex = next[vertex]) {
+    for (const int vertex : closed_ring(part)) {
       const Vector<2> p = model.origin + body.reference + move + matrix(Rotation<2>{turn}) * part.vertices[vertex];
       out_ << p[0] << ',' << p[1] << '\n';
     }

@@ -1,5 +1,7 @@
 #include "core/exchange/csv_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/exchange/text_scan.hpp"
@@ -14,13 +16,6 @@ std::string trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t");
   if (begin == std::string_view::npos) return "";
   return std::string(text.substr(begin, text.find_last_not_of(" \t") - begin + 1));
-}
-
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words)
-    text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 // one quoted cell from its opening quote on; leaves `at` behind the closing one
@@ -113,11 +108,13 @@ void CsvTable::check_header(const std::vector<std::string>& required, const std:
   for (const CsvCell& cell : header)
     if (!holds(required, cell.text) && !holds(optional, cell.text))
       throw FileFault(header_line, cell.column,
-                      "no such column as " + shown(cell.text) + "; there are " + listed(required) +
-                          " and, where needed, " + listed(optional));
+                      "no such column as " + shown(cell.text) +
+                          fmt::format("; there are {} and, where needed, {}", fmt::join(required, ", "),
+                                      fmt::join(optional, ", ")));
   for (const std::string& name : required)
     if (!find(name))
-      throw FileFault(header_line, 0, "the header lacks the column " + name + "; it needs " + listed(required));
+      throw FileFault(header_line, 0,
+                      fmt::format("the header lacks the column {}; it needs {}", name, fmt::join(required, ", ")));
 }
 
 std::string CsvTable::text(const CsvRow& row, std::string_view column) const {

@@ -7,6 +7,7 @@
 
 #include "core/exchange/csv_table.hpp"
 #include "core/exchange/text_scan.hpp"
+#include "core/geometry/half_space.hpp"
 
 namespace voussoir {
 namespace {
@@ -61,10 +62,7 @@ std::string corners_text(const JointRow& joint) {
 }
 
 std::string header(const Names& names) {
-  std::string text;
-  for (const std::string& name : names)
-    text += (text.empty() ? "" : ",") + name;
-  return text + "\n";
+  return fmt::format("{}\n", fmt::join(names, ","));
 }
 
 std::vector<double> required(const CsvTable& table, const CsvRow& row, const Names& columns) {
@@ -76,13 +74,10 @@ std::vector<double> required(const CsvTable& table, const CsvRow& row, const Nam
 
 // A unit normal is kept bit for bit; anything else was written by hand and is a slip.
 std::vector<double> unit_normal(const CsvTable& table, const CsvRow& row, int dimension) {
-  constexpr double unit_within = 1e-6;  // six digits, as someone may write them
   const Names columns = normal_columns(dimension);
   std::vector<double> normal = required(table, row, columns);
-  double square = 0;
-  for (const double x : normal)
-    square += x * x;
-  if (!(std::abs(square - 1) <= 2 * unit_within))
+  const double square = squared_length(normal);
+  if (!is_unit(square))
     table.refuse(row, columns.front(),
                  "the normal must have length 1 (here " + fmt::format("{:.6g}", std::sqrt(square)) +
                      "); divide it by its length");

@@ -30,7 +30,6 @@ class LineReader {
 };
 
 // the words of a line, between blanks and tabs; refuses more than 1000
-// the words of a line, between blanks and tabs
 std::vector<Word> words_of(std::string_view line, int number);
 
 // A finite decimal number that is the whole word; `what` names it in the reason.

@@ -4,6 +4,18 @@
 
 namespace voussoir {
 
+double squared_length(const std::vector<double>& normal) {
+  double square = 0;
+  for (const double x : normal)
+    square += x * x;
+  return square;
+}
+
+bool is_unit(double squared_length) {
+  constexpr double within = 1e-6;  // of the length
+  return std::abs(squared_length - 1) <= 2 * within;
+}
+
 Vector<3> upward_normal_3d(double dip, double dip_direction) {
   return {std::sin(dip) * std::sin(dip_direction), std::sin(dip) * std::cos(dip_direction), std::cos(dip)};
 }

@@ -28,6 +28,11 @@ HalfSpace<Dim> moved_origin(const HalfSpace<Dim>& plane, const Vector<Dim>& shif
   return {plane.normal, plane.offset - plane.normal.dot(shift)};
 }
 
+// of the entries of a normal as it was stated, and whether that is a unit normal's to the six digits that someone may
+// write
+double squared_length(const std::vector<double>& normal);
+bool is_unit(double squared_length);
+
 // Upward unit normal of a joint plane from its dip (0..pi/2 below horizontal) and dip direction (clockwise from north);
 // x east, y north, z up: (sin dip sin dd, sin dip cos dd, cos dip). In 2-D (x right, y up) the section looks north:
 // dip direction pi/2 dips to the right, 3 pi/2 to the left.

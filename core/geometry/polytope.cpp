@@ -190,6 +190,19 @@ double find_vertex_error(const Polytope<Dim>& part) {
   return worst;
 }
 
+std::vector<int> boundary_ring(const Polytope<2>& part) {
+  std::vector<int> next(part.vertices.size(), -1);
+  for (const std::vector<int>& edge : part.loops)
+    if (edge.size() == 2) next[edge[0]] = edge[1];
+  std::vector<int> outline;
+  int vertex = 0;
+  do {
+    outline.push_back(vertex);
+    vertex = next[vertex];
+  } while (vertex > 0 && outline.size() < next.size());
+  return outline;
+}
+
 template double find_vertex_error<2>(const Polytope<2>&);
 template double find_vertex_error<3>(const Polytope<3>&);
 template MassProperties<2> moved_origin<2>(const MassProperties<2>&, const Vector<2>&);

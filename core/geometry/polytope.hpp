@@ -55,6 +55,9 @@ MassProperties<Dim> moved_origin(const MassProperties<Dim>& mass, const Vector<D
 template <int Dim>
 double find_vertex_error(const Polytope<Dim>& part);
 
+// the vertices of a part in the plane along its boundary, counter-clockwise
+std::vector<int> boundary_ring(const Polytope<2>& part);
+
 // area (2-D: length) of a face
 template <int Dim>
 double face_area(const Polytope<Dim>& part, int face);

@@ -30,16 +30,7 @@ std::vector<std::vector<int>> polygons(const Polytope<3>& part) {
 }
 
 std::vector<std::vector<int>> polygons(const Polytope<2>& part) {
-  std::vector<int> next(part.vertices.size(), -1);
-  for (const std::vector<int>& edge : part.loops)
-    if (edge.size() == 2) next[edge[0]] = edge[1];
-  std::vector<int> outline;
-  int vertex = 0;
-  do {
-    outline.push_back(vertex);
-    vertex = next[vertex];
-  } while (vertex > 0 && outline.size() < next.size());
-  return {outline};
+  return {boundary_ring(part)};
 }
 
 struct BlockArrays {

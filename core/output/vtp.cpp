@@ -10,29 +10,6 @@ namespace {
 
 using Text = std::back_insert_iterator<std::string>;
 
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char character : text) {
-    switch (character) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += character;
-    }
-  }
-  return safe;
-}
-
 void append_number(Text out, double number, bool integer) {
   if (!std::isfinite(number))
     fmt::format_to(out, "0 ");
@@ -44,7 +21,7 @@ void append_number(Text out, double number, bool integer) {
 
 void append_array(Text out, const DataArray& array) {
   fmt::format_to(out, "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n",
-                 array.integer ? "Int64" : "Float64", escaped(array.name), array.components);
+                 array.integer ? "Int64" : "Float64", xml_escaped(array.name), array.components);
   for (std::size_t k = 0; k < array.values.size(); ++k) {
     append_number(out, array.values[k], array.integer);
     if ((k + 1) % array.components == 0) fmt::format_to(out, "\n");
@@ -79,7 +56,7 @@ void append_cells(Text out, const char* section, const std::vector<std::vector<i
 // VTK's ASCII form of a string is its bytes as numbers, ended by 0
 void append_names(Text out, const std::string& name, const std::vector<std::string>& texts) {
   fmt::format_to(out, "      <Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">\n",
-                 escaped(name), texts.size());
+                 xml_escaped(name), texts.size());
   for (const std::string& text : texts) {
     for (const char character : text)
       fmt::format_to(out, "{} ", static_cast<int>(static_cast<unsigned char>(character)));
@@ -99,6 +76,29 @@ void append_field_data(Text out, const PolyData& data) {
 }
 
 }  // namespace
+
+std::string xml_escaped(const std::string& text) {
+  std::string safe;
+  for (const char character : text) {
+    switch (character) {
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += character;
+    }
+  }
+  return safe;
+}
 
 std::string vtp(const PolyData& data) {
   const bool polygons = data.kind == PolyData::Cells::polygons;
@@ -127,7 +127,7 @@ std::string pvd(const std::vector<TimedFile>& files) {
   text += "  <Collection>\n";
   for (const TimedFile& file : files)
     text += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", file.time,
-                        escaped(file.file));
+                        xml_escaped(file.file));
   return text + "  </Collection>\n</VTKFile>\n";
 }
 

@@ -8,6 +8,9 @@
 
 namespace voussoir {
 
+// text between tags or in quotes
+std::string xml_escaped(const std::string& text);
+
 struct DataArray {
   std::string name;
   int components = 1;  // 3: a vector

@@ -13,16 +13,13 @@ namespace {
 
 // angles in files are rounded to some digits, a normal beside them is exact
 constexpr double same_plane = 1e-4;  // rad
-constexpr double unit_within = 1e-6;
 
 // the normal as stated, turned up
 std::vector<double> read_normal(const Subject& subject, const PlaneSpec& plane, bool with_dip) {
   std::vector<double> normal;
   read(subject, "normal", normal);
-  double square = 0;
-  for (const double x : normal)
-    square += x * x;
-  if (!(std::abs(square - 1) <= 2 * unit_within))
+  const double square = squared_length(normal);
+  if (!is_unit(square))
     refuse(subject, "normal",
            fmt::format("must have length 1, has {:.6g}; divide it by its length", std::sqrt(square)));
   if (normal.back() < 0)

@@ -153,7 +153,20 @@ void harvest(Piece<Dim>&& piece, Harvest<Dim>& result) {
     result.counters.given_up = true;
 }
 
-// All blocks of a piece, depth first, so that few are unfinished at a time; `made` counts the cuts of all pieces.
+// A piece becomes two, which are open, or a finished block; `made` counts the cuts of all pieces.
+template <int Dim, class Pieces>
+void advance(Piece<Dim>&& piece, const Cuts<Dim>& cuts, const SlicingLimits& limits, std::atomic<std::size_t>& made,
+             Pieces& open, Harvest<Dim>& result) {
+  if (auto children = split(piece, cuts, limits, result.counters)) {
+    ++made;
+    open.push_back(std::move(children->first));
+    open.push_back(std::move(children->second));
+  } else {
+    harvest(std::move(piece), result);
+  }
+}
+
+// All blocks of a piece, depth first, so that few are unfinished at a time.
 template <int Dim>
 void cut_up(Piece<Dim> first, const Cuts<Dim>& cuts, const SlicingLimits& limits, std::atomic<std::size_t>& made,
             Harvest<Dim>& result) {
@@ -162,13 +175,7 @@ void cut_up(Piece<Dim> first, const Cuts<Dim>& cuts, const SlicingLimits& limits
   while (!open.empty() && made <= limits.most_blocks) {
     Piece<Dim> piece = std::move(open.back());
     open.pop_back();
-    if (auto children = split(piece, cuts, limits, result.counters)) {
-      ++made;
-      open.push_back(std::move(children->first));
-      open.push_back(std::move(children->second));
-    } else {
-      harvest(std::move(piece), result);
-    }
+    advance(std::move(piece), cuts, limits, made, open, result);
   }
 }
 
@@ -181,13 +188,7 @@ std::deque<Piece<Dim>> hand_out(Piece<Dim> first, const Cuts<Dim>& cuts, const S
   while (!open.empty() && open.size() < handed_out && made <= limits.most_blocks) {
     Piece<Dim> piece = std::move(open.front());
     open.pop_front();
-    if (auto children = split(piece, cuts, limits, result.counters)) {
-      ++made;
-      open.push_back(std::move(children->first));
-      open.push_back(std::move(children->second));
-    } else {
-      harvest(std::move(piece), result);
-    }
+    advance(std::move(piece), cuts, limits, made, open, result);
   }
   return open;
 }
