@@ -139,8 +139,7 @@ std::shared_ptr<Prepared> prepare_lp(const Workload& work) {
   return prepared_query(pairs_per_workload, [pairs](std::size_t i) {
     Contact<3> contact;
     KernelCounters counters;
-    const Polytope<3>&a = *pairs[i].a, &b = *pairs[i].b;
-    KernelTask<3> task{&pairs[i], &contact, 0, 0, std::max(a.radius, b.radius)};
+    KernelTask<3> task = kernel_task(pairs[i], {}, contact);
     resolve_new(task, {}, counters);
     return contact.touching();
   });

@@ -188,6 +188,7 @@ void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const 
 
   double smallest = 1e300, largest = 0;
   bool anything_moves = model.gravity.norm() > 0;
+  std::vector<int> falling;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
     if (!moves(body)) continue;
@@ -195,10 +196,14 @@ void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const 
     largest = std::max(largest, body.size);
     const Motion<Dim>& motion = prepared.state.motions[b];
     anything_moves |= motion.velocity.norm() > 0 || motion.angular_momentum.norm() > 0;
-    if (model.gravity.norm() > 0 && !has_neighbour[b])
-      result.warnings.push_back(
-          fmt::format("block {} has no neighbour: it begins by falling", name_of(model, static_cast<int>(b))));
+    if (model.gravity.norm() > 0 && !has_neighbour[b]) falling.push_back(static_cast<int>(b));
   }
+  if (falling.size() == 1)
+    result.warnings.push_back(
+        fmt::format("block {} has no neighbour: it begins by falling", name_of(model, falling.front())));
+  if (falling.size() > 1)
+    result.warnings.push_back(fmt::format("{} blocks have no neighbour, {} the first: they begin by falling",
+                                          falling.size(), name_of(model, falling.front())));
   if (!anything_moves && state.contacts.empty())
     result.warnings.push_back("no gravity, no velocity and no contact: nothing will move");
   if (largest > wide_size_ratio * smallest)

@@ -17,12 +17,9 @@ inline constexpr double most_magnified = 16;
 template <int Dim>
 void measure_overlap_carefully(const Pair<Dim>& pair, Contact<Dim>& contact);
 
-// the same only where it is needed; of a contact that was resolved that far
-template <int Dim>
-void settle_overlap(const Pair<Dim>& pair, Contact<Dim>& contact) {
-  const bool asked = pair.last >= Stage::overlap;
-  if (asked && contact.geometry.overlap > most_magnified * contact.proof.margin)
-    measure_overlap_carefully(pair, contact);
+// whether an overlap needs it, against the margin of the point that it was measured at
+inline bool magnified(double overlap, double margin) {
+  return overlap > most_magnified * margin;
 }
 
 }  // namespace voussoir

@@ -223,7 +223,8 @@ struct Resolver {
     geometry.normal = pair.axes * normal;
     contact.proof.axis = normal;
     contact.proof.tangent = perpendicular(normal);
-    if (settings.overlap == OverlapSearch::closed_form) settle_overlap(pair, contact);
+    if (settings.overlap == OverlapSearch::closed_form && magnified(overlap, contact.proof.margin))
+      measure_overlap_carefully(pair, contact);
   }
 };
 

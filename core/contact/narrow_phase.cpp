@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
-#include <vector>
 
 #include "core/contact/careful_overlap.hpp"
 #include "core/contact/general_road.hpp"
@@ -79,7 +78,7 @@ void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const 
     separates(pair, axis, support(*pair.a, axis), contact);
     return;
   }
-  settle_overlap(pair, contact);
+  if (task.magnified) measure_overlap_carefully(pair, contact);
 }
 
 template <int Dim>
@@ -88,49 +87,43 @@ bool kernel_suits(const ContactSettings& settings, const Solvers<Dim>& solvers) 
          solvers.feasibility == &solve_feasibility<Dim> && solvers.centre == &solve_analytic_centre<Dim>;
 }
 
-// pairs that need the same work side by side: a register is as slow as its largest pair
+// as many as the nearest cache holds with their contacts
+constexpr std::size_t pairs_together = 64;
+
+// Pairs that need the same work side by side: a register is as slow as its largest pair.
 template <int Dim>
-void sort_by_work(std::vector<KernelTask<Dim>>& tasks) {
-  const auto key = [](const KernelTask<Dim>& t) {
-    return std::tuple(t.pair->last, t.pair->a->faces.size(), t.pair->b->faces.size());
+void sort_by_work(std::span<KernelTask<Dim>> tasks) {
+  const auto less = [](const KernelTask<Dim>& s, const KernelTask<Dim>& t) {
+    return std::tuple(s.pair->last, s.planes_a, s.planes_b) < std::tuple(t.pair->last, t.planes_a, t.planes_b);
   };
-  const auto less = [&](const KernelTask<Dim>& s, const KernelTask<Dim>& t) { return key(s) < key(t); };
   if (!std::is_sorted(tasks.begin(), tasks.end(), less)) std::sort(tasks.begin(), tasks.end(), less);
 }
 
-}  // namespace
-
+// at most pairs_together
 template <int Dim>
-void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& settings, const Solvers<Dim>& solvers,
+void resolve_fast(std::span<const Pair<Dim>> pairs, const ContactSettings& settings, const Solvers<Dim>& solvers,
                   std::span<Contact<Dim>* const> contacts, KernelCounters& counters) {
-  static thread_local std::vector<KernelTask<Dim>> standing;
-  standing.clear();
-  counters.evaluations += static_cast<long long>(pairs.size());
-  const bool fast = kernel_suits(settings, solvers);
+  KernelTask<Dim> tasks[pairs_together];
+  std::size_t count = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Pair<Dim>& pair = pairs[i];
     Contact<Dim>& contact = *contacts[i];
-    if (!fast) {
-      resolve_generally(pair, settings, solvers, contact, false, counters);
-      continue;
-    }
     const Proof<Dim>& proof = contact.proof;
-    const double size = std::min(pair.a->inscribed_radius, pair.b->inscribed_radius);
-    KernelTask<Dim> task{&pair, &contact, settings.potential_radius * size, settings.tolerance * size,
-                         std::max(pair.a->radius, pair.b->radius)};
     // the plane that separated them still does
     if (proof.kind == ProofKind::separating_axis && separates(pair, Vector<Dim>(proof.axis), proof.support, contact)) {
       ++counters.axis_hits;
       continue;
     }
+    KernelTask<Dim>& task = tasks[count] = kernel_task(pair, settings, contact);
     // the point that was inside both still is: they go on together, below
-    if (proof.kind == ProofKind::interior_point) {
-      standing.push_back(task);
-      continue;
-    }
-    resolve_cold(task, settings, solvers, counters);
+    if (proof.kind == ProofKind::interior_point)
+      ++count;
+    else
+      resolve_cold(task, settings, solvers, counters);
   }
+  if (count == 0) return;
 
+  const std::span<KernelTask<Dim>> standing(tasks, count);
   sort_by_work(standing);
   resolve_standing<Dim>(standing, {settings.newton_tolerance, settings.newton_limit}, counters);
   for (KernelTask<Dim>& task : standing) {
@@ -139,7 +132,27 @@ void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
       continue;
     }
     ++counters.point_hits;
-    settle_overlap(*task.pair, *task.contact);
+    if (task.magnified) measure_overlap_carefully(*task.pair, *task.contact);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& settings, const Solvers<Dim>& solvers,
+                  std::span<Contact<Dim>* const> contacts, KernelCounters& counters) {
+  counters.evaluations += static_cast<long long>(pairs.size());
+  const bool fast = kernel_suits(settings, solvers);
+  for (std::size_t from = 0; from < pairs.size(); from += pairs_together) {
+    const std::size_t count = std::min(pairs_together, pairs.size() - from);
+    const std::span<const Pair<Dim>> some = pairs.subspan(from, count);
+    const std::span<Contact<Dim>* const> theirs = contacts.subspan(from, count);
+    if (fast) {
+      resolve_fast(some, settings, solvers, theirs, counters);
+      continue;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      resolve_generally(some[i], settings, solvers, *theirs[i], false, counters);
   }
 }
 

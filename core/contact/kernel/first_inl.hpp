@@ -23,14 +23,14 @@ struct TightPlanes {
   int planes[size];  // padded numbers
   double inverse[size][planes_per_quad] = {}, offsets[size];
 
-  HWY_INLINE OnePair::Wide row(int k) const { return OnePair::load(inverse[0], k); }
+  HWY_INLINE OnePair::Wide row(int k) const { return OnePair::load(inverse[k]); }
 };
 
 template <int Dim>
 HWY_INLINE Components<double, Dim> normal_of(const Meeting<OnePair, Dim>& m, int plane) {
   Components<double, Dim> n;
   for (int k = 0; k < Dim; ++k)
-    n[k] = m.at.normal[k][plane];
+    n[k] = m.number(m.normal_at + k, plane);
   return n;
 }
 
@@ -41,7 +41,7 @@ HWY_INLINE void most_violated(const Meeting<OnePair, Dim>& m, const Components<d
   using L = OnePair;
   const Components<L::Wide, Dim> at = m.wide(x);
   double number;
-  const auto violation = [&](int slot) HWY_ATTR { return dot(m.normals(slot), at) - L::load(m.at.slack, slot); };
+  const auto violation = [&](int slot) HWY_ATTR { return dot(m.normals(slot), at) - m.get(m.slack_at, slot); };
   find_largest<L>(0, m.quads, -std::numeric_limits<double>::max(), violation, value, number);
   plane = static_cast<int>(number);
 }
@@ -54,7 +54,7 @@ HWY_INLINE void meet(const TightPlanes<Dim>& t, Components<double, Dim>& x, doub
   for (int k = 1; k <= Dim; ++k)
     sum = sum + L::wide(t.offsets[k]) * t.row(k);
   double y[planes_per_quad];
-  L::store(sum, y, 0);
+  L::store(sum, y);
   for (int j = 0; j < Dim; ++j)
     x[j] = y[j];
   s = -y[Dim];
@@ -69,7 +69,7 @@ HWY_INLINE bool exchange(TightPlanes<Dim>& t, int plane, const Components<double
   for (int k = 0; k < Dim; ++k)
     column[k] = normal[k];
   column[Dim] = 1;
-  const L::Wide entering = L::load(column, 0);
+  const L::Wide entering = L::load(column);
   L::Wide terms[size], sizes[size];
   for (int k = 0; k < size; ++k) {
     terms[k] = t.row(k) * entering;
@@ -91,7 +91,7 @@ HWY_INLINE bool exchange(TightPlanes<Dim>& t, int plane, const Components<double
   if (leave < 0) return false;
   const L::Wide entered = L::wide(1 / mu[leave]) * t.row(leave);
   for (int k = 0; k < size; ++k)
-    L::store(k == leave ? entered : t.row(k) - L::wide(mu[k]) * entered, t.inverse[0], k);
+    L::store(k == leave ? entered : t.row(k) - L::wide(mu[k]) * entered, t.inverse[k]);
   t.planes[leave] = plane;
   t.offsets[leave] = offset;
   return true;
@@ -141,7 +141,7 @@ HWY_INLINE Decision decide(const Meeting<OnePair, Dim>& m, TightPlanes<Dim>& t, 
       return Decision::touching;
     if (worst - s <= rounding) return Decision::unknown;
     if (std::find(t.planes, t.planes + Dim + 1, plane) != t.planes + Dim + 1) return Decision::unknown;
-    if (!exchange(t, plane, normal_of(m, plane), m.at.slack[plane])) return Decision::unknown;
+    if (!exchange(t, plane, normal_of(m, plane), m.number(m.slack_at, plane))) return Decision::unknown;
   }
   return Decision::unknown;
 }
@@ -155,7 +155,7 @@ HWY_INLINE Components<double, Dim> thinnest_across(const Meeting<OnePair, Dim>& 
   double value, number;
   const auto thinness = [&](int slot) HWY_ATTR {
     const Components<L::Wide, Dim> n = m.normals(slot);
-    const L::Wide along = dot(n, direction), slack = L::load(m.at.slack, slot) - dot(n, at);
+    const L::Wide along = dot(n, direction), slack = m.get(m.slack_at, slot) - dot(n, at);
     return (L::wide(1) - along * along) / (slack * slack);
   };
   find_largest<L>(0, m.quads, -1, thinness, value, number);
@@ -186,11 +186,11 @@ HWY_INLINE void turn_planes(Meeting<OnePair, Dim>& m, const Components<double, D
   L::Wide least = L::wide(std::numeric_limits<double>::max());
   for (int slot = 0; slot < m.quads; ++slot) {
     const Components<L::Wide, Dim> n = m.normals(slot);
-    const L::Wide slack = L::load(m.at.slack, slot) - dot(n, to);
+    const L::Wide slack = m.get(m.slack_at, slot) - dot(n, to);
     least = smaller(least, slack);
-    L::store(slack, m.at.slack, slot);
+    m.set(slack, m.slack_at, slot);
     for (int i = 0; i < Dim; ++i)
-      L::store(dot(turn[i], n), m.at.normal[i], slot);
+      m.set(dot(turn[i], n), m.normal_at + i, slot);
   }
   m.least = L::least(least);
   m.rounding = m.rounding + 4 * slack_rounding * size_of(x);
@@ -202,19 +202,18 @@ HWY_INLINE int approach_centre(Meeting<OnePair, Dim>& m) {
   using L = OnePair;
   constexpr int sums_count = Dim + Dim * (Dim + 1) / 2;
   for (int slot = 0; slot < m.quads; ++slot)
-    L::store(L::wide(1) / L::load(m.at.slack, slot), m.at.multiplier, slot);
+    m.set(L::wide(1) / m.get(m.slack_at, slot), m.multiplier_at, slot);
   for (int k = 0; k < Dim; ++k)
     m.moved[k] = 0;
   int iterations = 0;
   for (; iterations < most_approaches; ++iterations) {
     double sums[sums_count];
     L::sum<sums_count>(0, m.quads, sums, [&](int slot, L::Wide(&acc)[sums_count]) HWY_ATTR {
-      const L::Wide inverse = L::wide(1) / L::load(m.at.slack, slot);
-      L::store(inverse, m.at.inverse, slot);
+      const L::Wide inverse = L::wide(1) / m.get(m.slack_at, slot);
+      m.set(inverse, m.inverse_at, slot);
       const Components<L::Wide, Dim> n = m.normals(slot), p = scaled(inverse, n);
-      for (int k = 0; k < Dim; ++k)
-        L::store(p[k], m.at.scaled[k], slot);
-      accumulate(p, scaled(L::load(m.at.multiplier, slot), n), acc);
+      m.set_vector(p, m.scaled_at, slot);
+      accumulate(p, scaled(m.get(m.multiplier_at, slot), n), acc);
     });
     Components<double, Dim> step;
     double decrement2;
@@ -226,8 +225,8 @@ HWY_INLINE int approach_centre(Meeting<OnePair, Dim>& m) {
     const Components<L::Wide, Dim> direction = m.wide(step);
     L::Wide primal = L::wide(0), dual = primal;
     for (int slot = 0; slot < m.quads; ++slot) {
-      const L::Wide z = L::load(m.at.multiplier, slot), inverse = L::load(m.at.inverse, slot);
-      const L::Wide along = dot(m.scaled_normals(slot), direction);  // relative loss of slack
+      const L::Wide z = m.get(m.multiplier_at, slot), inverse = m.get(m.inverse_at, slot);
+      const L::Wide along = dot(m.get_vector(m.scaled_at, slot), direction);  // relative loss of slack
       primal = larger(primal, along);
       // relative loss of the multiplier: Δz = 1/s - z + z (a·Δx)/s
       dual = larger(dual, (L::wide(1) - inverse / z) - along);
@@ -237,10 +236,10 @@ HWY_INLINE int approach_centre(Meeting<OnePair, Dim>& m) {
     const double multiplier_step = most_dual > near_boundary ? near_boundary / most_dual : 1;
     const L::Wide ds = L::wide(slack_step), dz = L::wide(multiplier_step);
     for (int slot = 0; slot < m.quads; ++slot) {
-      const L::Wide s = L::load(m.at.slack, slot), z = L::load(m.at.multiplier, slot);
-      const L::Wide along = dot(m.scaled_normals(slot), direction);
-      L::store(z + dz * (L::load(m.at.inverse, slot) - z + z * along), m.at.multiplier, slot);
-      L::store(s - ds * dot(m.normals(slot), direction), m.at.slack, slot);
+      const L::Wide s = m.get(m.slack_at, slot), z = m.get(m.multiplier_at, slot);
+      const L::Wide along = dot(m.get_vector(m.scaled_at, slot), direction);
+      m.set(z + dz * (m.get(m.inverse_at, slot) - z + z * along), m.multiplier_at, slot);
+      m.set(s - ds * dot(m.normals(slot), direction), m.slack_at, slot);
     }
     for (int k = 0; k < Dim; ++k)
       m.moved[k] = m.moved[k] + slack_step * step[k];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/contact/careful_overlap.hpp"
+
 // one compilation for each instruction set that is worth its size
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/contact/kernel/kernel.cpp"
@@ -19,25 +21,20 @@ HWY_BEFORE_NAMESPACE();
 namespace voussoir {
 namespace HWY_NAMESPACE {
 
-Workspace& workspace() {
+HWY_INLINE Workspace& workspace() {
   static thread_local Workspace own;
   return own;
 }
 
-int quads_of(int planes) {
+HWY_INLINE int quads_of(int planes) {
   return (planes + planes_per_quad - 1) / planes_per_quad;
 }
 
-template <int Dim>
-const double* rows_of(const Polytope<Dim>& part) {
-  return reinterpret_cast<const double*>(part.faces.data());
-}
-
 // numbers of planes: the parts' faces, A's first, and the padded planes
-int padded(int plane, int count_a, int quads_a) {
+HWY_INLINE int padded(int plane, int count_a, int quads_a) {
   return plane < count_a ? plane : plane - count_a + quads_a * planes_per_quad;
 }
-int unpadded(int plane, int count_a, int quads_a) {
+HWY_INLINE int unpadded(int plane, int count_a, int quads_a) {
   return plane < count_a ? plane : plane + count_a - quads_a * planes_per_quad;
 }
 
@@ -50,27 +47,35 @@ constexpr bool records_are_dense() {
          offsetof(Proof<Dim>, axis) == offsetof(Proof<Dim>, point) + sizeof(Vectors) &&
          offsetof(Proof<Dim>, tangent) == offsetof(Proof<Dim>, axis) + sizeof(Vectors) &&
          sizeof(Proof<Dim>) >= offsetof(Proof<Dim>, point) + (Dim == 3 ? 12 : 8) * sizeof(double) &&
+         offsetof(Proof<Dim>, point) == offsetof(Proof<Dim>, margin) + sizeof(double) &&
+         offsetof(ContactGeometry<Dim>, normal) == offsetof(ContactGeometry<Dim>, point) + sizeof(Vectors) &&
+         offsetof(ContactGeometry<Dim>, overlap) == offsetof(ContactGeometry<Dim>, normal) + sizeof(Vectors) &&
+         offsetof(ContactGeometry<Dim>, area) == offsetof(ContactGeometry<Dim>, overlap) + sizeof(double) &&
          sizeof(Vectors) == Dim * sizeof(double) && sizeof(Matrix<Dim>) == Dim * sizeof(Vectors);
 }
 
 // the tasks of one register; lanes beyond them repeat the first and are not good
 template <class L, int Dim>
-HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks) {
+HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks, Workspace& work) {
   static_assert(records_are_dense<2>() && records_are_dense<3>());
   using Real = typename L::Real;
   const double *pairs[L::width], *proofs[L::width], *numbers[L::width];
   double real[L::width];
+  int least_a = tasks[0].planes_a, most_a = least_a, least_b = tasks[0].planes_b, most_b = least_b;
   for (int lane = 0; lane < L::width; ++lane) {
     real[lane] = lane < static_cast<int>(tasks.size());
     const KernelTask<Dim>& task = tasks[real[lane] != 0 ? lane : 0];
     pairs[lane] = task.pair->rotation.data();
     proofs[lane] = task.contact->proof.point.data();
     numbers[lane] = &task.potential_radius;
-    const Polytope<Dim>&a = *task.pair->a, &b = *task.pair->b;
-    m.a.rows[lane] = rows_of(a);
-    m.b.rows[lane] = rows_of(b);
-    m.a.count[lane] = static_cast<int>(a.faces.size());
-    m.b.count[lane] = static_cast<int>(b.faces.size());
+    m.a.rows[lane] = task.faces_a->normal.data();
+    m.b.rows[lane] = task.faces_b->normal.data();
+    m.a.count[lane] = task.planes_a;
+    m.b.count[lane] = task.planes_b;
+    least_a = std::min(least_a, task.planes_a);
+    least_b = std::min(least_b, task.planes_b);
+    most_a = std::max(most_a, task.planes_a);
+    most_b = std::max(most_b, task.planes_b);
   }
   Real pose[Dim * Dim + Dim], proof[3 * Dim], number[4];
   load_records<L>(pairs, pose);
@@ -89,135 +94,137 @@ HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks
   m.tolerance = number[1];
   m.reach = number[2];
   m.good = L::picked(real);
-  m.a.least_count = *std::min_element(m.a.count, m.a.count + L::width);
-  m.b.least_count = *std::min_element(m.b.count, m.b.count + L::width);
-  m.quads_a = quads_of(*std::max_element(m.a.count, m.a.count + L::width));
-  m.quads = m.quads_a + quads_of(*std::max_element(m.b.count, m.b.count + L::width));
-  m.at = workspace().arrays<Dim>(m.quads * planes_per_quad * L::width);
+  m.a.least_count = least_a;
+  m.b.least_count = least_b;
+  m.quads_a = quads_of(most_a);
+  m.quads = m.quads_a + quads_of(most_b);
+  m.numbers = work.room(Meeting<L, Dim>::room(m.quads));
 }
 
-// what a pair's lane holds at the end
+// what the records of a contact's proof and geometry hold of the answer, from `margin` and from `point` on
+inline constexpr int proof_numbers = 8;
 template <int Dim>
-struct Answer {
-  double margin, point[Dim], axis[Dim];                       // as in Proof, frame of the first body
-  double world_point[Dim], world_normal[Dim], overlap, area;  // as in ContactGeometry
-  double face_a, face_b, iterations, good, fallback;
-};
+inline constexpr int geometry_numbers = Dim == 3 ? 8 : 4;
 
+// the answers into the tasks' contacts
 template <class L, int Dim>
-struct Results {
+HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTask<Dim>> tasks,
+                        const SectionList* lists, KernelCounters& counters) {
   using Real = typename L::Real;
-  static constexpr int count = sizeof(Answer<Dim>) / sizeof(double);
-  alignas(64) Answer<Dim> answers[L::width];
-
-  HWY_INLINE Results(const Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks) {
-    const double* axes[L::width];
-    double* rows[L::width];
-    for (int lane = 0; lane < L::width; ++lane) {
-      axes[lane] = tasks[lane < static_cast<int>(tasks.size()) ? lane : 0].pair->axes.data();
-      rows[lane] = reinterpret_cast<double*>(&answers[lane]);
-    }
-    Real columns[Dim * Dim], values[count];
-    load_records<L>(axes, columns);
-    Components<Real, Dim> world[Dim];
-    for (int j = 0; j < Dim; ++j)
-      for (int i = 0; i < Dim; ++i)
-        world[i][j] = columns[j * Dim + i];
-    const Components<Real, Dim> normal = unit_again<L>(from_frame(m.frame, m.normal));
-    int next = 0;
-    const auto add = [&](const Real& x) HWY_ATTR { values[next++] = x; };
-    add(m.least - m.rounding);
-    for (int k = 0; k < Dim; ++k)
-      add(m.point[k]);
-    for (int k = 0; k < Dim; ++k)
-      add(normal[k]);
-    for (int i = 0; i < Dim; ++i)
-      add(dot(world[i], m.point));
-    for (int i = 0; i < Dim; ++i)
-      add(dot(world[i], normal));
-    add(m.overlap);
-    add(m.area);
-    add(m.face_a);
-    add(m.face_b);
-    add(m.iterations);
-    add(select(m.good, L::real(1), L::real(0)));
-    add(select(m.fallback, L::real(1), L::real(0)));
-    store_records<L>(values, rows);
+  constexpr int width = L::width;
+  double good[width];
+  L::put(select(m.good, L::real(1), L::real(0)), good);
+  // lanes without an answer write where nobody reads
+  double nowhere[8];
+  const double* axes[width];
+  double *proofs[width], *geometries[width];
+  for (int lane = 0; lane < width; ++lane) {
+    const KernelTask<Dim>& task = tasks[lane < static_cast<int>(tasks.size()) ? lane : 0];
+    axes[lane] = task.pair->axes.data();
+    proofs[lane] = good[lane] != 0 ? &task.contact->proof.margin : nowhere;
+    geometries[lane] = good[lane] != 0 ? task.contact->geometry.point.data() : nowhere;
   }
+  Real columns[Dim * Dim];
+  load_records<L>(axes, columns);
+  Components<Real, Dim> world[Dim];
+  for (int j = 0; j < Dim; ++j)
+    for (int i = 0; i < Dim; ++i)
+      world[i][j] = columns[j * Dim + i];
+  const bool measured = last >= Stage::overlap;
+  const Components<Real, Dim> normal = measured ? unit_again<L>(from_frame(m.frame, m.normal)) : m.axis;
 
-  // into the task's contact
-  void deliver(int lane, KernelTask<Dim>& task, const SectionList& list, int quads_a, KernelCounters& counters) const {
-    const Pair<Dim>& pair = *task.pair;
-    const Answer<Dim>& answer = answers[lane];
-    counters.newton_iterations += static_cast<long long>(answer.iterations);
-    if (answer.good == 0) return;
-    task.answered = true;
+  const Real margin = m.least - m.rounding;
+  Real proof[proof_numbers], geometry[geometry_numbers<Dim> + 2];
+  proof[0] = margin;
+  for (int k = 0; k < Dim; ++k) {
+    proof[1 + k] = m.point[k];
+    proof[1 + Dim + k] = normal[k];
+  }
+  for (int k = 1 + 2 * Dim; k < proof_numbers; ++k)
+    proof[k] = k < 1 + 3 * Dim ? m.tangent[k - 1 - 2 * Dim] : L::real(0);
+  store_records<L, proof_numbers>(proof, proofs);
+  for (int k = 0; k < Dim; ++k) {
+    geometry[k] = dot(world[k], m.point);
+    geometry[Dim + k] = dot(world[k], normal);
+  }
+  geometry[2 * Dim] = m.overlap;
+  geometry[2 * Dim + 1] = m.area;
+  store_records<L, geometry_numbers<Dim>>(geometry, geometries);
+
+  double iterations[width], face_a[width], face_b[width], fallback[width], overlap[width], area[width], margins[width];
+  L::put(m.iterations, iterations);
+  L::put(m.face_a, face_a);
+  L::put(m.face_b, face_b);
+  L::put(select(m.fallback, L::real(1), L::real(0)), fallback);
+  L::put(m.overlap, overlap);
+  L::put(m.area, area);
+  L::put(margin, margins);
+  for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane) {
+    counters.newton_iterations += static_cast<long long>(iterations[lane]);
+    if (good[lane] == 0) continue;
+    KernelTask<Dim>& task = tasks[lane];
     Contact<Dim>& contact = *task.contact;
-    Proof<Dim>& proof = contact.proof;
-    ContactGeometry<Dim>& geometry = contact.geometry;
+    task.answered = true;
     contact.status = ContactStatus::touching;
-    proof.kind = ProofKind::interior_point;
-    proof.margin = answer.margin;
-    std::copy_n(answer.point, Dim, proof.point.data());
-    std::copy_n(answer.world_point, Dim, geometry.point.data());
-    if (pair.last < Stage::overlap) return;
-    std::copy_n(answer.axis, Dim, proof.axis.data());
-    std::copy_n(answer.world_normal, Dim, geometry.normal.data());
-    geometry.overlap = answer.overlap;
-    geometry.face_a = static_cast<int>(answer.face_a);
-    geometry.face_b = static_cast<int>(answer.face_b);
-    counters.normal_fallbacks += answer.fallback != 0;
-    counters.deep_overlaps += answer.overlap > task.potential_radius;
-    geometry.area = answer.area;
-    if (pair.last < Stage::area) return;
+    contact.proof.kind = ProofKind::interior_point;
+    if constexpr (Dim == 2) {
+      contact.geometry.overlap = overlap[lane];
+      contact.geometry.area = area[lane];
+    }
+    if (!measured) continue;
+    contact.geometry.face_a = static_cast<int>(face_a[lane]);
+    contact.geometry.face_b = static_cast<int>(face_b[lane]);
+    task.magnified = magnified(overlap[lane], margins[lane]);
+    counters.normal_fallbacks += fallback[lane] != 0;
+    counters.deep_overlaps += overlap[lane] > task.potential_radius;
+    if (last < Stage::area) continue;
     ++counters.areas;
-    if (!list.found_anew) return;
-    const int count_a = static_cast<int>(pair.a->faces.size());
-    proof.section_size = list.size;
+    const SectionList& list = lists[lane];
+    if (!list.found_anew) continue;
+    contact.proof.section_size = list.size;
     for (int k = 0; k < list.size; ++k) {
-      const int plane = unpadded(list.planes[k], count_a, quads_a);
-      if (plane > std::numeric_limits<unsigned short>::max()) proof.section_size = 0;
-      proof.section[k] = static_cast<unsigned short>(plane);
+      const int plane = unpadded(list.planes[k], task.planes_a, m.quads_a);
+      if (plane > std::numeric_limits<unsigned short>::max()) contact.proof.section_size = 0;
+      contact.proof.section[k] = static_cast<unsigned short>(plane);
     }
   }
-};
+}
 
 template <int Dim>
 HWY_INLINE void recall_section(const KernelTask<Dim>& task, int quads_a, SectionList& list) {
   const Proof<Dim>& proof = task.contact->proof;
-  const int count_a = static_cast<int>(task.pair->a->faces.size());
   list.size = proof.section_size;
   for (int k = 0; k < list.size; ++k)
-    list.planes[k] = padded(proof.section[k], count_a, quads_a);
+    list.planes[k] = padded(proof.section[k], task.planes_a, quads_a);
 }
 
 // as many tasks as the register holds pairs, or fewer, all to be resolved to the same stage
 template <class L, int Dim>
-void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters) {
+void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, Workspace& work,
+                    KernelCounters& counters) {
   Meeting<L, Dim> m;
   SectionList lists[L::width];
-  begin<L, Dim>(m, tasks);
+  begin<L, Dim>(m, tasks, work);
   const Stage last = tasks[0].pair->last;
   if (Dim == 3 && last == Stage::area)
     for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane)
       recall_section(tasks[lane], m.quads_a, lists[lane]);
   resolve_from_point(m, last, options.newton_tolerance, options.newton_limit, lists);
-  const Results<L, Dim> results(m, tasks);
-  for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane)
-    results.deliver(lane, tasks[lane], lists[lane], m.quads_a, counters);
+  deliver(m, last, tasks, lists, counters);
 }
 
 template <int Dim>
 HWY_NOINLINE void standing(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters) {
   constexpr std::size_t width = ManyPairs::width;
+  Workspace& work = workspace();
   while (!tasks.empty()) {
     std::size_t count = 1;
     while (count < std::min(width, tasks.size()) && tasks[count].pair->last == tasks[0].pair->last)
       ++count;
     if (count == 1)
-      standing_group<OnePair, Dim>(tasks.first(count), options, counters);
+      standing_group<OnePair, Dim>(tasks.first(count), options, work, counters);
     else
-      standing_group<ManyPairs, Dim>(tasks.first(count), options, counters);
+      standing_group<ManyPairs, Dim>(tasks.first(count), options, work, counters);
     tasks = tasks.subspan(count);
   }
 }
@@ -232,7 +239,7 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   Meeting<OnePair, Dim> m;
   const bool a_smaller = a.radius < b.radius;
   proof.point = a_smaller ? a.centre : Vector<Dim>(pair.offset + pair.rotation * b.centre);
-  begin<OnePair, Dim>(m, std::span<const KernelTask<Dim>>(&task, 1));
+  begin<OnePair, Dim>(m, std::span<const KernelTask<Dim>>(&task, 1), workspace());
 
   // the LP in A's axes, seen from the centre of the smaller part
   for (int i = 0; i < Dim; ++i)
@@ -243,7 +250,7 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   for (int k = 0; k <= Dim; ++k) {
     if (a.basis[k] < 0) return;
     tight.planes[k] = a.basis[k];
-    tight.offsets[k] = m.at.slack[a.basis[k]];
+    tight.offsets[k] = m.number(m.slack_at, a.basis[k]);
     for (int j = 0; j <= Dim; ++j)
       tight.inverse[k][j] = a.basis_inverse(k, j);
   }
@@ -299,8 +306,7 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   }
   for (int k = 0; k < Dim; ++k)
     proof.tangent[k] = m.tangent[k];
-  const Results<OnePair, Dim> results(m, std::span<const KernelTask<Dim>>(&task, 1));
-  results.deliver(0, task, list, m.quads_a, counters);
+  deliver(m, pair.last, std::span<KernelTask<Dim>>(&task, 1), &list, counters);
 }
 
 void Standing2(std::span<KernelTask<2>> t, const KernelOptions& o, KernelCounters& c) {

@@ -2,23 +2,45 @@
 // it can prove; what it cannot goes to the general road (narrow_phase.cpp).
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "core/contact/narrow_phase.hpp"
 
 namespace voussoir {
 
-// one pair on its way through the kernel
+// One pair on its way through the kernel. Plain, so that room for many costs nothing.
 template <int Dim>
 struct KernelTask {
-  const Pair<Dim>* pair = nullptr;
-  Contact<Dim>* contact = nullptr;
-  double potential_radius = 0;  // m
-  double tolerance = 0;         // m: overlaps below it are none
-  double reach = 0;             // m: the larger of the parts' radii
-  double unused = 0;            // the four are loaded together
-  bool answered = false;        // status, proof and geometry are set
+  const Pair<Dim>* pair;
+  Contact<Dim>* contact;
+  double potential_radius;  // m
+  double tolerance;         // m: overlaps below it are none
+  double reach;             // m: the larger of the parts' radii
+  double unused;            // the four are loaded together
+  const HalfSpace<Dim>*faces_a, *faces_b;
+  int planes_a, planes_b;
+  bool answered;   // status, proof and geometry are set
+  bool magnified;  // rounding may show in the overlap (careful_overlap.hpp)
 };
+
+template <int Dim>
+KernelTask<Dim> kernel_task(const Pair<Dim>& pair, const ContactSettings& settings, Contact<Dim>& contact) {
+  const Polytope<Dim>&a = *pair.a, &b = *pair.b;
+  const double size = std::min(a.inscribed_radius, b.inscribed_radius);
+  return {.pair = &pair,
+          .contact = &contact,
+          .potential_radius = settings.potential_radius * size,
+          .tolerance = settings.tolerance * size,
+          .reach = std::max(a.radius, b.radius),
+          .unused = 0,
+          .faces_a = a.faces.data(),
+          .faces_b = b.faces.data(),
+          .planes_a = static_cast<int>(a.faces.size()),
+          .planes_b = static_cast<int>(b.faces.size()),
+          .answered = false,
+          .magnified = false};
+}
 
 struct KernelOptions {
   double newton_tolerance = 0;

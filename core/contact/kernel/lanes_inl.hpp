@@ -197,6 +197,8 @@ struct OnePair {
   using Bool = bool;
   static constexpr int slots_per_quad = 1;  // a slot is what one Wide holds
   static constexpr int step = planes_per_quad;
+  static HWY_INLINE int slot_of(int plane) { return plane / planes_per_quad; }
+  static HWY_INLINE int place_of(int plane, int) { return plane % planes_per_quad; }  // within the slot
 
   static HWY_INLINE Real real(double x) { return x; }
   static HWY_INLINE Real pick(const double* x) { return *x; }
@@ -208,22 +210,22 @@ struct OnePair {
       r.v[k] = hn::Set(Tag(), x);
     return r;
   }
-  static HWY_INLINE Wide load(const double* from, int slot) {
+  static HWY_INLINE Wide load(const double* from) {
     Wide r;
     for (int k = 0; k < registers; ++k)
-      r.v[k] = hn::LoadU(Tag(), from + slot * step + k * tag_lanes);
+      r.v[k] = hn::LoadU(Tag(), from + k * tag_lanes);
     return r;
   }
-  static HWY_INLINE void store(const Wide& x, double* to, int slot) {
+  static HWY_INLINE void store(const Wide& x, double* to) {
     for (int k = 0; k < registers; ++k)
-      hn::StoreU(x.v[k], Tag(), to + slot * step + k * tag_lanes);
+      hn::StoreU(x.v[k], Tag(), to + k * tag_lanes);
   }
   // pairs that failed have left already: nothing to replace
   static HWY_INLINE const Wide& where(bool, const Wide& x, double) { return x; }
   // numbers of the planes in slot 0, and how far those of the next are
   static HWY_INLINE Wide first_numbers() {
     static constexpr double n[planes_per_quad] = {0, 1, 2, 3};
-    return load(n, 0);
+    return load(n);
   }
   static constexpr double numbers_apart = planes_per_quad;
   // (0+1)+(2+3) of each
@@ -248,7 +250,7 @@ struct OnePair {
 #endif
     for (int k = 0; k < K; ++k) {
       double p[planes_per_quad];
-      store(x[k], p, 0);
+      store(x[k], p);
       out[k] = (p[0] + p[1]) + (p[2] + p[3]);
     }
   }
@@ -291,6 +293,8 @@ struct ManyPairs {
   using Bool = PackMask<Tag, 1>;
   static constexpr int slots_per_quad = planes_per_quad;
   static constexpr int step = width;
+  static HWY_INLINE int slot_of(int plane) { return plane; }
+  static HWY_INLINE int place_of(int, int lane) { return lane; }
 
   static HWY_INLINE Wide wide(double x) { return {{hn::Set(Tag(), x)}}; }
   static HWY_INLINE const Wide& wide(const Wide& x) { return x; }
@@ -298,8 +302,8 @@ struct ManyPairs {
   static HWY_INLINE Real pick(const double* x) { return {{hn::LoadU(Tag(), x)}}; }
   static HWY_INLINE void put(const Real& x, double* out) { hn::StoreU(x.v[0], Tag(), out); }
   static HWY_INLINE Bool picked(const double* x) { return pick(x) > wide(0); }
-  static HWY_INLINE Wide load(const double* from, int slot) { return {{hn::LoadU(Tag(), from + slot * step)}}; }
-  static HWY_INLINE void store(const Wide& x, double* to, int slot) { hn::StoreU(x.v[0], Tag(), to + slot * step); }
+  static HWY_INLINE Wide load(const double* from) { return {{hn::LoadU(Tag(), from)}}; }
+  static HWY_INLINE void store(const Wide& x, double* to) { hn::StoreU(x.v[0], Tag(), to); }
   // a harmless value for pairs that failed: they ride along
   static HWY_INLINE Wide where(const Bool& good, const Wide& x, double otherwise) {
     return select(good, x, wide(otherwise));
@@ -325,12 +329,13 @@ struct ManyPairs {
       for (int q = first; q < last; ++q)
         for (int j = 0; j < strides; ++j)
           add(q * planes_per_quad + from + j, acc[j]);
+      // (0+1)+(2+3), each bracket as soon as it can be
       for (int j = 0; j < strides; ++j)
         for (int k = 0; k < K; ++k)
-          partial[from + j][k] = acc[j][k];
+          partial[from + j][k] = (from + j) % 2 == 0 ? acc[j][k] : partial[from + j - 1][k] + acc[j][k];
     }
     for (int k = 0; k < K; ++k)
-      out[k] = (partial[0][k] + partial[1][k]) + (partial[2][k] + partial[3][k]);
+      out[k] = partial[1][k] + partial[3][k];
   }
 };
 
@@ -340,6 +345,18 @@ HWY_INLINE void for_slots(int first, int last, const F& visit) {
   for (int q = first; q < last; ++q)
     for (int j = 0; j < L::slots_per_quad; ++j)
       visit(q * L::slots_per_quad + j);
+}
+
+// Two slots at a time, a quad apart, and what is left alone: two(slot, other), one(slot) over the quads [first, last).
+template <class L, class Two, class One>
+HWY_INLINE void for_slots_in_twos(int first, int last, const Two& two, const One& one) {
+  int q = first;
+  for (; q + 1 < last; q += 2)
+    for (int j = 0; j < L::slots_per_quad; ++j)
+      two(q * L::slots_per_quad + j, (q + 1) * L::slots_per_quad + j);
+  if (q < last)
+    for (int j = 0; j < L::slots_per_quad; ++j)
+      one(q * L::slots_per_quad + j);
 }
 
 // The largest of value(slot) over the quads [first, last) and the number of its plane among theirs; of equal ones the
@@ -450,9 +467,9 @@ HWY_INLINE void load_records(const double* const (&records)[L::width], typename 
 }
 
 // The first Count doubles of a record of each pair are replaced, up to three more behind them overwritten.
-template <class L, int Count>
-HWY_INLINE void store_records(const typename L::Real (&values)[Count], double* const (&records)[L::width]) {
-  static_assert(Count % 4 == 0);
+template <class L, int Count, int Given>
+HWY_INLINE void store_records(const typename L::Real (&values)[Given], double* const (&records)[L::width]) {
+  static_assert(Count % 4 == 0 && Count <= Given);
   if constexpr (L::one_pair) {
     for (int k = 0; k < Count; k += 4)
       for (int j = 0; j < 4; ++j)  // short enough to be unrolled

@@ -17,10 +17,25 @@ HWY_BEFORE_NAMESPACE();
 namespace voussoir {
 namespace HWY_NAMESPACE {
 
+// the planes q, slot by slot: first components, and behind them the second
+template <class L>
+struct SectionPlanes {
+  const double* first;
+  int apart;  // doubles from one slot to the next
+
+  HWY_INLINE typename L::Wide q0(int slot) const { return L::load(first + slot * apart); }
+  HWY_INLINE typename L::Wide q1(int slot) const { return L::load(first + slot * apart + L::step); }
+  HWY_INLINE const double* place(int plane, int lane = 0) const {
+    return first + L::slot_of(plane) * apart + L::place_of(plane, lane);
+  }
+  HWY_INLINE double q0_of(int plane, int lane = 0) const { return *place(plane, lane); }
+  HWY_INLINE double q1_of(int plane, int lane = 0) const { return place(plane, lane)[L::step]; }
+};
+
 // Areas from the lists of each pair; `known` where the list still holds: each corner lies between its planes and inside
 // all the others.
 template <class L>
-HWY_INLINE void section_area_of(const double* q0, const double* q1, int quads, const SectionList* lists,
+HWY_INLINE void section_area_of(const SectionPlanes<L>& planes, int quads, const SectionList* lists,
                                 const typename L::Bool& good, typename L::Real& area, typename L::Bool& known) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
@@ -44,8 +59,8 @@ HWY_INLINE void section_area_of(const double* q0, const double* q1, int quads, c
     for (int lane = 0; lane < L::width; ++lane) {
       const SectionList& list = lists[lane];
       const int plane = list.size > 0 ? list.planes[k < list.size ? k : 0] : 0;
-      x[lane] = q0[plane * L::width + lane];
-      y[lane] = q1[plane * L::width + lane];
+      x[lane] = planes.q0_of(plane, lane);
+      y[lane] = planes.q1_of(plane, lane);
     }
     a0[k] = L::pick(x);
     a1[k] = L::pick(y);
@@ -71,7 +86,7 @@ HWY_INLINE void section_area_of(const double* q0, const double* q1, int quads, c
   for (int k = 0; k < longest; ++k) {
     const Wide x = L::wide(c0[k]), y = L::wide(c1[k]);
     for_slots<L>(0, quads,
-                 [&](int slot) HWY_ATTR { highest = larger(highest, L::load(q0, slot) * x + L::load(q1, slot) * y); });
+                 [&](int slot) HWY_ATTR { highest = larger(highest, planes.q0(slot) * x + planes.q1(slot) * y); });
   }
   known = both(known, L::most(highest) < L::real(1 + corner_tolerance));
   for (int k = 0; k < longest; ++k)
@@ -80,42 +95,43 @@ HWY_INLINE void section_area_of(const double* q0, const double* q1, int quads, c
 }
 
 // the plane with the largest q·y
-HWY_INLINE void highest_plane(const double* q0, const double* q1, int quads, double y0, double y1, double& value,
+HWY_INLINE void highest_plane(const SectionPlanes<OnePair>& planes, int quads, double y0, double y1, double& value,
                               int& plane) {
   using L = OnePair;
   const L::Wide x = L::wide(y0), y = L::wide(y1);
   double number;
-  const auto height = [&](int slot) HWY_ATTR { return L::load(q0, slot) * x + L::load(q1, slot) * y; };
+  const auto height = [&](int slot) HWY_ATTR { return planes.q0(slot) * x + planes.q1(slot) * y; };
   find_largest<L>(0, quads, -std::numeric_limits<double>::max(), height, value, number);
   plane = static_cast<int>(number);
 }
 
 // Finds the cyclic list from nothing: four extreme planes, then at each corner the plane that cuts it off, until none
 // does. False when there are more than most_corners, or rounding hides which planes bound the section.
-HWY_INLINE bool find_section(const double* q0, const double* q1, int quads, int (&list)[most_corners], int& size,
+HWY_INLINE bool find_section(const SectionPlanes<OnePair>& planes, int quads, int (&list)[most_corners], int& size,
                              double& area) {
   const double directions[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   size = 0;
   double value;
   int plane;
   for (const auto& d : directions) {
-    highest_plane(q0, q1, quads, d[0], d[1], value, plane);
+    highest_plane(planes, quads, d[0], d[1], value, plane);
     if (std::find(list, list + size, plane) == list + size) list[size++] = plane;
   }
   double c0[most_corners], c1[most_corners];
   for (int k = 0; k < size;) {
     const int a = list[k], b = list[k + 1 == size ? 0 : k + 1];
-    const double d0 = q0[b] - q0[a], d1 = q1[b] - q1[a], turn = q0[a] * d1 - q1[a] * d0;
+    const double a0 = planes.q0_of(a), a1 = planes.q1_of(a);
+    const double d0 = planes.q0_of(b) - a0, d1 = planes.q1_of(b) - a1, turn = a0 * d1 - a1 * d0;
     bool cut;
     if (turn > 0) {
       const double inverse = 1 / turn;
       c0[k] = d1 * inverse;
       c1[k] = -d0 * inverse;
-      highest_plane(q0, q1, quads, c0[k], c1[k], value, plane);
+      highest_plane(planes, quads, c0[k], c1[k], value, plane);
       cut = value >= 1 + corner_tolerance;
     } else {
       // half a turn or more between the two: some plane lies there, or the section is open
-      highest_plane(q0, q1, quads, -q1[a], q0[a], value, plane);
+      highest_plane(planes, quads, -a1, a0, value, plane);
       if (!(value > 0)) return false;
       cut = true;
     }
@@ -143,10 +159,10 @@ HWY_INLINE bool find_section(const double* q0, const double* q1, int quads, int 
   return true;
 }
 
-// new lists for the pairs in `wanted`, one at a time
-template <class L, int Dim>
-HWY_INLINE void rebuild_sections(const Arrays<Dim>& at, int quads, SectionList* lists, const typename L::Bool& wanted,
-                                 typename L::Real& area, typename L::Bool& good) {
+// New lists for the pairs in `wanted`, one at a time; `scratch` has room for two numbers of each plane.
+template <class L>
+HWY_INLINE void rebuild_sections(const SectionPlanes<L>& planes, int quads, double* scratch, SectionList* lists,
+                                 const typename L::Bool& wanted, typename L::Real& area, typename L::Bool& good) {
   if (none(wanted)) return;
   double found[L::width], areas[L::width], failed[L::width];
   L::put(area, areas);
@@ -154,21 +170,19 @@ HWY_INLINE void rebuild_sections(const Arrays<Dim>& at, int quads, SectionList* 
   for (int lane = 0; lane < L::width; ++lane) {
     failed[lane] = 0;
     if (found[lane] == 0) continue;
-    const double *q0 = at.scaled[0], *q1 = at.scaled[1];
+    SectionPlanes<OnePair> alone{planes.first, planes.apart};
     if constexpr (!L::one_pair) {
-      // slacks and normals are done with: room for one pair's planes
-      const int count = quads * planes_per_quad;
-      for (int i = 0; i < count; ++i) {
-        at.slack[i] = q0[i * L::width + lane];
-        at.multiplier[i] = q1[i * L::width + lane];
+      alone = {scratch, 2 * planes_per_quad};
+      for (int i = 0; i < quads * planes_per_quad; ++i) {
+        double* place = scratch + OnePair::slot_of(i) * alone.apart + OnePair::place_of(i, 0);
+        place[0] = planes.q0_of(i, lane);
+        place[OnePair::step] = planes.q1_of(i, lane);
       }
-      q0 = at.slack;
-      q1 = at.multiplier;
     }
     int list[most_corners], size;
     lists[lane].size = 0;
     lists[lane].found_anew = true;
-    if (!find_section(q0, q1, quads, list, size, areas[lane])) {
+    if (!find_section(alone, quads, list, size, areas[lane])) {
       failed[lane] = 1;
       areas[lane] = 0;
     } else if (size <= static_cast<int>(lists[lane].planes.size())) {

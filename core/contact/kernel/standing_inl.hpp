@@ -24,14 +24,14 @@ namespace HWY_NAMESPACE {
 // ---- what one register's worth of pairs needs -----------------------------------------------------------------------
 
 template <class L, int Dim>
-struct Meeting {
+struct Meeting : Fields<Dim> {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
   using Bool = typename L::Bool;
 
   Sources<L::width> a, b;  // planes as the parts store them
   int quads_a = 0, quads = 0;
-  Arrays<Dim> at;
+  double* numbers = nullptr;  // Fields of each slot, and two numbers of each plane as scratch behind
 
   Components<Real, Dim> rotation[Dim], offset;  // rows; B's frame -> A's
   Components<Real, Dim> point, axis, tangent;   // A's frame
@@ -53,17 +53,28 @@ struct Meeting {
       r[k] = L::wide(x[k]);
     return r;
   }
-  HWY_INLINE Components<Wide, Dim> normals(int slot) const {
+  HWY_INLINE Wide get(int field, int slot) const {
+    return L::load(numbers + (slot * Fields<Dim>::fields + field) * L::step);
+  }
+  HWY_INLINE void set(const Wide& x, int field, int slot) {
+    L::store(x, numbers + (slot * Fields<Dim>::fields + field) * L::step);
+  }
+  HWY_INLINE Components<Wide, Dim> get_vector(int field, int slot) const {
     Components<Wide, Dim> r;
     for (int k = 0; k < Dim; ++k)
-      r[k] = L::load(at.normal[k], slot);
+      r[k] = get(field + k, slot);
     return r;
   }
-  HWY_INLINE Components<Wide, Dim> scaled_normals(int slot) const {
-    Components<Wide, Dim> r;
+  HWY_INLINE void set_vector(const Components<Wide, Dim>& x, int field, int slot) {
     for (int k = 0; k < Dim; ++k)
-      r[k] = L::load(at.scaled[k], slot);
-    return r;
+      set(x[k], field + k, slot);
+  }
+  HWY_INLINE Components<Wide, Dim> normals(int slot) const { return get_vector(Fields<Dim>::normal_at, slot); }
+  static HWY_INLINE int room(int quads) { return quads * planes_per_quad * (Fields<Dim>::fields * L::width + 2); }
+  HWY_INLINE double* scratch() const { return numbers + quads * planes_per_quad * Fields<Dim>::fields * L::width; }
+  // one number of one plane
+  HWY_INLINE double number(int field, int plane, int lane = 0) const {
+    return numbers[(L::slot_of(plane) * Fields<Dim>::fields + field) * L::step + L::place_of(plane, lane)];
   }
 };
 
@@ -139,9 +150,9 @@ HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
       load_planes<L, Dim>(source, slot - first * L::slots_per_quad, n, d);
       const Wide slack = d - dot(n, x);
       least = smaller(least, slack);
-      L::store(slack, m.at.slack, slot);
+      m.set(slack, m.slack_at, slot);
       for (int i = 0; i < Dim; ++i)
-        L::store(dot(turn[i], n), m.at.normal[i], slot);
+        m.set(dot(turn[i], n), m.normal_at + i, slot);
     });
   };
   part(m.a, 0, m.quads_a, m.point, m.frame);
@@ -150,7 +161,9 @@ HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
   m.rounding = L::real(slack_rounding) * (m.reach + L::real(2) * (size_of(m.point) + size_of(from_b)));
 }
 
-// Newton's direction of -Σ log s in a graded frame, and its decrement²; `solved` where the system has full rank.
+// Newton's direction of -Σ log s in a graded frame, and its decrement²; `solved` where the system has full rank. By
+// elimination from the top without quotients: each pivot d carries the pivots above it as factors, so that no quotient
+// waits for another.
 template <class L, int Dim>
 HWY_INLINE void newton_direction(const typename L::Real (&sums)[Dim + Dim * (Dim + 1) / 2],
                                  Components<typename L::Real, Dim>& step, typename L::Real& decrement2,
@@ -159,26 +172,26 @@ HWY_INLINE void newton_direction(const typename L::Real (&sums)[Dim + Dim * (Dim
   const Real one = L::real(1), zero = L::real(0), tiny = L::real(smallest_pivot);
   if constexpr (Dim == 2) {
     const Real g0 = sums[0], g1 = sums[1], h00 = sums[2], h01 = sums[3], h11 = sums[4];
-    solved = h00 > zero;
-    const Real i0 = one / select(solved, h00, one), l1 = h01 * i0, d1 = h11 - l1 * h01;
-    solved = both(solved, d1 > tiny * h11);
-    const Real i1 = one / select(solved, d1, one), y0 = -g0, y1 = -g1 - l1 * y0;
+    const Real square = h00 * h11, d1 = square - h01 * h01;
+    solved = both(h00 > zero, d1 > tiny * square);
+    const Real i0 = one / select(solved, h00, one), i1 = select(solved, one / select(solved, d1, one), zero);
+    const Real y1 = h01 * g0 - h00 * g1;
     step[1] = y1 * i1;
-    step[0] = y0 * i0 - l1 * step[1];
-    decrement2 = y0 * y0 * i0 + y1 * y1 * i1;
+    step[0] = -(g0 + h01 * step[1]) * i0;
+    decrement2 = (g0 * g0 + y1 * step[1]) * i0;
   } else {
     const Real g0 = sums[0], g1 = sums[1], g2 = sums[2], h00 = sums[3], h01 = sums[4], h02 = sums[5], h11 = sums[6],
                h12 = sums[7], h22 = sums[8];
-    solved = h00 > zero;
-    const Real i0 = one / select(solved, h00, one), l1 = h01 * i0, l2 = h02 * i0, d1 = h11 - l1 * h01;
-    solved = both(solved, d1 > tiny * h11);
-    const Real i1 = one / select(solved, d1, one), c = h12 - l2 * h01, l21 = c * i1, d2 = h22 - l2 * h02 - l21 * c;
-    solved = both(solved, d2 > tiny * h22);
-    const Real i2 = one / select(solved, d2, one), y0 = -g0, y1 = -g1 - l1 * y0, y2 = -g2 - l2 * y0 - l21 * y1;
+    const Real square = h00 * h11, d1 = square - h01 * h01, c = h00 * h12 - h01 * h02, e = h00 * h22 - h02 * h02;
+    const Real product = d1 * e, d2 = product - c * c;
+    solved = both(both(h00 > zero, d1 > tiny * square), d2 > tiny * (d1 * (h00 * h22)));
+    const Real i0 = one / select(solved, h00, one), i1 = one / select(solved, d1, one),
+               i2 = select(solved, one / select(solved, d2, one), zero);
+    const Real y1 = h01 * g0 - h00 * g1, y2 = d1 * (h02 * g0 - h00 * g2) - c * y1;
     step[2] = y2 * i2;
-    step[1] = y1 * i1 - l21 * step[2];
-    step[0] = y0 * i0 - l1 * step[1] - l2 * step[2];
-    decrement2 = y0 * y0 * i0 + y1 * y1 * i1 + y2 * y2 * i2;
+    step[1] = (y1 - c * step[2]) * i1;
+    step[0] = -(g0 + h01 * step[1] + h02 * step[2]) * i0;
+    decrement2 = (g0 * g0 + (y1 * y1 + y2 * step[2]) * i1) * i0;
   }
 }
 
@@ -204,6 +217,27 @@ HWY_INLINE void accumulate(const Components<Wide, 3>& p, const Components<Wide, 
   acc[8] = acc[8] + wp[2] * p[2];
 }
 
+// Moves every plane by what `slack` gives it and inverts what it is then, two planes with one quotient. Parts by
+// themselves, as many planes as they have: a pair's bits do not depend on its company.
+template <class L, int Dim, class F>
+HWY_INLINE void invert_slacks(Meeting<L, Dim>& m, const F& slack) {
+  using Wide = typename L::Wide;
+  const Wide one = L::wide(1.0), floor = L::wide(least_inverted);
+  const auto invertible = [&](int slot) HWY_ATTR { return L::where(m.good, larger(slack(slot), floor), 1); };
+  const auto two = [&](int slot, int other) HWY_ATTR {
+    const Wide s = invertible(slot), t = invertible(other), inverse = one / (s * t);
+    m.set(inverse * t, m.inverse_at, slot);
+    m.set(inverse * s, m.inverse_at, other);
+  };
+  const auto alone = [&](int slot) HWY_ATTR { m.set(one / invertible(slot), m.inverse_at, slot); };
+  for_slots_in_twos<L>(0, m.quads_a, two, alone);
+  for_slots_in_twos<L>(m.quads_a, m.quads, two, alone);
+}
+template <class L, int Dim>
+HWY_INLINE void invert_slacks(Meeting<L, Dim>& m) {
+  invert_slacks(m, [&](int slot) HWY_ATTR { return m.get(m.slack_at, slot); });
+}
+
 // Damped Newton until the decrement before the last step was below the tolerance. Pairs that are done stand still.
 template <class L, int Dim>
 HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
@@ -216,11 +250,11 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
     m.moved[k] = zero;
   m.iterations = zero;
   Bool moving = m.good;
+  invert_slacks(m);
   for (int i = 0; i < limit && !none(moving); ++i) {
     Real sums[sums_count];
     L::template sum<sums_count>(0, m.quads, sums, [&](int slot, Wide(&acc)[sums_count]) HWY_ATTR {
-      const Wide inverse = L::wide(1.0) / L::where(m.good, L::load(m.at.slack, slot), 1);
-      const Components<Wide, Dim> p = scaled(inverse, m.normals(slot));
+      const Components<Wide, Dim> p = scaled(m.get(m.inverse_at, slot), m.normals(slot));
       accumulate(p, p, acc);
     });
     Components<Real, Dim> step;
@@ -237,8 +271,7 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
       const Components<Wide, Dim> direction = m.wide(step);
       Wide most = L::wide(0.0);
       for_slots<L>(0, m.quads, [&](int slot) HWY_ATTR {
-        const Wide inverse = L::wide(1.0) / L::where(m.good, L::load(m.at.slack, slot), 1);
-        most = larger(most, dot(scaled(inverse, m.normals(slot)), direction));
+        most = larger(most, m.get(m.inverse_at, slot) * dot(m.normals(slot), direction));
       });
       length = select(full, one, one / (one + L::most(most)));
     }
@@ -249,15 +282,19 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
     }
     const Components<Wide, Dim> shift = m.wide(step);
     Wide least = L::wide(std::numeric_limits<double>::max());
-    for_slots<L>(0, m.quads, [&](int slot) HWY_ATTR {
-      const Wide slack = L::load(m.at.slack, slot) - dot(m.normals(slot), shift);
-      L::store(slack, m.at.slack, slot);
+    invert_slacks(m, [&](int slot) HWY_ATTR {
+      const Wide slack = m.get(m.slack_at, slot) - dot(m.normals(slot), shift);
+      m.set(slack, m.slack_at, slot);
       least = smaller(least, slack);
+      return slack;
     });
     m.least = select(moving, L::least(least), m.least);
     const Bool inside = m.least > zero;
+    if (const Bool lost = but_not(m.good, inside); !none(lost)) {
+      m.good = both(m.good, inside);
+      invert_slacks(m);  // theirs are no inverses
+    }
     const Bool done = both(moving, decrement2 < enough);
-    m.good = both(m.good, inside);
     moving = both(but_not(moving, done), inside);
   }
   m.good = but_not(m.good, moving);
@@ -268,14 +305,14 @@ template <class L, int Dim>
 HWY_INLINE Components<typename L::Real, Dim> nearest_normal(const Meeting<L, Dim>& m, int part) {
   const int first = part ? m.quads_a : 0, last = part ? m.quads : m.quads_a;
   typename L::Real value, number;
-  const auto closeness = [&](int slot) HWY_ATTR { return -L::load(m.at.slack, slot); };
+  const auto closeness = [&](int slot) HWY_ATTR { return -m.get(m.slack_at, slot); };
   find_largest<L>(first, last, -std::numeric_limits<double>::max(), closeness, value, number);
   double faces[L::width], normal[Dim][L::width];
   L::put(number, faces);
   Components<typename L::Real, Dim> n;
   for (int k = 0; k < Dim; ++k) {
     for (int lane = 0; lane < L::width; ++lane)
-      normal[k][lane] = m.at.normal[k][(first * planes_per_quad + static_cast<int>(faces[lane])) * L::width + lane];
+      normal[k][lane] = m.number(m.normal_at + k, first * planes_per_quad + static_cast<int>(faces[lane]), lane);
     n[k] = L::pick(normal[k]);
   }
   return n;
@@ -296,14 +333,10 @@ HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
     Real gradient[Dim];
     L::template sum<Dim>(part ? m.quads_a : 0, part ? m.quads : m.quads_a, gradient,
                          [&](int slot, Wide(&acc)[Dim]) HWY_ATTR {
-                           const Wide slack = L::load(m.at.slack, slot);
-                           const Wide inverse = L::wide(1.0) / L::where(m.good, slack, 1);
-                           const Wide depth = larger(radius - slack, L::wide(0.0));
+                           const Wide depth = larger(radius - m.get(m.slack_at, slot), L::wide(0.0));
                            const Components<Wide, Dim> n = m.normals(slot);
-                           for (int k = 0; k < Dim; ++k) {
-                             L::store(n[k] * inverse, m.at.scaled[k], slot);
+                           for (int k = 0; k < Dim; ++k)
                              acc[k] = acc[k] + depth * n[k];
-                           }
                          });
     Components<Real, Dim> g;
     for (int k = 0; k < Dim; ++k)
@@ -327,7 +360,7 @@ HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
   Real steepest[2], face[2];
   for (int part = 0; part < 2; ++part) {
     const auto slope = [&](int slot) HWY_ATTR {
-      const Wide along = dot(m.scaled_normals(slot), n);
+      const Wide along = m.get(m.inverse_at, slot) * dot(m.normals(slot), n);
       return part ? -along : along;
     };
     find_largest<L>(part ? m.quads_a : 0, part ? m.quads : m.quads_a, 0, slope, steepest[part], face[part]);
@@ -338,7 +371,7 @@ HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
   m.face_b = face[1];
 }
 
-// Scaled normals in the contact plane: the section is {y : q·y <= 1}. They replace the first two scaled normals.
+// Scaled normals in the contact plane: the section is {y : q·y <= 1}.
 template <class L>
 HWY_INLINE void project(Meeting<L, 3>& m) {
   using Real = typename L::Real;
@@ -350,9 +383,9 @@ HWY_INLINE void project(Meeting<L, 3>& m) {
   const Components<Wide, 3> first = m.wide({-(sign * x), L::real(1) + sign * x * x * a, sign * b});
   const Components<Wide, 3> second = m.wide({-y, b, sign + y * y * a});
   for_slots<L>(0, m.quads, [&](int slot) HWY_ATTR {
-    const Components<Wide, 3> p = m.scaled_normals(slot);
-    L::store(dot(p, first), m.at.scaled[0], slot);
-    L::store(dot(p, second), m.at.scaled[1], slot);
+    const Components<Wide, 3> p = scaled(m.get(m.inverse_at, slot), m.normals(slot));
+    m.set(dot(p, first), m.scaled_at, slot);
+    m.set(dot(p, second), m.scaled_at + 1, slot);
   });
 }
 
@@ -362,7 +395,7 @@ HWY_INLINE void measure_area(Meeting<L, 2>& m, SectionList*) {
   const Wide along0 = L::wide(-m.normal[1]), along1 = L::wide(m.normal[0]);
   Wide forward = L::wide(0.0), backward = forward;
   for_slots<L>(0, m.quads, [&](int slot) HWY_ATTR {
-    const Components<Wide, 2> p = m.scaled_normals(slot);
+    const Components<Wide, 2> p = scaled(m.get(m.inverse_at, slot), m.normals(slot));
     const Wide slope = p[0] * along0 + p[1] * along1;
     forward = larger(forward, slope);
     backward = larger(backward, -slope);
@@ -377,8 +410,9 @@ template <class L>
 HWY_INLINE void measure_area(Meeting<L, 3>& m, SectionList* lists) {
   project(m);
   typename L::Bool known;
-  section_area_of<L>(m.at.scaled[0], m.at.scaled[1], m.quads, lists, m.good, m.area, known);
-  rebuild_sections<L>(m.at, m.quads, lists, but_not(m.good, known), m.area, m.good);
+  const SectionPlanes<L> planes{m.numbers + m.scaled_at * L::step, m.fields * L::step};
+  section_area_of<L>(planes, m.quads, lists, m.good, m.area, known);
+  rebuild_sections<L>(planes, m.quads, m.scratch(), lists, but_not(m.good, known), m.area, m.good);
 }
 
 // before any stage has answered

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -51,8 +53,13 @@ inline constexpr int most_corners = 64;
 template <int Dim>
 inline constexpr int row_length = sizeof(HalfSpace<Dim>) / sizeof(double);
 
-// harmless in every stage: never violated, never near, no weight
-inline constexpr double far_away = 1e30;
+// Harmless in every stage: never violated, never near, no weight. A power of two, so that a product with it and a
+// quotient by it are exact.
+inline constexpr double far_away = 0x1p100;
+
+// m: No slack counts as less when it is inverted, so that what failed overflows nowhere: the sixth power of the inverse
+// is a number. What holds is larger by far: rounding alone is, for blocks of a nanometre.
+inline constexpr double least_inverted = 0x1p-122;
 template <int Dim>
 inline constexpr double padding_row[4] = {0, 0, Dim == 2 ? far_away : 0, Dim == 3 ? far_away : 0};
 
@@ -63,13 +70,14 @@ struct Sources {
   int least_count;
 };
 
+// What the stages keep of each plane: where in its slot. The fields of a slot lie side by side, each as wide as the
+// slot.
 template <int Dim>
-struct Arrays {
-  double* normal[Dim];  // contact frame
-  double* scaled[Dim];  // normal / slack; later the section's planes
-  double* slack;
-  double* multiplier;
-  double* inverse;  // of the slack
+struct Fields {
+  static constexpr int slack_at = 0, inverse_at = 1,  // of the slack
+      normal_at = 2,                                  // Dim of them, contact frame
+      scaled_at = normal_at + Dim,                    // Dim of them: normal / slack, or the section's planes
+      multiplier_at = scaled_at + Dim, fields = multiplier_at + 1;
 };
 
 // the section's planes in cyclic order, numbered as the padded planes are
@@ -83,20 +91,12 @@ struct SectionList {
 struct Workspace {
   std::vector<double> numbers;
 
-  template <int Dim>
-  Arrays<Dim> arrays(int count) {
-    const std::size_t needed = static_cast<std::size_t>(count) * (2 * Dim + 3);
-    if (numbers.size() < needed) numbers.resize(needed);
-    Arrays<Dim> a;
-    double* next = numbers.data();
-    for (int k = 0; k < Dim; ++k, next += count)
-      a.normal[k] = next;
-    for (int k = 0; k < Dim; ++k, next += count)
-      a.scaled[k] = next;
-    a.slack = next;
-    a.multiplier = next + count;
-    a.inverse = next + 2 * count;
-    return a;
+  // room for so many, aligned to a cache line
+  double* room(std::size_t count) {
+    constexpr std::size_t line = 64;
+    if (numbers.size() < count + line / sizeof(double)) numbers.resize(count + line / sizeof(double));
+    const std::size_t beyond = reinterpret_cast<std::uintptr_t>(numbers.data()) % line;
+    return numbers.data() + (beyond == 0 ? 0 : (line - beyond) / sizeof(double));
   }
 };
 
