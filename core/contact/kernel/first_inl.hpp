@@ -42,7 +42,7 @@ HWY_INLINE void most_violated(const Meeting<OnePair, Dim>& m, const Components<d
   const Components<L::Wide, Dim> at = m.wide(x);
   double number;
   const auto violation = [&](int slot) HWY_ATTR { return dot(m.normals(slot), at) - m.get(m.slack_at, slot); };
-  find_largest<L>(0, m.quads, -std::numeric_limits<double>::max(), violation, value, number);
+  find_largest<L>({0, m.quads}, -std::numeric_limits<double>::max(), violation, value, number);
   plane = static_cast<int>(number);
 }
 
@@ -158,7 +158,7 @@ HWY_INLINE Components<double, Dim> thinnest_across(const Meeting<OnePair, Dim>& 
     const L::Wide along = dot(n, direction), slack = m.get(m.slack_at, slot) - dot(n, at);
     return (L::wide(1) - along * along) / (slack * slack);
   };
-  find_largest<L>(0, m.quads, -1, thinness, value, number);
+  find_largest<L>({0, m.quads}, -1, thinness, value, number);
   const Components<double, Dim> n = normal_of(m, static_cast<int>(number));
   const Components<double, Dim> across = n - scaled(dot(n, axis), axis);
   const double length = root(dot(across, across));
@@ -208,7 +208,7 @@ HWY_INLINE int approach_centre(Meeting<OnePair, Dim>& m) {
   int iterations = 0;
   for (; iterations < most_approaches; ++iterations) {
     double sums[sums_count];
-    L::sum<sums_count>(0, m.quads, sums, [&](int slot, L::Wide(&acc)[sums_count]) HWY_ATTR {
+    L::sum<sums_count>(m.part, sums, [&](int slot, L::Wide(&acc)[sums_count]) HWY_ATTR {
       const L::Wide inverse = L::wide(1) / m.get(m.slack_at, slot);
       m.set(inverse, m.inverse_at, slot);
       const Components<L::Wide, Dim> n = m.normals(slot), p = scaled(inverse, n);

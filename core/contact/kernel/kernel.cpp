@@ -98,6 +98,8 @@ HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks
   m.b.least_count = least_b;
   m.quads_a = quads_of(most_a);
   m.quads = m.quads_a + quads_of(most_b);
+  m.part[0] = L::slots(0, most_a);
+  m.part[1] = L::slots(m.quads_a, most_b);
   m.numbers = work.room(Meeting<L, Dim>::room(m.quads));
 }
 

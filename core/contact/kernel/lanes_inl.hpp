@@ -195,7 +195,7 @@ struct OnePair {
   using Wide = Pack<Tag, registers>;  // of planes
   using Real = double;                // of pairs
   using Bool = bool;
-  static constexpr int slots_per_quad = 1;  // a slot is what one Wide holds
+  // a slot is what one Wide holds
   static constexpr int step = planes_per_quad;
   static HWY_INLINE int slot_of(int plane) { return plane / planes_per_quad; }
   static HWY_INLINE int place_of(int plane, int) { return plane % planes_per_quad; }  // within the slot
@@ -271,14 +271,24 @@ struct OnePair {
     value = most(x);
     where = least(select(x < wide(value), wide(std::numeric_limits<double>::max()), number));
   }
-  // add(slot, sums) over the quads [first, last)
-  template <int K, class F>
-  static HWY_INLINE void sum(int first, int last, double (&out)[K], const F& add) {
+  static HWY_INLINE Slots slots(int first_quad, int planes) {
+    return {first_quad, first_quad + (planes + planes_per_quad - 1) / planes_per_quad};
+  }
+  template <class Two, class One>
+  static HWY_INLINE void visit_in_twos(const Slots& slots, const Two& two, const One& one) {
+    int slot = slots.first;
+    for (; slot + 1 < slots.last; slot += 2)
+      two(slot, slot + 1);
+    if (slot < slots.last) one(slot);
+  }
+  // add(slot, sums)
+  template <int K, int N, class F>
+  static HWY_INLINE void sum(const Slots (&parts)[N], double (&out)[K], const F& add) {
     Wide acc[K];
     for (int k = 0; k < K; ++k)
       acc[k] = wide(0);
-    for (int q = first; q < last; ++q)
-      add(q, acc);
+    for (int slot = parts[0].first; slot < parts[N - 1].last; ++slot)  // parts lie behind one another
+      add(slot, acc);
     add_up<K>(acc, out);
   }
 };
@@ -291,7 +301,6 @@ struct ManyPairs {
   using Wide = Pack<Tag, 1>;
   using Real = Wide;
   using Bool = PackMask<Tag, 1>;
-  static constexpr int slots_per_quad = planes_per_quad;
   static constexpr int step = width;
   static HWY_INLINE int slot_of(int plane) { return plane; }
   static HWY_INLINE int place_of(int, int lane) { return lane; }
@@ -316,9 +325,21 @@ struct ManyPairs {
     value = x;
     where = number;
   }
+  static HWY_INLINE Slots slots(int first_quad, int planes) {
+    return {first_quad * planes_per_quad, first_quad * planes_per_quad + planes};
+  }
+  template <class Two, class One>
+  static HWY_INLINE void visit_in_twos(const Slots& slots, const Two& two, const One& one) {
+    for (int from = slots.first; from < slots.last; from += 2 * planes_per_quad)
+      for (int slot = from; slot < from + planes_per_quad && slot < slots.last; ++slot)
+        if (slot + planes_per_quad < slots.last)
+          two(slot, slot + planes_per_quad);
+        else
+          one(slot);
+  }
   // As many strides side by side as the registers hold: 4 of 3 sums, 2 of 5, 1 of 9.
-  template <int K, class F>
-  static HWY_INLINE void sum(int first, int last, Wide (&out)[K], const F& add) {
+  template <int K, int N, class F>
+  static HWY_INLINE void sum(const Slots (&parts)[N], Wide (&out)[K], const F& add) {
     constexpr int strides = K <= 3 ? 4 : K <= 5 ? 2 : 1;
     Wide partial[planes_per_quad][K];
     for (int from = 0; from < planes_per_quad; from += strides) {
@@ -326,9 +347,10 @@ struct ManyPairs {
       for (int j = 0; j < strides; ++j)
         for (int k = 0; k < K; ++k)
           acc[j][k] = wide(0);
-      for (int q = first; q < last; ++q)
-        for (int j = 0; j < strides; ++j)
-          add(q * planes_per_quad + from + j, acc[j]);
+      for (const Slots& part : parts)
+        for (int slot = part.first + from; slot < part.last; slot += planes_per_quad)
+          for (int j = 0; j < strides && slot + j < part.last; ++j)
+            add(slot + j, acc[j]);
       // (0+1)+(2+3), each bracket as soon as it can be
       for (int j = 0; j < strides; ++j)
         for (int k = 0; k < K; ++k)
@@ -339,35 +361,33 @@ struct ManyPairs {
   }
 };
 
-// visit(slot) over the quads [first, last)
-template <class L, class F>
-HWY_INLINE void for_slots(int first, int last, const F& visit) {
-  for (int q = first; q < last; ++q)
-    for (int j = 0; j < L::slots_per_quad; ++j)
-      visit(q * L::slots_per_quad + j);
+template <class F>
+HWY_INLINE void for_slots(const Slots& slots, const F& visit) {
+  for (int slot = slots.first; slot < slots.last; ++slot)
+    visit(slot);
+}
+template <class F>
+HWY_INLINE void for_slots(const Slots (&parts)[2], const F& visit) {
+  for (const Slots& part : parts)
+    for_slots(part, visit);
 }
 
-// Two slots at a time, a quad apart, and what is left alone: two(slot, other), one(slot) over the quads [first, last).
+// Two slots of a part at a time, a quad apart, and alone what has no other: two(slot, other), one(slot).
 template <class L, class Two, class One>
-HWY_INLINE void for_slots_in_twos(int first, int last, const Two& two, const One& one) {
-  int q = first;
-  for (; q + 1 < last; q += 2)
-    for (int j = 0; j < L::slots_per_quad; ++j)
-      two(q * L::slots_per_quad + j, (q + 1) * L::slots_per_quad + j);
-  if (q < last)
-    for (int j = 0; j < L::slots_per_quad; ++j)
-      one(q * L::slots_per_quad + j);
+HWY_INLINE void for_slots_in_twos(const Slots (&parts)[2], const Two& two, const One& one) {
+  for (const Slots& part : parts)
+    L::visit_in_twos(part, two, one);
 }
 
-// The largest of value(slot) over the quads [first, last) and the number of its plane among theirs; of equal ones the
-// first. Nothing above the floor: the number is -1.
+// The largest of value(slot) and the number of its plane among theirs; of equal ones the first. Nothing above the
+// floor: the number is -1.
 template <class L, class F>
-HWY_INLINE void find_largest(int first, int last, double floor, const F& value, typename L::Real& largest,
+HWY_INLINE void find_largest(const Slots& slots, double floor, const F& value, typename L::Real& largest,
                              typename L::Real& where) {
   using Wide = typename L::Wide;
   Wide best = L::wide(floor), place = L::wide(-1.0), number = L::first_numbers();
   const Wide apart = L::wide(static_cast<double>(L::numbers_apart));
-  for_slots<L>(first, last, [&](int slot) HWY_ATTR {
+  for_slots(slots, [&](int slot) HWY_ATTR {
     const Wide here = value(slot);
     const auto better = here > best;
     best = select(better, here, best);
@@ -409,10 +429,17 @@ HWY_INLINE Columns4<V> transpose(D d, const double* const* rows) {
     r.c[2] = hn::ConcatUpperUpper(d, even23, even01);
     r.c[3] = hn::ConcatUpperUpper(d, odd23, odd01);
   } else {
+    // rows k and k + 4 side by side, turned as above in each half
     const hn::Half<D> half;
-    const auto low = transpose(half, rows), high = transpose(half, rows + D::kPrivateN / 2);
-    for (int k = 0; k < 4; ++k)
-      r.c[k] = hn::Combine(d, high.c[k], low.c[k]);
+    const auto both = [&](int k)
+                          HWY_ATTR { return hn::Combine(d, hn::LoadU(half, rows[k + 4]), hn::LoadU(half, rows[k])); };
+    const V low0 = both(0), low1 = both(1), low2 = both(2), low3 = both(3);
+    const V even01 = hn::InterleaveLower(d, low0, low1), odd01 = hn::InterleaveUpper(d, low0, low1);
+    const V even23 = hn::InterleaveLower(d, low2, low3), odd23 = hn::InterleaveUpper(d, low2, low3);
+    r.c[0] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(even23), even01);
+    r.c[1] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(odd23), odd01);
+    r.c[2] = hn::OddEvenBlocks(even23, hn::SwapAdjacentBlocks(even01));
+    r.c[3] = hn::OddEvenBlocks(odd23, hn::SwapAdjacentBlocks(odd01));
   }
 #endif
   return r;

@@ -35,7 +35,7 @@ struct SectionPlanes {
 // Areas from the lists of each pair; `known` where the list still holds: each corner lies between its planes and inside
 // all the others.
 template <class L>
-HWY_INLINE void section_area_of(const SectionPlanes<L>& planes, int quads, const SectionList* lists,
+HWY_INLINE void section_area_of(const SectionPlanes<L>& planes, const Slots (&parts)[2], const SectionList* lists,
                                 const typename L::Bool& good, typename L::Real& area, typename L::Bool& known) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
@@ -85,8 +85,7 @@ HWY_INLINE void section_area_of(const SectionPlanes<L>& planes, int quads, const
   Wide highest = L::wide(0.0);
   for (int k = 0; k < longest; ++k) {
     const Wide x = L::wide(c0[k]), y = L::wide(c1[k]);
-    for_slots<L>(0, quads,
-                 [&](int slot) HWY_ATTR { highest = larger(highest, planes.q0(slot) * x + planes.q1(slot) * y); });
+    for_slots(parts, [&](int slot) HWY_ATTR { highest = larger(highest, planes.q0(slot) * x + planes.q1(slot) * y); });
   }
   known = both(known, L::most(highest) < L::real(1 + corner_tolerance));
   for (int k = 0; k < longest; ++k)
@@ -101,7 +100,7 @@ HWY_INLINE void highest_plane(const SectionPlanes<OnePair>& planes, int quads, d
   const L::Wide x = L::wide(y0), y = L::wide(y1);
   double number;
   const auto height = [&](int slot) HWY_ATTR { return planes.q0(slot) * x + planes.q1(slot) * y; };
-  find_largest<L>(0, quads, -std::numeric_limits<double>::max(), height, value, number);
+  find_largest<L>({0, quads}, -std::numeric_limits<double>::max(), height, value, number);
   plane = static_cast<int>(number);
 }
 
@@ -161,8 +160,9 @@ HWY_INLINE bool find_section(const SectionPlanes<OnePair>& planes, int quads, in
 
 // New lists for the pairs in `wanted`, one at a time; `scratch` has room for two numbers of each plane.
 template <class L>
-HWY_INLINE void rebuild_sections(const SectionPlanes<L>& planes, int quads, double* scratch, SectionList* lists,
-                                 const typename L::Bool& wanted, typename L::Real& area, typename L::Bool& good) {
+HWY_INLINE void rebuild_sections(const SectionPlanes<L>& planes, const Slots (&parts)[2], int quads, double* scratch,
+                                 SectionList* lists, const typename L::Bool& wanted, typename L::Real& area,
+                                 typename L::Bool& good) {
   if (none(wanted)) return;
   double found[L::width], areas[L::width], failed[L::width];
   L::put(area, areas);
@@ -173,11 +173,12 @@ HWY_INLINE void rebuild_sections(const SectionPlanes<L>& planes, int quads, doub
     SectionPlanes<OnePair> alone{planes.first, planes.apart};
     if constexpr (!L::one_pair) {
       alone = {scratch, 2 * planes_per_quad};
-      for (int i = 0; i < quads * planes_per_quad; ++i) {
-        double* place = scratch + OnePair::slot_of(i) * alone.apart + OnePair::place_of(i, 0);
-        place[0] = planes.q0_of(i, lane);
-        place[OnePair::step] = planes.q1_of(i, lane);
-      }
+      std::fill_n(scratch, 2 * quads * planes_per_quad, 0.0);
+      for_slots(parts, [&](int plane) {
+        double* place = scratch + OnePair::slot_of(plane) * alone.apart + OnePair::place_of(plane, 0);
+        place[0] = planes.q0_of(plane, lane);
+        place[OnePair::step] = planes.q1_of(plane, lane);
+      });
     }
     int list[most_corners], size;
     lists[lane].size = 0;

@@ -30,6 +30,7 @@ struct Meeting : Fields<Dim> {
   using Bool = typename L::Bool;
 
   Sources<L::width> a, b;  // planes as the parts store them
+  Slots part[2];
   int quads_a = 0, quads = 0;
   double* numbers = nullptr;  // Fields of each slot, and two numbers of each plane as scratch behind
 
@@ -138,16 +139,16 @@ HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
       frame_b[i][k] = dot(m.frame[i], columns[k]);
 
   Wide least = L::wide(std::numeric_limits<double>::max());
-  const auto part = [&](const Sources<L::width>& source, int first, int last, const Components<Real, Dim>& origin,
+  const auto part = [&](const Sources<L::width>& source, const Slots& slots, const Components<Real, Dim>& origin,
                         const Components<Real, Dim>(&rows)[Dim]) HWY_ATTR {
     const Components<Wide, Dim> x = m.wide(origin);
     Components<Wide, Dim> turn[Dim];
     for (int i = 0; i < Dim; ++i)
       turn[i] = m.wide(rows[i]);
-    for_slots<L>(first, last, [&](int slot) HWY_ATTR {
+    for_slots(slots, [&](int slot) HWY_ATTR {
       Components<Wide, Dim> n;
       Wide d;
-      load_planes<L, Dim>(source, slot - first * L::slots_per_quad, n, d);
+      load_planes<L, Dim>(source, slot - slots.first, n, d);
       const Wide slack = d - dot(n, x);
       least = smaller(least, slack);
       m.set(slack, m.slack_at, slot);
@@ -155,8 +156,8 @@ HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
         m.set(dot(turn[i], n), m.normal_at + i, slot);
     });
   };
-  part(m.a, 0, m.quads_a, m.point, m.frame);
-  part(m.b, m.quads_a, m.quads, point_b, frame_b);
+  part(m.a, m.part[0], m.point, m.frame);
+  part(m.b, m.part[1], point_b, frame_b);
   m.least = L::least(least);
   m.rounding = L::real(slack_rounding) * (m.reach + L::real(2) * (size_of(m.point) + size_of(from_b)));
 }
@@ -230,8 +231,7 @@ HWY_INLINE void invert_slacks(Meeting<L, Dim>& m, const F& slack) {
     m.set(inverse * s, m.inverse_at, other);
   };
   const auto alone = [&](int slot) HWY_ATTR { m.set(one / invertible(slot), m.inverse_at, slot); };
-  for_slots_in_twos<L>(0, m.quads_a, two, alone);
-  for_slots_in_twos<L>(m.quads_a, m.quads, two, alone);
+  for_slots_in_twos<L>(m.part, two, alone);
 }
 template <class L, int Dim>
 HWY_INLINE void invert_slacks(Meeting<L, Dim>& m) {
@@ -253,7 +253,7 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
   invert_slacks(m);
   for (int i = 0; i < limit && !none(moving); ++i) {
     Real sums[sums_count];
-    L::template sum<sums_count>(0, m.quads, sums, [&](int slot, Wide(&acc)[sums_count]) HWY_ATTR {
+    L::template sum<sums_count>(m.part, sums, [&](int slot, Wide(&acc)[sums_count]) HWY_ATTR {
       const Components<Wide, Dim> p = scaled(m.get(m.inverse_at, slot), m.normals(slot));
       accumulate(p, p, acc);
     });
@@ -270,7 +270,7 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
     if (!none(but_not(moving, full))) {
       const Components<Wide, Dim> direction = m.wide(step);
       Wide most = L::wide(0.0);
-      for_slots<L>(0, m.quads, [&](int slot) HWY_ATTR {
+      for_slots(m.part, [&](int slot) HWY_ATTR {
         most = larger(most, m.get(m.inverse_at, slot) * dot(m.normals(slot), direction));
       });
       length = select(full, one, one / (one + L::most(most)));
@@ -303,16 +303,16 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
 // the normal of the part's face with the smallest slack
 template <class L, int Dim>
 HWY_INLINE Components<typename L::Real, Dim> nearest_normal(const Meeting<L, Dim>& m, int part) {
-  const int first = part ? m.quads_a : 0, last = part ? m.quads : m.quads_a;
   typename L::Real value, number;
   const auto closeness = [&](int slot) HWY_ATTR { return -m.get(m.slack_at, slot); };
-  find_largest<L>(first, last, -std::numeric_limits<double>::max(), closeness, value, number);
+  find_largest<L>(m.part[part], -std::numeric_limits<double>::max(), closeness, value, number);
   double faces[L::width], normal[Dim][L::width];
   L::put(number, faces);
   Components<typename L::Real, Dim> n;
   for (int k = 0; k < Dim; ++k) {
     for (int lane = 0; lane < L::width; ++lane)
-      normal[k][lane] = m.number(m.normal_at + k, first * planes_per_quad + static_cast<int>(faces[lane]), lane);
+      normal[k][lane] =
+          m.number(m.normal_at + k, (part ? m.quads_a * planes_per_quad : 0) + static_cast<int>(faces[lane]), lane);
     n[k] = L::pick(normal[k]);
   }
   return n;
@@ -331,13 +331,12 @@ HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
   Components<Real, Dim> unit[2];
   for (int part = 0; part < 2; ++part) {
     Real gradient[Dim];
-    L::template sum<Dim>(part ? m.quads_a : 0, part ? m.quads : m.quads_a, gradient,
-                         [&](int slot, Wide(&acc)[Dim]) HWY_ATTR {
-                           const Wide depth = larger(radius - m.get(m.slack_at, slot), L::wide(0.0));
-                           const Components<Wide, Dim> n = m.normals(slot);
-                           for (int k = 0; k < Dim; ++k)
-                             acc[k] = acc[k] + depth * n[k];
-                         });
+    L::template sum<Dim>({m.part[part]}, gradient, [&](int slot, Wide(&acc)[Dim]) HWY_ATTR {
+      const Wide depth = larger(radius - m.get(m.slack_at, slot), L::wide(0.0));
+      const Components<Wide, Dim> n = m.normals(slot);
+      for (int k = 0; k < Dim; ++k)
+        acc[k] = acc[k] + depth * n[k];
+    });
     Components<Real, Dim> g;
     for (int k = 0; k < Dim; ++k)
       g[k] = gradient[k];
@@ -363,7 +362,7 @@ HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
       const Wide along = m.get(m.inverse_at, slot) * dot(m.normals(slot), n);
       return part ? -along : along;
     };
-    find_largest<L>(part ? m.quads_a : 0, part ? m.quads : m.quads_a, 0, slope, steepest[part], face[part]);
+    find_largest<L>(m.part[part], 0, slope, steepest[part], face[part]);
     m.good = both(m.good, steepest[part] > zero);
   }
   m.overlap = one / select(m.good, steepest[0], one) + one / select(m.good, steepest[1], one);
@@ -382,7 +381,7 @@ HWY_INLINE void project(Meeting<L, 3>& m) {
   const Real a = L::real(-1) / (sign + m.normal[0]), b = x * y * a;
   const Components<Wide, 3> first = m.wide({-(sign * x), L::real(1) + sign * x * x * a, sign * b});
   const Components<Wide, 3> second = m.wide({-y, b, sign + y * y * a});
-  for_slots<L>(0, m.quads, [&](int slot) HWY_ATTR {
+  for_slots(m.part, [&](int slot) HWY_ATTR {
     const Components<Wide, 3> p = scaled(m.get(m.inverse_at, slot), m.normals(slot));
     m.set(dot(p, first), m.scaled_at, slot);
     m.set(dot(p, second), m.scaled_at + 1, slot);
@@ -394,7 +393,7 @@ HWY_INLINE void measure_area(Meeting<L, 2>& m, SectionList*) {
   using Wide = typename L::Wide;
   const Wide along0 = L::wide(-m.normal[1]), along1 = L::wide(m.normal[0]);
   Wide forward = L::wide(0.0), backward = forward;
-  for_slots<L>(0, m.quads, [&](int slot) HWY_ATTR {
+  for_slots(m.part, [&](int slot) HWY_ATTR {
     const Components<Wide, 2> p = scaled(m.get(m.inverse_at, slot), m.normals(slot));
     const Wide slope = p[0] * along0 + p[1] * along1;
     forward = larger(forward, slope);
@@ -411,8 +410,8 @@ HWY_INLINE void measure_area(Meeting<L, 3>& m, SectionList* lists) {
   project(m);
   typename L::Bool known;
   const SectionPlanes<L> planes{m.numbers + m.scaled_at * L::step, m.fields * L::step};
-  section_area_of<L>(planes, m.quads, lists, m.good, m.area, known);
-  rebuild_sections<L>(planes, m.quads, m.scratch(), lists, but_not(m.good, known), m.area, m.good);
+  section_area_of<L>(planes, m.part, lists, m.good, m.area, known);
+  rebuild_sections<L>(planes, m.part, m.quads, m.scratch(), lists, but_not(m.good, known), m.area, m.good);
 }
 
 // before any stage has answered

@@ -14,6 +14,11 @@ namespace voussoir {
 
 inline constexpr int planes_per_quad = 4;  // strided partial sums; parts are padded to whole quads
 
+// slots from `first` up to `last`: those of a part that hold planes
+struct Slots {
+  int first, last;
+};
+
 // a slack's rounding as a share of the coordinates it was computed from, see assemble_planes: the products and sums of
 // two rotated vectors lose at most 13 half-ulps
 inline constexpr double slack_rounding = 4 * std::numeric_limits<double>::epsilon();
