@@ -153,16 +153,19 @@ HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTa
   geometry[2 * Dim + 1] = m.area;
   store_records<L, geometry_numbers<Dim>>(geometry, geometries);
 
-  double iterations[width], face_a[width], face_b[width], fallback[width], overlap[width], area[width], margins[width];
-  L::put(m.iterations, iterations);
+  counters.newton_iterations += static_cast<long long>(L::total(m.iterations));
+  if (last == Stage::area) counters.areas += L::count(m.good);
+  if (measured) {
+    counters.normal_fallbacks += L::count(both(m.good, m.fallback));
+    counters.deep_overlaps += L::count(both(m.good, m.overlap > m.potential_radius));
+  }
+  double face_a[width], face_b[width], overlap[width], area[width], margins[width];
   L::put(m.face_a, face_a);
   L::put(m.face_b, face_b);
-  L::put(select(m.fallback, L::real(1), L::real(0)), fallback);
   L::put(m.overlap, overlap);
   L::put(m.area, area);
   L::put(margin, margins);
   for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane) {
-    counters.newton_iterations += static_cast<long long>(iterations[lane]);
     if (good[lane] == 0) continue;
     KernelTask<Dim>& task = tasks[lane];
     Contact<Dim>& contact = *task.contact;
@@ -177,10 +180,7 @@ HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTa
     contact.geometry.face_a = static_cast<int>(face_a[lane]);
     contact.geometry.face_b = static_cast<int>(face_b[lane]);
     task.magnified = magnified(overlap[lane], margins[lane]);
-    counters.normal_fallbacks += fallback[lane] != 0;
-    counters.deep_overlaps += overlap[lane] > task.potential_radius;
-    if (last < Stage::area) continue;
-    ++counters.areas;
+    if (Dim == 2 || last < Stage::area) continue;
     const SectionList& list = lists[lane];
     if (!list.found_anew) continue;
     contact.proof.section_size = list.size;

@@ -204,6 +204,8 @@ struct OnePair {
   static HWY_INLINE Real pick(const double* x) { return *x; }
   static HWY_INLINE void put(const Real& x, double* out) { *out = x; }
   static HWY_INLINE Bool picked(const double* x) { return *x != 0; }
+  static HWY_INLINE int count(Bool x) { return x; }
+  static HWY_INLINE double total(Real x) { return x; }
   static HWY_INLINE Wide wide(double x) {
     Wide r;
     for (int k = 0; k < registers; ++k)
@@ -311,6 +313,10 @@ struct ManyPairs {
   static HWY_INLINE Real pick(const double* x) { return {{hn::LoadU(Tag(), x)}}; }
   static HWY_INLINE void put(const Real& x, double* out) { hn::StoreU(x.v[0], Tag(), out); }
   static HWY_INLINE Bool picked(const double* x) { return pick(x) > wide(0); }
+  static HWY_INLINE int count(const Bool& x) { return static_cast<int>(hn::CountTrue(Tag(), x.m[0])); }
+  static HWY_INLINE double total(const Real& x) {
+    return hn::GetLane(hn::SumOfLanes(Tag(), x.v[0]));
+  }  // of whole numbers
   static HWY_INLINE Wide load(const double* from) { return {{hn::LoadU(Tag(), from)}}; }
   static HWY_INLINE void store(const Wide& x, double* to) { hn::StoreU(x.v[0], Tag(), to); }
   // a harmless value for pairs that failed: they ride along
