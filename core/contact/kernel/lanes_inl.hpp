@@ -276,12 +276,51 @@ struct OnePair {
   static HWY_INLINE Slots slots(int first_quad, int planes) {
     return {first_quad, first_quad + (planes + planes_per_quad - 1) / planes_per_quad};
   }
-  template <class Two, class One>
-  static HWY_INLINE void visit_in_twos(const Slots& slots, const Two& two, const One& one) {
+  // of every two planes, (0, 1) and (2, 3): the other's; the first ones of both; the second ones
+  static HWY_INLINE Wide others(const Wide& x) {
+#if HWY_TARGET == HWY_SCALAR
+    return {{x.v[1], x.v[0], x.v[3], x.v[2]}};
+#else
+    Wide r;
+    for (int k = 0; k < registers; ++k)
+      r.v[k] = hn::Reverse2(Tag(), x.v[k]);
+    return r;
+#endif
+  }
+  static HWY_INLINE Wide firsts(const Wide& x, const Wide& y) {
+#if HWY_TARGET == HWY_SCALAR
+    return {{x.v[0], y.v[0], x.v[2], y.v[2]}};
+#else
+    Wide r;
+    for (int k = 0; k < registers; ++k)
+      r.v[k] = hn::InterleaveLower(Tag(), x.v[k], y.v[k]);
+    return r;
+#endif
+  }
+  static HWY_INLINE Wide seconds(const Wide& x, const Wide& y) {
+#if HWY_TARGET == HWY_SCALAR
+    return {{x.v[1], y.v[1], x.v[3], y.v[3]}};
+#else
+    Wide r;
+    for (int k = 0; k < registers; ++k)
+      r.v[k] = hn::InterleaveUpper(Tag(), x.v[k], y.v[k]);
+    return r;
+#endif
+  }
+  template <class Get, class Set>
+  static HWY_INLINE void invert(const Slots& slots, const Get& get, const Set& set) {
+    const Wide one = wide(1);
     int slot = slots.first;
-    for (; slot + 1 < slots.last; slot += 2)
-      two(slot, slot + 1);
-    if (slot < slots.last) one(slot);
+    for (; slot + 1 < slots.last; slot += 2) {
+      const Wide s = get(slot), other_s = others(s), t = get(slot + 1), other_t = others(t);
+      const Wide inverse = one / firsts(s * other_s, t * other_t);
+      set(firsts(inverse, inverse) * other_s, slot);
+      set(seconds(inverse, inverse) * other_t, slot + 1);
+    }
+    if (slot < slots.last) {
+      const Wide s = get(slot), other_s = others(s);
+      set(one / (s * other_s) * other_s, slot);
+    }
   }
   // add(slot, sums)
   template <int K, int N, class F>
@@ -334,14 +373,16 @@ struct ManyPairs {
   static HWY_INLINE Slots slots(int first_quad, int planes) {
     return {first_quad * planes_per_quad, first_quad * planes_per_quad + planes};
   }
-  template <class Two, class One>
-  static HWY_INLINE void visit_in_twos(const Slots& slots, const Two& two, const One& one) {
-    for (int from = slots.first; from < slots.last; from += 2 * planes_per_quad)
-      for (int slot = from; slot < from + planes_per_quad && slot < slots.last; ++slot)
-        if (slot + planes_per_quad < slots.last)
-          two(slot, slot + planes_per_quad);
-        else
-          one(slot);
+  template <class Get, class Set>
+  static HWY_INLINE void invert(const Slots& slots, const Get& get, const Set& set) {
+    const Wide one = wide(1);
+    int slot = slots.first;
+    for (; slot + 1 < slots.last; slot += 2) {
+      const Wide s = get(slot), t = get(slot + 1), inverse = one / (s * t);
+      set(inverse * t, slot);
+      set(inverse * s, slot + 1);
+    }
+    if (slot < slots.last) set(one / get(slot), slot);
   }
   // As many strides side by side as the registers hold: 4 of 3 sums, 2 of 5, 1 of 9.
   template <int K, int N, class F>
@@ -376,13 +417,6 @@ template <class F>
 HWY_INLINE void for_slots(const Slots (&parts)[2], const F& visit) {
   for (const Slots& part : parts)
     for_slots(part, visit);
-}
-
-// Two slots of a part at a time, a quad apart, and alone what has no other: two(slot, other), one(slot).
-template <class L, class Two, class One>
-HWY_INLINE void for_slots_in_twos(const Slots (&parts)[2], const Two& two, const One& one) {
-  for (const Slots& part : parts)
-    L::visit_in_twos(part, two, one);
 }
 
 // The largest of value(slot) and the number of its plane among theirs; of equal ones the first. Nothing above the

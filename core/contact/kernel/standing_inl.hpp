@@ -218,20 +218,16 @@ HWY_INLINE void accumulate(const Components<Wide, 3>& p, const Components<Wide, 
   acc[8] = acc[8] + wp[2] * p[2];
 }
 
-// Moves every plane by what `slack` gives it and inverts what it is then, two planes with one quotient. Parts by
-// themselves, as many planes as they have: a pair's bits do not depend on its company.
+// Keeps the inverse of what `slack` gives for each plane. Two planes of a part share a quotient; one whose other is
+// padding gets the very bits of its own, so a pair's bits do not depend on its company.
 template <class L, int Dim, class F>
 HWY_INLINE void invert_slacks(Meeting<L, Dim>& m, const F& slack) {
   using Wide = typename L::Wide;
-  const Wide one = L::wide(1.0), floor = L::wide(least_inverted);
-  const auto invertible = [&](int slot) HWY_ATTR { return L::where(m.good, larger(slack(slot), floor), 1); };
-  const auto two = [&](int slot, int other) HWY_ATTR {
-    const Wide s = invertible(slot), t = invertible(other), inverse = one / (s * t);
-    m.set(inverse * t, m.inverse_at, slot);
-    m.set(inverse * s, m.inverse_at, other);
-  };
-  const auto alone = [&](int slot) HWY_ATTR { m.set(one / invertible(slot), m.inverse_at, slot); };
-  for_slots_in_twos<L>(m.part, two, alone);
+  const Wide floor = L::wide(least_inverted);
+  for (const Slots& part : m.part)
+    L::invert(
+        part, [&](int slot) HWY_ATTR { return L::where(m.good, larger(slack(slot), floor), 1); },
+        [&](const Wide& inverse, int slot) HWY_ATTR { m.set(inverse, m.inverse_at, slot); });
 }
 template <class L, int Dim>
 HWY_INLINE void invert_slacks(Meeting<L, Dim>& m) {
