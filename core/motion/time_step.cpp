@@ -165,8 +165,9 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
         if (s.area > 0) bear(s.point, s.overlap, s.area / unit, s.gyration2);
       continue;
     }
-    c.area_rated = std::min(largest_face(model.polytope(c.part_a)), largest_face(model.polytope(c.part_b)));
-    const double stiffest = stiffest_joint(model.properties, c.area_rated);
+    const double face = std::min(largest_face(model.polytope(c.part_a)), largest_face(model.polytope(c.part_b)));
+    c.area_rated = area_margin * face;
+    const double stiffest = stiffest_joint(model.properties, face);
     impact[ia] += factor * stiffest;
     impact[ib] += factor * stiffest;
   }
