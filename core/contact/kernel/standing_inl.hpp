@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "core/contact/kernel/lanes_inl.hpp"
+#include "core/contact/kernel/records_inl.hpp"
 #include "core/contact/kernel/section_inl.hpp"
 #include "core/contact/kernel/workspace.hpp"
 
