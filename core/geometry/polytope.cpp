@@ -117,6 +117,14 @@ double face_area(const Polytope<3>& part, int face) {
 }
 
 template <int Dim>
+double find_largest_face(const Polytope<Dim>& part) {
+  double largest = 0;
+  for (std::size_t f = 0; f < part.faces.size(); ++f)
+    largest = std::max(largest, face_area<Dim>(part, static_cast<int>(f)));
+  return largest;
+}
+
+template <int Dim>
 Polytope<Dim> moved_origin(Polytope<Dim> part, const Vector<Dim>& shift) {
   for (HalfSpace<Dim>& f : part.faces)
     f = moved_origin(f, shift);
@@ -128,6 +136,7 @@ Polytope<Dim> moved_origin(Polytope<Dim> part, const Vector<Dim>& shift) {
   part.mass = moved_origin<Dim>(part.mass, shift);
   part.centre -= shift;
   part.vertex_error = find_vertex_error(part);
+  part.largest_face = find_largest_face(part);
   return part;
 }
 
@@ -203,6 +212,8 @@ std::vector<int> boundary_ring(const Polytope<2>& part) {
   return outline;
 }
 
+template double find_largest_face<2>(const Polytope<2>&);
+template double find_largest_face<3>(const Polytope<3>&);
 template double find_vertex_error<2>(const Polytope<2>&);
 template double find_vertex_error<3>(const Polytope<3>&);
 template MassProperties<2> moved_origin<2>(const MassProperties<2>&, const Vector<2>&);

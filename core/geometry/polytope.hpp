@@ -29,6 +29,7 @@ struct Polytope {
   std::array<int, Dim + 1> basis{};                       // faces that touch the inscribed ball: the LP's start
   Eigen::Matrix<double, Dim + 1, Dim + 1> basis_inverse;  // of the columns (normal, 1) of these faces
   double vertex_error = 0;  // m: no point of the half-spaces lies farther outside the vertices' hull than this
+  double largest_face = 0;  // area of the largest face, m² (2-D: m)
 };
 
 // the order of solids, whatever order they were given in: by centroid, then volume
@@ -61,6 +62,8 @@ std::vector<int> boundary_ring(const Polytope<2>& part);
 // area (2-D: length) of a face
 template <int Dim>
 double face_area(const Polytope<Dim>& part, int face);
+template <int Dim>
+double find_largest_face(const Polytope<Dim>& part);
 
 // the same part seen from an origin moved by `shift`
 template <int Dim>

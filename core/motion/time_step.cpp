@@ -35,14 +35,6 @@ Jacobian<3> jacobian(const Vector<3>& r) {
   return j;
 }
 
-template <int Dim>
-double largest_face(const Polytope<Dim>& part) {
-  double largest = 0;
-  for (std::size_t f = 0; f < part.faces.size(); ++f)
-    largest = std::max(largest, face_area<Dim>(part, static_cast<int>(f)));
-  return largest;
-}
-
 // tangent stiffness at an overlap, Pa/m, or N/m when it is constant
 struct Tangent {
   double normal, shear;
@@ -117,6 +109,25 @@ double largest_eigenvalue(const Body<Dim>& body, const Rotation<Dim>& rotation, 
   return largest_eigenvalue(stiffness, inertia);
 }
 
+// λ of a body: of what bears on it, and of what may strike it with the stiffness `impact`, N/m
+template <int Dim>
+double stiffest(const Model<Dim>& model, int i, const Rotation<Dim>& rotation, const Stiffness<Dim>& stiffness,
+                double impact) {
+  const Body<Dim>& body = model.bodies[i];
+  if (body.fixed) return 0;
+  double eigenvalue = largest_eigenvalue<Dim>(body, rotation, stiffness);
+  // a body in flight may hit something with its largest face
+  if (eigenvalue == 0 && impact == 0)
+    for (const Polytope<Dim>& part : body.parts)
+      impact = std::max(impact, 2 * stiffest_joint(model.properties, part.largest_face));
+  if (impact > 0) {
+    // k (1/m + r²/I): one spring at the largest lever arm, the smallest moment of inertia
+    const bool turns = std::any_of(body.free_rotation.begin(), body.free_rotation.end(), [](bool f) { return f; });
+    eigenvalue += impact * (1 / body.mass + (turns ? body.radius * body.radius / body.inertia.minCoeff() : 0));
+  }
+  return eigenvalue;
+}
+
 // adds one contact to a body at lever arm r
 template <int Dim>
 void add(Stiffness<Dim>& k, double factor, const Matrix<Dim>& contact, const Vector<Dim>& r) {
@@ -165,30 +176,25 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
         if (s.area > 0) bear(s.point, s.overlap, s.area / unit, s.gyration2);
       continue;
     }
-    const double face = std::min(largest_face(model.polytope(c.part_a)), largest_face(model.polytope(c.part_b)));
+    const double face = std::min(model.polytope(c.part_a).largest_face, model.polytope(c.part_b).largest_face);
     c.area_rated = area_margin * face;
     const double stiffest = stiffest_joint(model.properties, face);
     impact[ia] += factor * stiffest;
     impact[ib] += factor * stiffest;
   }
 
+  // each body by itself: λ first, then its root
   state.frequency.assign(model.bodies.size(), 0);
+  const int bodies = static_cast<int>(model.bodies.size());
+  const std::vector<Stiffness<Dim>>& stiffness_of = stiffness;  // this thread's, seen by all
+  const std::vector<double>& impact_of = impact;
+#pragma omp parallel for num_threads(settings.threads) schedule(static) if (settings.threads > 1)
+  for (int i = 0; i < bodies; ++i)
+    state.frequency[i] = stiffest(model, i, state.motions[i].rotation, stiffness_of[i], impact_of[i]);
   double largest = 0;
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const Body<Dim>& body = model.bodies[i];
-    if (body.fixed) continue;
-    double eigenvalue = largest_eigenvalue<Dim>(body, state.motions[i].rotation, stiffness[i]);
-    // a body in flight may hit something with its largest face
-    if (eigenvalue == 0 && impact[i] == 0)
-      for (const Polytope<Dim>& part : body.parts)
-        impact[i] = std::max(impact[i], 2 * stiffest_joint(model.properties, largest_face(part)));
-    if (impact[i] > 0) {
-      // k (1/m + r²/I): one spring at the largest lever arm, the smallest moment of inertia
-      const bool turns = std::any_of(body.free_rotation.begin(), body.free_rotation.end(), [](bool f) { return f; });
-      eigenvalue += impact[i] * (1 / body.mass + (turns ? body.radius * body.radius / body.inertia.minCoeff() : 0));
-    }
-    state.frequency[i] = std::sqrt(eigenvalue);
-    largest = std::max(largest, eigenvalue);
+  for (double& frequency : state.frequency) {
+    largest = std::max(largest, frequency);
+    frequency = std::sqrt(frequency);
   }
 
   TimeStepEstimate estimate;

@@ -182,6 +182,7 @@ BlockStatus describe(Polytope<Dim>& part) {
   }
   part.mass = moved_origin<Dim>(part.mass, -ball.point);
   part.vertex_error = find_vertex_error(part);
+  part.largest_face = find_largest_face(part);
   return BlockStatus::ok;
 }
 
