@@ -45,6 +45,7 @@ struct Bearing {
   double overlap, area;  // m, m²; the area is 1, or a share of it, for a constant stiffness
   double spread = 0;     // m², variance of the overlap
   double share = 1;      // of the contact's area
+  double firmness = 1;   // of a constant stiffness
 };
 
 // the answer of a joint with laws of its own
@@ -81,6 +82,7 @@ template <int Dim>
   k.overlap = at.overlap;
   k.spread = at.spread;
   k.area = at.area;
+  k.firmness = at.firmness;
   k.closing_speed = -velocity.dot(n);
   k.slip.setZero();
 
@@ -102,9 +104,10 @@ template <int Dim>
 
   // the dashpot over the root of the normal stiffness
   const double friction = state.schedule.friction[friction_of];
-  const double damping = settings.damping.viscous_ratio > 0 && !state.relaxation.under_way
-                             ? 2 * settings.damping.viscous_ratio * std::sqrt(k.area / motion.inverse_mass() * at.share)
-                             : 0;
+  const double damping =
+      settings.damping.viscous_ratio > 0 && !state.relaxation.under_way
+          ? 2 * settings.damping.viscous_ratio * std::sqrt(k.area * k.firmness / motion.inverse_mass() * at.share)
+          : 0;
   const JointForce<Dim> answer =
       properties.laws == 0 ? elastic_coulomb<Dim>(properties, friction,
                                                   damping > 0 ? damping * std::sqrt(properties.normal_stiffness) : 0, k,
@@ -131,9 +134,12 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
     const JointProperties& properties = model.properties[c.properties];
     const PairMotion<Dim> motion = motion_of(model, state, c);
     if (c.cells == 0) {
-      const double area = properties.constant_stiffness ? 1 : c.geometry.area;
-      c.force = joint_force(properties, settings, state, motion,
-                            {c.geometry.point, c.geometry.normal, c.geometry.overlap, area}, c.properties, c.history);
+      Bearing<Dim> at{c.geometry.point, c.geometry.normal, c.geometry.overlap, c.geometry.area};
+      if (properties.constant_stiffness) {
+        at.area = 1;
+        at.firmness = c.geometry.firmness;
+      }
+      c.force = joint_force(properties, settings, state, motion, at, c.properties, c.history);
       continue;
     }
     // each cell answers for itself; the contact keeps what they are together

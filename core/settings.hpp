@@ -15,11 +15,18 @@ enum class CentreSolver { own, ipopt, ipopt_scaled };
 enum class ContactPoint { analytic_centre, centroid, chebyshev };
 enum class OverlapSearch { closed_form, bracketing };
 
+// Direction and depth of a contact. potential: from the rounded potentials at the point, measured along it, as
+// published. multipliers: of the program min s (Eq. 3.27) the gradient g = Σ λ a over one part's planes, and -s/|g|, at
+// 4|g|² of a constant stiffness k: where the contact acts at the program's own point, the force is that of the
+// potential 2 k s²
+enum class ContactNormal { potential, multipliers };
+
 struct ContactSettings {
   LpSolver lp = LpSolver::own;
   CentreSolver centre = CentreSolver::own;
   ContactPoint point = ContactPoint::analytic_centre;
-  OverlapSearch overlap = OverlapSearch::closed_form;
+  ContactNormal normal = ContactNormal::potential;     // multipliers: with point = chebyshev
+  OverlapSearch overlap = OverlapSearch::closed_form;  // of normal = potential
 
   // two parts touch when they overlap by more than this times the smaller inscribed radius, and by more than rounding
   // hides (at most 64 ulp of the pair's size); far above that, contacts are found late

@@ -25,7 +25,7 @@ voussoir_test(unit.extremes LONG LABEL unit
 
 voussoir_test(unit.contact LABEL unit
   SOURCES contact/contact_test.cpp contact/thin_contact_test.cpp contact/overlap_region_test.cpp
-    contact/broad_phase_test.cpp
+    contact/multipliers_test.cpp contact/broad_phase_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.scene LABEL unit

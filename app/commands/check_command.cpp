@@ -213,8 +213,11 @@ std::string solvers_text(const ContactSettings& contact) {
                       : contact.centre == CentreSolver::own     ? "analytic centre (own)"
                       : contact.centre == CentreSolver::ipopt   ? "analytic centre (Ipopt)"
                                                                 : "analytic centre (Ipopt, thesis' scaling)";
-  return fmt::format("linear program {}, contact point {}, overlap by {}", contact.lp == LpSolver::own ? "own" : "GLPK",
-                     point, contact.overlap == OverlapSearch::closed_form ? "closed form" : "bracketing");
+  const char* normal = contact.normal == ContactNormal::multipliers    ? "normal and overlap by multipliers"
+                       : contact.overlap == OverlapSearch::closed_form ? "overlap by closed form"
+                                                                       : "overlap by bracketing";
+  return fmt::format("linear program {}, contact point {}, {}", contact.lp == LpSolver::own ? "own" : "GLPK", point,
+                     normal);
 }
 
 template <int Dim>

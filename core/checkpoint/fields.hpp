@@ -70,8 +70,8 @@ void serialize(Archive& archive, Box<Dim>& b) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, ContactGeometry<Dim>& g) {
-  auto& [point, normal, overlap, area, face_a, face_b] = g;
-  archive(point, normal, overlap, area, face_a, face_b);
+  auto& [point, normal, overlap, area, firmness, face_a, face_b] = g;
+  archive(point, normal, overlap, area, firmness, face_a, face_b);
 }
 
 template <class Archive, int Dim>

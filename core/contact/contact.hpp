@@ -26,7 +26,8 @@ struct ContactGeometry {
   Vector<Dim> normal = Vector<Dim>::Zero();  // unit, from the first to the second
   double overlap = 0;                        // m, positive
   double area = 0;                           // m² (2-D: m, unit thickness); 0 when no law asked for it
-  int face_a = -1, face_b = -1;              // the faces that end the searches along the normal
+  double firmness = 1;                       // share of a constant normal stiffness that acts (ContactNormal)
+  int face_a = -1, face_b = -1;  // the faces that end the searches along the normal, or lean on each other most
 };
 
 // what a joint remembers

@@ -24,14 +24,31 @@ double smallest_slack(const HalfSpaces<Dim>& planes, const Vector<Dim>& point) {
   return least;
 }
 
-// Σ over A's planes of λ a: the direction that separates the parts, or nearly does
+// Σ over A's planes of λ a: how the program's value grows as B moves. False when it vanishes, one part deep inside the
+// other; else its unit vector, the direction that separates the parts, or nearly does, and its length.
 template <int Dim>
-Vector<Dim> separating_axis(const HalfSpaces<Dim>& planes, int faces_a, const FeasibilityResult<Dim>& lp) {
-  Vector<Dim> axis = Vector<Dim>::Zero();
+bool value_gradient(const HalfSpaces<Dim>& planes, int faces_a, const FeasibilityResult<Dim>& lp, Vector<Dim>& axis,
+                    double& length) {
+  axis.setZero();
   for (int k = 0; k <= Dim; ++k)
     if (lp.basis[k] >= 0 && lp.basis[k] < faces_a) axis += lp.multipliers[k] * planes[lp.basis[k]].normal;
-  const double length = axis.norm();
-  return length > parallel_gradients ? Vector<Dim>(axis / length) : Vector<Dim>(Vector<Dim>::Zero());
+  length = axis.norm();
+  if (!(length > parallel_gradients)) return false;
+  axis /= length;
+  return true;
+}
+
+// the planes from `first` to before `last` that the program leans on most
+template <int Dim>
+int largest_multiplier(const FeasibilityResult<Dim>& lp, int first, int last) {
+  int face = -1;
+  double most = 0;
+  for (int k = 0; k <= Dim; ++k)
+    if (lp.basis[k] >= first && lp.basis[k] < last && lp.multipliers[k] > most) {
+      most = lp.multipliers[k];
+      face = lp.basis[k];
+    }
+  return face;
 }
 
 // one part's share of the normal: its unit gradient, or the normal of its nearest face where the gradient is zero
@@ -118,11 +135,19 @@ struct Resolver {
     return solve_lp(pair.a->basis);
   }
 
-  // overlap is proven by the old contact point when it still lies inside, else by the LP
+  bool by_multipliers() const { return settings.normal == ContactNormal::multipliers; }
+
+  // overlap is proven by the old contact point when it still lies inside, else by the LP; who asks for its multipliers
+  // starts it from the planes that were tight
   bool establish() {
     if (proven > 0) {
       start = contact.proof.point - origin;
       return true;
+    }
+    if (contact.proof.kind == ProofKind::interior_point && by_multipliers()) {
+      const std::array<int, Dim + 1> old = contact.proof.basis;
+      contact.proof = {};
+      return solve_lp(old);
     }
     if (contact.proof.kind == ProofKind::interior_point && settings.point != ContactPoint::chebyshev) {
       start = contact.proof.point - origin;
@@ -174,9 +199,35 @@ struct Resolver {
     if (fallback || !found) ++counters.normal_fallbacks;
     if (found) return true;
     if (!lp_solved) run_lp(pair.a->basis);
-    normal = separating_axis(planes, faces_a, lp);
-    if (normal.isZero(0)) contact.status = ContactStatus::no_normal;  // one part deep inside the other
-    return !normal.isZero(0);
+    double length;
+    if (value_gradient(planes, faces_a, lp, normal, length)) return true;
+    contact.status = ContactStatus::no_normal;
+    return false;
+  }
+
+  bool measure_by_potential(const Vector<Dim>& point, Vector<Dim>& normal, double& overlap, int& face_a, int& face_b) {
+    if (!find_normal(point, normal)) return false;
+    const auto search =
+        settings.overlap == OverlapSearch::bracketing ? &overlap_by_bracketing<Dim> : &overlap_along<Dim>;
+    if (search(planes, faces_a, point, normal, overlap, face_a, face_b)) return true;
+    contact.status = ContactStatus::no_face;
+    return false;
+  }
+
+  // Where B moves, the program's value s grows by its gradient g at the program's point: -s/|g| is the overlap of the
+  // features that the program leans on. |g| is 1/2 between faces, less at edges and corners; with 4|g|² of a stiffness
+  // k the force is that of the potential 2 k s², which does not jump where other planes become tight.
+  bool measure_by_multipliers(Vector<Dim>& normal, double& overlap, int& face_a, int& face_b) {
+    double length;
+    if (!value_gradient(planes, faces_a, lp, normal, length)) {
+      contact.status = ContactStatus::no_normal;
+      return false;
+    }
+    overlap = -lp.value / length;
+    contact.geometry.firmness = 4 * length * length;
+    face_a = largest_multiplier(lp, 0, faces_a);
+    face_b = largest_multiplier(lp, faces_a, static_cast<int>(planes.size()));
+    return true;
   }
 
   // the centre of a region as thin as the rounding may round to its outside: the LP's point is as good
@@ -188,6 +239,7 @@ struct Resolver {
       margin = proven > 0 ? proven : smallest_slack<Dim>(planes, point) - rounding;
     }
     contact.proof = {.kind = ProofKind::interior_point, .margin = margin, .point = point + origin};
+    if (by_multipliers()) contact.proof.basis = lp.basis;
     contact.geometry.point = pair.axes * contact.proof.point;
     return true;
   }
@@ -204,14 +256,10 @@ struct Resolver {
     if (!keep_inside(point)) return;
     contact.status = ContactStatus::touching;
     if (pair.last <= Stage::point) return;
-    if (!find_normal(point, normal)) return;
-    const auto search =
-        settings.overlap == OverlapSearch::bracketing ? &overlap_by_bracketing<Dim> : &overlap_along<Dim>;
-    if (!search(planes, faces_a, point, normal, overlap, face_a, face_b)) {
-      contact.status = ContactStatus::no_face;
-      return;
-    }
-    if (overlap > settings.potential_radius * size) ++counters.deep_overlaps;
+    const bool measured = by_multipliers() ? measure_by_multipliers(normal, overlap, face_a, face_b)
+                                           : measure_by_potential(point, normal, overlap, face_a, face_b);
+    if (!measured) return;
+    if (!by_multipliers() && overlap > settings.potential_radius * size) ++counters.deep_overlaps;
     ContactGeometry<Dim>& geometry = contact.geometry;
     if (pair.last == Stage::area) {
       ++counters.areas;
@@ -223,7 +271,7 @@ struct Resolver {
     geometry.normal = pair.axes * normal;
     contact.proof.axis = normal;
     contact.proof.tangent = perpendicular(normal);
-    if (settings.overlap == OverlapSearch::closed_form && magnified(overlap, contact.proof.margin))
+    if (!by_multipliers() && settings.overlap == OverlapSearch::closed_form && magnified(overlap, contact.proof.margin))
       measure_overlap_carefully(pair, contact);
   }
 };

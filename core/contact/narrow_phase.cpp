@@ -83,8 +83,9 @@ void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const 
 
 template <int Dim>
 bool kernel_suits(const ContactSettings& settings, const Solvers<Dim>& solvers) {
-  return settings.point == ContactPoint::analytic_centre && settings.overlap == OverlapSearch::closed_form &&
-         solvers.feasibility == &solve_feasibility<Dim> && solvers.centre == &solve_analytic_centre<Dim>;
+  return settings.point == ContactPoint::analytic_centre && settings.normal == ContactNormal::potential &&
+         settings.overlap == OverlapSearch::closed_form && solvers.feasibility == &solve_feasibility<Dim> &&
+         solvers.centre == &solve_analytic_centre<Dim>;
 }
 
 // as many as the nearest cache holds with their contacts

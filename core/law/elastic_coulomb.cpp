@@ -53,7 +53,7 @@ Vector<3> carried(const Vector<3>& shear, const Vector<3>& old_normal, const Vec
 template <int Dim>
 JointForce<Dim> elastic_coulomb(const JointProperties& properties, double friction, double dashpot,
                                 const JointKinematics<Dim>& kinematics, Vector<Dim>& shear) {
-  const double normal_stiffness = properties.normal_stiffness * kinematics.area;
+  const double normal_stiffness = properties.normal_stiffness * kinematics.area * kinematics.firmness;
   const double shear_stiffness = properties.shear_stiffness * kinematics.area;
   const double spring = normal_stiffness * kinematics.overlap;
   const double normal_force = std::max(spring + dashpot * kinematics.closing_speed, 0.0);  // a NaN stays one

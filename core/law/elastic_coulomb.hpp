@@ -13,6 +13,7 @@ struct JointKinematics {
   double overlap = 0;        // m, mean over the area
   double spread = 0;         // m², its variance; it stores energy only
   double area = 0;           // m²; 1 for a constant stiffness
+  double firmness = 1;       // share of a constant normal stiffness that acts
   double closing_speed = 0;  // m/s
   Vector<Dim> slip;          // tangential displacement increment, m
   double turn = 0;           // rad: spin of the two bodies about the normal, 3-D only

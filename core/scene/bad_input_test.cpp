@@ -438,6 +438,7 @@ TEST(BadOverrides, AreToldWithTheirText) {
                              {"joints.A.dip=", "joints.A.dip", "not valid TOML"},
                              {"joints.A.dip=65deg", "joints.A.dip=65deg", "not valid TOML"},
                              {"joints.A.dip=nan", "joints.A.dip = nan", "must be a finite number"},
+                             {"contact={normal='multipliers',overlap='bracketing'}", "contact.overlap", "leave it out"},
                              {"joints.A.dip=65\ndensity=3", "joints.A.dip", "not valid TOML"},
                              {"gravity=[0,0", "gravity", "not valid TOML"},
                              {"gravity=[0,0,1e-400]", "gravity", "not valid TOML"},

@@ -10,8 +10,7 @@ using namespace key_ranges;
 // clang-format off
 const KeyRow rows[] = {
     // ---- the top of the file
-    {.table = "", .key = "title", .type = text, .example = "\"Sliding wedge\"",
-     .meaning = "one line for reports"},
+    {.table = "", .key = "title", .type = text, .example = "\"Sliding wedge\"", .meaning = "one line for reports"},
     {.table = "", .key = "base", .type = text, .example = "\"scene.toml\"",
      .meaning = "another scene in the same folder, of which this one states only the differences: tables are merged key by "
          "key, tables of a list by their name; a stage that states another kind or method replaces the "
@@ -47,8 +46,7 @@ const KeyRow rows[] = {
     {.table = "", .key = "blocks_file", .type = text, .example = "\"blocks.obj\"",
      .meaning = "a file of convex blocks in the same folder: .csv of planes (columns block, normal_x, normal_y, normal_z, "
          "offset_m; if wanted part), .stl or .obj; [[blocks]] may add density, fixed, … to one of its name"},
-    {.table = "", .key = "fix", .type = tables, .holds = {"label", "selector"},
-     .meaning = "blocks that never move"},
+    {.table = "", .key = "fix", .type = tables, .holds = {"label", "selector"}, .meaning = "blocks that never move"},
     {.table = "", .key = "restrain", .type = tables, .holds = {"label", "restrain", "selector"},
      .meaning = "blocks that cannot move in some directions (world axes)"},
     {.table = "", .key = "initial_velocity", .type = tables, .holds = {"label", "motion", "selector"},
@@ -59,12 +57,10 @@ const KeyRow rows[] = {
      .meaning = "how contacts between blocks are found"},
     {.table = "", .key = "damping", .type = table, .holds = {"damping"},
      .meaning = "damping of every stage that does not state its own"},
-    {.table = "", .key = "time", .type = table, .holds = {"time"},
-     .meaning = "the time step"},
+    {.table = "", .key = "time", .type = table, .holds = {"time"}, .meaning = "the time step"},
     {.table = "", .key = "equilibrium", .type = table, .holds = {"equilibrium"},
      .meaning = "when a scene counts as at rest"},
-    {.table = "", .key = "slicing", .type = table, .holds = {"slicing"},
-     .meaning = "limits of cutting"},
+    {.table = "", .key = "slicing", .type = table, .holds = {"slicing"}, .meaning = "limits of cutting"},
     {.table = "", .key = "stage", .type = tables, .holds = {"stage"},
      .meaning = "what happens, in this order; at least one"},
     {.table = "", .key = "monitors", .type = tables, .holds = {"monitors", "selector"},
@@ -288,6 +284,10 @@ const KeyRow rows[] = {
      .meaning = "where in the overlap the contact acts: at its analytic centre, its centroid, or the centre of the "
          "largest ball in it",
      .breaks = "the centroid costs more; the Chebyshev point is cheaper but jumps"},
+    {.table = "contact", .key = "normal", .type = choice, .fallback = "\"potential\"", .example = "\"multipliers\"",
+     .choices = {"potential", "multipliers"}, .meaning = "direction and depth: by potential particles, as published, or by "
+         "the linear program, which with point = \"chebyshev\" and constant_stiffness keeps energy; softer at edges",
+     .breaks = "potential loses or makes energy where edges slide; multipliers cost more, and faces hop on their corners"},
     {.table = "contact", .key = "overlap", .type = choice, .fallback = "\"closed_form\"", .example = "\"bracketing\"",
      .choices = {"closed_form", "bracketing"}, .meaning = "how the ends of the overlap along the normal are found",
      .breaks = "bracketing is slow, a reference only"},

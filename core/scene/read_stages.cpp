@@ -266,9 +266,15 @@ Settings read_settings(const Subject& scene) {
                  {"centroid", ContactPoint::centroid},
                  {"chebyshev", ContactPoint::chebyshev}},
                 contact.point);
+    read_choice(*table, "normal",
+                {{"potential", ContactNormal::potential}, {"multipliers", ContactNormal::multipliers}}, contact.normal);
     read_choice(*table, "overlap",
                 {{"closed_form", OverlapSearch::closed_form}, {"bracketing", OverlapSearch::bracketing}},
                 contact.overlap);
+    if (contact.normal == ContactNormal::multipliers && contact.overlap == OverlapSearch::bracketing)
+      refuse(*table, "overlap",
+             "searches along the potential's normal; with normal = \"multipliers\" the overlap is the linear program's "
+             "value, leave it out");
     read(*table, "tolerance", contact.tolerance);
     read(*table, "potential_radius", contact.potential_radius);
     read(*table, "newton_tolerance", contact.newton_tolerance);

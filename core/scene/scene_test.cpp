@@ -254,6 +254,7 @@ TEST(Set, ReachesTablesByNameNumberAndValuesNotInTheFile) {
   EXPECT_EQ(set("contact.point=centroid").settings.contact.point, ContactPoint::centroid);
   EXPECT_EQ(set("contact.centre=ipopt_scaled").settings.contact.centre, CentreSolver::ipopt_scaled);
   EXPECT_EQ(set("contact.overlap=bracketing").settings.contact.overlap, OverlapSearch::bracketing);
+  EXPECT_EQ(set("contact.normal=multipliers").settings.contact.normal, ContactNormal::multipliers);
   EXPECT_EQ(set("title=two words").title, "two words");
   EXPECT_EQ(set("title=\"a = b\"").title, "a = b");
   EXPECT_EQ(set("fix.2.below=[\"A\"]").fix[1].selector.below, std::vector<std::string>{"A"});

@@ -1,0 +1,196 @@
+// Contacts by the program's multipliers (ContactNormal): closed forms, and that their force has a potential.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "core/testing/contacts.hpp"
+
+namespace voussoir {
+namespace {
+
+using namespace contacts;
+using shapes::Random;
+
+const ContactSettings by_multipliers{.point = ContactPoint::chebyshev, .normal = ContactNormal::multipliers};
+const ContactSettings by_potential{.point = ContactPoint::chebyshev, .potential_radius = 0.3};
+
+// rounding of the planes of blocks of 1 m, magnified by corners
+constexpr double rounding = 1e-14;
+
+// ---- closed forms ---------------------------------------------------------------------------------------------------
+
+// half of the multipliers' sum on either side: nothing gives way but the faces
+template <int Dim>
+void expect_face_on_face() {
+  const Polytope<Dim> cube = unit_cube<Dim>();
+  for (const double depth : {1e-2, 1e-6, 1e-10}) {
+    Vector<Dim> offset = Vector<Dim>::Constant(0.3);
+    offset[Dim - 1] = 1 - depth;
+    const Outcome<Dim> r = touch<Dim>(cube, cube, Matrix<Dim>::Identity(), offset, by_multipliers);
+    ASSERT_TRUE(r.contact.touching());
+    const ContactGeometry<Dim>& g = r.contact.geometry;
+    EXPECT_NEAR(g.overlap, depth, rounding);
+    EXPECT_NEAR(g.firmness, 1, rounding);
+    EXPECT_LT((g.normal - Vector<Dim>::Unit(Dim - 1)).norm(), rounding);
+    EXPECT_NEAR(g.area, Dim == 3 ? 0.49 : 0.7, area_tolerance);
+    EXPECT_EQ(cube.faces[g.face_a].normal[Dim - 1], 1);
+    EXPECT_EQ(cube.faces[g.face_b].normal[Dim - 1], -1);
+    // the planes that were tight are so again: nothing to do but to look
+    const Outcome<Dim> warm = touch<Dim>(cube, cube, Matrix<Dim>::Identity(), offset, by_multipliers, r.contact);
+    EXPECT_LE(warm.counters.lp_pivots, 1);
+    EXPECT_EQ(warm.contact.geometry.overlap, g.overlap);
+  }
+}
+
+TEST(Multipliers, FaceOnFaceIsTheirDistance) {
+  expect_face_on_face<3>();
+  expect_face_on_face<2>();
+}
+
+// a corner in a large face, leaning any way: the face's normal, the corner's depth
+template <int Dim>
+void expect_corner_in_face(std::uint64_t seed) {
+  Random random(seed);
+  const Polytope<Dim> large = shapes::block<Dim>(shapes::cube<Dim>(3)), small = unit_cube<Dim>();
+  for (int i = 0; i < 50; ++i) {
+    const double depth = shapes::power_of_ten(random, -9, -2);
+    const Matrix<Dim> turn = matrix(shapes::orientation<Dim>(random));
+    Vector<Dim> offset = Vector<Dim>::Unit(Dim - 1) * (3 - depth) - lowest_corner<Dim>(small, turn);
+    const Contact<Dim> contact = touch<Dim>(large, small, turn, offset, by_multipliers).contact;
+    ASSERT_TRUE(contact.touching());
+    const ContactGeometry<Dim>& g = contact.geometry;
+    EXPECT_NEAR(g.overlap, depth, rounding);
+    EXPECT_LT((g.normal - Vector<Dim>::Unit(Dim - 1)).norm(), rounding);
+    EXPECT_LT(g.firmness, 1);
+    EXPECT_EQ(large.faces[g.face_a].normal[Dim - 1], 1);
+
+    // seen from the other
+    const ContactGeometry<Dim> back =
+        touch<Dim>(small, large, turn.transpose(), -turn.transpose() * offset, by_multipliers).contact.geometry;
+    EXPECT_NEAR(back.overlap, g.overlap, rounding);
+    EXPECT_NEAR(back.firmness, g.firmness, rounding);
+    EXPECT_LT((turn * back.normal + g.normal).norm(), rounding);
+  }
+}
+
+TEST(Multipliers, ACornerInAFaceIsItsDepth) {
+  expect_corner_in_face<3>(91);
+  expect_corner_in_face<2>(92);
+}
+
+TEST(Multipliers, CrossedEdgesAreTheDistanceOfTheirLines) {
+  // both cubes stand on an edge, the upper one leans along its own: it crosses the lower one's away from every corner
+  const Polytope<3> cube = unit_cube<3>();
+  const Matrix<3> on_edge = Eigen::AngleAxisd(std::numbers::pi / 4, Vector<3>::UnitX()).toRotationMatrix();
+  const double half_diagonal = std::sqrt(0.5);
+  Random random(93);
+  for (int i = 0; i < 50; ++i) {
+    const double depth = shapes::power_of_ten(random, -9, -2);
+    const double angle = shapes::uniform(random, 0.3, std::numbers::pi - 0.3),
+                 lean = shapes::uniform(random, -0.3, 0.3);
+    const Matrix<3> upper = Eigen::AngleAxisd(angle, Vector<3>::UnitZ()).toRotationMatrix() *
+                            Eigen::AngleAxisd(lean, Vector<3>::UnitY()).toRotationMatrix() * on_edge;
+    // edges along x, in their cubes' frames turned on edge; the common perpendicular points from the lower to the upper
+    const Vector<3> edge_a = Vector<3>::UnitX(), edge_b = upper * on_edge.transpose() * Vector<3>::UnitX();
+    Vector<3> across = edge_a.cross(edge_b).normalized();
+    if (across[2] < 0) across = -across;
+    const Vector<3> below = upper * on_edge.transpose() * Vector<3>(0, 0, -half_diagonal);
+    const Vector<3> offset = Vector<3>(0, 0, half_diagonal) - below - depth * across;
+    const Contact<3> contact =
+        touch<3>(cube, cube, on_edge.transpose() * upper, on_edge.transpose() * offset, by_multipliers).contact;
+    ASSERT_TRUE(contact.touching());
+    EXPECT_NEAR(contact.geometry.overlap, depth, rounding);
+    EXPECT_LT((on_edge * contact.geometry.normal - across).norm(), rounding);
+  }
+}
+
+TEST(Multipliers, OneDeepInsideTheOtherHasNoNormal) {
+  const Polytope<3> large = shapes::block<3>(shapes::cube<3>(3)), small = unit_cube<3>();
+  Random random(94);
+  const Matrix<3> turn = matrix(shapes::orientation<3>(random));
+  EXPECT_EQ(touch<3>(large, small, turn, Vector<3>::Zero(), by_multipliers).contact.status, ContactStatus::no_normal);
+}
+
+// ---- the force has a potential --------------------------------------------------------------------------------------
+
+constexpr int steps = 8000;
+
+// of the force that a spring of 1 N/m puts on B around a closed path, J
+struct Loop {
+  double work = 0;
+  double without_firmness = 0;  // were the stiffness the same for faces, edges and corners
+  double force_times_path = 0;
+};
+
+// B goes round a small ellipse of translations, and of rotations if it turns, about where it was pushed into A
+Loop loop_around(const Polytope<3>& a, const Polytope<3>& b, Random& random, double depth, double turning,
+                 const ContactSettings& settings) {
+  const Matrix<3> start = matrix(shapes::orientation<3>(random));
+  const Vector<3> along = shapes::direction<3>(random);
+  double inside = 0, outside = 6;
+  for (int k = 0; k < 40; ++k) {
+    const double middle = 0.5 * (inside + outside);
+    (oracle::separation<3>(a, b, start, middle * along) > 0 ? outside : inside) = middle;
+  }
+  const Vector<3> centre = (outside - depth) * along;
+  const Vector<3> u = 0.4 * depth * shapes::direction<3>(random), v = 0.4 * depth * shapes::direction<3>(random);
+  const Vector<3> p = turning * shapes::direction<3>(random), q = turning * shapes::direction<3>(random);
+  const auto place = [&](double phase) { return Vector<3>(centre + std::cos(phase) * u + std::sin(phase) * v); };
+  const auto turned = [&](double phase) {
+    const Vector<3> angle = std::cos(phase) * p + std::sin(phase) * q;
+    const double size = angle.norm();
+    return Matrix<3>(size > 0 ? Eigen::AngleAxisd(size, angle / size).toRotationMatrix() * start : start);
+  };
+  Loop loop;
+  for (int k = 0; k < steps; ++k) {
+    const double phase = 2 * std::numbers::pi * k / steps, half = std::numbers::pi / steps;
+    const Contact<3> contact = touch<3>(a, b, turned(phase), place(phase), settings).contact;
+    if (!contact.touching()) continue;
+    // how the contact's point moves as one of B's
+    const ContactGeometry<3>& g = contact.geometry;
+    const Vector<3> seen = turned(phase).transpose() * (g.point - place(phase));
+    const Vector<3> moved =
+        place(phase + half) + turned(phase + half) * seen - place(phase - half) - turned(phase - half) * seen;
+    loop.work += g.firmness * g.overlap * g.normal.dot(moved);
+    loop.without_firmness += g.overlap * g.normal.dot(moved);
+    loop.force_times_path += g.firmness * g.overlap * moved.norm();
+  }
+  return loop;
+}
+
+// all pairs of regular polyhedra once, their |work| summed
+Loop loops(std::uint64_t seed, double turning, const ContactSettings& settings) {
+  Random random(seed);
+  const auto solids = shapes::platonic_solids(0.3);
+  Loop sum;
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    for (std::size_t j = i; j < solids.size(); ++j) {
+      const Polytope<3> a = shapes::block<3>(solids[i].planes), b = shapes::block<3>(solids[j].planes);
+      const Loop loop = loop_around(a, b, random, 0.05, turning, settings);
+      sum.work += std::abs(loop.work);
+      sum.without_firmness += std::abs(loop.without_firmness);
+      sum.force_times_path += loop.force_times_path;
+    }
+  return sum;
+}
+
+void expect_a_potential(double turning) {
+  // between places where other planes become tight the force is smooth and its integral, by equal steps around a closed
+  // path, exact to rounding; there it jumps, and the sum errs by half a step at most: some ten times a loop
+  constexpr double allowed = 10 * 0.5 / steps;
+  const Loop ours = loops(95, turning, by_multipliers), published = loops(95, turning, by_potential);
+  ASSERT_GT(ours.force_times_path, 0);
+  EXPECT_LT(ours.work, allowed * ours.force_times_path);
+  EXPECT_GT(published.work, 10 * allowed * published.force_times_path);
+  EXPECT_GT(ours.without_firmness, allowed * ours.force_times_path);
+}
+
+TEST(Multipliers, TheForceHasAPotential) {
+  expect_a_potential(0);
+}
+TEST(Multipliers, AndSoHasItsMoment) {
+  expect_a_potential(0.05);
+}
+
+}  // namespace
+}  // namespace voussoir
