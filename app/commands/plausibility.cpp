@@ -328,6 +328,18 @@ void judge_times(const StagePlan& stage, const StageForecast& forecast, double p
          fmt::format("{} would write about {:.0e} files", where, forecast.duration / output.frame_interval));
 }
 
+// what else contacts by multipliers need for a force that has a potential
+template <int Dim>
+void judge_multipliers(const ContactSettings& contact, const Model<Dim>& model, Plausibility& result) {
+  if (contact.normal != ContactNormal::multipliers) return;
+  const char* const keeps = "contact.normal = \"multipliers\" keeps energy only with";
+  if (contact.point != ContactPoint::chebyshev)
+    result.warnings.push_back(fmt::format("{} contact.point = \"chebyshev\"", keeps));
+  if (!std::all_of(model.properties.begin(), model.properties.end(),
+                   [](const JointProperties& p) { return p.constant_stiffness; }))
+    result.warnings.push_back(fmt::format("{} joint_properties.constant_stiffness = true", keeps));
+}
+
 void judge_stated_step(const TimeSettings& time, Plausibility& result) {
   if (!time.step || !std::isfinite(result.step_limit)) return;
   if (*time.step > result.step_limit)
@@ -366,6 +378,7 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
   judge_velocities(prepared, model, result);
   judge_overlaps(prepared, result);
   judge_first_contacts(prepared, model, state, result);
+  judge_multipliers(prepared.settings.contact, model, result);
   judge_stated_step(prepared.settings.time, result);
   const double g = model.gravity.norm();
   const double period = g > 0 ? 2 * std::numbers::pi * std::sqrt(result.overlap / g) : 0;
