@@ -221,7 +221,7 @@ const JointProperties one_sided{"joint", 1, 1, 0.5, true};
 
 double weight_and_contact(double y) {
   if (y >= 0) return -1;
-  JointKinematics<2> k{Vector<2>::UnitY(), -y, 0, 1, 0, Vector<2>::Zero(), 0};
+  JointKinematics<2> k{.normal = Vector<2>::UnitY(), .overlap = -y, .area = 1, .slip = Vector<2>::Zero()};
   Vector<2> shear = Vector<2>::Zero();
   return elastic_coulomb<2>(one_sided, 0.5, 0, k, shear).force[1] - 1;
 }
