@@ -244,10 +244,11 @@ Study judge_study(const std::vector<StudyRow>& rows, const std::map<std::string,
 }
 
 std::optional<double> StudyRow::number() const {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(this->value.data(), this->value.data() + this->value.size(), value);
-  const bool whole = error == std::errc{} && end == this->value.data() + this->value.size();
-  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+  double read = 0.0;
+  const char* const end_of_text = value.data() + value.size();
+  const auto [end, error] = std::from_chars(value.data(), end_of_text, read);
+  const bool whole = error == std::errc{} && end == end_of_text;
+  return whole && std::isfinite(read) ? std::optional(read) : std::nullopt;
 }
 
 CostUnit cost_unit(const Study& study) {

@@ -120,6 +120,7 @@ TEST(Relaxation, MotionAfterwardsStartsFromRest) {
                                    .release = {},
                                    .remove = {{.names = {}, .above = {}, .below = {}, .inside = {{0, -0.5}}}},
                                    .move = {},
+                                   .boundary = {},
                                    .friction = {}});
   state.built.clear();
   const double before = state.motions[1].displacement[1];
