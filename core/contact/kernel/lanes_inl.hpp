@@ -276,36 +276,28 @@ struct OnePair {
   static HWY_INLINE Slots slots(int first_quad, int planes) {
     return {first_quad, first_quad + (planes + planes_per_quad - 1) / planes_per_quad};
   }
-  // of every two planes, (0, 1) and (2, 3): the other's; the first ones of both; the second ones
+  // of every two planes, (0, 1) and (2, 3), the other's
   static HWY_INLINE Wide others(const Wide& x) {
-#if HWY_TARGET == HWY_SCALAR
-    return {{x.v[1], x.v[0], x.v[3], x.v[2]}};
-#else
     Wide r;
     for (int k = 0; k < registers; ++k)
+#if HWY_TARGET == HWY_SCALAR
+      r.v[k] = x.v[k ^ 1];
+#else
       r.v[k] = hn::Reverse2(Tag(), x.v[k]);
-    return r;
 #endif
+    return r;
   }
-  static HWY_INLINE Wide firsts(const Wide& x, const Wide& y) {
-#if HWY_TARGET == HWY_SCALAR
-    return {{x.v[0], y.v[0], x.v[2], y.v[2]}};
-#else
+  // of every two planes the first's x and y, or the second's
+  template <bool second>
+  static HWY_INLINE Wide paired(const Wide& x, const Wide& y) {
     Wide r;
     for (int k = 0; k < registers; ++k)
-      r.v[k] = hn::InterleaveLower(Tag(), x.v[k], y.v[k]);
-    return r;
-#endif
-  }
-  static HWY_INLINE Wide seconds(const Wide& x, const Wide& y) {
 #if HWY_TARGET == HWY_SCALAR
-    return {{x.v[1], y.v[1], x.v[3], y.v[3]}};
+      r.v[k] = (k % 2 == 0 ? x : y).v[k / 2 * 2 + second];
 #else
-    Wide r;
-    for (int k = 0; k < registers; ++k)
-      r.v[k] = hn::InterleaveUpper(Tag(), x.v[k], y.v[k]);
-    return r;
+      r.v[k] = second ? hn::InterleaveUpper(Tag(), x.v[k], y.v[k]) : hn::InterleaveLower(Tag(), x.v[k], y.v[k]);
 #endif
+    return r;
   }
   template <class Get, class Set>
   static HWY_INLINE void invert(const Slots& slots, const Get& get, const Set& set) {
@@ -313,9 +305,9 @@ struct OnePair {
     int slot = slots.first;
     for (; slot + 1 < slots.last; slot += 2) {
       const Wide s = get(slot), other_s = others(s), t = get(slot + 1), other_t = others(t);
-      const Wide inverse = one / firsts(s * other_s, t * other_t);
-      set(firsts(inverse, inverse) * other_s, slot);
-      set(seconds(inverse, inverse) * other_t, slot + 1);
+      const Wide inverse = one / paired<false>(s * other_s, t * other_t);
+      set(paired<false>(inverse, inverse) * other_s, slot);
+      set(paired<true>(inverse, inverse) * other_t, slot + 1);
     }
     if (slot < slots.last) {
       const Wide s = get(slot), other_s = others(s);
