@@ -200,6 +200,10 @@ struct Resolver {
     if (found) return true;
     if (!lp_solved) run_lp(pair.a->basis);
     double length;
+    return find_gradient(normal, length);
+  }
+
+  bool find_gradient(Vector<Dim>& normal, double& length) {
     if (value_gradient(planes, faces_a, lp, normal, length)) return true;
     contact.status = ContactStatus::no_normal;
     return false;
@@ -219,10 +223,7 @@ struct Resolver {
   // k the force is that of the potential 2 k s², which does not jump where other planes become tight.
   bool measure_by_multipliers(Vector<Dim>& normal, double& overlap, int& face_a, int& face_b) {
     double length;
-    if (!value_gradient(planes, faces_a, lp, normal, length)) {
-      contact.status = ContactStatus::no_normal;
-      return false;
-    }
+    if (!find_gradient(normal, length)) return false;
     overlap = -lp.value / length;
     contact.geometry.firmness = 4 * length * length;
     face_a = largest_multiplier(lp, 0, faces_a);

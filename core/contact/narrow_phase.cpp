@@ -143,17 +143,14 @@ template <int Dim>
 void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& settings, const Solvers<Dim>& solvers,
                   std::span<Contact<Dim>* const> contacts, KernelCounters& counters) {
   counters.evaluations += static_cast<long long>(pairs.size());
-  const bool fast = kernel_suits(settings, solvers);
+  if (!kernel_suits(settings, solvers)) {
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      resolve_generally(pairs[i], settings, solvers, *contacts[i], false, counters);
+    return;
+  }
   for (std::size_t from = 0; from < pairs.size(); from += pairs_together) {
     const std::size_t count = std::min(pairs_together, pairs.size() - from);
-    const std::span<const Pair<Dim>> some = pairs.subspan(from, count);
-    const std::span<Contact<Dim>* const> theirs = contacts.subspan(from, count);
-    if (fast) {
-      resolve_fast(some, settings, solvers, theirs, counters);
-      continue;
-    }
-    for (std::size_t i = 0; i < count; ++i)
-      resolve_generally(some[i], settings, solvers, *theirs[i], false, counters);
+    resolve_fast(pairs.subspan(from, count), settings, solvers, contacts.subspan(from, count), counters);
   }
 }
 

@@ -178,9 +178,9 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
     }
     const double face = std::min(model.polytope(c.part_a).largest_face, model.polytope(c.part_b).largest_face);
     c.area_rated = area_margin * face;
-    const double stiffest = stiffest_joint(model.properties, face);
-    impact[ia] += factor * stiffest;
-    impact[ib] += factor * stiffest;
+    const double strikes = factor * stiffest_joint(model.properties, face);
+    impact[ia] += strikes;
+    impact[ib] += strikes;
   }
 
   // each body by itself: λ first, then its root

@@ -26,10 +26,6 @@ HWY_INLINE Workspace& workspace() {
   return own;
 }
 
-HWY_INLINE int quads_of(int planes) {
-  return (planes + planes_per_quad - 1) / planes_per_quad;
-}
-
 // numbers of planes: the parts' faces, A's first, and the padded planes
 HWY_INLINE int padded(int plane, int count_a, int quads_a) {
   return plane < count_a ? plane : plane - count_a + quads_a * planes_per_quad;

@@ -274,7 +274,7 @@ struct OnePair {
     where = least(select(x < wide(value), wide(std::numeric_limits<double>::max()), number));
   }
   static HWY_INLINE Slots slots(int first_quad, int planes) {
-    return {first_quad, first_quad + (planes + planes_per_quad - 1) / planes_per_quad};
+    return {first_quad, first_quad + quads_of(planes)};
   }
   // of every two planes, (0, 1) and (2, 3), the other's
   static HWY_INLINE Wide others(const Wide& x) {

@@ -13,6 +13,9 @@
 namespace voussoir {
 
 inline constexpr int planes_per_quad = 4;  // strided partial sums; parts are padded to whole quads
+constexpr int quads_of(int planes) {
+  return (planes + planes_per_quad - 1) / planes_per_quad;
+}
 
 // slots from `first` up to `last`: those of a part that hold planes
 struct Slots {
