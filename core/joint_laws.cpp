@@ -1,5 +1,7 @@
 // The step's third stage: what the joints answer (stages.hpp).
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/law/joint_law.hpp"
 #include "core/stages.hpp"
@@ -48,18 +50,28 @@ struct Bearing {
   double firmness = 1;   // of a constant stiffness
 };
 
+// what the books get from some contacts, J
+struct Booked {
+  double elastic = 0, friction = 0, dashpots = 0, stiffening = 0;
+  long long snap_backs = 0;
+};
+
+// Contacts whose bookings are summed together before they go to the ledger: fixed, so that the sums do not depend on
+// the number of threads.
+constexpr int booked_together = 256;
+
 // the answer of a joint with laws of its own
 template <int Dim>
 JointForce<Dim> answer_of_laws(const JointProperties& properties, double friction, double damping,
-                               const JointKinematics<Dim>& k, State<Dim>& state, JointState<Dim>& history) {
+                               const JointKinematics<Dim>& k, Booked& booked, JointState<Dim>& history) {
   JointMemory memory{history.plastic_slip, history.shear_stiffness, history.bonded};
   const double stiffness = damping > 0 ? normal_answer(properties, k.overlap, history.bonded).stiffness : 0;
   const JointForce<Dim> answer =
       joint_law<Dim>(properties, friction, damping * std::sqrt(stiffness), k, history.shear_force, memory);
   history.shear_stiffness = memory.shear_stiffness;
   history.bonded = memory.bonded;
-  state.energy.flows.stiffening += answer.stiffening;
-  if (answer.snap_back) ++state.counters.snap_backs;
+  booked.stiffening += answer.stiffening;
+  if (answer.snap_back) ++booked.snap_backs;
   return answer;
 }
 
@@ -67,12 +79,11 @@ JointForce<Dim> answer_of_laws(const JointProperties& properties, double frictio
 // some percent of its law (benchmarks/price_of_laws.sh).
 template <int Dim>
 [[gnu::always_inline]] inline Vector<Dim> joint_force(const JointProperties& properties, const Settings& settings,
-                                                      State<Dim>& state, const PairMotion<Dim>& motion,
-                                                      const Bearing<Dim>& at, int friction_of,
-                                                      JointState<Dim>& history) {
+                                                      const State<Dim>& state, const PairMotion<Dim>& motion,
+                                                      const Bearing<Dim>& at, int friction_of, JointState<Dim>& history,
+                                                      Booked& booked) {
   // the slip is the one of the step that led here
   const double dt = state.time_step;
-  EnergyLedger& energy = state.energy;
   const Vector<Dim>& n = at.normal;
   const Vector<Dim> velocity = motion.velocity_b + cross(motion.spin_b, at.point - motion.between) - motion.velocity_a -
                                cross(motion.spin_a, at.point);
@@ -96,7 +107,7 @@ template <int Dim>
       const double left = k.area / history.area;
       const double stiffness =
           history.area * (history.shear_stiffness > 0 ? history.shear_stiffness : properties.shear_stiffness);
-      if (stiffness > 0) energy.flows.friction += 0.5 * history.shear_force.squaredNorm() / stiffness * (1 - left);
+      if (stiffness > 0) booked.friction += 0.5 * history.shear_force.squaredNorm() / stiffness * (1 - left);
       history.shear_force *= left;
     }
     history.shear_force = carried(history.shear_force, history.normal, n, k.turn);
@@ -112,10 +123,10 @@ template <int Dim>
       properties.laws == 0 ? elastic_coulomb<Dim>(properties, friction,
                                                   damping > 0 ? damping * std::sqrt(properties.normal_stiffness) : 0, k,
                                                   history.shear_force)
-                           : answer_of_laws<Dim>(properties, friction, damping, k, state, history);
-  energy.elastic += answer.elastic;
-  energy.flows.friction += answer.friction;
-  energy.flows.dashpots += 0.5 * (history.dashpot + answer.dashpot) * k.closing_speed * dt;
+                           : answer_of_laws<Dim>(properties, friction, damping, k, booked, history);
+  booked.elastic += answer.elastic;
+  booked.friction += answer.friction;
+  booked.dashpots += 0.5 * (history.dashpot + answer.dashpot) * k.closing_speed * dt;
   history.normal = n;
   history.plastic_slip += answer.plastic_slip;
   history.dashpot = answer.dashpot;
@@ -123,44 +134,67 @@ template <int Dim>
   return answer.force;
 }
 
+// the joint of one contact, or of each of its cells
+template <int Dim>
+void answer(const Model<Dim>& model, const Settings& settings, std::size_t place, State<Dim>& state, Booked& booked) {
+  Contact<Dim>& c = state.contacts[place];
+  if (!c.touching()) return;
+  const JointProperties& properties = model.properties[c.properties];
+  const PairMotion<Dim> motion = motion_of(model, state, c);
+  if (c.cells == 0) {
+    Bearing<Dim> at{c.geometry.point, c.geometry.normal, c.geometry.overlap, c.geometry.area};
+    if (properties.constant_stiffness) {
+      at.area = 1;
+      at.firmness = c.geometry.firmness;
+    }
+    c.force = joint_force<Dim>(properties, settings, state, motion, at, c.properties, c.history, booked);
+    return;
+  }
+  // each cell answers for itself; the contact keeps what they are together
+  double whole = 0;
+  for (const SubContact<Dim>& s : subs_of(state, place))
+    whole += s.area;
+  c.force.setZero();
+  c.history = {};
+  c.history.normal = c.geometry.normal;
+  c.history.area = properties.constant_stiffness ? 1 : whole;
+  for (SubContact<Dim>& s : subs_of(state, place)) {
+    if (!(s.area > 0)) continue;
+    const double area = properties.constant_stiffness ? s.area / whole : s.area;
+    s.force = joint_force<Dim>(properties, settings, state, motion,
+                               {s.point, c.geometry.normal, s.overlap, area, s.spread, s.area / whole}, c.properties,
+                               s.history, booked);
+    c.force += s.force;
+    c.history.shear_force += s.history.shear_force;
+    c.history.plastic_slip += s.area / whole * s.history.plastic_slip;
+    c.history.dashpot += s.history.dashpot;
+  }
+}
+
 }  // namespace
 
 template <int Dim>
 void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  static thread_local std::vector<Booked> own;
+  std::vector<Booked>& sums = own;  // this thread's, filled by all
+  const int count = static_cast<int>(state.contacts.size());
+  const int groups = (count + booked_together - 1) / booked_together;
+  sums.resize(groups);
+#pragma omp parallel for num_threads(settings.threads) schedule(static) if (settings.threads > 1 && groups > 1)
+  for (int g = 0; g < groups; ++g) {
+    Booked sum;
+    for (int i = g * booked_together; i < std::min(count, (g + 1) * booked_together); ++i)
+      answer(model, settings, static_cast<std::size_t>(i), state, sum);
+    sums[g] = sum;
+  }
+
   state.energy.elastic = 0;
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    Contact<Dim>& c = state.contacts[i];
-    if (!c.touching()) continue;
-    const JointProperties& properties = model.properties[c.properties];
-    const PairMotion<Dim> motion = motion_of(model, state, c);
-    if (c.cells == 0) {
-      Bearing<Dim> at{c.geometry.point, c.geometry.normal, c.geometry.overlap, c.geometry.area};
-      if (properties.constant_stiffness) {
-        at.area = 1;
-        at.firmness = c.geometry.firmness;
-      }
-      c.force = joint_force(properties, settings, state, motion, at, c.properties, c.history);
-      continue;
-    }
-    // each cell answers for itself; the contact keeps what they are together
-    double whole = 0;
-    for (const SubContact<Dim>& s : subs_of(state, i))
-      whole += s.area;
-    c.force.setZero();
-    c.history = {};
-    c.history.normal = c.geometry.normal;
-    c.history.area = properties.constant_stiffness ? 1 : whole;
-    for (SubContact<Dim>& s : subs_of(state, i)) {
-      if (!(s.area > 0)) continue;
-      const double area = properties.constant_stiffness ? s.area / whole : s.area;
-      s.force =
-          joint_force(properties, settings, state, motion,
-                      {s.point, c.geometry.normal, s.overlap, area, s.spread, s.area / whole}, c.properties, s.history);
-      c.force += s.force;
-      c.history.shear_force += s.history.shear_force;
-      c.history.plastic_slip += s.area / whole * s.history.plastic_slip;
-      c.history.dashpot += s.history.dashpot;
-    }
+  for (const Booked& b : sums) {
+    state.energy.elastic += b.elastic;
+    state.energy.flows.friction += b.friction;
+    state.energy.flows.dashpots += b.dashpots;
+    state.energy.flows.stiffening += b.stiffening;
+    state.counters.snap_backs += b.snap_backs;
   }
 }
 

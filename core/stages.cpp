@@ -360,7 +360,7 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   // within a stage the step only shrinks, as soon as a contact is stiffer than it was chosen for
   const double last = state.time_step;
   if (state.frequency.empty() || outgrown(model, state)) {
-    const double step = estimate_time_step(model, settings, settings.damping, state).step;
+    const double step = renew_time_step(model, settings, settings.damping, state).step;
     state.step_allowed = state.step_allowed > 0 ? std::min(state.step_allowed, step) : step;
     demand_time_step(state);
   }
@@ -372,13 +372,13 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   const double elapsed = state.time + 0.5 * state.time_step - state.schedule.started;  // at the middle of the step
   EnergyFlows after;
   energy.kinetic = 0;
+  const KickRule rule{.local_damping = settings.damping.local};
+  const auto& kicks = advance_bodies<Dim>(model, settings.threads, {&rule, 1}, times, state);
   auto prescribed = model.prescribed.begin();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
     if (body.still()) continue;
-    KickEnergy<Dim> kick;
-    if (!body.fixed)
-      kick = advance(body, state.loads[b], {.local_damping = settings.damping.local}, times, state.motions[b]);
+    KickEnergy<Dim> kick = kicks[b];
     if (body.prescribed) force(body, *prescribed++, state.loads[b], elapsed, times, state.motions[b], kick);
     const Vector<Dim> gravity = weight(model, state, b);
     const BoundaryWork push = boundary_work(body, state.axes[b], kick);

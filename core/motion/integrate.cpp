@@ -158,6 +158,22 @@ KickEnergy<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, const Kick
 }
 
 template <int Dim>
+const std::vector<KickEnergy<Dim>>& advance_bodies(const Model<Dim>& model, int threads,
+                                                   std::span<const KickRule> rules, StepTimes times,
+                                                   State<Dim>& state) {
+  static thread_local std::vector<KickEnergy<Dim>> own;
+  std::vector<KickEnergy<Dim>>& kicks = own;  // this thread's, filled by all
+  kicks.resize(model.bodies.size());
+  const int bodies = static_cast<int>(model.bodies.size());
+#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
+  for (int b = 0; b < bodies; ++b)
+    kicks[b] = model.bodies[b].fixed ? KickEnergy<Dim>()
+                                     : advance(model.bodies[b], state.loads[b], rules[rules.size() == 1 ? 0 : b], times,
+                                               state.motions[b]);
+  return kicks;
+}
+
+template <int Dim>
 double unbalanced_ratio(const Model<Dim>& model, const State<Dim>& state) {
   double sum = 0;
   long long touching = 0;
@@ -194,6 +210,10 @@ double unbalanced_ratio(const Model<Dim>& model, const State<Dim>& state) {
 
 template KickEnergy<2> advance<2>(const Body<2>&, const Load<2>&, const KickRule&, StepTimes, Motion<2>&);
 template KickEnergy<3> advance<3>(const Body<3>&, const Load<3>&, const KickRule&, StepTimes, Motion<3>&);
+template const std::vector<KickEnergy<2>>& advance_bodies<2>(const Model<2>&, int, std::span<const KickRule>, StepTimes,
+                                                             State<2>&);
+template const std::vector<KickEnergy<3>>& advance_bodies<3>(const Model<3>&, int, std::span<const KickRule>, StepTimes,
+                                                             State<3>&);
 template double unbalanced_ratio<2>(const Model<2>&, const State<2>&);
 template double unbalanced_ratio<3>(const Model<3>&, const State<3>&);
 

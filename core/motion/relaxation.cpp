@@ -132,12 +132,16 @@ void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>&
   EnergyLedger& energy = state.energy;
   EnergyFlows after;
   energy.kinetic = 0;
+  static thread_local std::vector<KickRule> rules;
+  rules.clear();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const double share = at_rest(state.motions[b]) ? nudge : 1;
+    rules.push_back({.keeps = (1 - half) / (1 + half), .gain = share / (r.inertia[b] * (1 + half))});
+  }
+  const auto& kicks = advance_bodies<Dim>(model, settings.threads, rules, {dt, dt}, state);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].fixed) continue;
-    Motion<Dim>& motion = state.motions[b];
-    const double share = at_rest(motion) ? nudge : 1;
-    const KickRule rule{.keeps = (1 - half) / (1 + half), .gain = share / (r.inertia[b] * (1 + half))};
-    const KickEnergy<Dim> kick = advance(model.bodies[b], state.loads[b], rule, {dt, dt}, motion);
+    const KickEnergy<Dim>& kick = kicks[b];
     const Vector<Dim> gravity = weight(model, state, b);
     const double down_before = gravity.dot(kick.path_before), down_after = gravity.dot(kick.path_after);
     const BoundaryWork push = boundary_work(model.bodies[b], state.axes[b], kick);

@@ -100,7 +100,7 @@ TEST(Relaxation, TheLedgerSaysWhatItCan) {
   const EnergyLedger& e = rest.state.energy;
   EXPECT_EQ(e.kinetic, 0);
   EXPECT_EQ(e.flows.local, 0);
-  EXPECT_EQ(e.flows.friction, 0);
+  EXPECT_LT(e.flows.friction, 1e-30 * e.flows.gravity);  // none slips; areas round, and what is lost takes its shear
   EXPECT_GT(e.flows.relaxation, 0);
   // springs under a weight hold half of what it gave; rest leaves its share, the touching faces' first step a little
   // more

@@ -114,7 +114,6 @@ template <int Dim>
 double stiffest(const Model<Dim>& model, int i, const Rotation<Dim>& rotation, const Stiffness<Dim>& stiffness,
                 double impact) {
   const Body<Dim>& body = model.bodies[i];
-  if (body.fixed) return 0;
   double eigenvalue = largest_eigenvalue<Dim>(body, rotation, stiffness);
   // a body in flight may hit something with its largest face
   if (eigenvalue == 0 && impact == 0)
@@ -135,11 +134,20 @@ void add(Stiffness<Dim>& k, double factor, const Matrix<Dim>& contact, const Vec
   k += factor * (j.transpose() * contact * j);
 }
 
-}  // namespace
-
+// stiffer than it was rated, or new to the rating
 template <int Dim>
-TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
-                                    State<Dim>& state) {
+bool outgrown(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
+  if (c.status == ContactStatus::apart) return false;
+  if (c.area_rated < 0) return true;
+  return c.touching() && c.geometry.area * stiffening<Dim>(model.properties[c.properties], c,
+                                                           subs_of(state, &c - state.contacts.data())) >
+                             c.area_rated;
+}
+
+// the estimate, anew for the bodies asked for; free ones only
+template <int Dim>
+TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
+                          const std::vector<char>& asked, State<Dim>& state) {
   static thread_local std::vector<Stiffness<Dim>> stiffness;
   static thread_local std::vector<double> impact;  // N/m that may act at the radius
   stiffness.assign(model.bodies.size(), Stiffness<Dim>::Zero());
@@ -147,13 +155,18 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
 
   for (Contact<Dim>& c : state.contacts) {
     const int ia = model.parts[c.part_a].body, ib = model.parts[c.part_b].body;
+    if (c.status == ContactStatus::apart || !(asked[ia] || asked[ib])) continue;
     const Body<Dim>&a = model.bodies[ia], &b = model.bodies[ib];
     const double factor = a.fixed || b.fixed ? 1 : 2;
-    if (c.status == ContactStatus::apart) continue;
+    // a body that is not asked has counted on no more than the rating so far
+    const bool both = (asked[ia] || a.fixed) && (asked[ib] || b.fixed);
+    const auto rate = [&](double area) {
+      c.area_rated = both ? area_margin * area : std::min(c.area_rated, area_margin * area);
+    };
     if (c.touching()) {
       const JointProperties& p = model.properties[c.properties];
       const auto subs = subs_of(std::as_const(state), &c - state.contacts.data());
-      c.area_rated = area_margin * c.geometry.area * stiffening<Dim>(p, c, subs);
+      rate(c.geometry.area * stiffening<Dim>(p, c, subs));
       const Vector<Dim> apart = between(model, state, ia, ib);
       // `gyration2` times the area: what the cell about its own point adds to rocking and spin, at most
       const auto bear = [&](const Vector<Dim>& point, double overlap, double area, double gyration2) {
@@ -177,35 +190,58 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
       continue;
     }
     const double face = std::min(model.polytope(c.part_a).largest_face, model.polytope(c.part_b).largest_face);
-    c.area_rated = area_margin * face;
+    rate(face);
     const double strikes = factor * stiffest_joint(model.properties, face);
     impact[ia] += strikes;
     impact[ib] += strikes;
   }
 
-  // each body by itself: λ first, then its root
-  state.frequency.assign(model.bodies.size(), 0);
+  // each body by itself
+  state.frequency.resize(model.bodies.size(), 0);
   const int bodies = static_cast<int>(model.bodies.size());
   const std::vector<Stiffness<Dim>>& stiffness_of = stiffness;  // this thread's, seen by all
   const std::vector<double>& impact_of = impact;
 #pragma omp parallel for num_threads(settings.threads) schedule(static) if (settings.threads > 1)
   for (int i = 0; i < bodies; ++i)
-    state.frequency[i] = stiffest(model, i, state.motions[i].rotation, stiffness_of[i], impact_of[i]);
+    if (asked[i])
+      state.frequency[i] = std::sqrt(stiffest(model, i, state.motions[i].rotation, stiffness_of[i], impact_of[i]));
   double largest = 0;
-  for (double& frequency : state.frequency) {
+  for (const double frequency : state.frequency)
     largest = std::max(largest, frequency);
-    frequency = std::sqrt(frequency);
-  }
 
   TimeStepEstimate estimate;
   const double xi = damping.viscous_ratio;
-  estimate.limit =
-      largest > 0 ? 2 / std::sqrt(largest) / (std::sqrt(1 + xi * xi) + xi) : std::numeric_limits<double>::infinity();
+  estimate.limit = largest > 0 ? 2 / largest / (std::sqrt(1 + xi * xi) + xi) : std::numeric_limits<double>::infinity();
   if (settings.time.step)
     estimate.step = *settings.time.step;
   else if (largest > 0)
     estimate.step = settings.time.fraction * estimate.limit / std::sqrt(area_margin);
   return estimate;
+}
+
+}  // namespace
+
+template <int Dim>
+TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
+                                    State<Dim>& state) {
+  state.frequency.clear();
+  return renew_time_step(model, settings, damping, state);
+}
+
+template <int Dim>
+TimeStepEstimate renew_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
+                                 State<Dim>& state) {
+  static thread_local std::vector<char> asked;  // by body
+  asked.assign(model.bodies.size(), 0);
+  if (state.frequency.empty())
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      asked[b] = !model.bodies[b].fixed;
+  for (const Contact<Dim>& c : state.contacts) {
+    if (!outgrown(model, state, c)) continue;
+    for (const int part : {c.part_a, c.part_b})
+      asked[model.parts[part].body] = !model.bodies[model.parts[part].body].fixed;
+  }
+  return estimate(model, settings, damping, asked, state);
 }
 
 template <int Dim>
@@ -217,13 +253,8 @@ void demand_time_step(const State<Dim>& state) {
 
 template <int Dim>
 bool outgrown(const Model<Dim>& model, const State<Dim>& state) {
-  return std::any_of(state.contacts.begin(), state.contacts.end(), [&](const Contact<Dim>& c) {
-    if (c.status == ContactStatus::apart) return false;
-    if (c.area_rated < 0) return true;
-    return c.touching() && c.geometry.area * stiffening<Dim>(model.properties[c.properties], c,
-                                                             subs_of(state, &c - state.contacts.data())) >
-                               c.area_rated;
-  });
+  return std::any_of(state.contacts.begin(), state.contacts.end(),
+                     [&](const Contact<Dim>& c) { return outgrown(model, state, c); });
 }
 
 template void demand_time_step<2>(const State<2>&);
@@ -232,5 +263,7 @@ template bool outgrown<2>(const Model<2>&, const State<2>&);
 template bool outgrown<3>(const Model<3>&, const State<3>&);
 template TimeStepEstimate estimate_time_step<2>(const Model<2>&, const Settings&, const DampingSettings&, State<2>&);
 template TimeStepEstimate estimate_time_step<3>(const Model<3>&, const Settings&, const DampingSettings&, State<3>&);
+template TimeStepEstimate renew_time_step<2>(const Model<2>&, const Settings&, const DampingSettings&, State<2>&);
+template TimeStepEstimate renew_time_step<3>(const Model<3>&, const Settings&, const DampingSettings&, State<3>&);
 
 }  // namespace voussoir

@@ -16,12 +16,25 @@ HWY_BEFORE_NAMESPACE();
 namespace voussoir {
 namespace HWY_NAMESPACE {
 
+// planes in A's axes, and their slacks
+template <int Dim>
+HWY_INLINE void assemble_for_lp(Meeting<OnePair, Dim>& m) {
+  using L = OnePair;
+  Components<L::Wide, Dim> turn[Dim];
+  for (int i = 0; i < Dim; ++i)
+    turn[i] = m.wide(m.rotation[i]);
+  assemble_slacks(m, [&](int part, int slot, const Components<L::Wide, Dim>& n) HWY_ATTR {
+    for (int i = 0; i < Dim; ++i)
+      m.set(part == 0 ? n[i] : dot(turn[i], n), m.normal_at + i, slot);
+  });
+}
+
 // Tight planes of the dual simplex. With C = columns (a_i, 1), C λ = (0, …, 0, 1) and (x, -s) C = d.
 template <int Dim>
 struct TightPlanes {
   static constexpr int size = Dim + 1;
   int planes[size];  // padded numbers
-  double inverse[size][planes_per_quad] = {}, offsets[size];
+  double inverse[size][planes_per_quad], offsets[size];
 
   HWY_INLINE OnePair::Wide row(int k) const { return OnePair::load(inverse[k]); }
 };
@@ -65,15 +78,12 @@ template <int Dim>
 HWY_INLINE bool exchange(TightPlanes<Dim>& t, int plane, const Components<double, Dim>& normal, double offset) {
   using L = OnePair;
   constexpr int size = TightPlanes<Dim>::size;
-  double column[planes_per_quad] = {};
-  for (int k = 0; k < Dim; ++k)
-    column[k] = normal[k];
-  column[Dim] = 1;
-  const L::Wide entering = L::load(column);
+  const L::Wide entering =
+      Dim == 3 ? L::of(normal[0], normal[1], normal[Dim - 1], 1) : L::of(normal[0], normal[1], 1, 0);
   L::Wide terms[size], sizes[size];
   for (int k = 0; k < size; ++k) {
     terms[k] = t.row(k) * entering;
-    sizes[k] = larger(terms[k], -terms[k]);
+    sizes[k] = magnitude(terms[k]);
   }
   double mu[size], size_of_mu[size];
   L::add_up<size>(terms, mu);
@@ -125,9 +135,9 @@ enum class Decision { unknown, separated, touching };
 
 template <int Dim>
 HWY_INLINE Decision decide(const Meeting<OnePair, Dim>& m, TightPlanes<Dim>& t, double reach,
-                           Components<double, Dim>& x, double& bound, int& pivots) {
+                           Components<double, Dim>& x, double& worst, double& bound, int& pivots) {
   for (pivots = 0; pivots < most_exchanges; ++pivots) {
-    double s, worst;
+    double s;
     int plane;
     meet(t, x, s);
     if (s > 0) {
@@ -175,6 +185,12 @@ HWY_INLINE Components<double, Dim> nearest_face(const Meeting<OnePair, Dim>& m, 
   return plane < m.quads_a * planes_per_quad ? n : scaled(-1.0, n);
 }
 
+// of a slack seen from x, at most
+template <int Dim>
+HWY_INLINE double rounding_after(const Meeting<OnePair, Dim>& m, const Components<double, Dim>& x) {
+  return m.rounding + 4 * slack_rounding * size_of(x);
+}
+
 // The planes as the frame's axes show them, seen from x: less exact than assembled ones by what `rounding` grows.
 template <int Dim>
 HWY_INLINE void turn_planes(Meeting<OnePair, Dim>& m, const Components<double, Dim>& x) {
@@ -193,7 +209,7 @@ HWY_INLINE void turn_planes(Meeting<OnePair, Dim>& m, const Components<double, D
       m.set(dot(turn[i], n), m.normal_at + i, slot);
   }
   m.least = L::least(least);
-  m.rounding = m.rounding + 4 * slack_rounding * size_of(x);
+  m.rounding = rounding_after(m, x);
 }
 
 // Primal-dual steps (weights z/s in place of 1/s²) until Newton would converge.

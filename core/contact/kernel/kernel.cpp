@@ -54,7 +54,6 @@ constexpr bool records_are_dense() {
 template <class L, int Dim>
 HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks, Workspace& work) {
   static_assert(records_are_dense<2>() && records_are_dense<3>());
-  using Real = typename L::Real;
   const double *pairs[L::width], *proofs[L::width], *numbers[L::width];
   double real[L::width];
   int least_a = tasks[0].planes_a, most_a = least_a, least_b = tasks[0].planes_b, most_b = least_b;
@@ -73,10 +72,9 @@ HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks
     most_a = std::max(most_a, task.planes_a);
     most_b = std::max(most_b, task.planes_b);
   }
-  Real pose[Dim * Dim + Dim], proof[3 * Dim], number[4];
-  load_records<L>(pairs, pose);
-  load_records<L>(proofs, proof);
-  load_records<L>(numbers, number);
+  const Records<L, Dim * Dim + Dim> pose(pairs);
+  const Records<L, 3 * Dim> proof(proofs);
+  const Records<L, 4> number(numbers);
   for (int j = 0; j < Dim; ++j)
     for (int i = 0; i < Dim; ++i)
       m.rotation[i][j] = pose[j * Dim + i];
@@ -122,8 +120,7 @@ HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTa
     proofs[lane] = good[lane] != 0 ? &task.contact->proof.margin : nowhere;
     geometries[lane] = good[lane] != 0 ? task.contact->geometry.point.data() : nowhere;
   }
-  Real columns[Dim * Dim];
-  load_records<L>(axes, columns);
+  const Records<L, Dim * Dim> columns(axes);
   Components<Real, Dim> world[Dim];
   for (int j = 0; j < Dim; ++j)
     for (int i = 0; i < Dim; ++i)
@@ -232,7 +229,6 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   const Pair<Dim>& pair = *task.pair;
   Contact<Dim>& contact = *task.contact;
   Proof<Dim>& proof = contact.proof;
-  proof = {};
   const Polytope<Dim>&a = *pair.a, &b = *pair.b;
   Meeting<OnePair, Dim> m;
   const bool a_smaller = a.radius < b.radius;
@@ -240,25 +236,34 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   begin<OnePair, Dim>(m, std::span<const KernelTask<Dim>>(&task, 1), workspace());
 
   // the LP in A's axes, seen from the centre of the smaller part
-  for (int i = 0; i < Dim; ++i)
-    for (int k = 0; k < Dim; ++k)
-      m.frame[i][k] = i == k;
-  assemble_planes(m);
+  assemble_for_lp(m);
   TightPlanes<Dim> tight;
   for (int k = 0; k <= Dim; ++k) {
     if (a.basis[k] < 0) return;
     tight.planes[k] = a.basis[k];
     tight.offsets[k] = m.number(m.slack_at, a.basis[k]);
-    for (int j = 0; j <= Dim; ++j)
-      tight.inverse[k][j] = a.basis_inverse(k, j);
+    const auto& inverse = a.basis_inverse;
+    OnePair::store(OnePair::of(inverse(k, 0), inverse(k, 1), inverse(k, 2), Dim == 3 ? inverse(k, Dim) : 0),
+                   tight.inverse[k]);
   }
   Components<double, Dim> x;
-  double bound = 0;
+  double worst = 0, bound = 0;
   int pivots = 0;
-  const Decision decision = decide(m, tight, 4 * std::min(a.radius, b.radius), x, bound, pivots);
+  const Decision decision = decide(m, tight, 4 * std::min(a.radius, b.radius), x, worst, bound, pivots);
   ++counters.lp_solves;
   counters.lp_pivots += pivots;
   if (decision == Decision::unknown) return;
+
+  const auto certified = [&] { return m.least > m.rounding + m.tolerance; };
+  SectionList list;
+  if (decision == Decision::touching && pair.last == Stage::decision) {
+    m.least = -worst;
+    m.rounding = rounding_after(m, x);
+    if (!certified()) return;
+    m.point = m.point + x;
+    clear(m);
+    return deliver(m, pair.last, std::span<KernelTask<Dim>>(&task, 1), &list, counters);
+  }
 
   Components<double, Dim> axis = axis_of(m, tight);
   const double length = root(dot(axis, axis));
@@ -278,30 +283,26 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   m.axis = axis;
   m.tangent = thinnest_across(m, axis, x);
   m.point = m.point + x;
-  clear(m);
   build_frame(m);
   turn_planes(m, x);
-  if (none(m.good) || !(m.least > m.rounding + m.tolerance)) return;
-  SectionList list;
-  if (pair.last > Stage::decision) {
-    // what fails from here on has the LP's point to fall back on
-    proof.kind = ProofKind::interior_point;
-    proof.margin = m.least - m.rounding;
-    for (int k = 0; k < Dim; ++k)
-      proof.point[k] = m.point[k];
-    const int approaches = approach_centre(m);
-    if (approaches < 0) return;
-    counters.newton_iterations += approaches;
+  if (none(m.good) || !certified()) return;
+  // what fails from here on has the LP's point to fall back on
+  proof.kind = ProofKind::interior_point;
+  proof.margin = m.least - m.rounding;
+  for (int k = 0; k < Dim; ++k)
+    proof.point[k] = m.point[k];
+  const int approaches = approach_centre(m);
+  if (approaches < 0) return;
+  counters.newton_iterations += approaches;
 
-    // from here the axes fit to where the point is now
-    const Components<double, Dim> origin{};
-    axis = nearest_face(m, origin);
-    const Components<double, Dim> tangent = thinnest_across(m, axis, origin);
-    m.point = m.point + from_frame(m.frame, m.moved);
-    m.axis = from_frame(m.frame, axis);
-    m.tangent = from_frame(m.frame, tangent);
-    resolve_from_point(m, pair.last, options.newton_tolerance, options.newton_limit, &list);
-  }
+  // from here the axes fit to where the point is now
+  const Components<double, Dim> origin{};
+  axis = nearest_face(m, origin);
+  const Components<double, Dim> tangent = thinnest_across(m, axis, origin);
+  m.point = m.point + from_frame(m.frame, m.moved);
+  m.axis = from_frame(m.frame, axis);
+  m.tangent = from_frame(m.frame, tangent);
+  resolve_from_point(m, pair.last, options.newton_tolerance, options.newton_limit, &list);
   for (int k = 0; k < Dim; ++k)
     proof.tangent[k] = m.tangent[k];
   deliver(m, pair.last, std::span<KernelTask<Dim>>(&task, 1), &list, counters);

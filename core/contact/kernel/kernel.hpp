@@ -55,7 +55,7 @@ int kernel_width();
 template <int Dim>
 void resolve_standing(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters);
 
-// A pair of which nothing is known: the LP, then the same from its point.
+// A pair of which nothing is known, not even by its proof: the LP, then the same from its point.
 template <int Dim>
 void resolve_new(KernelTask<Dim>& task, const KernelOptions& options, KernelCounters& counters);
 

@@ -60,6 +60,13 @@ HWY_INLINE Pack<D, M> operator-(const Pack<D, M>& a) {
   return r;
 }
 template <class D, int M>
+HWY_INLINE Pack<D, M> magnitude(const Pack<D, M>& a) {
+  Pack<D, M> r;
+  for (int k = 0; k < M; ++k)
+    r.v[k] = hn::Abs(a.v[k]);
+  return r;
+}
+template <class D, int M>
 HWY_INLINE Pack<D, M> root(const Pack<D, M>& a) {
   Pack<D, M> r;
   for (int k = 0; k < M; ++k)
@@ -122,6 +129,9 @@ HWY_INLINE double larger(double a, double b) {
 }
 HWY_INLINE double with_sign_of(double a, double b) {
   return std::copysign(a, b);
+}
+HWY_INLINE double magnitude(double a) {
+  return std::abs(a);
 }
 HWY_INLINE double root(double a) {
   return std::sqrt(a);
@@ -197,8 +207,8 @@ struct OnePair {
   using Bool = bool;
   // a slot is what one Wide holds
   static constexpr int step = planes_per_quad;
-  static HWY_INLINE int slot_of(int plane) { return plane / planes_per_quad; }
-  static HWY_INLINE int place_of(int plane, int) { return plane % planes_per_quad; }  // within the slot
+  static HWY_INLINE int slot_of(unsigned plane) { return static_cast<int>(plane / planes_per_quad); }
+  static HWY_INLINE int place_of(unsigned plane, int) { return plane % planes_per_quad; }  // within the slot
 
   static HWY_INLINE Real real(double x) { return x; }
   static HWY_INLINE Real pick(const double* x) { return *x; }
@@ -218,12 +228,26 @@ struct OnePair {
       r.v[k] = hn::LoadU(Tag(), from + k * tag_lanes);
     return r;
   }
+  // four numbers that do not lie side by side: a register loaded behind single stores would wait for them
+  static HWY_INLINE Wide of(double n0, double n1, double n2, double n3) {
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (tag_lanes == planes_per_quad) {
+      const Tag d;
+      const auto low = hn::InterleaveLower(d, hn::Set(d, n0), hn::Set(d, n1));
+      return {{hn::ConcatLowerLower(d, hn::InterleaveLower(d, hn::Set(d, n2), hn::Set(d, n3)), low)}};
+    }
+#endif
+    const double n[planes_per_quad] = {n0, n1, n2, n3};
+    return load(n);
+  }
   static HWY_INLINE void store(const Wide& x, double* to) {
     for (int k = 0; k < registers; ++k)
       hn::StoreU(x.v[k], Tag(), to + k * tag_lanes);
   }
   // pairs that failed have left already: nothing to replace
-  static HWY_INLINE const Wide& where(bool, const Wide& x, double) { return x; }
+  static HWY_INLINE const Wide& where(bool, const Wide& x, double) {
+    return x;
+  }
   // numbers of the planes in slot 0, and how far those of the next are
   static HWY_INLINE Wide first_numbers() {
     static constexpr double n[planes_per_quad] = {0, 1, 2, 3};
@@ -276,6 +300,13 @@ struct OnePair {
   static HWY_INLINE Slots slots(int first_quad, int planes) {
     return {first_quad, first_quad + quads_of(planes)};
   }
+  // the slots of both parts: they lie behind one another
+  struct Runs {
+    Slots all[1];
+  };
+  static HWY_INLINE Runs runs(const Slots (&parts)[2]) {
+    return {{{parts[0].first, parts[1].last}}};
+  }
   // of every two planes, (0, 1) and (2, 3), the other's
   static HWY_INLINE Wide others(const Wide& x) {
     Wide r;
@@ -320,7 +351,7 @@ struct OnePair {
     Wide acc[K];
     for (int k = 0; k < K; ++k)
       acc[k] = wide(0);
-    for (int slot = parts[0].first; slot < parts[N - 1].last; ++slot)  // parts lie behind one another
+    for (int slot = parts[0].first; slot < parts[N - 1].last; ++slot)
       add(slot, acc);
     add_up<K>(acc, out);
   }
@@ -364,6 +395,10 @@ struct ManyPairs {
   static HWY_INLINE Slots slots(int first_quad, int planes) {
     return {first_quad * planes_per_quad, first_quad * planes_per_quad + planes};
   }
+  struct Runs {
+    Slots all[2];
+  };
+  static HWY_INLINE Runs runs(const Slots (&parts)[2]) { return {{parts[0], parts[1]}}; }
   template <class Get, class Set>
   static HWY_INLINE void invert(const Slots& slots, const Get& get, const Set& set) {
     const Wide one = wide(1);
@@ -404,10 +439,10 @@ HWY_INLINE void for_slots(const Slots& slots, const F& visit) {
   for (int slot = slots.first; slot < slots.last; ++slot)
     visit(slot);
 }
-template <class F>
+template <class L, class F>
 HWY_INLINE void for_slots(const Slots (&parts)[2], const F& visit) {
-  for (const Slots& part : parts)
-    for_slots(part, visit);
+  for (const Slots& run : L::runs(parts).all)
+    for_slots(run, visit);
 }
 
 // The largest of value(slot) and the number of its plane among theirs; of equal ones the first. Nothing above the

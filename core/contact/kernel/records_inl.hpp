@@ -89,21 +89,29 @@ HWY_INLINE void scatter([[maybe_unused]] D d, V c0, V c1, V c2, V c3, double* co
 
 // The first Count doubles of a record of each pair; up to three more behind them are read and dropped.
 template <class L, int Count>
-HWY_INLINE void load_records(const double* const (&records)[L::width], typename L::Real (&out)[Count]) {
-  if constexpr (L::one_pair) {
-    for (int k = 0; k < Count; ++k)
-      out[k] = records[0][k];
-  } else {
+struct Records {
+  typename L::Real value[Count];
+
+  HWY_INLINE explicit Records(const double* const (&records)[L::width]) {
     for (int k = 0; k < Count; k += 4) {
       const double* rows[L::width];
       for (int lane = 0; lane < L::width; ++lane)
         rows[lane] = records[lane] + k;
       const auto columns = transpose(typename L::Tag(), rows);
       for (int j = 0; j < 4 && k + j < Count; ++j)
-        out[k + j].v[0] = columns.c[j];
+        value[k + j].v[0] = columns.c[j];
     }
   }
-}
+  HWY_INLINE const typename L::Real& operator[](int k) const { return value[k]; }
+};
+// of one pair, where they are
+template <int Count>
+struct Records<OnePair, Count> {
+  const double* value;
+
+  HWY_INLINE explicit Records(const double* const (&records)[1]) : value(records[0]) {}
+  HWY_INLINE double operator[](int k) const { return value[k]; }
+};
 
 // The first Count doubles of a record of each pair are replaced, up to three more behind them overwritten.
 template <class L, int Count, int Given>

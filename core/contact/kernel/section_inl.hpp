@@ -85,7 +85,8 @@ HWY_INLINE void section_area_of(const SectionPlanes<L>& planes, const Slots (&pa
   Wide highest = L::wide(0.0);
   for (int k = 0; k < longest; ++k) {
     const Wide x = L::wide(c0[k]), y = L::wide(c1[k]);
-    for_slots(parts, [&](int slot) HWY_ATTR { highest = larger(highest, planes.q0(slot) * x + planes.q1(slot) * y); });
+    for_slots<L>(parts,
+                 [&](int slot) HWY_ATTR { highest = larger(highest, planes.q0(slot) * x + planes.q1(slot) * y); });
   }
   known = both(known, L::most(highest) < L::real(1 + corner_tolerance));
   for (int k = 0; k < longest; ++k)
@@ -174,7 +175,7 @@ HWY_INLINE void rebuild_sections(const SectionPlanes<L>& planes, const Slots (&p
     if constexpr (!L::one_pair) {
       alone = {scratch, 2 * planes_per_quad};
       std::fill_n(scratch, 2 * quads * planes_per_quad, 0.0);
-      for_slots(parts, [&](int plane) {
+      for_slots<L>(parts, [&](int plane) {
         double* place = scratch + OnePair::slot_of(plane) * alone.apart + OnePair::place_of(plane, 0);
         place[0] = planes.q0_of(plane, lane);
         place[OnePair::step] = planes.q1_of(plane, lane);

@@ -37,8 +37,12 @@ struct Meeting : Fields<Dim> {
 
   Components<Real, Dim> rotation[Dim], offset;  // rows; B's frame -> A's
   Components<Real, Dim> point, axis, tangent;   // A's frame
-  Components<Real, Dim> frame[Dim];             // rows: normal, tangent, binormal
-  Real reach;                                   // m, the larger of the parts' radii
+  // rows: normal, unit; tangent, binormal, as long as `across`. A vector has components along them, which add up to
+  // it, and products with them, which the planes' normals are kept as; times `inverse_across` across the normal, either
+  // are components along unit axes.
+  Components<Real, Dim> frame[Dim];
+  Real across, inverse_across;  // 3-D
+  Real reach;                   // m, the larger of the parts' radii
   Real tolerance, potential_radius;
   Bool good;
   Bool fallback;  // a face's normal stood in for a gradient
@@ -46,7 +50,7 @@ struct Meeting : Fields<Dim> {
   Real rounding;                 // m, of a slack
   Components<Real, Dim> moved;   // contact frame
   Real least;                    // smallest slack
-  Components<Real, Dim> normal;  // contact frame
+  Components<Real, Dim> normal;  // along the frame's rows
   Real overlap, area, face_a, face_b, iterations;
 
   HWY_INLINE Components<Wide, Dim> wide(const Components<Real, Dim>& x) const {
@@ -82,11 +86,19 @@ struct Meeting : Fields<Dim> {
 
 template <class Real>
 HWY_INLINE Real size_of(const Components<Real, 2>& x) {
-  return larger(x[0], -x[0]) + larger(x[1], -x[1]);
+  return magnitude(x[0]) + magnitude(x[1]);
 }
 template <class Real>
 HWY_INLINE Real size_of(const Components<Real, 3>& x) {
-  return larger(x[0], -x[0]) + larger(x[1], -x[1]) + larger(x[2], -x[2]);
+  return magnitude(x[0]) + magnitude(x[1]) + magnitude(x[2]);
+}
+
+template <class Real, int Dim>
+HWY_INLINE Components<Real, Dim> column(const Components<Real, Dim> (&rows)[Dim], int k) {
+  Components<Real, Dim> r;
+  for (int j = 0; j < Dim; ++j)
+    r[j] = rows[j][k];
+  return r;
 }
 
 // Σ x_k row_k
@@ -107,6 +119,8 @@ HWY_INLINE Components<typename L::Real, Dim> unit_again(const Components<typenam
 
 // ---- the stages -----------------------------------------------------------------------------------------------------
 
+// The tangent is what it was when the contact began, the normal has turned since: they span the frame as they are, for
+// Newton's method asks for no unit axes, and a root and a quotient stand in nobody's way.
 template <class L, int Dim>
 HWY_INLINE void build_frame(Meeting<L, Dim>& m) {
   using Real = typename L::Real;
@@ -114,87 +128,99 @@ HWY_INLINE void build_frame(Meeting<L, Dim>& m) {
   if constexpr (Dim == 2) {
     m.frame[1] = {-m.axis[1], m.axis[0]};
   } else {
-    Components<Real, 3> binormal = cross_product(m.axis, m.tangent);
-    const Real length2 = dot(binormal, binormal);
-    m.good = both(m.good, length2 > L::real(smallest_binormal2));
-    const Real inverse = L::real(1) / root(select(m.good, length2, L::real(1)));
-    m.frame[2] = scaled(inverse, binormal);
+    m.frame[2] = cross_product(m.axis, m.tangent);
     m.frame[1] = cross_product(m.frame[2], m.frame[0]);
+    const Real length2 = dot(m.frame[2], m.frame[2]);
+    m.good = both(m.good, length2 > L::real(smallest_binormal2));
+    m.across = root(select(m.good, length2, L::real(1)));
+    m.inverse_across = L::real(1) / m.across;
   }
 }
 
-// Planes in the contact frame and their slacks at the start; the slacks in each part's own frame, to full accuracy.
-template <class L, int Dim>
-HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
+// products with the rows as components along unit axes, these as components along the rows
+template <class L>
+HWY_INLINE Components<typename L::Real, 2> rescaled(const Meeting<L, 2>&, const Components<typename L::Real, 2>& x) {
+  return x;
+}
+template <class L>
+HWY_INLINE Components<typename L::Real, 3> rescaled(const Meeting<L, 3>& m, const Components<typename L::Real, 3>& x) {
+  return {x[0], m.inverse_across * x[1], m.inverse_across * x[2]};
+}
+
+// The slacks at the start, in each part's own frame, to full accuracy; `keep` takes each slot's normals there.
+template <class L, int Dim, class Keep>
+HWY_INLINE void assemble_slacks(Meeting<L, Dim>& m, const Keep& keep) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
   const Components<Real, Dim> from_b = m.point - m.offset;
-  Components<Real, Dim> point_b, columns[Dim], frame_b[Dim];
+  Components<Real, Dim> point_b;
   for (int k = 0; k < Dim; ++k)
-    for (int j = 0; j < Dim; ++j)
-      columns[k][j] = m.rotation[j][k];
-  for (int k = 0; k < Dim; ++k)
-    point_b[k] = dot(columns[k], from_b);
-  for (int i = 0; i < Dim; ++i)
-    for (int k = 0; k < Dim; ++k)
-      frame_b[i][k] = dot(m.frame[i], columns[k]);
+    point_b[k] = dot(column(m.rotation, k), from_b);
 
   Wide least = L::wide(std::numeric_limits<double>::max());
-  const auto part = [&](const Sources<L::width>& source, const Slots& slots, const Components<Real, Dim>& origin,
-                        const Components<Real, Dim>(&rows)[Dim]) HWY_ATTR {
-    const Components<Wide, Dim> x = m.wide(origin);
-    Components<Wide, Dim> turn[Dim];
-    for (int i = 0; i < Dim; ++i)
-      turn[i] = m.wide(rows[i]);
-    for_slots(slots, [&](int slot) HWY_ATTR {
+  for (int part = 0; part < 2; ++part) {
+    const Components<Wide, Dim> x = m.wide(part == 0 ? m.point : point_b);
+    for_slots(m.part[part], [&](int slot) HWY_ATTR {
       Components<Wide, Dim> n;
       Wide d;
-      load_planes<L, Dim>(source, slot - slots.first, n, d);
+      load_planes<L, Dim>(part == 0 ? m.a : m.b, slot - m.part[part].first, n, d);
       const Wide slack = d - dot(n, x);
       least = smaller(least, slack);
       m.set(slack, m.slack_at, slot);
-      for (int i = 0; i < Dim; ++i)
-        m.set(dot(turn[i], n), m.normal_at + i, slot);
+      keep(part, slot, n);
     });
-  };
-  part(m.a, m.part[0], m.point, m.frame);
-  part(m.b, m.part[1], point_b, frame_b);
+  }
   m.least = L::least(least);
   m.rounding = L::real(slack_rounding) * (m.reach + L::real(2) * (size_of(m.point) + size_of(from_b)));
 }
 
-// Newton's direction of -Σ log s in a graded frame, and its decrement²; `solved` where the system has full rank. By
-// elimination from the top without quotients: each pivot d carries the pivots above it as factors, so that no quotient
-// waits for another.
+// planes in the contact frame and their slacks
+template <class L, int Dim>
+HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
+  using Wide = typename L::Wide;
+  Components<Wide, Dim> turn[2][Dim];
+  for (int i = 0; i < Dim; ++i) {
+    turn[0][i] = m.wide(m.frame[i]);
+    for (int k = 0; k < Dim; ++k)
+      turn[1][i][k] = L::wide(dot(m.frame[i], column(m.rotation, k)));
+  }
+  assemble_slacks(m, [&](int part, int slot, const Components<Wide, Dim>& n) HWY_ATTR {
+    for (int i = 0; i < Dim; ++i)
+      m.set(dot(turn[part][i], n), m.normal_at + i, slot);
+  });
+}
+
+// Newton's direction of -Σ log s in a graded frame, and its decrement²; `solved` where the system has full rank. By the
+// adjugate, so that one quotient serves all and none waits for another: it loses no more than elimination from the top,
+// as every term of its sums has the same grade.
 template <class L, int Dim>
 HWY_INLINE void newton_direction(const typename L::Real (&sums)[Dim + Dim * (Dim + 1) / 2],
                                  Components<typename L::Real, Dim>& step, typename L::Real& decrement2,
                                  typename L::Bool& solved) {
   using Real = typename L::Real;
   const Real one = L::real(1), zero = L::real(0), tiny = L::real(smallest_pivot);
+  Components<Real, Dim> g, y;  // the adjugate times the gradient
+  Real determinant;
   if constexpr (Dim == 2) {
-    const Real g0 = sums[0], g1 = sums[1], h00 = sums[2], h01 = sums[3], h11 = sums[4];
-    const Real square = h00 * h11, d1 = square - h01 * h01;
-    solved = both(h00 > zero, d1 > tiny * square);
-    const Real i0 = one / select(solved, h00, one), i1 = select(solved, one / select(solved, d1, one), zero);
-    const Real y1 = h01 * g0 - h00 * g1;
-    step[1] = y1 * i1;
-    step[0] = -(g0 + h01 * step[1]) * i0;
-    decrement2 = (g0 * g0 + y1 * step[1]) * i0;
+    g = {sums[0], sums[1]};
+    const Real h00 = sums[2], h01 = sums[3], h11 = sums[4], square = h00 * h11;
+    determinant = square - h01 * h01;
+    solved = both(h00 > zero, determinant > tiny * square);
+    y = {h11 * g[0] - h01 * g[1], h00 * g[1] - h01 * g[0]};
   } else {
-    const Real g0 = sums[0], g1 = sums[1], g2 = sums[2], h00 = sums[3], h01 = sums[4], h02 = sums[5], h11 = sums[6],
-               h12 = sums[7], h22 = sums[8];
-    const Real square = h00 * h11, d1 = square - h01 * h01, c = h00 * h12 - h01 * h02, e = h00 * h22 - h02 * h02;
-    const Real product = d1 * e, d2 = product - c * c;
-    solved = both(both(h00 > zero, d1 > tiny * square), d2 > tiny * (d1 * (h00 * h22)));
-    const Real i0 = one / select(solved, h00, one), i1 = one / select(solved, d1, one),
-               i2 = select(solved, one / select(solved, d2, one), zero);
-    const Real y1 = h01 * g0 - h00 * g1, y2 = d1 * (h02 * g0 - h00 * g2) - c * y1;
-    step[2] = y2 * i2;
-    step[1] = (y1 - c * step[2]) * i1;
-    step[0] = -(g0 + h01 * step[1] + h02 * step[2]) * i0;
-    decrement2 = (g0 * g0 + (y1 * y1 + y2 * step[2]) * i1) * i0;
+    g = {sums[0], sums[1], sums[2]};
+    const Real h00 = sums[3], h01 = sums[4], h02 = sums[5], h11 = sums[6], h12 = sums[7], h22 = sums[8];
+    const Real square = h00 * h11;
+    const Real a00 = h11 * h22 - h12 * h12, a01 = h02 * h12 - h01 * h22, a02 = h01 * h12 - h02 * h11,
+               a11 = h00 * h22 - h02 * h02, a12 = h01 * h02 - h00 * h12, a22 = square - h01 * h01;
+    determinant = h00 * a00 + h01 * a01 + h02 * a02;
+    solved = both(both(h00 > zero, a22 > tiny * square), determinant > tiny * (a22 * h22));
+    y = {a00 * g[0] + a01 * g[1] + a02 * g[2], a01 * g[0] + a11 * g[1] + a12 * g[2],
+         a02 * g[0] + a12 * g[1] + a22 * g[2]};
   }
+  const Real inverse = one / select(solved, determinant, one);
+  step = scaled(-inverse, y);
+  decrement2 = dot(g, y) * inverse;
 }
 
 // one slot's share of the gradient, Σ p, and of the Hessian, Σ wp pᵀ
@@ -225,9 +251,9 @@ template <class L, int Dim, class F>
 HWY_INLINE void invert_slacks(Meeting<L, Dim>& m, const F& slack) {
   using Wide = typename L::Wide;
   const Wide floor = L::wide(least_inverted);
-  for (const Slots& part : m.part)
+  for (const Slots& run : L::runs(m.part).all)
     L::invert(
-        part, [&](int slot) HWY_ATTR { return L::where(m.good, larger(slack(slot), floor), 1); },
+        run, [&](int slot) HWY_ATTR { return L::where(m.good, larger(slack(slot), floor), 1); },
         [&](const Wide& inverse, int slot) HWY_ATTR { m.set(inverse, m.inverse_at, slot); });
 }
 template <class L, int Dim>
@@ -267,7 +293,7 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
     if (!none(but_not(moving, full))) {
       const Components<Wide, Dim> direction = m.wide(step);
       Wide most = L::wide(0.0);
-      for_slots(m.part, [&](int slot) HWY_ATTR {
+      for_slots<L>(m.part, [&](int slot) HWY_ATTR {
         most = larger(most, m.get(m.inverse_at, slot) * dot(m.normals(slot), direction));
       });
       length = select(full, one, one / (one + L::most(most)));
@@ -297,7 +323,7 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
   m.good = but_not(m.good, moving);
 }
 
-// the normal of the part's face with the smallest slack
+// the normal of the part's face with the smallest slack, along unit axes
 template <class L, int Dim>
 HWY_INLINE Components<typename L::Real, Dim> nearest_normal(const Meeting<L, Dim>& m, int part) {
   typename L::Real value, number;
@@ -312,7 +338,7 @@ HWY_INLINE Components<typename L::Real, Dim> nearest_normal(const Meeting<L, Dim
           m.number(m.normal_at + k, (part ? m.quads_a * planes_per_quad : 0) + static_cast<int>(faces[lane]), lane);
     n[k] = L::pick(normal[k]);
   }
-  return n;
+  return rescaled(m, n);
 }
 
 // Unit gradients of the two inner potentials Σ <r - s>² at the point, their difference (Eqs 3.31-3.35); the overlap
@@ -325,7 +351,8 @@ HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
   using Bool = typename L::Bool;
   const Real zero = L::real(0), one = L::real(1);
   const Wide radius = L::wide(m.potential_radius);
-  Components<Real, Dim> unit[2];
+  Components<Real, Dim> uphill[2];
+  Real length[2];
   for (int part = 0; part < 2; ++part) {
     Real gradient[Dim];
     L::template sum<Dim>({m.part[part]}, gradient, [&](int slot, Wide(&acc)[Dim]) HWY_ATTR {
@@ -334,35 +361,38 @@ HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
       for (int k = 0; k < Dim; ++k)
         acc[k] = acc[k] + depth * n[k];
     });
-    Components<Real, Dim> g;
+    Components<Real, Dim>& g = uphill[part];
     for (int k = 0; k < Dim; ++k)
       g[k] = gradient[k];
-    const Real length = root(dot(g, g));
-    const Bool steep = length > L::real(parallel_gradients) * m.potential_radius;
-    unit[part] = scaled(one / select(steep, length, one), g);
+    g = rescaled(m, g);
+    length[part] = root(dot(g, g));
+    const Bool steep = length[part] > L::real(parallel_gradients) * m.potential_radius;
     if (const Bool flat = but_not(m.good, steep); !none(flat)) {
       m.fallback = either(m.fallback, flat);
       const Components<Real, Dim> nearest = nearest_normal(m, part);
       for (int k = 0; k < Dim; ++k)
-        unit[part][k] = select(flat, nearest[k], unit[part][k]);
+        g[k] = select(flat, nearest[k], g[k]);
+      length[part] = select(flat, one, length[part]);
     }
   }
-  const Components<Real, Dim> difference = unit[0] - unit[1];
-  const Real length = root(dot(difference, difference));
-  m.good = both(m.good, length > L::real(parallel_gradients));
-  m.normal = scaled(one / select(m.good, length, one), difference);
+  // of the unit gradients, times both lengths; the searches run along it while its own is found
+  const Components<Real, Dim> difference = scaled(length[1], uphill[0]) - scaled(length[0], uphill[1]);
+  const Real whole = root(dot(difference, difference));
+  m.good = both(m.good, whole > L::real(parallel_gradients) * (length[0] * length[1]));
+  const Components<Real, Dim> along = rescaled(m, difference);
+  m.normal = scaled(one / select(m.good, whole, one), along);
 
-  const Components<Wide, Dim> n = m.wide(m.normal);
+  const Components<Wide, Dim> direction = m.wide(along);
   Real steepest[2], face[2];
   for (int part = 0; part < 2; ++part) {
     const auto slope = [&](int slot) HWY_ATTR {
-      const Wide along = m.get(m.inverse_at, slot) * dot(m.normals(slot), n);
-      return part ? -along : along;
+      const Wide closing = m.get(m.inverse_at, slot) * dot(m.normals(slot), direction);
+      return part ? -closing : closing;
     };
     find_largest<L>(m.part[part], 0, slope, steepest[part], face[part]);
     m.good = both(m.good, steepest[part] > zero);
   }
-  m.overlap = one / select(m.good, steepest[0], one) + one / select(m.good, steepest[1], one);
+  m.overlap = whole / select(m.good, steepest[0], one) + whole / select(m.good, steepest[1], one);
   m.face_a = face[0];
   m.face_b = face[1];
 }
@@ -372,13 +402,13 @@ template <class L>
 HWY_INLINE void project(Meeting<L, 3>& m) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
-  // axes of the plane by Duff et al. (2017), close to the frame's own when the normal is
+  // unit axes of the plane by Duff et al. (2017), close to the frame's own when the normal is
   const Real sign = with_sign_of(L::real(1), m.normal[0]);
-  const Real x = m.normal[1], y = m.normal[2];
+  const Real x = m.across * m.normal[1], y = m.across * m.normal[2];
   const Real a = L::real(-1) / (sign + m.normal[0]), b = x * y * a;
-  const Components<Wide, 3> first = m.wide({-(sign * x), L::real(1) + sign * x * x * a, sign * b});
-  const Components<Wide, 3> second = m.wide({-y, b, sign + y * y * a});
-  for_slots(m.part, [&](int slot) HWY_ATTR {
+  const Components<Wide, 3> first = m.wide(rescaled<L>(m, {-(sign * x), L::real(1) + sign * x * x * a, sign * b}));
+  const Components<Wide, 3> second = m.wide(rescaled<L>(m, {-y, b, sign + y * y * a}));
+  for_slots<L>(m.part, [&](int slot) HWY_ATTR {
     const Components<Wide, 3> p = scaled(m.get(m.inverse_at, slot), m.normals(slot));
     m.set(dot(p, first), m.scaled_at, slot);
     m.set(dot(p, second), m.scaled_at + 1, slot);
@@ -390,7 +420,7 @@ HWY_INLINE void measure_area(Meeting<L, 2>& m, SectionList*) {
   using Wide = typename L::Wide;
   const Wide along0 = L::wide(-m.normal[1]), along1 = L::wide(m.normal[0]);
   Wide forward = L::wide(0.0), backward = forward;
-  for_slots(m.part, [&](int slot) HWY_ATTR {
+  for_slots<L>(m.part, [&](int slot) HWY_ATTR {
     const Components<Wide, 2> p = scaled(m.get(m.inverse_at, slot), m.normals(slot));
     const Wide slope = p[0] * along0 + p[1] * along1;
     forward = larger(forward, slope);
@@ -425,10 +455,15 @@ template <class L, int Dim>
 HWY_INLINE void resolve_from_point(Meeting<L, Dim>& m, Stage last, double tolerance, int limit, SectionList* lists) {
   using Real = typename L::Real;
   clear(m);
+  if (last == Stage::decision) {
+    assemble_slacks(m, [](int, int, const auto&) {});
+    m.good = both(m.good, m.least > m.rounding + m.tolerance);
+    return;
+  }
   build_frame(m);
   assemble_planes(m);
   m.good = both(m.good, m.least > m.rounding + m.tolerance);
-  if (last == Stage::decision || none(m.good)) return;
+  if (none(m.good)) return;
   find_centre(m, tolerance, limit);
   m.rounding = m.rounding + L::real(4 * slack_rounding) * size_of(m.moved);
   m.good = both(m.good, m.least > m.rounding);
