@@ -36,7 +36,7 @@ void broad_phase(benchmark::State& state, bool mixed) {
   const std::vector<Box<3>> boxes = scattered(count, mixed);
   std::vector<std::pair<int, int>> pairs;
   for (auto _ : state) {
-    overlapping_pairs(boxes, pairs);
+    overlapping_pairs(boxes, 1, pairs);
     benchmark::DoNotOptimize(pairs.data());
   }
   state.counters["ns_per_box"] = benchmark::Counter(static_cast<double>(state.iterations()) * count * 1e-9,

@@ -87,7 +87,7 @@ void timed_step(const Pile& pile, State<3>& state, Times& times) {
   const std::array<std::function<void()>, 5> stages{[&] { find_neighbours(pile.model, pile.settings, state); },
                                                     [&] { find_contacts(pile.model, pile.settings, state); },
                                                     [&] { apply_joint_laws(pile.model, pile.settings, state); },
-                                                    [&] { sum_loads(pile.model, state); },
+                                                    [&] { sum_loads(pile.model, pile.settings, state); },
                                                     [&] { move_bodies(pile.model, pile.settings, state); }};
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const auto begin = Clock::now();

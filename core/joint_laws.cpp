@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/law/joint_law.hpp"
+#include "core/on_threads.hpp"
 #include "core/stages.hpp"
 
 namespace voussoir {
@@ -180,13 +181,12 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
   const int count = static_cast<int>(state.contacts.size());
   const int groups = (count + booked_together - 1) / booked_together;
   sums.resize(groups);
-#pragma omp parallel for num_threads(settings.threads) schedule(static) if (settings.threads > 1 && groups > 1)
-  for (int g = 0; g < groups; ++g) {
+  on_threads(team(settings.threads, state.contacts.size()), groups, [&](int g) {
     Booked sum;
     for (int i = g * booked_together; i < std::min(count, (g + 1) * booked_together); ++i)
       answer(model, settings, static_cast<std::size_t>(i), state, sum);
     sums[g] = sum;
-  }
+  });
 
   state.energy.elastic = 0;
   for (const Booked& b : sums) {

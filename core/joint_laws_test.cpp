@@ -56,7 +56,7 @@ struct Pressed {
     find_neighbours(model, settings, state);
     find_contacts(model, settings, state);
     apply_joint_laws(model, settings, state);
-    sum_loads(model, state);
+    sum_loads(model, settings, state);
   }
 
   double force() const { return state.loads[block].force[Dim - 1]; }

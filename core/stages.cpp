@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -14,6 +13,7 @@
 #include "core/motion/prescribed.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/motion/time_step.hpp"
+#include "core/on_threads.hpp"
 
 namespace voussoir {
 namespace {
@@ -68,14 +68,6 @@ Box<Dim> bounds(const Model<Dim>& model, const State<Dim>& state, int part, doub
   return box;
 }
 
-// the boxes of all parts
-template <int Dim>
-void bound_parts(const Model<Dim>& model, const State<Dim>& state, double margin, std::vector<Box<Dim>>& boxes) {
-  boxes.resize(model.parts.size());
-  for (std::size_t part = 0; part < model.parts.size(); ++part)
-    boxes[part] = bounds(model, state, static_cast<int>(part), margin);
-}
-
 // the joint a contact lies on: of the two faces' joints the later cut
 template <int Dim>
 int joint_of(const Model<Dim>& model, const Contact<Dim>& c) {
@@ -98,30 +90,39 @@ std::size_t most_cells(const Model<Dim>& model) {
   return static_cast<std::size_t>(most);
 }
 
+// the boxes of all parts
 template <int Dim>
-void find_axes(const Model<Dim>& model, State<Dim>& state) {
+void bound_parts(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, double margin,
+                 std::vector<Box<Dim>>& boxes) {
+  boxes.resize(model.parts.size());
+  on_threads(team(settings.threads, boxes.size()), static_cast<int>(boxes.size()),
+             [&](int part) { boxes[part] = bounds(model, state, part, margin); });
+}
+
+template <int Dim>
+void find_axes(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   state.axes.resize(model.bodies.size());
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    state.axes[b] = matrix(state.motions[b].rotation);
+  on_threads(team(settings.threads, state.axes.size()), static_cast<int>(state.axes.size()),
+             [&](int b) { state.axes[b] = matrix(state.motions[b].rotation); });
 }
 
 // adds what each body has moved since the last step; rounded upwards, so that it bounds
 template <int Dim>
-void count_travels(const Model<Dim>& model, State<Dim>& state) {
+void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   constexpr double upwards = 1 + 4 * std::numeric_limits<double>::epsilon();
   if (state.travels.size() != model.bodies.size()) {
     state.travels.clear();
     for (const Motion<Dim>& m : state.motions)
       state.travels.push_back({{m.displacement, m.rotation}, 0});
   }
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].still()) continue;
+  on_threads(team(settings.threads, state.travels.size()), static_cast<int>(state.travels.size()), [&](int b) {
+    if (model.bodies[b].still()) return;
     const Motion<Dim>& now = state.motions[b];
     Travel<Dim>& t = state.travels[b];
     const double way = moved(model.bodies[b], t.last, now);
     if (way > 0) t.distance = (t.distance + upwards * way) * upwards;
     t.last = {now.displacement, now.rotation};
-  }
+  });
 }
 
 template <int Dim>
@@ -149,10 +150,16 @@ void set_apart(Contact<Dim>& contact) {
   forget(contact);
 }
 
+// what some contacts have cost, and how many are without an answer
+struct Tally {
+  KernelCounters kernel;
+  long long unconverged = 0;
+};
+
 // the contacts [first, last) of the list, in one batch
 template <int Dim>
 void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& state, Stage stage, int first, int last,
-             KernelCounters& counters) {
+             Tally& tally) {
   static thread_local std::vector<Pair<Dim>> pairs;
   static thread_local std::vector<Contact<Dim>*> waiting;
   pairs.clear();
@@ -164,7 +171,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
       continue;
     }
     if (c.status == ContactStatus::separated && travelled(model, state, c) < c.free_until) {
-      ++counters.motion_skips;
+      ++tally.kernel.motion_skips;
       continue;
     }
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
@@ -173,12 +180,13 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
                      axes.transpose() * between(model, state, a, b), stage});
     waiting.push_back(&c);
   }
-  narrow_phase<Dim>(pairs, settings.contact, model.solvers, waiting, counters);
+  narrow_phase<Dim>(pairs, settings.contact, model.solvers, waiting, tally.kernel);
 
   constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
   const std::size_t stride = state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
   for (std::size_t i = 0; i < waiting.size(); ++i) {
     Contact<Dim>* const c = waiting[i];
+    if (c->unanswered()) ++tally.unconverged;
     if (c->touching()) {
       c->joint = joint_of(model, *c);
       c->properties = c->joint == no_joint ? model.default_properties : model.joints[c->joint].properties;
@@ -196,7 +204,9 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
   }
 }
 
-void add(Counters& total, const KernelCounters& k) {
+void add(Counters& total, const Tally& tally) {
+  const KernelCounters& k = tally.kernel;
+  total.unconverged += tally.unconverged;
   total.contact_evaluations += k.evaluations;
   total.motion_skips += k.motion_skips;
   total.axis_hits += k.axis_hits;
@@ -209,6 +219,37 @@ void add(Counters& total, const KernelCounters& k) {
   total.areas += k.areas;
   total.normal_fallbacks += k.normal_fallbacks;
   total.deep_overlaps += k.deep_overlaps;
+}
+
+// what a contact does to its bodies; none where it does not touch
+template <int Dim>
+struct Push {
+  int a = -1, b = -1;
+  Vector<Dim> force;             // N, on b
+  Spin<Dim> moment_a, moment_b;  // N m, of that force about either centroid
+};
+template <int Dim>
+Push<Dim> push_of(const Model<Dim>& model, const State<Dim>& state, std::size_t place) {
+  const Contact<Dim>& c = state.contacts[place];
+  Push<Dim> push;
+  if (!c.touching()) return push;
+  push.a = model.parts[c.part_a].body;
+  push.b = model.parts[c.part_b].body;
+  push.force = c.force;
+  push.moment_a.setZero();
+  push.moment_b.setZero();
+  const Vector<Dim> apart = between(model, state, push.a, push.b);
+  const auto turn = [&](const Vector<Dim>& point, const Vector<Dim>& force) {
+    push.moment_a += moment(point, force);
+    push.moment_b += moment(Vector<Dim>(point - apart), force);
+  };
+  if (c.cells == 0) {
+    turn(c.geometry.point, c.force);
+    return push;
+  }
+  for (const SubContact<Dim>& s : subs_of(state, place))
+    if (s.area > 0) turn(s.point, s.force);
+  return push;
 }
 
 // gravity that grows lifts or lowers the potential energy of what has already moved
@@ -230,17 +271,6 @@ void book(EnergyFlows& flows, double gravity, double boundary, double load, doub
   flows.prescribed += prescribed;
 }
 
-// in a thread: no exception may leave it, so the first one waits in `failure`
-template <class Work>
-void attempt(std::exception_ptr& failure, const Work& work) {
-  try {
-    work();
-  } catch (...) {
-#pragma omp critical
-    if (!failure) failure = std::current_exception();
-  }
-}
-
 }  // namespace
 
 template <int Dim>
@@ -251,33 +281,42 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
     stale = !model.bodies[b].still() && moved(model.bodies[b], state.built[b], state.motions[b]) > 0.5 * skin;
   if (!stale) return;
 
-  // lists that keep their memory
+  // lists that keep their memory: this thread's, filled by all
   static thread_local std::vector<Box<Dim>> boxes;
-  static thread_local std::vector<std::pair<int, int>> pairs;
-  static thread_local std::vector<Contact<Dim>> renewed;
-  static thread_local std::vector<SubContact<Dim>> renewed_subs;
-  find_axes(model, state);
-  bound_parts(model, state, candidate_reach * skin, boxes);
-  overlapping_pairs(boxes, pairs);
+  static thread_local std::vector<std::pair<int, int>> own_pairs;
+  static thread_local std::vector<Contact<Dim>> own_renewed;
+  static thread_local std::vector<SubContact<Dim>> own_subs;
+  static thread_local std::vector<int> own_origin;
+  std::vector<std::pair<int, int>>& pairs = own_pairs;
+  std::vector<Contact<Dim>>& renewed = own_renewed;
+  std::vector<SubContact<Dim>>& renewed_subs = own_subs;
+  std::vector<int>& origin = own_origin;  // of each pair: its place in the old list, or -1
+  find_axes(model, settings, state);
+  bound_parts(model, settings, state, candidate_reach * skin, boxes);
+  overlapping_pairs(boxes, settings.threads, pairs);
 
   // standing candidates keep their record: both lists are in ascending order
-  renewed.clear();
   const std::size_t stride = most_cells(model);
-  renewed_subs.assign(pairs.size() * stride, {});
+  origin.assign(pairs.size(), -1);
   auto old = state.contacts.begin();
-  for (const auto& [a, b] : pairs) {
-    while (old != state.contacts.end() && std::pair(old->part_a, old->part_b) < std::pair(a, b))
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    while (old != state.contacts.end() && std::pair(old->part_a, old->part_b) < pairs[i])
       ++old;
-    if (old != state.contacts.end() && old->part_a == a && old->part_b == b) {
-      std::ranges::copy(subs_of(state, old - state.contacts.begin()), renewed_subs.begin() + renewed.size() * stride);
-      renewed.push_back(*old);
-      continue;
-    }
-    Contact<Dim> fresh;
-    fresh.part_a = a;
-    fresh.part_b = b;
-    renewed.push_back(fresh);
+    if (old != state.contacts.end() && std::pair(old->part_a, old->part_b) == pairs[i])
+      origin[i] = static_cast<int>(old - state.contacts.begin());
   }
+  renewed.resize(pairs.size());
+  renewed_subs.assign(pairs.size() * stride, {});
+  on_threads(team(settings.threads, pairs.size()), static_cast<int>(pairs.size()), [&](int i) {
+    if (origin[i] >= 0) {
+      renewed[i] = state.contacts[origin[i]];
+      std::ranges::copy(subs_of(state, origin[i]), renewed_subs.begin() + i * static_cast<std::ptrdiff_t>(stride));
+      return;
+    }
+    renewed[i] = {};
+    renewed[i].part_a = pairs[i].first;
+    renewed[i].part_b = pairs[i].second;
+  });
   std::swap(state.contacts, renewed);
   std::swap(state.subs, renewed_subs);
   state.built.clear();
@@ -288,65 +327,41 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
 
 template <int Dim>
 void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  const int count = static_cast<int>(state.contacts.size()), parts = static_cast<int>(model.parts.size());
+  const int count = static_cast<int>(state.contacts.size());
   const Stage stage = needs_area(model) ? Stage::area : Stage::overlap;
-  find_axes(model, state);
-  count_travels(model, state);
-  state.bounds.resize(model.parts.size());
+  find_axes(model, settings, state);
+  count_travels(model, settings, state);
+  bound_parts(model, settings, state, 0, state.bounds);
   // batches that stay in the cache, and enough of them for every thread
   const int batch = std::clamp(count / settings.threads + 1, 16, 256), batches = (count + batch - 1) / batch;
-  KernelCounters total;
-  if (settings.threads == 1) {
-    for (int i = 0; i < parts; ++i)
-      state.bounds[i] = bounds(model, state, i, 0);
-    for (int i = 0; i < batches; ++i)
-      resolve(model, settings, state, stage, i * batch, std::min(count, (i + 1) * batch), total);
-    add(state.counters, total);
-  } else {
-    Counters& counters = state.counters;
-    std::exception_ptr failure;
-#pragma omp parallel num_threads(settings.threads)
-    {
-      KernelCounters own;
-#pragma omp for schedule(static)
-      for (int i = 0; i < parts; ++i)
-        attempt(failure, [&] { state.bounds[i] = bounds(model, state, i, 0); });
-#pragma omp for schedule(static)
-      for (int i = 0; i < batches; ++i)
-        attempt(failure,
-                [&] { resolve(model, settings, state, stage, i * batch, std::min(count, (i + 1) * batch), own); });
-#pragma omp critical
-      add(counters, own);
-    }
-    if (failure) std::rethrow_exception(failure);
-  }
-  for (const Contact<Dim>& c : state.contacts)
-    if (c.unanswered()) ++state.counters.unconverged;
+  static thread_local std::vector<Tally> own;
+  std::vector<Tally>& tallies = own;  // this thread's, filled by all
+  tallies.assign(batches, {});
+  on_threads(settings.threads, batches, [&](int i) {
+    resolve(model, settings, state, stage, i * batch, std::min(count, (i + 1) * batch), tallies[i]);
+  });
+  for (const Tally& tally : tallies)
+    add(state.counters, tally);
 }
 
 template <int Dim>
-void sum_loads(const Model<Dim>& model, State<Dim>& state) {
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+void sum_loads(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  on_threads(team(settings.threads, state.loads.size()), static_cast<int>(state.loads.size()), [&](int b) {
     state.loads[b] = boundary_load(model.bodies[b], state.axes[b]);
-    state.loads[b].force += weight(model, state, b);
-  }
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    const Contact<Dim>& c = state.contacts[i];
-    if (!c.touching()) continue;
-    const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
-    const Vector<Dim> apart = between(model, state, a, b);
-    const auto turn = [&](const Vector<Dim>& point, const Vector<Dim>& force) {
-      state.loads[a].moment -= moment(point, force);
-      state.loads[b].moment += moment(Vector<Dim>(point - apart), force);
-    };
-    state.loads[a].force -= c.force;
-    state.loads[b].force += c.force;
-    if (c.cells == 0) {
-      turn(c.geometry.point, c.force);
-      continue;
-    }
-    for (const SubContact<Dim>& s : subs_of(state, i))
-      if (s.area > 0) turn(s.point, s.force);
+    state.loads[b].force += weight(model, state, static_cast<std::size_t>(b));
+  });
+  // what each contact does, then in their order to whom
+  static thread_local std::vector<Push<Dim>> own;
+  std::vector<Push<Dim>>& pushes = own;  // this thread's, filled by all
+  pushes.resize(state.contacts.size());
+  on_threads(team(settings.threads, pushes.size()), static_cast<int>(pushes.size()),
+             [&](int i) { pushes[i] = push_of(model, state, static_cast<std::size_t>(i)); });
+  for (const Push<Dim>& p : pushes) {
+    if (p.a < 0) continue;
+    state.loads[p.a].force -= p.force;
+    state.loads[p.a].moment -= p.moment_a;
+    state.loads[p.b].force += p.force;
+    state.loads[p.b].moment += p.moment_b;
   }
 }
 
@@ -359,9 +374,8 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
 
   // within a stage the step only shrinks, as soon as a contact is stiffer than it was chosen for
   const double last = state.time_step;
-  if (state.frequency.empty() || outgrown(model, state)) {
-    const double step = renew_time_step(model, settings, settings.damping, state).step;
-    state.step_allowed = state.step_allowed > 0 ? std::min(state.step_allowed, step) : step;
+  if (const auto renewed = renew_time_step(model, settings, settings.damping, state)) {
+    state.step_allowed = state.step_allowed > 0 ? std::min(state.step_allowed, renewed->step) : renewed->step;
     demand_time_step(state);
   }
   state.time_step = state.step_allowed;
@@ -399,7 +413,7 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                      \
   template void find_neighbours<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
   template void find_contacts<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);   \
-  template void sum_loads<Dim>(const Model<Dim>&, State<Dim>&);                        \
+  template void sum_loads<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);       \
   template void move_bodies<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

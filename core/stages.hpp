@@ -25,7 +25,7 @@ void make_bonds(const Model<Dim>& model, State<Dim>& state);
 
 // gravity, boundary stress and contact forces summed on each body, in the order of the contacts
 template <int Dim>
-void sum_loads(const Model<Dim>& model, State<Dim>& state);
+void sum_loads(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 
 // a time step that today's contacts allow, then velocities, then positions
 template <int Dim>

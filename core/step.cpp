@@ -16,7 +16,7 @@ void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state) 
   apply_joint_laws(model, settings, state);
 
   // what acts on each body: joint forces in the order of the contacts, then gravity
-  sum_loads(model, state);
+  sum_loads(model, settings, state);
 
   // where that takes it: velocities, then positions and rotations
   move_bodies(model, settings, state);

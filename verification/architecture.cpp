@@ -22,7 +22,7 @@ constexpr std::array top_folders{"core", "app", "reference", "verification", "ca
 
 // from the ground up; a room may include the rooms of the lines above its own
 const std::vector<std::vector<std::string>> layers{
-    {"geometry", "settings", "accuracy", "energy", "floating_point_traps"},
+    {"geometry", "settings", "accuracy", "energy", "floating_point_traps", "on_threads"},
     {"law", "exchange"},
     {"optimise", "load", "support"},
     {"contact", "slicing", "joint_sets", "model"},

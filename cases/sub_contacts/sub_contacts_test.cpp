@@ -59,7 +59,7 @@ struct Pressed {
     find_neighbours(model, settings, state);
     find_contacts(model, settings, state);
     apply_joint_laws(model, settings, state);
-    sum_loads(model, state);
+    sum_loads(model, settings, state);
     const Load<Dim>& load = state.loads[block];
     const Vector<Dim> from_face = matrix(state.motions[block].rotation) * (arm * Vector<Dim>::Unit(Dim - 1));
     return {load.force, load.moment + moment(from_face, load.force)};

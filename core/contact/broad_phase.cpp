@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/on_threads.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -43,18 +45,18 @@ struct Entry {
 // size: several cells may share a bucket.
 template <int Dim>
 struct PairSearch {
-  Vector<Dim> origin, region;        // m: the lowest corner, and the extent, of all boxes
-  double cell = 1;                   // m, of level 0
-  int lowest = 0;                    // level
-  std::vector<int> level;            // by box
-  std::vector<double> extents;       // m, of the boxes that are there
-  std::vector<Grid<Dim>> grids;      // from fine to coarse, those with at least `few` boxes
-  std::vector<int> alone;            // boxes of no grid
-  std::vector<Entry<Dim>> filed;     // boxes of the grids, as they come
-  std::vector<Entry<Dim>> table;     // the same, bucket by bucket
-  std::vector<std::uint32_t> begin;  // of each bucket in the table, and the end
-  std::vector<std::uint32_t> row;    // of each box's pairs
-  std::vector<std::pair<int, int>> found;
+  Vector<Dim> origin, region;                           // m: the lowest corner, and the extent, of all boxes
+  double cell = 1;                                      // m, of level 0
+  int lowest = 0;                                       // level
+  std::vector<int> level;                               // by box
+  std::vector<double> extents;                          // m, of the boxes that are there
+  std::vector<Grid<Dim>> grids;                         // from fine to coarse, those with at least `few` boxes
+  std::vector<int> alone;                               // boxes of no grid
+  std::vector<Entry<Dim>> filed;                        // boxes of the grids, as they come
+  std::vector<Entry<Dim>> table;                        // the same, bucket by bucket
+  std::vector<std::uint32_t> begin;                     // of each bucket in the table, and the end
+  std::vector<std::uint32_t> row;                       // of each box's pairs
+  std::vector<std::vector<std::pair<int, int>>> found;  // by group of boxes that one thread searches at a time
 };
 
 constexpr int absent = std::numeric_limits<int>::min();
@@ -208,24 +210,27 @@ void fill_table(const std::vector<Box<Dim>>& boxes, PairSearch<Dim>& s) {
     s.table[--s.begin[own_bucket(s, *e, mask)]] = *e;
 }
 
+using Pairs = std::vector<std::pair<int, int>>;
+
 template <int Dim>
-void try_pair(PairSearch<Dim>& s, int i, const Box<Dim>& a, int j, const Box<Dim>& b) {
-  if (a.body != b.body && !(a.fixed && b.fixed) && meet(a, b)) s.found.push_back(std::minmax(i, j));
+void try_pair(int i, const Box<Dim>& a, int j, const Box<Dim>& b, Pairs& found) {
+  if (a.body != b.body && !(a.fixed && b.fixed) && meet(a, b)) found.push_back(std::minmax(i, j));
 }
 
 // the boxes of some neighbouring buckets; within a grid each pair is met from both sides
 template <int Dim>
-void try_buckets(PairSearch<Dim>& s, const Entry<Dim>& e, int g, std::uint32_t first, std::uint32_t last) {
+void try_buckets(const PairSearch<Dim>& s, const Entry<Dim>& e, int g, std::uint32_t first, std::uint32_t last,
+                 Pairs& found) {
   for (std::uint32_t i = s.begin[first]; i < s.begin[last + 1]; ++i) {
     const Entry<Dim>& other = s.table[i];
     if (other.grid == g && (g != e.grid || other.number > e.number))
-      try_pair(s, e.number, e.box, other.number, other.box);
+      try_pair(e.number, e.box, other.number, other.box, found);
   }
 }
 
 // the boxes of one grid near a box of it, or of a finer one: row by row
 template <int Dim>
-void try_grid(PairSearch<Dim>& s, const Entry<Dim>& e, int g) {
+void try_grid(const PairSearch<Dim>& s, const Entry<Dim>& e, int g, Pairs& found) {
   const Grid<Dim>& grid = s.grids[g];
   const std::uint32_t mask = static_cast<std::uint32_t>(s.begin.size() - 2);
   Cell<Dim> from = cell_of<Dim>(e.box.low, s.origin, grid.cell);
@@ -237,10 +242,10 @@ void try_grid(PairSearch<Dim>& s, const Entry<Dim>& e, int g) {
   while (true) {
     const std::uint32_t first = bucket_of<Dim>(grid, row, mask), last = (first + length) & mask;
     if (first <= last) {
-      try_buckets(s, e, g, first, last);
+      try_buckets(s, e, g, first, last, found);
     } else {
-      try_buckets(s, e, g, first, mask);
-      try_buckets(s, e, g, 0, last);
+      try_buckets(s, e, g, first, mask, found);
+      try_buckets(s, e, g, 0, last, found);
     }
     int k = 1;
     while (k < Dim && row[k] == to[k]) {
@@ -254,13 +259,13 @@ void try_grid(PairSearch<Dim>& s, const Entry<Dim>& e, int g) {
 
 // boxes of no grid meet any other
 template <int Dim>
-void try_alone(const std::vector<Box<Dim>>& boxes, PairSearch<Dim>& s) {
+void try_alone(const std::vector<Box<Dim>>& boxes, const PairSearch<Dim>& s, Pairs& found) {
   for (std::size_t i = 0; i < s.alone.size(); ++i) {
     const int a = s.alone[i];
     for (std::size_t j = i + 1; j < s.alone.size(); ++j)
-      try_pair(s, a, boxes[a], s.alone[j], boxes[s.alone[j]]);
+      try_pair(a, boxes[a], s.alone[j], boxes[s.alone[j]], found);
     for (const Entry<Dim>& e : s.filed)
-      try_pair(s, a, boxes[a], e.number, e.box);
+      try_pair(a, boxes[a], e.number, e.box, found);
   }
 }
 
@@ -269,13 +274,18 @@ void try_alone(const std::vector<Box<Dim>>& boxes, PairSearch<Dim>& s) {
 template <int Dim>
 void sort_pairs(PairSearch<Dim>& s, std::size_t boxes, std::vector<std::pair<int, int>>& pairs) {
   s.row.assign(boxes + 1, 0);
-  for (const auto& p : s.found)
-    ++s.row[p.first];
+  std::size_t count = 0;
+  for (const Pairs& found : s.found) {
+    count += found.size();
+    for (const auto& p : found)
+      ++s.row[p.first];
+  }
   for (std::size_t i = 0; i < boxes; ++i)
     s.row[i + 1] += s.row[i];
-  pairs.resize(s.found.size());
-  for (const auto& p : s.found)
-    pairs[--s.row[p.first]] = p;
+  pairs.resize(count);
+  for (const Pairs& found : s.found)
+    for (const auto& p : found)
+      pairs[--s.row[p.first]] = p;
   for (std::size_t i = 0; i < boxes; ++i)
     std::sort(pairs.begin() + s.row[i], pairs.begin() + s.row[i + 1]);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -284,21 +294,28 @@ void sort_pairs(PairSearch<Dim>& s, std::size_t boxes, std::vector<std::pair<int
 }  // namespace
 
 template <int Dim>
-void overlapping_pairs(const std::vector<Box<Dim>>& boxes, std::vector<std::pair<int, int>>& pairs) {
-  static thread_local PairSearch<Dim> s;
-  s.found.clear();
+void overlapping_pairs(const std::vector<Box<Dim>>& boxes, int threads, std::vector<std::pair<int, int>>& pairs) {
+  static thread_local PairSearch<Dim> own;
+  PairSearch<Dim>& s = own;  // this thread's, searched by all
   choose_cells(boxes, s);
   choose_grids(boxes, s);
   fill_table(boxes, s);
   // each box looks among its likes and among the larger
-  for (const Entry<Dim>& e : s.table)
-    for (int g = e.grid; g < static_cast<int>(s.grids.size()); ++g)
-      try_grid(s, e, g);
-  try_alone(boxes, s);
+  const std::size_t groups = static_cast<std::size_t>(team(threads, s.table.size()));
+  s.found.resize(std::max(s.found.size(), groups));
+  for (Pairs& found : s.found)
+    found.clear();
+  on_threads(static_cast<int>(groups), static_cast<int>(groups), [&](int group) {
+    const std::size_t first = s.table.size() * group / groups, last = s.table.size() * (group + 1) / groups;
+    for (std::size_t i = first; i < last; ++i)
+      for (int g = s.table[i].grid; g < static_cast<int>(s.grids.size()); ++g)
+        try_grid(s, s.table[i], g, s.found[group]);
+  });
+  try_alone(boxes, s, s.found.front());
   sort_pairs(s, boxes.size(), pairs);
 }
 
-template void overlapping_pairs<2>(const std::vector<Box<2>>&, std::vector<std::pair<int, int>>&);
-template void overlapping_pairs<3>(const std::vector<Box<3>>&, std::vector<std::pair<int, int>>&);
+template void overlapping_pairs<2>(const std::vector<Box<2>>&, int, std::vector<std::pair<int, int>>&);
+template void overlapping_pairs<3>(const std::vector<Box<3>>&, int, std::vector<std::pair<int, int>>&);
 
 }  // namespace voussoir

@@ -21,9 +21,10 @@ bool meet(const Box<Dim>& a, const Box<Dim>& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
-// All pairs (i, j), i < j, whose boxes meet and that may touch, in ascending order; `pairs` keeps its memory.
+// All pairs (i, j), i < j, whose boxes meet and that may touch, in ascending order whatever the number of
+// threads; `pairs` keeps its memory.
 // O(boxes + pairs) for each power of two between the smallest and the largest boxes that occur in numbers.
 template <int Dim>
-void overlapping_pairs(const std::vector<Box<Dim>>& boxes, std::vector<std::pair<int, int>>& pairs);
+void overlapping_pairs(const std::vector<Box<Dim>>& boxes, int threads, std::vector<std::pair<int, int>>& pairs);
 
 }  // namespace voussoir

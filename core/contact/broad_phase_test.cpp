@@ -30,9 +30,9 @@ Pairs by_brute_force(const std::vector<Box<Dim>>& boxes) {
 
 // the search and the oracle; returns how many pairs there are
 template <int Dim>
-int expect_all_pairs(const std::vector<Box<Dim>>& boxes) {
+int expect_all_pairs(const std::vector<Box<Dim>>& boxes, int threads = 1) {
   Pairs found;
-  overlapping_pairs(boxes, found);
+  overlapping_pairs(boxes, threads, found);
   const Pairs expected = by_brute_force(boxes);
   EXPECT_EQ(found.size(), expected.size());
   EXPECT_TRUE(found == expected);
@@ -126,6 +126,12 @@ TEST(BroadPhase, FindsAllPairsInOnePlace) {
   for (Box<3>& box : boxes)
     box.high = box.low;
   EXPECT_EQ(expect_all_pairs(boxes), count * (count - 1) / 2);
+}
+
+TEST(BroadPhase, FindsTheSameOnThreeThreads) {
+  Random random(81);
+  const std::vector<Box<3>> boxes = scattered<3>(random, 2000, 12, 0.5, 0.1);  // enough for a team
+  EXPECT_GT(expect_all_pairs(boxes, 3), 100);
 }
 
 // an absent body's box meets none, a boundless one all others

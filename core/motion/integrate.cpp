@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/on_threads.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -164,12 +166,11 @@ const std::vector<KickEnergy<Dim>>& advance_bodies(const Model<Dim>& model, int 
   static thread_local std::vector<KickEnergy<Dim>> own;
   std::vector<KickEnergy<Dim>>& kicks = own;  // this thread's, filled by all
   kicks.resize(model.bodies.size());
-  const int bodies = static_cast<int>(model.bodies.size());
-#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
-  for (int b = 0; b < bodies; ++b)
+  on_threads(team(threads, kicks.size()), static_cast<int>(kicks.size()), [&](int b) {
     kicks[b] = model.bodies[b].fixed ? KickEnergy<Dim>()
                                      : advance(model.bodies[b], state.loads[b], rules[rules.size() == 1 ? 0 : b], times,
                                                state.motions[b]);
+  });
   return kicks;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/law/joint_law.hpp"
+#include "core/on_threads.hpp"
 
 namespace voussoir {
 namespace {
@@ -144,22 +145,42 @@ bool outgrown(const Model<Dim>& model, const State<Dim>& state, const Contact<Di
                              c.area_rated;
 }
 
-// the estimate, anew for the bodies asked for; free ones only
+// Free bodies to be looked at anew.
+struct Asked {
+  std::vector<int> place;  // by body: in `bodies`, or -1
+  std::vector<int> bodies;
+
+  void begin(std::size_t count) {
+    place.assign(count, -1);
+    bodies.clear();
+  }
+  template <int Dim>
+  void add(const Model<Dim>& model, int body) {
+    if (place[body] >= 0 || model.bodies[body].fixed) return;
+    place[body] = static_cast<int>(bodies.size());
+    bodies.push_back(body);
+  }
+};
+
+// the estimate, anew for the bodies asked for
 template <int Dim>
 TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
-                          const std::vector<char>& asked, State<Dim>& state) {
-  static thread_local std::vector<Stiffness<Dim>> stiffness;
-  static thread_local std::vector<double> impact;  // N/m that may act at the radius
-  stiffness.assign(model.bodies.size(), Stiffness<Dim>::Zero());
-  impact.assign(model.bodies.size(), 0);
+                          const Asked& asked, State<Dim>& state) {
+  static thread_local std::vector<Stiffness<Dim>> own_stiffness;
+  static thread_local std::vector<double> own_impact;
+  std::vector<Stiffness<Dim>>& stiffness = own_stiffness;  // this thread's, seen by all
+  std::vector<double>& impact = own_impact;                // N/m that may act at the radius
+  stiffness.assign(asked.bodies.size(), Stiffness<Dim>::Zero());
+  impact.assign(asked.bodies.size(), 0);
 
   for (Contact<Dim>& c : state.contacts) {
     const int ia = model.parts[c.part_a].body, ib = model.parts[c.part_b].body;
-    if (c.status == ContactStatus::apart || !(asked[ia] || asked[ib])) continue;
+    const int at_a = asked.place[ia], at_b = asked.place[ib];
+    if (c.status == ContactStatus::apart || (at_a < 0 && at_b < 0)) continue;
     const Body<Dim>&a = model.bodies[ia], &b = model.bodies[ib];
     const double factor = a.fixed || b.fixed ? 1 : 2;
     // a body that is not asked has counted on no more than the rating so far
-    const bool both = (asked[ia] || a.fixed) && (asked[ib] || b.fixed);
+    const bool both = (at_a >= 0 || a.fixed) && (at_b >= 0 || b.fixed);
     const auto rate = [&](double area) {
       c.area_rated = both ? area_margin * area : std::min(c.area_rated, area_margin * area);
     };
@@ -173,11 +194,11 @@ TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, con
         const Tangent now = tangent(p, overlap);
         const Matrix<Dim> k = contact_stiffness<Dim>(now, area, c.geometry.normal);
         const double turning = factor * area * std::max(now.normal, now.shear) * gyration2;
-        add<Dim>(stiffness[ia], factor, k, point);
-        add<Dim>(stiffness[ib], factor, k, point - apart);
-        for (int i = Dim; i < freedoms<Dim>; ++i) {
-          stiffness[ia](i, i) += turning;
-          stiffness[ib](i, i) += turning;
+        for (const auto& [at, arm] : {std::pair(at_a, point), std::pair(at_b, Vector<Dim>(point - apart))}) {
+          if (at < 0) continue;
+          add<Dim>(stiffness[at], factor, k, arm);
+          for (int i = Dim; i < freedoms<Dim>; ++i)
+            stiffness[at](i, i) += turning;
         }
       };
       if (c.cells == 0) {
@@ -192,19 +213,16 @@ TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, con
     const double face = std::min(model.polytope(c.part_a).largest_face, model.polytope(c.part_b).largest_face);
     rate(face);
     const double strikes = factor * stiffest_joint(model.properties, face);
-    impact[ia] += strikes;
-    impact[ib] += strikes;
+    for (const int at : {at_a, at_b})
+      if (at >= 0) impact[at] += strikes;
   }
 
   // each body by itself
   state.frequency.resize(model.bodies.size(), 0);
-  const int bodies = static_cast<int>(model.bodies.size());
-  const std::vector<Stiffness<Dim>>& stiffness_of = stiffness;  // this thread's, seen by all
-  const std::vector<double>& impact_of = impact;
-#pragma omp parallel for num_threads(settings.threads) schedule(static) if (settings.threads > 1)
-  for (int i = 0; i < bodies; ++i)
-    if (asked[i])
-      state.frequency[i] = std::sqrt(stiffest(model, i, state.motions[i].rotation, stiffness_of[i], impact_of[i]));
+  on_threads(team(settings.threads, asked.bodies.size()), static_cast<int>(asked.bodies.size()), [&](int i) {
+    const int body = asked.bodies[i];
+    state.frequency[body] = std::sqrt(stiffest(model, body, state.motions[body].rotation, stiffness[i], impact[i]));
+  });
   double largest = 0;
   for (const double frequency : state.frequency)
     largest = std::max(largest, frequency);
@@ -224,23 +242,31 @@ TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, con
 template <int Dim>
 TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
                                     State<Dim>& state) {
+  static thread_local Asked asked;
+  asked.begin(model.bodies.size());
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    asked.add(model, static_cast<int>(b));
   state.frequency.clear();
-  return renew_time_step(model, settings, damping, state);
+  return estimate(model, settings, damping, asked, state);
 }
 
 template <int Dim>
-TimeStepEstimate renew_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
-                                 State<Dim>& state) {
-  static thread_local std::vector<char> asked;  // by body
-  asked.assign(model.bodies.size(), 0);
-  if (state.frequency.empty())
-    for (std::size_t b = 0; b < model.bodies.size(); ++b)
-      asked[b] = !model.bodies[b].fixed;
-  for (const Contact<Dim>& c : state.contacts) {
-    if (!outgrown(model, state, c)) continue;
-    for (const int part : {c.part_a, c.part_b})
-      asked[model.parts[part].body] = !model.bodies[model.parts[part].body].fixed;
+std::optional<TimeStepEstimate> renew_time_step(const Model<Dim>& model, const Settings& settings,
+                                                const DampingSettings& damping, State<Dim>& state) {
+  if (state.frequency.empty()) return estimate_time_step(model, settings, damping, state);
+  static thread_local std::vector<char> own_grown;
+  static thread_local Asked asked;
+  std::vector<char>& grown = own_grown;  // by contact: this thread's, filled by all
+  grown.resize(state.contacts.size());
+  on_threads(team(settings.threads, grown.size()), static_cast<int>(grown.size()),
+             [&](int i) { grown[i] = outgrown(model, state, state.contacts[i]); });
+  asked.begin(model.bodies.size());
+  for (std::size_t i = 0; i < grown.size(); ++i) {
+    if (!grown[i]) continue;
+    asked.add(model, model.parts[state.contacts[i].part_a].body);
+    asked.add(model, model.parts[state.contacts[i].part_b].body);
   }
+  if (asked.bodies.empty()) return {};
   return estimate(model, settings, damping, asked, state);
 }
 
@@ -263,7 +289,9 @@ template bool outgrown<2>(const Model<2>&, const State<2>&);
 template bool outgrown<3>(const Model<3>&, const State<3>&);
 template TimeStepEstimate estimate_time_step<2>(const Model<2>&, const Settings&, const DampingSettings&, State<2>&);
 template TimeStepEstimate estimate_time_step<3>(const Model<3>&, const Settings&, const DampingSettings&, State<3>&);
-template TimeStepEstimate renew_time_step<2>(const Model<2>&, const Settings&, const DampingSettings&, State<2>&);
-template TimeStepEstimate renew_time_step<3>(const Model<3>&, const Settings&, const DampingSettings&, State<3>&);
+template std::optional<TimeStepEstimate> renew_time_step<2>(const Model<2>&, const Settings&, const DampingSettings&,
+                                                            State<2>&);
+template std::optional<TimeStepEstimate> renew_time_step<3>(const Model<3>&, const Settings&, const DampingSettings&,
+                                                            State<3>&);
 
 }  // namespace voussoir

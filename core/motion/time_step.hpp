@@ -1,6 +1,8 @@
 // The stable time step (method.md section 5).
 #pragma once
 
+#include <optional>
+
 #include "core/model.hpp"
 #include "core/settings.hpp"
 #include "core/state.hpp"
@@ -24,12 +26,12 @@ template <int Dim>
 TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
                                     State<Dim>& state);
 
-// The same anew only for bodies at a contact that is stiffer than it was rated, or new: the others keep their
-// frequency. In a pile some contact grows at nearly every step, but few do. Without any estimate so far, for every
-// body.
+// The same, anew only for bodies at a contact that is stiffer than it was rated, or new; the others keep their
+// frequency. In a pile some contact grows at nearly every step, but few do. Nothing when none has grown; every body
+// when there is no estimate yet.
 template <int Dim>
-TimeStepEstimate renew_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
-                                 State<Dim>& state);
+std::optional<TimeStepEstimate> renew_time_step(const Model<Dim>& model, const Settings& settings,
+                                                const DampingSettings& damping, State<Dim>& state);
 
 // throws std::domain_error when nothing has determined the step allowed
 template <int Dim>

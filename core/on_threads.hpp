@@ -1,0 +1,38 @@
+// The core's loops over bodies and contacts, on as many threads as the settings say. Who does what changes no result:
+// every piece writes to its own place.
+#pragma once
+
+#include <cstddef>
+#include <exception>
+
+namespace voussoir {
+
+// a team of threads costs as much as some hundred bodies or contacts
+inline constexpr int too_few_for_a_team = 1000;
+
+inline int team(int threads, std::size_t pieces) {
+  return pieces < too_few_for_a_team ? 1 : threads;
+}
+
+// work(i) for each i below `count`; of what it throws, one exception goes on when all are done
+template <class Work>
+void on_threads(int threads, int count, const Work& work) {
+  if (threads == 1) {
+    for (int i = 0; i < count; ++i)
+      work(i);
+    return;
+  }
+  std::exception_ptr failure;
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (int i = 0; i < count; ++i) {
+    try {
+      work(i);
+    } catch (...) {
+#pragma omp critical
+      if (!failure) failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace voussoir
