@@ -17,7 +17,7 @@ inline int team(int threads, std::size_t pieces) {
 // work(i) for each i below `count`; of what it throws, one exception goes on when all are done
 template <class Work>
 void on_threads(int threads, int count, const Work& work) {
-  if (threads == 1) {
+  if (threads == 1 || count < 2) {
     for (int i = 0; i < count; ++i)
       work(i);
     return;
@@ -33,6 +33,12 @@ void on_threads(int threads, int count, const Work& work) {
     }
   }
   if (failure) std::rethrow_exception(failure);
+}
+
+// the same for pieces as light as one body or one contact
+template <class Work>
+void each_on_threads(int threads, std::size_t count, const Work& work) {
+  on_threads(team(threads, count), static_cast<int>(count), work);
 }
 
 }  // namespace voussoir

@@ -95,15 +95,14 @@ template <int Dim>
 void bound_parts(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, double margin,
                  std::vector<Box<Dim>>& boxes) {
   boxes.resize(model.parts.size());
-  on_threads(team(settings.threads, boxes.size()), static_cast<int>(boxes.size()),
-             [&](int part) { boxes[part] = bounds(model, state, part, margin); });
+  each_on_threads(settings.threads, boxes.size(), [&](int part) { boxes[part] = bounds(model, state, part, margin); });
 }
 
 template <int Dim>
 void find_axes(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   state.axes.resize(model.bodies.size());
-  on_threads(team(settings.threads, state.axes.size()), static_cast<int>(state.axes.size()),
-             [&](int b) { state.axes[b] = matrix(state.motions[b].rotation); });
+  each_on_threads(settings.threads, state.axes.size(),
+                  [&](int b) { state.axes[b] = matrix(state.motions[b].rotation); });
 }
 
 // adds what each body has moved since the last step; rounded upwards, so that it bounds
@@ -115,7 +114,7 @@ void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>
     for (const Motion<Dim>& m : state.motions)
       state.travels.push_back({{m.displacement, m.rotation}, 0});
   }
-  on_threads(team(settings.threads, state.travels.size()), static_cast<int>(state.travels.size()), [&](int b) {
+  each_on_threads(settings.threads, state.travels.size(), [&](int b) {
     if (model.bodies[b].still()) return;
     const Motion<Dim>& now = state.motions[b];
     Travel<Dim>& t = state.travels[b];
@@ -307,7 +306,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   }
   renewed.resize(pairs.size());
   renewed_subs.assign(pairs.size() * stride, {});
-  on_threads(team(settings.threads, pairs.size()), static_cast<int>(pairs.size()), [&](int i) {
+  each_on_threads(settings.threads, pairs.size(), [&](int i) {
     if (origin[i] >= 0) {
       renewed[i] = state.contacts[origin[i]];
       std::ranges::copy(subs_of(state, origin[i]), renewed_subs.begin() + i * static_cast<std::ptrdiff_t>(stride));
@@ -346,7 +345,7 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
 
 template <int Dim>
 void sum_loads(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  on_threads(team(settings.threads, state.loads.size()), static_cast<int>(state.loads.size()), [&](int b) {
+  each_on_threads(settings.threads, state.loads.size(), [&](int b) {
     state.loads[b] = boundary_load(model.bodies[b], state.axes[b]);
     state.loads[b].force += weight(model, state, static_cast<std::size_t>(b));
   });
@@ -354,8 +353,8 @@ void sum_loads(const Model<Dim>& model, const Settings& settings, State<Dim>& st
   static thread_local std::vector<Push<Dim>> own;
   std::vector<Push<Dim>>& pushes = own;  // this thread's, filled by all
   pushes.resize(state.contacts.size());
-  on_threads(team(settings.threads, pushes.size()), static_cast<int>(pushes.size()),
-             [&](int i) { pushes[i] = push_of(model, state, static_cast<std::size_t>(i)); });
+  each_on_threads(settings.threads, pushes.size(),
+                  [&](int i) { pushes[i] = push_of(model, state, static_cast<std::size_t>(i)); });
   for (const Push<Dim>& p : pushes) {
     if (p.a < 0) continue;
     state.loads[p.a].force -= p.force;

@@ -71,6 +71,17 @@ const State<3>& end_of_fall(const Film& fall) {
   return *std::find_if(fall.frames.begin(), fall.frames.end(), [&](const State<3>& s) { return s.time >= end; });
 }
 
+void check_rest(CaseReport& report, const std::string& which, double left, const Film& fall) {
+  report.record({"kinetic energy at rest" + which,
+                 "1",
+                 Kind::limit,
+                 "rest, as a share of the energy of the drop",
+                 0,
+                 {1e-6, 0, Bound::at_most},
+                 "a block that still falls or rolls has more than this share of the two hundredth part it fell with"},
+                left, cost(fall.run));
+}
+
 void check(CaseReport& report, const std::string& which, const Film& fall, double width) {
   const Results& results = fall.run.results;
   const auto zero = [&](const std::string& quantity, const char* source, long long count) {
@@ -96,14 +107,7 @@ void check(CaseReport& report, const std::string& which, const Film& fall, doubl
 
   const double left = kinetic(fall.model(), fall.last()) / -fall.last().energy.potential();
   if (results.outcome == Outcome::done)
-    report.record({"kinetic energy at rest" + which,
-                   "1",
-                   Kind::limit,
-                   "rest, as a share of the energy of the drop",
-                   0,
-                   {1e-6, 0, Bound::at_most},
-                   "a block that still falls or rolls has more than this share of the two hundredth part it fell with"},
-                  left, cost(fall.run));
+    check_rest(report, which, left, fall);
   else
     report.report("kinetic energy at the end, not at rest" + which, "1", left,
                   "a block between two parallel faces goes on turning: contacts that act at points do not resist "
@@ -158,8 +162,9 @@ TEST(FreeFall, AMixComesToRest) {
 }
 
 // A fall in which the contacts' force has a potential. Blocks that stand on faces shiver, as their contacts hop from
-// corner to corner: the stage ends by its time limit.
-void check_closed_books(const FallPlan& plan, double damped, const std::string& which) {
+// corner to corner: the stage ends by its time limit, and what it leaves in motion is judged where it lasts long
+// enough.
+void check_closed_books(const FallPlan& plan, double damped, bool comes_to_rest, const std::string& which) {
   CaseReport report("free_fall");
   const Film fall = film(write_scene("books.toml", fall_scene(plan, "Falling blocks whose contacts have a potential")),
                          Goals::optional,
@@ -167,9 +172,12 @@ void check_closed_books(const FallPlan& plan, double damped, const std::string& 
                           fmt::format("stage.rest.time_limit_s={}", damped)});
   report.record({"contacts without an answer" + which, "1", Kind::exact, "robustness", 0, {0.5, 0}, "a count"},
                 static_cast<double>(fall.run.results.counters.unconverged), cost(fall.run));
-  report.report("kinetic energy at the end" + which, "1",
-                kinetic(fall.model(), fall.last()) / -fall.last().energy.potential(),
-                fmt::format("after {} s of damping, as a share of the energy of the drop", damped), cost(fall.run));
+  const double left = kinetic(fall.model(), fall.last()) / -fall.last().energy.potential();
+  if (comes_to_rest)
+    check_rest(report, which, left, fall);
+  else
+    report.report("kinetic energy at the end" + which, "1", left,
+                  fmt::format("after {} s of damping, as a share of the energy of the drop", damped), cost(fall.run));
   for (const auto& [when, state] :
        {std::pair(", before the damping starts", &end_of_fall(fall)), {", at the end", &fall.last()}})
     report.record({"energy that the contacts do not account for" + (when + which),
@@ -187,11 +195,11 @@ TEST(FreeFall, ContactsThatHaveAPotentialKeepTheirBooks) {
   FallPlan plan;
   plan.blocks = 20;
   plan.side = 3;
-  check_closed_books(plan, 1, ", twenty blocks by multipliers");
+  check_closed_books(plan, 1, false, ", twenty blocks by multipliers");
 }
 
 TEST(FreeFall, DISABLED_TwoHundredKeepTheirBooks) {
-  check_closed_books({}, 3.5, ", two hundred blocks by multipliers");
+  check_closed_books({}, 6, true, ", two hundred blocks by multipliers");
 }
 
 TEST(FreeFall, DISABLED_EveryShapeFalls) {

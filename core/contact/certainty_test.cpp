@@ -80,6 +80,11 @@ TEST(Certainty, NormalsAreUnit) {
   expect_no_promise_broken<3>({25697, 65591, 135417, 153749, 214972, 229089, 348573, 458892, 513414, 571990});
 }
 
+// with one plane a millionth as near as the others, the decrement must not cancel: Newton would stop beside the centre
+TEST(Certainty, CentresAreReachedFromNextToAPlane) {
+  expect_no_promise_broken<3>({376981, 484610});
+}
+
 // in eight parts, so that one that was interrupted need not begin anew: --gtest_filter=*AMillionPairs*/3
 class DISABLED_AMillionPairs : public testing::TestWithParam<int> {};
 

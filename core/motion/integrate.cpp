@@ -166,7 +166,7 @@ const std::vector<KickEnergy<Dim>>& advance_bodies(const Model<Dim>& model, int 
   static thread_local std::vector<KickEnergy<Dim>> own;
   std::vector<KickEnergy<Dim>>& kicks = own;  // this thread's, filled by all
   kicks.resize(model.bodies.size());
-  on_threads(team(threads, kicks.size()), static_cast<int>(kicks.size()), [&](int b) {
+  each_on_threads(threads, kicks.size(), [&](int b) {
     kicks[b] = model.bodies[b].fixed ? KickEnergy<Dim>()
                                      : advance(model.bodies[b], state.loads[b], rules[rules.size() == 1 ? 0 : b], times,
                                                state.motions[b]);

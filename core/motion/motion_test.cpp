@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <limits>
+#include <set>
 
 #include "core/floating_point_traps.hpp"
 #include "core/motion/integrate.hpp"
@@ -308,6 +309,42 @@ void expect_exact_for_one_free_body(std::uint64_t seed) {
 TEST(TimeStep, IsExactWhenOneBodyIsFree) {
   expect_exact_for_one_free_body<3>(48);
   expect_exact_for_one_free_body<2>(49);
+}
+
+TEST(TimeStep, OnlyBodiesOfGrownContactsAreLookedAtAnew) {
+  Random random(51);
+  RandomAssembly<3> assembly(random, 6, 1, 12);
+  const Model<3>& model = assembly.model;
+  State<3>& state = assembly.state;
+  estimate_time_step(model, {}, {}, state);
+  const std::vector<double> before = state.frequency;
+  EXPECT_FALSE(renew_time_step(model, {}, {}, state).has_value());
+
+  // one contact outgrows its rating; all others grow too, but stay within theirs
+  std::vector<double> rated;
+  for (Contact<3>& c : state.contacts) {
+    rated.push_back(c.area_rated);
+    c.geometry.area *= &c == &state.contacts.front() ? 1.2 : 1.05;
+  }
+  State<3> whole = state;
+  estimate_time_step(model, {}, {}, whole);
+  ASSERT_TRUE(renew_time_step(model, {}, {}, state).has_value());
+  const std::set<int> asked{model.parts[state.contacts[0].part_a].body, model.parts[state.contacts[0].part_b].body};
+  int kept = 0;
+  for (int b = 0; b < static_cast<int>(before.size()); ++b) {
+    EXPECT_EQ(state.frequency[b], asked.contains(b) ? whole.frequency[b] : before[b]);
+    kept += !asked.contains(b);
+  }
+  EXPECT_GE(kept, 5);
+  // what a body counts on that was not asked stays rated as it was
+  for (std::size_t i = 0; i < rated.size(); ++i) {
+    const Contact<3>& c = state.contacts[i];
+    const auto counted = [&](int part) {
+      const int body = model.parts[part].body;
+      return asked.contains(body) || model.bodies[body].fixed;
+    };
+    EXPECT_EQ(c.area_rated, counted(c.part_a) && counted(c.part_b) ? whole.contacts[i].area_rated : rated[i]);
+  }
 }
 
 TEST(TimeStep, SettingsAndSilence) {

@@ -219,7 +219,7 @@ TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, con
 
   // each body by itself
   state.frequency.resize(model.bodies.size(), 0);
-  on_threads(team(settings.threads, asked.bodies.size()), static_cast<int>(asked.bodies.size()), [&](int i) {
+  each_on_threads(settings.threads, asked.bodies.size(), [&](int i) {
     const int body = asked.bodies[i];
     state.frequency[body] = std::sqrt(stiffest(model, body, state.motions[body].rotation, stiffness[i], impact[i]));
   });
@@ -258,8 +258,7 @@ std::optional<TimeStepEstimate> renew_time_step(const Model<Dim>& model, const S
   static thread_local Asked asked;
   std::vector<char>& grown = own_grown;  // by contact: this thread's, filled by all
   grown.resize(state.contacts.size());
-  on_threads(team(settings.threads, grown.size()), static_cast<int>(grown.size()),
-             [&](int i) { grown[i] = outgrown(model, state, state.contacts[i]); });
+  each_on_threads(settings.threads, grown.size(), [&](int i) { grown[i] = outgrown(model, state, state.contacts[i]); });
   asked.begin(model.bodies.size());
   for (std::size_t i = 0; i < grown.size(); ++i) {
     if (!grown[i]) continue;

@@ -190,37 +190,38 @@ HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
   });
 }
 
-// Newton's direction of -Σ log s in a graded frame, and its decrement²; `solved` where the system has full rank. By the
-// adjugate, so that one quotient serves all and none waits for another: it loses no more than elimination from the top,
-// as every term of its sums has the same grade.
+// Newton's direction of -Σ log s in a graded frame, and its decrement²; `solved` where the system has full rank. By
+// elimination from the top without quotients: each pivot d carries the pivots above it as factors, so that no quotient
+// waits for another.
 template <class L, int Dim>
 HWY_INLINE void newton_direction(const typename L::Real (&sums)[Dim + Dim * (Dim + 1) / 2],
                                  Components<typename L::Real, Dim>& step, typename L::Real& decrement2,
                                  typename L::Bool& solved) {
   using Real = typename L::Real;
   const Real one = L::real(1), zero = L::real(0), tiny = L::real(smallest_pivot);
-  Components<Real, Dim> g, y;  // the adjugate times the gradient
-  Real determinant;
   if constexpr (Dim == 2) {
-    g = {sums[0], sums[1]};
-    const Real h00 = sums[2], h01 = sums[3], h11 = sums[4], square = h00 * h11;
-    determinant = square - h01 * h01;
-    solved = both(h00 > zero, determinant > tiny * square);
-    y = {h11 * g[0] - h01 * g[1], h00 * g[1] - h01 * g[0]};
+    const Real g0 = sums[0], g1 = sums[1], h00 = sums[2], h01 = sums[3], h11 = sums[4];
+    const Real square = h00 * h11, d1 = square - h01 * h01;
+    solved = both(h00 > zero, d1 > tiny * square);
+    const Real i0 = one / select(solved, h00, one), i1 = select(solved, one / select(solved, d1, one), zero);
+    const Real y1 = h01 * g0 - h00 * g1;
+    step[1] = y1 * i1;
+    step[0] = -(g0 + h01 * step[1]) * i0;
+    decrement2 = (g0 * g0 + y1 * step[1]) * i0;
   } else {
-    g = {sums[0], sums[1], sums[2]};
-    const Real h00 = sums[3], h01 = sums[4], h02 = sums[5], h11 = sums[6], h12 = sums[7], h22 = sums[8];
-    const Real square = h00 * h11;
-    const Real a00 = h11 * h22 - h12 * h12, a01 = h02 * h12 - h01 * h22, a02 = h01 * h12 - h02 * h11,
-               a11 = h00 * h22 - h02 * h02, a12 = h01 * h02 - h00 * h12, a22 = square - h01 * h01;
-    determinant = h00 * a00 + h01 * a01 + h02 * a02;
-    solved = both(both(h00 > zero, a22 > tiny * square), determinant > tiny * (a22 * h22));
-    y = {a00 * g[0] + a01 * g[1] + a02 * g[2], a01 * g[0] + a11 * g[1] + a12 * g[2],
-         a02 * g[0] + a12 * g[1] + a22 * g[2]};
+    const Real g0 = sums[0], g1 = sums[1], g2 = sums[2], h00 = sums[3], h01 = sums[4], h02 = sums[5], h11 = sums[6],
+               h12 = sums[7], h22 = sums[8];
+    const Real square = h00 * h11, d1 = square - h01 * h01, c = h00 * h12 - h01 * h02, e = h00 * h22 - h02 * h02;
+    const Real product = d1 * e, d2 = product - c * c;
+    solved = both(both(h00 > zero, d1 > tiny * square), d2 > tiny * (d1 * (h00 * h22)));
+    const Real i0 = one / select(solved, h00, one), i1 = one / select(solved, d1, one),
+               i2 = select(solved, one / select(solved, d2, one), zero);
+    const Real y1 = h01 * g0 - h00 * g1, y2 = d1 * (h02 * g0 - h00 * g2) - c * y1;
+    step[2] = y2 * i2;
+    step[1] = (y1 - c * step[2]) * i1;
+    step[0] = -(g0 + h01 * step[1] + h02 * step[2]) * i0;
+    decrement2 = (g0 * g0 + (y1 * y1 + y2 * step[2]) * i1) * i0;
   }
-  const Real inverse = one / select(solved, determinant, one);
-  step = scaled(-inverse, y);
-  decrement2 = dot(g, y) * inverse;
 }
 
 // one slot's share of the gradient, Σ p, and of the Hessian, Σ wp pᵀ
