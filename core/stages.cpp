@@ -373,6 +373,7 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
 
   // within a stage the step only shrinks, as soon as a contact is stiffer than it was chosen for
   const double last = state.time_step;
+  if (state.counters.steps % steps_between_looks == 0) state.frequency.clear();  // rest is judged by them, too
   if (const auto renewed = renew_time_step(model, settings, settings.damping, state)) {
     state.step_allowed = state.step_allowed > 0 ? std::min(state.step_allowed, renewed->step) : renewed->step;
     demand_time_step(state);

@@ -22,10 +22,6 @@ constexpr double nudge = 1e-3;
 // thousand steps stop it. Less than the critical damping of a column of 2,000 blocks.
 constexpr double least_damping = 1e-3;
 
-// Steps between two looks at the stiffness. It follows contacts that got softer; those that got stiffer ask for it
-// themselves. Costs as much as some steps, so a hundredth of them.
-constexpr int renewal = 100;
-
 template <int Dim>
 void stop_bodies(State<Dim>& state) {
   for (Motion<Dim>& m : state.motions) {
@@ -62,7 +58,7 @@ void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>
     const double to_limit = 0.5 * state.step_allowed * state.frequency[b] / share(model.bodies[b]);
     if (to_limit > 0) state.relaxation.inertia[b] = area_margin * to_limit * to_limit;
   }
-  state.relaxation.until_renewal = renewal;
+  state.relaxation.until_renewal = steps_between_looks;
 }
 
 // Critical damping of the present motion, 1/s, by Rayleigh's quotient: K v is what the contact forces lost over the

@@ -17,6 +17,10 @@ struct TimeStepEstimate {
 // an area may grow by this factor before the step must be estimated anew: `step` leaves room for it
 inline constexpr double area_margin = 1.1;
 
+// Steps between two looks at every body's stiffness. They see what got softer, while contacts that got stiffer ask for
+// it themselves. A look costs as much as some steps, so a hundredth of them.
+inline constexpr int steps_between_looks = 100;
+
 // λ = max over free bodies of λ_max(M⁻¹ Σ f J^T K J) over the body's 3 or 6 freedoms, lever arms included; f = 2 where
 // both bodies are free: between 1/√2 and 1 of the true limit. Contacts that touch count with their area; pairs whose
 // boxes meet but that do not touch, with the smaller of the two parts' largest faces at the lever arm of the body's

@@ -138,7 +138,7 @@ duration_s = 1.4
 [[stage]]
 name = "rest"
 kind = "settle"
-time_limit_s = 20
+time_limit_s = 60
 damping = {{ statics = "local", local = 0.1 }}
 
 [output]
