@@ -135,9 +135,10 @@ template <int Dim>
   return answer.force;
 }
 
-// the joint of one contact, or of each of its cells
+// The joint of one contact, or of each of its cells; inlined as above.
 template <int Dim>
-void answer(const Model<Dim>& model, const Settings& settings, std::size_t place, State<Dim>& state, Booked& booked) {
+[[gnu::always_inline]] inline void answer(const Model<Dim>& model, const Settings& settings, std::size_t place,
+                                          State<Dim>& state, Booked& booked) {
   Contact<Dim>& c = state.contacts[place];
   if (!c.touching()) return;
   const JointProperties& properties = model.properties[c.properties];

@@ -192,8 +192,8 @@ HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
 
 // Newton's direction of -Σ log s in a graded frame, and its decrement²; `solved` where the system has full rank. By
 // elimination from the top without quotients: each pivot d carries the pivots above it as factors, so that no quotient
-// waits for another. (By the adjugate it takes a tenth less, but its decrement cancels where one plane is a millionth
-// as near as the others, and Newton stops beside the centre: two of 625,000 pairs.)
+// waits for another. (By the adjugate a single pair takes a twentieth less, but its decrement cancels where one plane
+// is a millionth as near as the others, and Newton stops beside the centre: two of 625,000 pairs.)
 template <class L, int Dim>
 HWY_INLINE void newton_direction(const typename L::Real (&sums)[Dim + Dim * (Dim + 1) / 2],
                                  Components<typename L::Real, Dim>& step, typename L::Real& decrement2,
