@@ -21,6 +21,8 @@ constexpr int few = 32;
 // the finest grid has 2^40 cells along the region's longest side: far within an integer, far beyond any rock mass
 constexpr int most_halvings = 40;
 
+using Pairs = std::vector<std::pair<int, int>>;
+
 template <int Dim>
 using Cell = std::array<std::int64_t, Dim>;
 
@@ -45,18 +47,18 @@ struct Entry {
 // size: several cells may share a bucket.
 template <int Dim>
 struct PairSearch {
-  Vector<Dim> origin, region;                           // m: the lowest corner, and the extent, of all boxes
-  double cell = 1;                                      // m, of level 0
-  int lowest = 0;                                       // level
-  std::vector<int> level;                               // by box
-  std::vector<double> extents;                          // m, of the boxes that are there
-  std::vector<Grid<Dim>> grids;                         // from fine to coarse, those with at least `few` boxes
-  std::vector<int> alone;                               // boxes of no grid
-  std::vector<Entry<Dim>> filed;                        // boxes of the grids, as they come
-  std::vector<Entry<Dim>> table;                        // the same, bucket by bucket
-  std::vector<std::uint32_t> begin;                     // of each bucket in the table, and the end
-  std::vector<std::uint32_t> row;                       // of each box's pairs
-  std::vector<std::vector<std::pair<int, int>>> found;  // by group of boxes that one thread searches at a time
+  Vector<Dim> origin, region;        // m: the lowest corner, and the extent, of all boxes
+  double cell = 1;                   // m, of level 0
+  int lowest = 0;                    // level
+  std::vector<int> level;            // by box
+  std::vector<double> extents;       // m, of the boxes that are there
+  std::vector<Grid<Dim>> grids;      // from fine to coarse, those with at least `few` boxes
+  std::vector<int> alone;            // boxes of no grid
+  std::vector<Entry<Dim>> filed;     // boxes of the grids, as they come
+  std::vector<Entry<Dim>> table;     // the same, bucket by bucket
+  std::vector<std::uint32_t> begin;  // of each bucket in the table, and the end
+  std::vector<std::uint32_t> row;    // of each box's pairs
+  std::vector<Pairs> found;          // by group of boxes that one thread searches at a time
 };
 
 constexpr int absent = std::numeric_limits<int>::min();
@@ -209,8 +211,6 @@ void fill_table(const std::vector<Box<Dim>>& boxes, PairSearch<Dim>& s) {
   for (auto e = s.filed.rbegin(); e != s.filed.rend(); ++e)
     s.table[--s.begin[own_bucket(s, *e, mask)]] = *e;
 }
-
-using Pairs = std::vector<std::pair<int, int>>;
 
 template <int Dim>
 void try_pair(int i, const Box<Dim>& a, int j, const Box<Dim>& b, Pairs& found) {
