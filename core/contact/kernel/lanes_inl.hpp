@@ -52,27 +52,19 @@ VOUSSOIR_BINARY(larger, Max)
 VOUSSOIR_BINARY(with_sign_of, CopySign)
 #undef VOUSSOIR_BINARY
 
-template <class D, int M>
-HWY_INLINE Pack<D, M> operator-(const Pack<D, M>& a) {
-  Pack<D, M> r;
-  for (int k = 0; k < M; ++k)
-    r.v[k] = hn::Neg(a.v[k]);
-  return r;
-}
-template <class D, int M>
-HWY_INLINE Pack<D, M> magnitude(const Pack<D, M>& a) {
-  Pack<D, M> r;
-  for (int k = 0; k < M; ++k)
-    r.v[k] = hn::Abs(a.v[k]);
-  return r;
-}
-template <class D, int M>
-HWY_INLINE Pack<D, M> root(const Pack<D, M>& a) {
-  Pack<D, M> r;
-  for (int k = 0; k < M; ++k)
-    r.v[k] = hn::Sqrt(a.v[k]);
-  return r;
-}
+#define VOUSSOIR_UNARY(name, function)              \
+  template <class D, int M>                         \
+  HWY_INLINE Pack<D, M> name(const Pack<D, M>& a) { \
+    Pack<D, M> r;                                   \
+    for (int k = 0; k < M; ++k)                     \
+      r.v[k] = hn::function(a.v[k]);                \
+    return r;                                       \
+  }
+VOUSSOIR_UNARY(operator-, Neg)
+VOUSSOIR_UNARY(magnitude, Abs)
+VOUSSOIR_UNARY(root, Sqrt)
+#undef VOUSSOIR_UNARY
+
 template <class D, int M>
 HWY_INLINE PackMask<D, M> operator<(const Pack<D, M>& a, const Pack<D, M>& b) {
   PackMask<D, M> r;
