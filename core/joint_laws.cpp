@@ -27,6 +27,17 @@ struct PairMotion {
 
   // of both together, 1/kg; a fixed body is infinitely heavy
   double inverse_mass() const { return (a.fixed ? 0 : 1 / a.mass) + (b.fixed ? 0 : 1 / b.mass); }
+
+  // of the second body against the first; `point` relative to the first one's centroid, `apart` from there to the
+  // second one's
+  Vector<Dim> velocity_at(const Vector<Dim>& point, const Vector<Dim>& apart) const {
+    return velocity_b + cross(spin_b, point - apart) - velocity_a - cross(spin_a, point);
+  }
+  Vector<Dim> velocity_at(const Vector<Dim>& point) const { return velocity_at(point, between); }
+  // where the contact was before the step
+  Vector<Dim> velocity_before_at(const Vector<Dim>& point, double dt) const {
+    return velocity_at(point, between - (velocity_b - velocity_a) * dt);
+  }
 };
 
 template <int Dim>
@@ -86,8 +97,7 @@ template <int Dim>
   // the slip is the one of the step that led here
   const double dt = state.time_step;
   const Vector<Dim>& n = at.normal;
-  const Vector<Dim> velocity = motion.velocity_b + cross(motion.spin_b, at.point - motion.between) - motion.velocity_a -
-                               cross(motion.spin_a, at.point);
+  const Vector<Dim> velocity = motion.velocity_at(at.point);
 
   JointKinematics<Dim> k;
   k.normal = n;
@@ -100,8 +110,13 @@ template <int Dim>
 
   // a new contact has no shear yet; a standing one carries its own to the new plane
   const bool standing = !history.normal.isZero(0);
+  double closing_before = 0;
   if (standing) {
-    k.slip = (velocity + k.closing_speed * n) * dt;
+    // the mean of where the contact was and where it is: what its shear force then takes is what the bodies lose
+    const Vector<Dim> before = motion.velocity_before_at(history.point, dt);
+    closing_before = -before.dot(history.normal);
+    const Vector<Dim> twice = velocity + before + closing_before * history.normal;
+    k.slip = 0.5 * dt * (twice - twice.dot(n) * n);
     k.turn = spin_about(n, motion.spin_a, motion.spin_b) * dt;
     // area that is lost takes its stress with it: the rest could not carry the force of a thousand times its size
     if (k.area < history.area) {
@@ -127,8 +142,9 @@ template <int Dim>
                            : answer_of_laws<Dim>(properties, friction, damping, k, booked, history);
   booked.elastic += answer.elastic;
   booked.friction += answer.friction;
-  booked.dashpots += 0.5 * (history.dashpot + answer.dashpot) * k.closing_speed * dt;
+  booked.dashpots += 0.5 * (history.dashpot * closing_before + answer.dashpot * k.closing_speed) * dt;
   history.normal = n;
+  history.point = at.point;
   history.plastic_slip += answer.plastic_slip;
   history.dashpot = answer.dashpot;
   history.area = k.area;
@@ -159,6 +175,7 @@ template <int Dim>
   c.force.setZero();
   c.history = {};
   c.history.normal = c.geometry.normal;
+  c.history.point = c.geometry.point;
   c.history.area = properties.constant_stiffness ? 1 : whole;
   for (SubContact<Dim>& s : subs_of(state, place)) {
     if (!(s.area > 0)) continue;

@@ -43,6 +43,7 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
   const auto remember = [&](const JointState<Dim>& history) {
     bytes.add(history.shear_force);
     bytes.add(history.normal);
+    bytes.add(history.point);
     bytes.add(history.plastic_slip);
     bytes.add(history.shear_stiffness);
     bytes.add(static_cast<int>(history.bonded));

@@ -8,8 +8,8 @@
 
 namespace voussoir {
 
-// The fingerprint ("fnv1a64:…") of the bits of every present body's motion, by id, and of the key, shear force, normal
-// and plastic slip of every contact that touches, by key. Candidates, proofs, names and the numbers of joints and
+// The fingerprint ("fnv1a64:…") of the bits of every present body's motion, by id, and of the key, shear force, normal,
+// point and plastic slip of every contact that touches, by key. Candidates, proofs, names and the numbers of joints and
 // properties are left out: they change with the settings or the order of input, the physics must not. Bits, not values:
 // -0 differs from 0.
 template <int Dim>

@@ -89,8 +89,8 @@ void check_rest(CaseReport& report, const std::string& which, const Film& film, 
                  Kind::exact,
                  "W/(k A)",
                  overlap,
-                 {0, 1e-8},
-                 "the dashpot leaves nothing of the last bounce; places of 1 m are rounded by 5e-11 of the overlap"},
+                 {0, 1e-6},
+                 "the dashpot leaves nothing of the last bounce, but a cube that is left spinning shakes by 1e-7"},
                 contact.geometry.overlap, cost(film.run));
   const double centroid =
       film.model().origin[2] + film.model().bodies[body].reference[2] + film.last().motions[body].displacement[2];

@@ -76,8 +76,8 @@ void serialize(Archive& archive, ContactGeometry<Dim>& g) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, JointState<Dim>& j) {
-  auto& [shear_force, normal, plastic_slip, dashpot, area, shear_stiffness, bonded] = j;
-  archive(shear_force, normal, plastic_slip, dashpot, area, shear_stiffness, bonded);
+  auto& [shear_force, normal, point, plastic_slip, dashpot, area, shear_stiffness, bonded] = j;
+  archive(shear_force, normal, point, plastic_slip, dashpot, area, shear_stiffness, bonded);
 }
 
 template <class Archive, int Dim>

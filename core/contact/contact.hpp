@@ -35,6 +35,7 @@ template <int Dim>
 struct JointState {
   Vector<Dim> shear_force = Vector<Dim>::Zero();  // N on the second body
   Vector<Dim> normal = Vector<Dim>::Zero();       // of the step before
+  Vector<Dim> point = Vector<Dim>::Zero();        // m, of the step before, relative as the contact's
   double plastic_slip = 0;                        // m, accumulated
   double dashpot = 0;                             // N: its share of the normal force, of the step before
   double area = 0;                                // m², of the step before; 1 for a constant stiffness

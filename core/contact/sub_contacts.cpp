@@ -173,6 +173,7 @@ void hand_over(const JointState<Dim>& history, std::span<SubContact<Dim>> subs) 
     if (!(sub.area > 0)) continue;
     const double share = sub.area / area;
     sub.history = history;
+    sub.history.point = sub.point;
     sub.history.shear_force *= share;
     sub.history.dashpot *= share;
     sub.history.area *= share;
