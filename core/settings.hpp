@@ -12,20 +12,23 @@ namespace voussoir {
 
 enum class LpSolver { own, glpk };
 enum class CentreSolver { own, ipopt, ipopt_scaled };
-enum class ContactPoint { analytic_centre, centroid, chebyshev };
+
+// where in the overlap a contact acts. chebyshev: at the point of the program min s (Eq. 3.27); central_path: at that
+// of its logarithmic barrier (optimise/central_path.hpp), which does not jump
+enum class ContactPoint { analytic_centre, centroid, chebyshev, central_path };
 enum class OverlapSearch { closed_form, bracketing };
 
 // Direction and depth of a contact. potential: from the rounded potentials at the point, measured along it, as
-// published. multipliers: of the program min s (Eq. 3.27) the gradient g = Σ λ a over one part's planes, and -s/|g|, at
-// 4|g|² of a constant stiffness k: where the contact acts at the program's own point, the force is that of the
-// potential 2 k s²
+// published. multipliers: of the program min s, or of its barrier where the point is on the central path, the gradient
+// g = Σ λ a over one part's planes, and -s/|g|, at 4|g|² of a constant stiffness k: where the contact acts at the
+// program's or the barrier's own point, the force is that of the potential 2 k s²
 enum class ContactNormal { potential, multipliers };
 
 struct ContactSettings {
   LpSolver lp = LpSolver::own;
   CentreSolver centre = CentreSolver::own;
   ContactPoint point = ContactPoint::analytic_centre;
-  ContactNormal normal = ContactNormal::potential;     // multipliers: with point = chebyshev
+  ContactNormal normal = ContactNormal::potential;     // multipliers: with point = central_path
   OverlapSearch overlap = OverlapSearch::closed_form;  // of normal = potential
 
   // two parts touch when they overlap by more than this times the smaller inscribed radius, and by more than rounding
@@ -35,6 +38,11 @@ struct ContactSettings {
   // radius r of the inner potential particle that rounds the normal at edges, times the smaller inscribed radius; must
   // exceed the largest overlap; large values tilt the normal of face contacts near an edge
   double potential_radius = 0.02;
+
+  // weight µ of the central path's barrier, times the smaller inscribed radius: as a face rocks, its force walks over it
+  // within an angle of some 2 µ over its width, and parts give way by some 10 to 30 µ before they resist. Smaller: the
+  // force jumps from corner to corner within a step; larger: blocks lie deeper
+  double smoothing = 3e-4;
 
   // Newton stops when its decrement before the step is below this; 1e-3 leaves 1e-6 of overlap and area, 1e-5 1e-9
   double newton_tolerance = 1e-5;

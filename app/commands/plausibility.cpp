@@ -333,8 +333,8 @@ template <int Dim>
 void judge_multipliers(const ContactSettings& contact, const Model<Dim>& model, Plausibility& result) {
   if (contact.normal != ContactNormal::multipliers) return;
   const char* const keeps = "contact.normal = \"multipliers\" keeps energy only with";
-  if (contact.point != ContactPoint::chebyshev)
-    result.warnings.push_back(fmt::format("{} contact.point = \"chebyshev\"", keeps));
+  if (contact.point != ContactPoint::central_path && contact.point != ContactPoint::chebyshev)
+    result.warnings.push_back(fmt::format("{} contact.point = \"central_path\"", keeps));
   if (!std::all_of(model.properties.begin(), model.properties.end(),
                    [](const JointProperties& p) { return p.constant_stiffness; }))
     result.warnings.push_back(fmt::format("{} joint_properties.constant_stiffness = true", keeps));

@@ -9,6 +9,7 @@
 #include "core/contact/careful_overlap.hpp"
 #include "core/contact/kernel/workspace.hpp"
 #include "core/contact/overlap_region.hpp"
+#include "core/optimise/central_path.hpp"
 
 namespace voussoir {
 namespace {
@@ -24,21 +25,7 @@ double smallest_slack(const HalfSpaces<Dim>& planes, const Vector<Dim>& point) {
   return least;
 }
 
-// Σ over A's planes of λ a: how the program's value grows as B moves. False when it vanishes, one part deep inside the
-// other; else its unit vector, the direction that separates the parts, or nearly does, and its length.
-template <int Dim>
-bool value_gradient(const HalfSpaces<Dim>& planes, int faces_a, const FeasibilityResult<Dim>& lp, Vector<Dim>& axis,
-                    double& length) {
-  axis.setZero();
-  for (int k = 0; k <= Dim; ++k)
-    if (lp.basis[k] >= 0 && lp.basis[k] < faces_a) axis += lp.multipliers[k] * planes[lp.basis[k]].normal;
-  length = axis.norm();
-  if (!(length > parallel_gradients)) return false;
-  axis /= length;
-  return true;
-}
-
-// the planes from `first` to before `last` that the program leans on most
+// the plane from `first` to before `last` that the program leans on most
 template <int Dim>
 int largest_multiplier(const FeasibilityResult<Dim>& lp, int first, int last) {
   int face = -1;
@@ -92,6 +79,24 @@ struct Resolver {
   Vector<Dim> start;
   FeasibilityResult<Dim> lp;
   bool lp_solved = false;
+  CentralPathResult<Dim> path;
+
+  // Σ over A's planes of λ a: how the program's value grows as B moves
+  Vector<Dim> program_gradient() const {
+    Vector<Dim> gradient = Vector<Dim>::Zero();
+    for (int k = 0; k <= Dim; ++k)
+      if (lp.basis[k] >= 0 && lp.basis[k] < faces_a) gradient += lp.multipliers[k] * planes[lp.basis[k]].normal;
+    return gradient;
+  }
+
+  // its unit vector, which separates the parts, or nearly does; false when it vanishes, one part deep inside the other
+  bool separating_direction(Vector<Dim>& axis) const {
+    axis = program_gradient();
+    const double length = axis.norm();
+    if (!(length > parallel_gradients)) return false;
+    axis /= length;
+    return true;
+  }
 
   void run_lp(const std::array<int, Dim + 1>& basis) {
     lp = solvers.feasibility(planes, {&basis, rounding, rounding / 64});
@@ -113,6 +118,7 @@ struct Resolver {
       contact.proof.kind = ProofKind::multipliers;
       contact.proof.margin = bound;
       contact.proof.basis = lp.basis;
+      separating_direction(contact.proof.axis);
       return false;
     }
     if (!(smallest_slack<Dim>(planes, start) > rounding + tolerance)) {
@@ -136,6 +142,8 @@ struct Resolver {
   }
 
   bool by_multipliers() const { return settings.normal == ContactNormal::multipliers; }
+  bool on_central_path() const { return settings.point == ContactPoint::central_path; }
+  double smoothing() const { return settings.smoothing * size; }
 
   // overlap is proven by the old contact point when it still lies inside, else by the LP; who asks for its multipliers
   // starts it from the planes that were tight
@@ -144,7 +152,7 @@ struct Resolver {
       start = contact.proof.point - origin;
       return true;
     }
-    if (contact.proof.kind == ProofKind::interior_point && by_multipliers()) {
+    if (contact.proof.kind == ProofKind::interior_point && by_multipliers() && !on_central_path()) {
       const std::array<int, Dim + 1> old = contact.proof.basis;
       contact.proof = {};
       return solve_lp(old);
@@ -181,7 +189,16 @@ struct Resolver {
     return true;
   }
 
+  bool find_central_point(Vector<Dim>& point) {
+    path = follow_central_path<Dim>(planes, {start, smoothing(), settings.newton_tolerance, settings.newton_limit});
+    counters.newton_iterations += path.iterations;
+    point = path.point;
+    if (path.status != CentralPathStatus::converged) contact.status = ContactStatus::centre_not_converged;
+    return path.status == CentralPathStatus::converged;
+  }
+
   bool find_point(Vector<Dim>& point) {
+    if (on_central_path()) return find_central_point(point);
     point = start;
     if (settings.point == ContactPoint::chebyshev) return true;
     if (settings.point == ContactPoint::centroid ? find_centroid(point) : find_centre(point)) return true;
@@ -199,12 +216,7 @@ struct Resolver {
     if (fallback || !found) ++counters.normal_fallbacks;
     if (found) return true;
     if (!lp_solved) run_lp(pair.a->basis);
-    double length;
-    return find_gradient(normal, length);
-  }
-
-  bool find_gradient(Vector<Dim>& normal, double& length) {
-    if (value_gradient(planes, faces_a, lp, normal, length)) return true;
+    if (separating_direction(normal)) return true;
     contact.status = ContactStatus::no_normal;
     return false;
   }
@@ -218,29 +230,66 @@ struct Resolver {
     return false;
   }
 
+  // the program's own gradient and value
+  void lean_on_program(Vector<Dim>& gradient, double& value, int& face_a, int& face_b) const {
+    gradient = program_gradient();
+    value = lp.value;
+    face_a = largest_multiplier(lp, 0, faces_a);
+    face_b = largest_multiplier(lp, faces_a, static_cast<int>(planes.size()));
+  }
+
+  // Those of its barrier. Each plane's distance is taken relative to the diameter of its part, which no point of both
+  // exceeds, and the two logarithms that any contact has, of a plane of each part at twice the smoothing, are left out:
+  // so far planes and near ones add to the value, it is above the program's, and parts that do not touch feel no force.
+  void lean_on_path(Vector<Dim>& gradient, double& value, int& face_a, int& face_b) const {
+    const double weight = smoothing();
+    const int faces_b = static_cast<int>(planes.size()) - faces_a;
+    const double offset = (faces_a - 1) * std::log(2 * pair.a->radius) + (faces_b - 1) * std::log(2 * pair.b->radius) +
+                          2 * (std::log(2 * weight) - 1);
+    value = path.bound + weight * (offset - path.logarithms);
+    gradient.setZero();
+    double most_a = 0, most_b = 0;
+    for (int i = 0; i < static_cast<int>(planes.size()); ++i) {
+      const double multiplier = weight / (path.bound - signed_distance(planes[i], path.point));
+      if (i < faces_a) gradient += multiplier * planes[i].normal;
+      double& most = i < faces_a ? most_a : most_b;
+      if (multiplier <= most) continue;
+      most = multiplier;
+      (i < faces_a ? face_a : face_b) = i;
+    }
+  }
+
   // Where B moves, the program's value s grows by its gradient g at the program's point: -s/|g| is the overlap of the
   // features that the program leans on. |g| is 1/2 between faces, less at edges and corners; with 4|g|² of a stiffness
   // k the force is that of the potential 2 k s², which does not jump where other planes become tight.
   bool measure_by_multipliers(Vector<Dim>& normal, double& overlap, int& face_a, int& face_b) {
-    double length;
-    if (!find_gradient(normal, length)) return false;
-    overlap = -lp.value / length;
+    double value;
+    if (on_central_path())
+      lean_on_path(normal, value, face_a, face_b);
+    else
+      lean_on_program(normal, value, face_a, face_b);
+    const double length = normal.norm();
+    if (!(length > parallel_gradients)) {
+      contact.status = ContactStatus::no_normal;
+      return false;
+    }
+    normal /= length;
+    overlap = std::max(-value / length, 0.0);
     contact.geometry.firmness = 4 * length * length;
-    face_a = largest_multiplier(lp, 0, faces_a);
-    face_b = largest_multiplier(lp, faces_a, static_cast<int>(planes.size()));
     return true;
   }
 
-  // the centre of a region as thin as the rounding may round to its outside: the LP's point is as good
+  // the centre of a region as thin as the rounding may round to its outside: the LP's point is as good; that of the
+  // central path lies outside of a region thinner than the smoothing, and the start does not
   bool keep_inside(Vector<Dim>& point) {
     double margin = smallest_slack<Dim>(planes, point) - rounding;
     if (!(margin > 0)) {
-      if (proven == 0 && !lp_solved && !establish_cold()) return false;
+      if (proven == 0 && !lp_solved && !on_central_path() && !establish_cold()) return false;
       point = start;
       margin = proven > 0 ? proven : smallest_slack<Dim>(planes, point) - rounding;
     }
     contact.proof = {.kind = ProofKind::interior_point, .margin = margin, .point = point + origin};
-    if (by_multipliers()) contact.proof.basis = lp.basis;
+    if (lp_solved) contact.proof.basis = lp.basis;
     contact.geometry.point = pair.axes * contact.proof.point;
     return true;
   }
@@ -260,7 +309,7 @@ struct Resolver {
     const bool measured = by_multipliers() ? measure_by_multipliers(normal, overlap, face_a, face_b)
                                            : measure_by_potential(point, normal, overlap, face_a, face_b);
     if (!measured) return;
-    if (!by_multipliers() && overlap > settings.potential_radius * size) ++counters.deep_overlaps;
+    if (overlap > settings.potential_radius * size) ++counters.deep_overlaps;
     ContactGeometry<Dim>& geometry = contact.geometry;
     if (pair.last == Stage::area) {
       ++counters.areas;
@@ -399,7 +448,8 @@ void resolve_generally(const Pair<Dim>& pair, const ContactSettings& settings, c
                 .proven = fresh ? contact.proof.margin : 0,
                 .faces_a = static_cast<int>(pair.a->faces.size()),
                 .start = {},
-                .lp = {}}
+                .lp = {},
+                .path = {}}
       .resolve();
 }
 

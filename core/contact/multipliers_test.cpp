@@ -12,6 +12,7 @@ using namespace contacts;
 using shapes::Random;
 
 const ContactSettings by_multipliers{.point = ContactPoint::chebyshev, .normal = ContactNormal::multipliers};
+const ContactSettings smoothed{.point = ContactPoint::central_path, .normal = ContactNormal::multipliers};
 const ContactSettings by_potential{.point = ContactPoint::chebyshev, .potential_radius = 0.3};
 
 // rounding of the planes of blocks of 1 m, magnified by corners
@@ -111,6 +112,105 @@ TEST(Multipliers, OneDeepInsideTheOtherHasNoNormal) {
   EXPECT_EQ(touch<3>(large, small, turn, Vector<3>::Zero(), by_multipliers).contact.status, ContactStatus::no_normal);
 }
 
+// ---- on the central path --------------------------------------------------------------------------------------------
+
+// the value of the program or of its barrier
+template <int Dim>
+double depth(const ContactGeometry<Dim>& g) {
+  return 0.5 * g.overlap * std::sqrt(g.firmness);
+}
+
+// What is smoothed is never deeper than what it smooths, so that a force begins at zero, and comes close to it.
+template <int Dim>
+void expect_less_by_the_smoothing(std::uint64_t seed) {
+  Random random(seed);
+  int pressed = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Polytope<Dim> a = shapes::block<Dim>(shapes::random_planes<Dim>(random, shapes::integer(random, 0, 8), 0.5)),
+                        b = shapes::block<Dim>(shapes::random_planes<Dim>(random, shapes::integer(random, 0, 8), 0.5));
+    const Matrix<Dim> turn = matrix(shapes::orientation<Dim>(random));
+    const Vector<Dim> along = shapes::direction<Dim>(random);
+    double inside = 0, outside = 6;
+    for (int k = 0; k < 50; ++k) {
+      const double middle = 0.5 * (inside + outside);
+      (oracle::separation<Dim>(a, b, turn, middle * along) > 0 ? outside : inside) = middle;
+    }
+    const double size = std::min(a.inscribed_radius, b.inscribed_radius);
+    const Vector<Dim> offset = (outside - shapes::power_of_ten(random, -6, -0.5) * size) * along;
+    const Contact<Dim> exact = touch<Dim>(a, b, turn, offset, by_multipliers).contact;
+    if (!exact.touching()) continue;
+    for (const double share : {1e-2, 1e-3, 1e-5}) {
+      ContactSettings settings = smoothed;
+      settings.smoothing = share;
+      const Contact<Dim> contact = touch<Dim>(a, b, turn, offset, settings).contact;
+      ASSERT_TRUE(contact.touching());
+      EXPECT_GT(contact.proof.margin, 0);
+      EXPECT_LE(depth<Dim>(contact.geometry), depth<Dim>(exact.geometry) + rounding);
+      // each plane adds the logarithm of its distance over the part's diameter at most, near ones that of the smoothing
+      const double planes = static_cast<double>(a.faces.size() + b.faces.size());
+      EXPECT_GE(depth<Dim>(contact.geometry),
+                depth<Dim>(exact.geometry) - share * size * (3 * planes + 4 * std::log(1 / share)));
+      pressed += contact.geometry.overlap > 0;
+    }
+  }
+  EXPECT_GT(pressed, 100);
+}
+
+TEST(CentralPathContact, IsLessDeepByTheSmoothing) {
+  expect_less_by_the_smoothing<3>(97);
+  expect_less_by_the_smoothing<2>(98);
+}
+
+TEST(CentralPathContact, FaceOnFaceIsCarriedInTheMiddleAndWalksAsItRocks) {
+  const Polytope<3> cube = unit_cube<3>();
+  const Vector<3> offset(0, 0, 0.99);
+  const double weight = smoothed.smoothing * cube.inscribed_radius;
+  double before = 0;
+  for (const double share : {0.0, 0.1, 0.3, 1.0, 3.0, 10.0}) {
+    const double angle = share * weight;
+    const Matrix<3> turn = Eigen::AngleAxisd(angle, Vector<3>::UnitY()).toRotationMatrix();
+    const ContactGeometry<3> g = touch<3>(cube, cube, turn, offset, smoothed).contact.geometry;
+    // the sides carry what their distances leave them, and nothing of it counts
+    EXPECT_LT(g.firmness, 1);
+    EXPECT_GT(g.firmness, 1 - 100 * weight - angle);
+    EXPECT_LT((g.normal - Vector<3>::UnitZ()).norm(), angle + 1e-9);
+    EXPECT_LE(g.overlap, 0.01 + angle);
+    EXPECT_NEAR(g.point[1], 0, 1e-6);
+    EXPECT_NEAR(g.area, 1, 0.01);
+    // Turned about y, the upper cube's lower face is deepest at large x. There the point goes, to where the barriers of
+    // the two sides, 2 µ/t each, hold what the tilt wins, half the sine.
+    const double x = std::abs(g.point[0]);
+    if (angle > 0) {
+      EXPECT_NEAR(2 / (0.5 - x) - 2 / (0.5 + x), 0.5 * share, 0.05 * share);
+      EXPECT_GT(x, before);
+    } else {
+      EXPECT_NEAR(x, 0, 1e-6);
+    }
+    before = x;
+  }
+}
+
+TEST(CentralPathContact, WarmIsCold) {
+  const auto solids = shapes::platonic_solids(0.3);
+  Random random(99);
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const Polytope<3> a = shapes::block<3>(solids[i].planes), b = shapes::block<3>(solids[0].planes);
+    const Matrix<3> turn = matrix(shapes::orientation<3>(random));
+    const Vector<3> along = shapes::direction<3>(random);
+    Contact<3> warm;
+    for (const double distance : {0.3, 0.29, 0.28}) {
+      const Outcome<3> cold = touch<3>(a, b, turn, distance * along, smoothed),
+                       next = touch<3>(a, b, turn, distance * along, smoothed, warm);
+      ASSERT_TRUE(cold.contact.touching());
+      EXPECT_EQ(next.counters.lp_solves, warm.touching() ? 0 : 1);
+      warm = next.contact;
+      EXPECT_NEAR(warm.geometry.overlap, cold.contact.geometry.overlap, 1e-9);
+      EXPECT_LT((warm.geometry.point - cold.contact.geometry.point).norm(), 1e-6);
+      EXPECT_LT((warm.geometry.normal - cold.contact.geometry.normal).norm(), 1e-6);
+    }
+  }
+}
+
 // ---- the force has a potential --------------------------------------------------------------------------------------
 
 constexpr int steps = 8000;
@@ -183,6 +283,10 @@ void expect_a_potential(double turning) {
   EXPECT_LT(ours.work, allowed * ours.force_times_path);
   EXPECT_GT(published.work, 10 * allowed * published.force_times_path);
   EXPECT_GT(ours.without_firmness, allowed * ours.force_times_path);
+  // smoothed, it jumps nowhere
+  const Loop smooth = loops(95, turning, smoothed);
+  ASSERT_GT(smooth.force_times_path, 0);
+  EXPECT_LT(smooth.work, 1e-7 * smooth.force_times_path);
 }
 
 TEST(Multipliers, TheForceHasAPotential) {

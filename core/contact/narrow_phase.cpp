@@ -52,6 +52,39 @@ bool separates(const Pair<Dim>& pair, const Vector<Dim>& axis, double support_a,
   return true;
 }
 
+// whether the plane that separated the parts before still does
+template <int Dim>
+bool still_separated(const Pair<Dim>& pair, Contact<Dim>& contact, KernelCounters& counters) {
+  const Proof<Dim>& proof = contact.proof;
+  if (proof.kind != ProofKind::separating_axis || !separates(pair, Vector<Dim>(proof.axis), proof.support, contact))
+    return false;
+  ++counters.axis_hits;
+  return true;
+}
+
+// the plane between separated parts is cheaper to check next time than the multipliers that found it
+template <int Dim>
+void keep_axis(const Pair<Dim>& pair, Contact<Dim>& contact) {
+  const Vector<Dim> axis = contact.proof.axis;
+  separates(pair, axis, support(*pair.a, axis), contact);
+}
+
+bool on_central_path(const ContactSettings& settings) {
+  return settings.point == ContactPoint::central_path && settings.normal == ContactNormal::multipliers;
+}
+
+template <int Dim>
+bool kernel_suits(const ContactSettings& settings, const Solvers<Dim>& solvers) {
+  if (solvers.feasibility != &solve_feasibility<Dim>) return false;
+  return on_central_path(settings) ||
+         (settings.point == ContactPoint::analytic_centre && settings.normal == ContactNormal::potential &&
+          settings.overlap == OverlapSearch::closed_form && solvers.centre == &solve_analytic_centre<Dim>);
+}
+
+KernelOptions kernel_options(const ContactSettings& settings) {
+  return {settings.newton_tolerance, settings.newton_limit, on_central_path(settings)};
+}
+
 // nothing is known of the pair, or what was known no longer holds
 template <int Dim>
 void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const Solvers<Dim>& solvers,
@@ -67,25 +100,27 @@ void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const 
     if (separates(pair, axis, support(*pair.a, axis), contact)) return;
   }
   contact.geometry = {};
-  resolve_new(task, {settings.newton_tolerance, settings.newton_limit}, counters);
+  if (on_central_path(settings)) {
+    resolve_generally(pair, settings, solvers, contact, false, counters);
+    if (contact.status == ContactStatus::separated) keep_axis(pair, contact);
+    return;
+  }
+  resolve_new(task, kernel_options(settings), counters);
   if (!task.answered) {
     const bool fresh = contact.proof.kind == ProofKind::interior_point;
     return resolve_generally(pair, settings, solvers, contact, fresh, counters);
   }
-  if (contact.status == ContactStatus::separated) {
-    // the plane between them is cheaper to check next time than the multipliers
-    const Vector<Dim> axis = contact.proof.axis;
-    separates(pair, axis, support(*pair.a, axis), contact);
-    return;
-  }
+  if (contact.status == ContactStatus::separated) return keep_axis(pair, contact);
   if (task.magnified) measure_overlap_carefully(pair, contact);
 }
 
+// with parts exchanged for others
 template <int Dim>
-bool kernel_suits(const ContactSettings& settings, const Solvers<Dim>& solvers) {
-  return settings.point == ContactPoint::analytic_centre && settings.normal == ContactNormal::potential &&
-         settings.overlap == OverlapSearch::closed_form && solvers.feasibility == &solve_feasibility<Dim> &&
-         solvers.centre == &solve_analytic_centre<Dim>;
+void resolve_slowly(const Pair<Dim>& pair, const ContactSettings& settings, const Solvers<Dim>& solvers,
+                    Contact<Dim>& contact, KernelCounters& counters) {
+  if (still_separated(pair, contact, counters)) return;
+  resolve_generally(pair, settings, solvers, contact, false, counters);
+  if (contact.status == ContactStatus::separated) keep_axis(pair, contact);
 }
 
 // as many as the nearest cache holds with their contacts
@@ -110,11 +145,7 @@ void resolve_fast(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
     const Pair<Dim>& pair = pairs[i];
     Contact<Dim>& contact = *contacts[i];
     const Proof<Dim>& proof = contact.proof;
-    // the plane that separated them still does
-    if (proof.kind == ProofKind::separating_axis && separates(pair, Vector<Dim>(proof.axis), proof.support, contact)) {
-      ++counters.axis_hits;
-      continue;
-    }
+    if (still_separated(pair, contact, counters)) continue;
     KernelTask<Dim>& task = tasks[count] = kernel_task(pair, settings, contact);
     // the point that was inside both still is: they go on together, below
     if (proof.kind == ProofKind::interior_point)
@@ -126,7 +157,7 @@ void resolve_fast(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
 
   const std::span<KernelTask<Dim>> standing(tasks, count);
   sort_by_work(standing);
-  resolve_standing<Dim>(standing, {settings.newton_tolerance, settings.newton_limit}, counters);
+  resolve_standing<Dim>(standing, kernel_options(settings), counters);
   for (KernelTask<Dim>& task : standing) {
     if (!task.answered) {
       resolve_cold(task, settings, solvers, counters);
@@ -145,7 +176,7 @@ void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
   counters.evaluations += static_cast<long long>(pairs.size());
   if (!kernel_suits(settings, solvers)) {
     for (std::size_t i = 0; i < pairs.size(); ++i)
-      resolve_generally(pairs[i], settings, solvers, *contacts[i], false, counters);
+      resolve_slowly(pairs[i], settings, solvers, *contacts[i], counters);
     return;
   }
   for (std::size_t from = 0; from < pairs.size(); from += pairs_together) {

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/optimise/symmetric_system.hpp"
+
 namespace voussoir {
 namespace {
-
-// below this decrement² a full Newton step cannot leave the region (it stays inside the Dikin ellipsoid)
-constexpr double full_step_decrement = 1.0 / 16;
 
 template <int Dim>
 const Vector<Dim>& largest(const std::vector<Vector<Dim>>& vectors) {
@@ -38,26 +37,6 @@ Matrix<3> graded_frame(const std::vector<Vector<3>>& scaled) {
   Matrix<3> frame;
   frame << first.transpose(), second.transpose(), first.cross(second).transpose();
   return frame;
-}
-
-// solves H y = g by LDLᵀ without pivoting; false when H is not positive definite
-template <int Dim>
-bool solve_symmetric(Matrix<Dim> h, Vector<Dim>& g) {
-  for (int k = 0; k < Dim; ++k) {
-    if (!(h(k, k) > 0)) return false;
-    for (int i = k + 1; i < Dim; ++i) {
-      const double factor = h(i, k) / h(k, k);
-      for (int j = k + 1; j <= i; ++j)
-        h(i, j) -= factor * h(j, k);
-      g[i] -= factor * g[k];
-    }
-  }
-  for (int k = Dim - 1; k >= 0; --k) {
-    for (int i = k + 1; i < Dim; ++i)
-      g[k] -= h(i, k) * g[i];
-    g[k] /= h(k, k);
-  }
-  return true;
 }
 
 // work arrays kept between calls: the step allocates nothing

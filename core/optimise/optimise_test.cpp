@@ -5,6 +5,7 @@
 
 #include "core/optimise/analytic_centre.hpp"
 #include "core/optimise/careful_feasibility.hpp"
+#include "core/optimise/central_path.hpp"
 #include "core/optimise/double_double.hpp"
 #include "core/optimise/feasibility.hpp"
 #include "core/testing/oracles.hpp"
@@ -227,6 +228,85 @@ TEST(Feasibility, PowersOfTwoScaleItExactly) {
       EXPECT_EQ(other.basis, one.basis);
     }
   }
+}
+
+// ---- central path ---------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void expect_on_the_central_path(const HalfSpaces<Dim>& planes, double weight, const CentralPathResult<Dim>& r) {
+  ASSERT_EQ(r.status, CentralPathStatus::converged);
+  Vector<Dim> direction = Vector<Dim>::Zero();
+  double sum = 0, logarithms = 0;
+  for (const HalfSpace<Dim>& p : planes) {
+    const double t = r.bound - signed_distance<Dim>(p, r.point);
+    ASSERT_GT(t, 0);
+    sum += weight / t;
+    direction += weight / t * p.normal;
+    logarithms += std::log(t);
+  }
+  // a t of the weight's size carries the rounding of the coordinates
+  const double rounding = 1e-15 / weight;
+  EXPECT_NEAR(sum, 1, centre_tolerance + rounding);
+  EXPECT_LT(direction.norm(), centre_tolerance + rounding);
+  EXPECT_NEAR(r.logarithms, logarithms, 1e-12 * static_cast<double>(planes.size()) + rounding);
+  // its multipliers prove the program's value as closely as there are planes
+  const double value = solve_feasibility<Dim>(planes, {}).value;
+  EXPECT_GE(r.bound, value);
+  EXPECT_LE(r.bound - static_cast<double>(planes.size()) * weight, value + lp_tolerance);
+}
+
+template <int Dim>
+void expect_central_paths(std::uint64_t seed) {
+  Random random(seed);
+  for (int i = 0; i < 200; ++i) {
+    const HalfSpaces<Dim> planes = random_pair<Dim>(random, shapes::integer(random, 0, 10));
+    const double weight = shapes::power_of_ten(random, -7, -1);
+    const CentralPathResult<Dim> r = follow_central_path<Dim>(planes, {Vector<Dim>::Zero(), weight});
+    expect_on_the_central_path<Dim>(planes, weight, r);
+    // the same from anywhere
+    const Vector<Dim> start = 3 * shapes::direction<Dim>(random);
+    const CentralPathResult<Dim> other = follow_central_path<Dim>(planes, {start, weight});
+    expect_on_the_central_path<Dim>(planes, weight, other);
+    EXPECT_NEAR(other.bound, r.bound, centre_tolerance * weight + 1e-14);
+  }
+}
+
+TEST(CentralPath, ItsMultipliersAreTheProgramsButForTheWeight) {
+  expect_central_paths<3>(21);
+  expect_central_paths<2>(22);
+}
+
+TEST(CentralPath, OfABoxIsItsMiddle) {
+  for (const double weight : {1e-1, 1e-4, 1e-8}) {
+    const CentralPathResult<3> r = follow_central_path<3>(shapes::cube<3>(1), {Vector<3>(0.9, -0.3, 0.5), weight});
+    ASSERT_EQ(r.status, CentralPathStatus::converged);
+    EXPECT_LT(r.point.norm(), centre_tolerance);
+    EXPECT_NEAR(r.bound, 6 * weight - 1, centre_tolerance * weight + 1e-15);
+    EXPECT_NEAR(r.logarithms, 6 * std::log(6 * weight), centre_tolerance);
+  }
+}
+
+TEST(CentralPath, PowersOfTwoScaleItExactly) {
+  Random random(23);
+  for (int i = 0; i < 50; ++i) {
+    const HalfSpaces<3> planes = random_pair<3>(random, 5);
+    const CentralPathResult<3> one = follow_central_path<3>(planes, {Vector<3>::Zero(), 1e-4});
+    for (const double factor : {0x1p-10, 0x1p13}) {
+      const CentralPathResult<3> other =
+          follow_central_path<3>(shapes::scaled<3>(planes, factor), {Vector<3>::Zero(), factor * 1e-4});
+      EXPECT_EQ(other.bound, factor * one.bound);
+      EXPECT_EQ(other.point, Vector<3>(factor * one.point));
+    }
+  }
+}
+
+TEST(CentralPath, NamesEveryFailure) {
+  EXPECT_EQ(follow_central_path<3>(shapes::cube<3>(1), {Vector<3>(5, 0, 0), 1e-4, 1e-5, 1}).status,
+            CentralPathStatus::iteration_limit);
+  // a region that is open along z has none
+  HalfSpaces<3> tube = shapes::cube<3>(1);
+  std::erase_if(tube, [](const HalfSpace<3>& p) { return p.normal[2] != 0; });
+  EXPECT_NE(follow_central_path<3>(tube, {Vector<3>::Zero(), 1e-4}).status, CentralPathStatus::converged);
 }
 
 // ---- analytic centre ------------------------------------------------------------------------------------------------

@@ -25,8 +25,8 @@ std::string dump(const Scene& s) {
   out.precision(17);
   const ContactSettings& c = s.settings.contact;
   out << static_cast<int>(c.lp) << ' ' << static_cast<int>(c.centre) << ' ' << static_cast<int>(c.point) << ' '
-      << static_cast<int>(c.overlap) << ' ' << c.tolerance << ' ' << c.potential_radius << ' ' << c.newton_tolerance
-      << ' ' << c.newton_limit << ' ' << c.skin << '\n'
+      << static_cast<int>(c.overlap) << ' ' << c.tolerance << ' ' << c.potential_radius << ' ' << c.smoothing << ' '
+      << c.newton_tolerance << ' ' << c.newton_limit << ' ' << c.skin << '\n'
       << static_cast<int>(s.settings.damping.statics) << ' ' << s.settings.damping.local << ' '
       << s.settings.damping.viscous_ratio << ' ' << s.settings.time.fraction << ' ' << s.settings.equilibrium.unbalanced
       << ' ' << s.settings.equilibrium.window << ' ' << s.smallest_inscribed_radius << ' '

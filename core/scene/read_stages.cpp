@@ -264,7 +264,8 @@ Settings read_settings(const Subject& scene) {
     read_choice(*table, "point",
                 {{"analytic_centre", ContactPoint::analytic_centre},
                  {"centroid", ContactPoint::centroid},
-                 {"chebyshev", ContactPoint::chebyshev}},
+                 {"chebyshev", ContactPoint::chebyshev},
+                 {"central_path", ContactPoint::central_path}},
                 contact.point);
     read_choice(*table, "normal",
                 {{"potential", ContactNormal::potential}, {"multipliers", ContactNormal::multipliers}}, contact.normal);
@@ -277,6 +278,7 @@ Settings read_settings(const Subject& scene) {
              "value, leave it out");
     read(*table, "tolerance", contact.tolerance);
     read(*table, "potential_radius", contact.potential_radius);
+    read(*table, "smoothing", contact.smoothing);
     read(*table, "newton_tolerance", contact.newton_tolerance);
     read(*table, "newton_limit", contact.newton_limit);
     read(*table, "skin", contact.skin);

@@ -251,6 +251,8 @@ TEST(Set, ReachesTablesByNameNumberAndValuesNotInTheFile) {
   EXPECT_EQ(set("domain.box.max=[5, 4, 0]").domain->box->max[0], 5);
   EXPECT_EQ(set("contact.skin=0.3").settings.contact.skin, 0.3);
   EXPECT_EQ(set("contact.point=chebyshev").settings.contact.point, ContactPoint::chebyshev);
+  EXPECT_EQ(set("contact.point=central_path").settings.contact.point, ContactPoint::central_path);
+  EXPECT_EQ(set("contact.smoothing=1e-3").settings.contact.smoothing, 1e-3);
   EXPECT_EQ(set("contact.point=centroid").settings.contact.point, ContactPoint::centroid);
   EXPECT_EQ(set("contact.centre=ipopt_scaled").settings.contact.centre, CentreSolver::ipopt_scaled);
   EXPECT_EQ(set("contact.overlap=bracketing").settings.contact.overlap, OverlapSearch::bracketing);

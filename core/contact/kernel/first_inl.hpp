@@ -16,19 +16,6 @@ HWY_BEFORE_NAMESPACE();
 namespace voussoir {
 namespace HWY_NAMESPACE {
 
-// planes in A's axes, and their slacks
-template <int Dim>
-HWY_INLINE void assemble_for_lp(Meeting<OnePair, Dim>& m) {
-  using L = OnePair;
-  Components<L::Wide, Dim> turn[Dim];
-  for (int i = 0; i < Dim; ++i)
-    turn[i] = m.wide(m.rotation[i]);
-  assemble_slacks(m, [&](int part, int slot, const Components<L::Wide, Dim>& n) HWY_ATTR {
-    for (int i = 0; i < Dim; ++i)
-      m.set(part == 0 ? n[i] : dot(turn[i], n), m.normal_at + i, slot);
-  });
-}
-
 // Tight planes of the dual simplex. With C = columns (a_i, 1), C λ = (0, …, 0, 1) and (x, -s) C = d.
 template <int Dim>
 struct TightPlanes {

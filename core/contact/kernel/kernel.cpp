@@ -14,6 +14,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "core/contact/kernel/central_inl.hpp"
 #include "core/contact/kernel/first_inl.hpp"
 #include "core/contact/kernel/standing_inl.hpp"
 
@@ -87,6 +88,7 @@ HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks
   m.potential_radius = number[0];
   m.tolerance = number[1];
   m.reach = number[2];
+  m.smoothing = number[3];
   m.good = L::picked(real);
   m.a.least_count = least_a;
   m.b.least_count = least_b;
@@ -105,7 +107,7 @@ inline constexpr int geometry_numbers = Dim == 3 ? 8 : 4;
 // the answers into the tasks' contacts
 template <class L, int Dim>
 HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTask<Dim>> tasks,
-                        const SectionList* lists, KernelCounters& counters) {
+                        const SectionList* lists, bool on_central_path, KernelCounters& counters) {
   using Real = typename L::Real;
   constexpr int width = L::width;
   double good[width];
@@ -172,7 +174,7 @@ HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTa
     if (!measured) continue;
     contact.geometry.face_a = static_cast<int>(face_a[lane]);
     contact.geometry.face_b = static_cast<int>(face_b[lane]);
-    task.magnified = magnified(overlap[lane], margins[lane]);
+    task.magnified = !on_central_path && magnified(overlap[lane], margins[lane]);
     if (Dim == 2 || last < Stage::area) continue;
     const SectionList& list = lists[lane];
     if (!list.found_anew) continue;
@@ -183,6 +185,27 @@ HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTa
       contact.proof.section[k] = static_cast<unsigned short>(plane);
     }
   }
+}
+
+template <class L, int Dim>
+HWY_INLINE void deliver_firmness(const Meeting<L, Dim>& m, std::span<KernelTask<Dim>> tasks) {
+  double firmness[L::width];
+  L::put(m.firmness, firmness);
+  for (std::size_t lane = 0; lane < tasks.size(); ++lane)
+    if (tasks[lane].answered) tasks[lane].contact->geometry.firmness = firmness[lane];
+}
+
+// what no distance between points of the part exceeds
+template <class L, int Dim>
+HWY_INLINE void load_diameters(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks) {
+  double a[L::width], b[L::width];
+  for (int lane = 0; lane < L::width; ++lane) {
+    const Pair<Dim>& pair = *tasks[lane < static_cast<int>(tasks.size()) ? lane : 0].pair;
+    a[lane] = 2 * pair.a->radius;
+    b[lane] = 2 * pair.b->radius;
+  }
+  m.diameter[0] = L::pick(a);
+  m.diameter[1] = L::pick(b);
 }
 
 template <int Dim>
@@ -204,8 +227,14 @@ void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& optio
   if (Dim == 3 && last == Stage::area)
     for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane)
       recall_section(tasks[lane], m.quads_a, lists[lane]);
-  resolve_from_point(m, last, options.newton_tolerance, options.newton_limit, lists);
-  deliver(m, last, tasks, lists, counters);
+  if (options.on_central_path) {
+    load_diameters<L, Dim>(m, tasks);
+    resolve_on_central_path(m, last, options.newton_tolerance, options.newton_limit, lists);
+  } else {
+    resolve_from_point(m, last, options.newton_tolerance, options.newton_limit, lists);
+  }
+  deliver(m, last, tasks, lists, options.on_central_path, counters);
+  if (options.on_central_path && last >= Stage::overlap) deliver_firmness(m, tasks);
 }
 
 template <int Dim>
@@ -236,7 +265,7 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   begin<OnePair, Dim>(m, std::span<const KernelTask<Dim>>(&task, 1), workspace());
 
   // the LP in A's axes, seen from the centre of the smaller part
-  assemble_for_lp(m);
+  assemble_in_first(m);
   TightPlanes<Dim> tight;
   for (int k = 0; k <= Dim; ++k) {
     if (a.basis[k] < 0) return;
@@ -262,7 +291,7 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
     if (!certified()) return;
     m.point = m.point + x;
     clear(m);
-    return deliver(m, pair.last, std::span<KernelTask<Dim>>(&task, 1), &list, counters);
+    return deliver(m, pair.last, std::span<KernelTask<Dim>>(&task, 1), &list, false, counters);
   }
 
   Components<double, Dim> axis = axis_of(m, tight);
@@ -305,7 +334,7 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   resolve_from_point(m, pair.last, options.newton_tolerance, options.newton_limit, &list);
   for (int k = 0; k < Dim; ++k)
     proof.tangent[k] = m.tangent[k];
-  deliver(m, pair.last, std::span<KernelTask<Dim>>(&task, 1), &list, counters);
+  deliver(m, pair.last, std::span<KernelTask<Dim>>(&task, 1), &list, false, counters);
 }
 
 void Standing2(std::span<KernelTask<2>> t, const KernelOptions& o, KernelCounters& c) {

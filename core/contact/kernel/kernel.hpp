@@ -14,10 +14,10 @@ template <int Dim>
 struct KernelTask {
   const Pair<Dim>* pair;
   Contact<Dim>* contact;
-  double potential_radius;  // m
+  double potential_radius;  // m; the four numbers are loaded together
   double tolerance;         // m: overlaps below it are none
   double reach;             // m: the larger of the parts' radii
-  double unused;            // the four are loaded together
+  double smoothing;         // m, on the central path
   const HalfSpace<Dim>*faces_a, *faces_b;
   int planes_a, planes_b;
   bool answered;   // status, proof and geometry are set
@@ -33,7 +33,7 @@ KernelTask<Dim> kernel_task(const Pair<Dim>& pair, const ContactSettings& settin
           .potential_radius = settings.potential_radius * size,
           .tolerance = settings.tolerance * size,
           .reach = std::max(a.radius, b.radius),
-          .unused = 0,
+          .smoothing = settings.smoothing * size,
           .faces_a = a.faces.data(),
           .faces_b = b.faces.data(),
           .planes_a = static_cast<int>(a.faces.size()),
@@ -45,6 +45,7 @@ KernelTask<Dim> kernel_task(const Pair<Dim>& pair, const ContactSettings& settin
 struct KernelOptions {
   double newton_tolerance = 0;
   int newton_limit = 0;
+  bool on_central_path = false;  // contacts by multipliers (central_inl.hpp)
 };
 
 // pairs that one call of resolve_standing handles at once, on this machine

@@ -347,6 +347,17 @@ struct OnePair {
       add(slot, acc);
     add_up<K>(acc, out);
   }
+  // four strided products, combined as the sums are; factor(part, slot)
+  template <class F>
+  static HWY_INLINE void multiply(const Slots (&parts)[2], double& out, const F& factor) {
+    Wide product = wide(1);
+    for (int part = 0; part < 2; ++part)
+      for (int slot = parts[part].first; slot < parts[part].last; ++slot)
+        product = product * factor(part, slot);
+    double p[planes_per_quad];
+    store(product, p);
+    out = (p[0] * p[1]) * (p[2] * p[3]);
+  }
 };
 
 // Several pairs of one call: a register holds the same plane of each.
@@ -423,6 +434,15 @@ struct ManyPairs {
     }
     for (int k = 0; k < K; ++k)
       out[k] = partial[1][k] + partial[3][k];
+  }
+  template <class F>
+  static HWY_INLINE void multiply(const Slots (&parts)[2], Wide& out, const F& factor) {
+    Wide p[planes_per_quad] = {wide(1.0), wide(1.0), wide(1.0), wide(1.0)};
+    for (int part = 0; part < 2; ++part)
+      for (int slot = parts[part].first; slot < parts[part].last; slot += planes_per_quad)
+        for (int j = 0; j < planes_per_quad && slot + j < parts[part].last; ++j)
+          p[j] = p[j] * factor(part, slot + j);
+    out = (p[0] * p[1]) * (p[2] * p[3]);
   }
 };
 

@@ -44,6 +44,7 @@ struct Meeting : Fields<Dim> {
   Real across, inverse_across;  // 3-D
   Real reach;                   // m, the larger of the parts' radii
   Real tolerance, potential_radius;
+  Real smoothing, diameter[2];  // m, on the central path alone
   Bool good;
   Bool fallback;  // a face's normal stood in for a gradient
 
@@ -51,6 +52,7 @@ struct Meeting : Fields<Dim> {
   Components<Real, Dim> moved;   // contact frame
   Real least;                    // smallest slack
   Components<Real, Dim> normal;  // along the frame's rows
+  Real bound, firmness;          // on the central path alone
   Real overlap, area, face_a, face_b, iterations;
 
   HWY_INLINE Components<Wide, Dim> wide(const Components<Real, Dim>& x) const {
@@ -187,6 +189,19 @@ HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
   assemble_slacks(m, [&](int part, int slot, const Components<Wide, Dim>& n) HWY_ATTR {
     for (int i = 0; i < Dim; ++i)
       m.set(dot(turn[part][i], n), m.normal_at + i, slot);
+  });
+}
+
+// planes in the first part's axes, and their slacks
+template <class L, int Dim>
+HWY_INLINE void assemble_in_first(Meeting<L, Dim>& m) {
+  using Wide = typename L::Wide;
+  Components<Wide, Dim> turn[Dim];
+  for (int i = 0; i < Dim; ++i)
+    turn[i] = m.wide(m.rotation[i]);
+  assemble_slacks(m, [&](int part, int slot, const Components<Wide, Dim>& n) HWY_ATTR {
+    for (int i = 0; i < Dim; ++i)
+      m.set(part == 0 ? n[i] : dot(turn[i], n), m.normal_at + i, slot);
   });
 }
 

@@ -1,0 +1,35 @@
+// A point on the central path of the feasibility program (feasibility.hpp), its logarithmic barrier of weight µ:
+//   min over x and s of  s - µ Σ log(s + d_i - a_i·x).
+// Its multipliers λ_i = µ / (s + d_i - a_i·x) satisfy those of the program, Σ λ_i a_i = 0 and Σ λ_i = 1, but are smooth
+// in the planes, as its value and its point are; for µ -> 0 all become the program's own (Boyd and Vandenberghe 2004,
+// 11.2). The value moves with a plane by λ_i times its move, seen at x.
+#pragma once
+
+#include "core/geometry/half_space.hpp"
+
+namespace voussoir {
+
+enum class CentralPathStatus { converged, iteration_limit, singular };
+
+template <int Dim>
+struct CentralPathResult {
+  CentralPathStatus status = CentralPathStatus::iteration_limit;
+  Vector<Dim> point = Vector<Dim>::Zero();  // x, m
+  double bound = 0;                         // s, m
+  double logarithms = 0;                    // Σ log(s + d_i - a_i·x), of metres
+  int iterations = 0;
+};
+
+template <int Dim>
+struct CentralPathRequest {
+  Vector<Dim> start;        // anywhere, m; near the point is faster
+  double weight = 0;        // µ, m
+  double tolerance = 1e-5;  // on the Newton decrement before the last step
+  int limit = 200;
+};
+
+// Damped Newton in x and s. Normals need not be unit, but must positively span space.
+template <int Dim>
+CentralPathResult<Dim> follow_central_path(const HalfSpaces<Dim>& planes, const CentralPathRequest<Dim>& request);
+
+}  // namespace voussoir
