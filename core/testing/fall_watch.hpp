@@ -1,0 +1,106 @@
+// What is measured of a free fall (fall_scene.hpp), by the case and by the benchmark of twenty thousand blocks.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+
+#include "core/simulate.hpp"
+
+namespace voussoir::shapes {
+
+// J
+inline double kinetic_energy(const Model<3>& model, const State<3>& state) {
+  double sum = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].fixed) continue;
+    const Motion<3>& m = state.motions[b];
+    sum += 0.5 * model.bodies[b].mass * m.velocity.squaredNorm();
+    sum += 0.5 * m.angular_momentum.cwiseAbs2().cwiseQuotient(model.bodies[b].inertia).sum();
+  }
+  return sum;
+}
+
+// as a share of the energy that the fall has set free
+inline double kinetic_share(const Model<3>& model, const State<3>& state) {
+  return kinetic_energy(model, state) / -state.energy.potential();
+}
+
+// how far the farthest corner of any block has gone into the plate or beyond a wall's face, m
+inline double deepest_corner(const Model<3>& model, const State<3>& state, double width) {
+  double deepest = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body<3>& body = model.bodies[b];
+    if (body.fixed) continue;
+    const Vector<3> centroid = model.origin + body.reference + state.motions[b].displacement;
+    for (const Polytope<3>& part : body.parts)
+      for (const Vector<3>& v : part.vertices) {
+        const Vector<3> x = centroid + matrix(state.motions[b].rotation) * v;
+        deepest = std::max({deepest, -x[0], x[0] - width, -x[1], x[1] - width, -x[2]});
+      }
+  }
+  return deepest;
+}
+
+// radius of the bluntest block's potential particle, m
+inline double largest_potential_radius(const Model<3>& model, double share) {
+  double bluntest = 0;
+  for (const Body<3>& body : model.bodies)
+    if (!body.fixed) bluntest = std::max(bluntest, body.size);
+  return share * bluntest;
+}
+
+// what the ledger could not account for, as shares of the energy that the fall has set free
+struct Closure {
+  double motion, contacts;
+};
+inline Closure closure(const State<3>& state) {
+  const double work = -state.energy.potential();
+  return {std::abs(state.energy.motion_error) / work, std::abs(state.energy.contact_error) / work};
+}
+
+// what a fall promises
+inline constexpr double still = 1e-6;         // kinetic energy at rest, as a share of that of the drop
+inline constexpr double books_closed = 1e-3;  // the contacts' books, and the motion's, which know rounding alone
+inline constexpr double motion_closed = 1e-10;
+
+struct FallFindings {
+  Closure before{INFINITY, INFINITY}, end{};  // before the damping starts; at the end
+  double kinetic = 0;                         // share, at the end
+  double deepest = 0;                         // m, over all frames
+  Counters counters;
+  double time = 0, seconds = 0;  // simulated; wall clock
+};
+
+// Falls until next to nothing moves, whatever single blocks still do, or until the scene ends.
+inline FallFindings fall_until_still(const Prepared<3>& scene, double width,
+                                     const std::function<void(const ProgressReport&)>& report = {}) {
+  constexpr int steps_between_looks = 100;
+  FallFindings found;
+  Watcher<3> watcher;
+  watcher.progress = report;
+  watcher.frame = [&](const Model<3>& model, const State<3>& state, double) {
+    found.deepest = std::max(found.deepest, deepest_corner(model, state, width));
+  };
+  long long next_look = 0;
+  watcher.pause = [&](const Progress<3>& now) {
+    if (now.stage == 0) return false;
+    if (!std::isfinite(found.before.contacts)) found.before = closure(now.state);
+    if (now.state.counters.steps < next_look) return false;
+    next_look = now.state.counters.steps + steps_between_looks;
+    return kinetic_share(scene.model, now.state) < still;
+  };
+  const auto start = std::chrono::steady_clock::now();
+  Progress<3> progress = begin(scene);
+  simulate(scene, progress, watcher);
+  found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  found.end = closure(progress.state);
+  found.kinetic = kinetic_share(scene.model, progress.state);
+  found.deepest = std::max(found.deepest, deepest_corner(scene.model, progress.state, width));
+  found.counters = progress.state.counters;
+  found.time = progress.state.time;
+  return found;
+}
+
+}  // namespace voussoir::shapes
