@@ -35,13 +35,15 @@ void expect_no_promise_broken(long long first, long long last) {
   if (!broken.empty() || last - first > 100'000) print(tally);
   // every kind of answer was asked for, cold and warm
   const long long cases = last - first;
-  for (const char* start : {"cold, ", "warm, "}) {
+  for (const char* start : {"cold, ", "warm, ", "central path, cold, ", "central path, warm, "}) {
     EXPECT_EQ(tally.counts[std::string(start) + "decisions"], cases);
     EXPECT_GT(tally.counts[std::string(start) + "touching"], cases / 4);
     EXPECT_GT(tally.counts[std::string(start) + "separated"], cases / 4);
   }
   EXPECT_GT(tally.counts["cold, values"], cases / 4);
   EXPECT_GT(tally.counts["warm, values"], cases / 4);
+  EXPECT_GT(tally.counts["central path, cold, pressed"], cases / 50);
+  EXPECT_GT(tally.counts["central path, warm, pressed"], cases / 50);
   EXPECT_EQ(tally.counts["centres by another solver"], 0);
 }
 

@@ -59,6 +59,21 @@ Vector<Dim> potential_direction(std::span<const HalfSpace<Dim>> faces, const Vec
   return faces[face].normal;
 }
 
+// of as many factors at once as stay far from overflow
+class LogarithmOfProduct {
+ public:
+  void multiply(double factor) {
+    product_ *= factor;
+    if (product_ > 1e-150 && product_ < 1e150) return;
+    sum_ += std::log(product_);
+    product_ = 1;
+  }
+  double sum() const { return sum_ + std::log(product_); }
+
+ private:
+  double sum_ = 0, product_ = 1;
+};
+
 // what one pair needs; kept between calls so that the step allocates nothing
 template <int Dim>
 struct Resolver {
@@ -242,21 +257,21 @@ struct Resolver {
   // exceeds, and the two logarithms that any contact has, of a plane of each part at twice the smoothing, are left out:
   // so far planes and near ones add to the value, it is above the program's, and parts that do not touch feel no force.
   void lean_on_path(Vector<Dim>& gradient, double& value, int& face_a, int& face_b) const {
-    const double weight = smoothing();
-    const int faces_b = static_cast<int>(planes.size()) - faces_a;
-    const double offset = (faces_a - 1) * std::log(2 * pair.a->radius) + (faces_b - 1) * std::log(2 * pair.b->radius) +
-                          2 * (std::log(2 * weight) - 1);
-    value = path.bound + weight * (offset - path.logarithms);
+    const double weight = smoothing(), diameter_a = 2 * pair.a->radius, diameter_b = 2 * pair.b->radius;
+    LogarithmOfProduct logarithms;
+    logarithms.multiply((diameter_a / (2 * weight)) * (diameter_b / (2 * weight)));
     gradient.setZero();
     double most_a = 0, most_b = 0;
     for (int i = 0; i < static_cast<int>(planes.size()); ++i) {
-      const double multiplier = weight / (path.bound - signed_distance(planes[i], path.point));
+      const double t = path.bound - signed_distance(planes[i], path.point), multiplier = weight / t;
+      logarithms.multiply(t / (i < faces_a ? diameter_a : diameter_b));
       if (i < faces_a) gradient += multiplier * planes[i].normal;
       double& most = i < faces_a ? most_a : most_b;
       if (multiplier <= most) continue;
       most = multiplier;
       (i < faces_a ? face_a : face_b) = i;
     }
+    value = path.bound - weight * (logarithms.sum() + 2);
   }
 
   // Where B moves, the program's value s grows by its gradient g at the program's point: -s/|g| is the overlap of the

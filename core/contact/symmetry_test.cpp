@@ -80,6 +80,7 @@ Bits bits_of(const Contact<Dim>& c, double unit = 1) {
   add<Dim>(bits, c.geometry.point, unit);
   add<Dim>(bits, c.geometry.normal, 1);
   add(bits, c.geometry.overlap * unit);
+  add(bits, c.geometry.firmness);
   add(bits, c.geometry.area * (Dim == 3 ? unit * unit : unit));
   add(bits, c.proof.margin * unit);
   add<Dim>(bits, c.proof.point, unit);
@@ -275,40 +276,43 @@ TEST(SamePair, DISABLED_InAnyOrderUnitAndFrameAHundredThousand) {
   expect_symmetries<2>(10'000, 60'000);
 }
 
+constexpr ContactSettings on_central_path{.point = ContactPoint::central_path, .normal = ContactNormal::multipliers};
+
 // ---- batches --------------------------------------------------------------------------------------------------------
 
 // Pairs of every family, cold, standing and separated before, resolved to different stages, that wait for company.
 template <int Dim>
 struct Queue {
+  ContactSettings settings;
   std::vector<Case<Dim>> cases;
   std::vector<Pair<Dim>> pairs;
   std::vector<Contact<Dim>> before, alone;
 };
 
 template <int Dim>
-Contact<Dim> resolve_alone(const Pair<Dim>& pair, const Contact<Dim>& before) {
+Contact<Dim> resolve_alone(const Pair<Dim>& pair, const Contact<Dim>& before, const ContactSettings& settings) {
   Contact<Dim> contact = before;
   Contact<Dim>* slot = &contact;
   KernelCounters counters;
-  narrow_phase<Dim>(std::span(&pair, 1), {}, {}, std::span(&slot, 1), counters);
+  narrow_phase<Dim>(std::span(&pair, 1), settings, {}, std::span(&slot, 1), counters);
   return contact;
 }
 
 template <int Dim>
-Queue<Dim> make_queue(long long first, int count, Random& random) {
-  Queue<Dim> queue;
+Queue<Dim> make_queue(const ContactSettings& settings, long long first, int count, Random& random) {
+  Queue<Dim> queue{.settings = settings, .cases = {}, .pairs = {}, .before = {}, .alone = {}};
   for (int i = 0; i < count; ++i)
     queue.cases.push_back(families::numbered_case<Dim>(seed, first + i));
   for (const Case<Dim>& c : queue.cases) {
     const Matrix<Dim> axes = matrix(shapes::orientation<Dim>(random));
     Pair<Dim> cold{&c.a, &c.b, axes, c.rotation, c.offset}, warm{&c.a, &c.b, axes, c.rotation_after, c.offset_after};
-    const Contact<Dim> standing = resolve_alone<Dim>(cold, {});
+    const Contact<Dim> standing = resolve_alone<Dim>(cold, {}, settings);
     cold.last = static_cast<Stage>(integer(random, 0, 3));
     warm.last = static_cast<Stage>(integer(random, 0, 3));
     for (const auto& [pair, before] : {std::pair{cold, Contact<Dim>{}}, std::pair{warm, standing}}) {
       queue.pairs.push_back(pair);
       queue.before.push_back(before);
-      queue.alone.push_back(resolve_alone<Dim>(pair, before));
+      queue.alone.push_back(resolve_alone<Dim>(pair, before, settings));
     }
   }
   return queue;
@@ -327,7 +331,7 @@ std::vector<Contact<Dim>> resolve_together(const Queue<Dim>& queue, std::span<co
   for (Contact<Dim>& c : together)
     slots.push_back(&c);
   KernelCounters counters;
-  narrow_phase<Dim>(pairs, {}, {}, slots, counters);
+  narrow_phase<Dim>(pairs, queue.settings, {}, slots, counters);
   return together;
 }
 
@@ -339,9 +343,9 @@ std::vector<int> numbers_of(const Queue<Dim>& queue) {
 }
 
 template <int Dim>
-void expect_same_bits_in_company(long long first, int cases) {
+void expect_same_bits_in_company(const ContactSettings& settings, long long first, int cases) {
   Random random(seed + static_cast<std::uint64_t>(first));
-  const Queue<Dim> queue = make_queue<Dim>(first, cases, random);
+  const Queue<Dim> queue = make_queue<Dim>(settings, first, cases, random);
   std::vector<int> order = numbers_of<Dim>(queue);
   // every pair in batches of every size, in another order each time
   for (int size = 2; size <= 17; ++size) {
@@ -364,17 +368,21 @@ void expect_same_bits_in_company(long long first, int cases) {
 
 TEST(SamePair, AloneAndInAnyBatch3D) {
   SKIP_WITH_FAST_ARITHMETIC();
-  expect_same_bits_in_company<3>(0, 1000);
+  expect_same_bits_in_company<3>({}, 0, 1000);
+  expect_same_bits_in_company<3>(on_central_path, 0, 1000);
 }
 TEST(SamePair, AloneAndInAnyBatch2D) {
   SKIP_WITH_FAST_ARITHMETIC();
-  expect_same_bits_in_company<2>(0, 1000);
+  expect_same_bits_in_company<2>({}, 0, 1000);
+  expect_same_bits_in_company<2>(on_central_path, 0, 1000);
 }
 TEST(SamePair, DISABLED_AloneAndInAnyBatchFiftyThousand) {
   SKIP_WITH_FAST_ARITHMETIC();
   for (int part = 0; part < 50; ++part) {
-    expect_same_bits_in_company<3>(1'000'000 + 1000 * part, 1000);
-    expect_same_bits_in_company<2>(1'000'000 + 1000 * part, 1000);
+    for (const ContactSettings& settings : {ContactSettings{}, on_central_path}) {
+      expect_same_bits_in_company<3>(settings, 1'000'000 + 1000 * part, 1000);
+      expect_same_bits_in_company<2>(settings, 1'000'000 + 1000 * part, 1000);
+    }
   }
 }
 
@@ -409,7 +417,8 @@ void expect_same_bits_on(const Target& target, const Queue<Dim>& queue) {
   const std::vector<Contact<Dim>> together = resolve_together<Dim>(queue, order);
   for (const int i : order) {
     ASSERT_EQ(bits_of<Dim>(together[i]), bits_of<Dim>(queue.alone[i])) << target.name << ", in a batch, pair " << i;
-    ASSERT_EQ(bits_of<Dim>(resolve_alone<Dim>(queue.pairs[i], queue.before[i])), bits_of<Dim>(queue.alone[i]))
+    ASSERT_EQ(bits_of<Dim>(resolve_alone<Dim>(queue.pairs[i], queue.before[i], queue.settings)),
+              bits_of<Dim>(queue.alone[i]))
         << target.name << ", alone, pair " << i;
   }
 }
@@ -418,11 +427,13 @@ void expect_same_bits_on(const Target& target, const Queue<Dim>& queue) {
 template <int Dim>
 void expect_same_bits_on_any_registers(int cases) {
   Random random(seed);
-  const Queue<Dim> queue = make_queue<Dim>(0, cases, random);
+  const Queue<Dim> published = make_queue<Dim>({}, 0, cases, random),
+                   smoothed = make_queue<Dim>(on_central_path, 0, cases, random);
   for (const Target& target : targets)
-    if (hwy::SupportedTargets() & target.bit)
-      expect_same_bits_on<Dim>(target, queue);
-    else
+    if (hwy::SupportedTargets() & target.bit) {
+      expect_same_bits_on<Dim>(target, published);
+      expect_same_bits_on<Dim>(target, smoothed);
+    } else
       std::cout << "skipped: this machine has no " << target.name << '\n';
 }
 

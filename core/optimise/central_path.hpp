@@ -16,7 +16,6 @@ struct CentralPathResult {
   CentralPathStatus status = CentralPathStatus::iteration_limit;
   Vector<Dim> point = Vector<Dim>::Zero();  // x, m
   double bound = 0;                         // s, m
-  double logarithms = 0;                    // Σ log(s + d_i - a_i·x), of metres
   int iterations = 0;
 };
 

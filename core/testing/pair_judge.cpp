@@ -158,6 +158,15 @@ class Judge {
     share("area", std::abs(to_double(g.area - section.area)), allowed);
   }
 
+  // half the overlap times the root of the firmness is minus the value of the barrier, which lies above the program's
+  void pressed(const ContactGeometry<Dim>& g) {
+    count(g.overlap > 0 ? "pressed" : "not yet pressed");
+    share("length of the normal", std::abs(g.normal.norm() - 1), unit_length);
+    const double deeper = 0.5 * g.overlap * std::sqrt(g.firmness) + scene_.value.get_d();
+    share("not deeper than the program", std::max(deeper, 0.0), promised * scene_.size);
+    if (!(g.overlap >= 0 && g.firmness > 0 && g.firmness < 1 + unit_length)) broken("overlap or firmness", g.firmness);
+  }
+
   void same_decision(const Contact<Dim>& decision, const Contact<Dim>& whole) {
     const bool same = decision.status == whole.status ||
                       (decision.status == ContactStatus::touching && whole.status == ContactStatus::no_normal);
@@ -250,12 +259,13 @@ class Judge {
 };
 
 template <int Dim>
-Contact<Dim> resolve(Pair<Dim> pair, Stage last, const Contact<Dim>& before, Tally& tally) {
+Contact<Dim> resolve(Pair<Dim> pair, Stage last, const Contact<Dim>& before, Tally& tally,
+                     const ContactSettings& settings = {}) {
   pair.last = last;
   Contact<Dim> contact = before;
   Contact<Dim>* slot = &contact;
   KernelCounters counters;
-  narrow_phase<Dim>(std::span(&pair, 1), {}, {}, std::span(&slot, 1), counters);
+  narrow_phase<Dim>(std::span(&pair, 1), settings, {}, std::span(&slot, 1), counters);
   tally.counts["centres by another solver"] += counters.centre_fallbacks;
   return contact;
 }
@@ -356,6 +366,16 @@ std::vector<Finding> judge(const Case<Dim>& c, Tally& tally) {
   judge_warm.decision(warm, Stage::area);
   if (cold.touching()) judge_cold.values(cold.geometry);
   if (warm.touching()) judge_warm.values(warm.geometry);
+
+  const ContactSettings on_path{.point = ContactPoint::central_path, .normal = ContactNormal::multipliers};
+  const Contact<Dim> path_cold = resolve<Dim>(before.pair, Stage::overlap, {}, tally, on_path),
+                     path_warm = resolve<Dim>(after.pair, Stage::overlap, path_cold, tally, on_path);
+  Judge<Dim> judge_path_cold(before, "central path, cold, ", findings, tally),
+      judge_path_warm(after, "central path, warm, ", findings, tally);
+  judge_path_cold.decision(path_cold, Stage::overlap);
+  judge_path_warm.decision(path_warm, Stage::overlap);
+  if (path_cold.touching()) judge_path_cold.pressed(path_cold.geometry);
+  if (path_warm.touching()) judge_path_warm.pressed(path_warm.geometry);
   return findings;
 }
 

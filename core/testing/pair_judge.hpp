@@ -7,7 +7,8 @@
 //    along a unit axis and nothing of B before support + margin; by multipliers s* >= margin; and margin > 0;
 //  - the program's value, cold and to its end, within 64 ulp of the size;
 //  - at the kernel's own point and normal: overlap within 64 ulp of the size, the faces those that end it (or nearer to
-//    that than 64 ulp), area within 1e-12 relative plus the first-order effect of 64 ulp on each plane's offset.
+//    that than 64 ulp), area within 1e-12 relative plus the first-order effect of 64 ulp on each plane's offset;
+//  - the same decisions and proofs for contacts on the central path, whose value is never deeper than the program's.
 #pragma once
 
 #include <map>
