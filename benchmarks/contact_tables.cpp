@@ -102,6 +102,8 @@ constexpr OwnTime own_times[] = {
     {"overlapping, warm 1 %, all with area, batched", "touch", {batched_warm, "area"}, "≤ 220 (160)"},
     {"overlapping, warm 1 %, without area, single", "touch", {single_warm, "overlap"}, ""},
     {"overlapping, warm 1 %, without area, batched", "touch", {batched_warm, "overlap"}, ""},
+    {"on the central path, warm 1 %, without area, single", "touch", {single_warm_path, "overlap"}, ""},
+    {"on the central path, warm 1 %, without area, batched", "touch", {batched_warm_path, "overlap"}, ""},
     {"overlapping, warm 10 %, all with area, batched", "touch", {batched_warm_far, "area"}, ""},
     {"overlapping, cold, all with area, single", "touch", {single_cold, "area"}, "≤ 1000"},
     {"face on face, warm 1 %, all with area, batched", "face", {batched_warm, "area"}, ""},

@@ -30,10 +30,14 @@ Desk<Dim>& desk() {
   return only;
 }
 
+// leaves 1e-4 of the overlap in the point, 1e-6 in overlap and area (core/contact/centre_test.cpp)
+constexpr ContactSettings published{.newton_tolerance = 1e-3};
+constexpr ContactSettings on_central_path{
+    .point = ContactPoint::central_path, .normal = ContactNormal::multipliers, .newton_tolerance = 1e-3};
+
 template <int Dim>
-void call_kernel(std::size_t first, std::size_t count, bool batched, KernelCounters& counters) {
-  // leaves 1e-4 of the overlap in the point, 1e-6 in overlap and area (core/contact/centre_test.cpp)
-  static const ContactSettings settings{.newton_tolerance = 1e-3};
+void call_kernel(const ContactSettings& settings, std::size_t first, std::size_t count, bool batched,
+                 KernelCounters& counters) {
   static const Solvers<Dim> solvers;
   const std::span<const Pair<Dim>> pairs = std::span<const Pair<Dim>>(desk<Dim>().pairs).subspan(first, count);
   const std::span<Contact<Dim>* const> slots = std::span<Contact<Dim>* const>(desk<Dim>().slots).subspan(first, count);
@@ -58,34 +62,36 @@ constexpr int cold = -1, near_move = 0, far_move = 1;
 
 // the contacts as the step before left them: resolved from cold at the previous poses, to the same stage
 template <int Dim, class Work>
-Contacts<Dim> contacts_before(const Work& work, Stage last, int move) {
+Contacts<Dim> contacts_before(const Work& work, const ContactSettings& settings, Stage last, int move) {
   Contacts<Dim> start(pairs_per_workload);
   if (move == cold) return start;
   KernelCounters counters;
   lay_out<Dim>(work.previous[move], start, last, 0, pairs_per_workload);
-  call_kernel<Dim>(0, pairs_per_workload, true, counters);
+  call_kernel<Dim>(settings, 0, pairs_per_workload, true, counters);
   return desk<Dim>().contacts;
 }
 
 // `work` lives as long as what is made here
 template <int Dim, class Work>
-std::shared_ptr<Prepared> prepare_kernel(std::shared_ptr<const Work> work, Stage last, int move, bool batched) {
-  const auto start = std::make_shared<const Contacts<Dim>>(contacts_before<Dim>(*work, last, move));
+std::shared_ptr<Prepared> prepare_kernel(std::shared_ptr<const Work> work, const ContactSettings& settings, Stage last,
+                                         int move, bool batched) {
+  const auto start = std::make_shared<const Contacts<Dim>>(contacts_before<Dim>(*work, settings, last, move));
   auto prepared = std::make_shared<Prepared>();
   prepared->counters = std::make_shared<KernelCounters>();
   prepared->restore = [work, start, last](std::size_t first, std::size_t count) {
     lay_out<Dim>(work->pairs, *start, last, first, count);
   };
-  prepared->resolve = [batched, counters = prepared->counters](std::size_t first, std::size_t count) {
+  prepared->resolve = [settings, batched, counters = prepared->counters](std::size_t first, std::size_t count) {
     KernelCounters mine;  // of this thread
-    call_kernel<Dim>(first, count, batched, mine);
+    call_kernel<Dim>(settings, first, count, batched, mine);
     if (first == 0) *counters = mine;
   };
   prepared->touching = [](std::size_t i) { return desk<Dim>().contacts[i].touching(); };
   return prepared;
 }
 
-Method kernel(const char* name, Stage last, int move, bool batched, int threads = 1) {
+Method kernel(const char* name, Stage last, int move, bool batched, int threads = 1,
+              const ContactSettings& settings = published) {
   static const char* const stages[] = {"decision", "point", "overlap", "area"};
   static const char* const delivers[] = {"decision certificate", "decision certificate point",
                                          "decision certificate point normal overlap",
@@ -99,7 +105,8 @@ Method kernel(const char* name, Stage last, int move, bool batched, int threads 
   method.threads = threads;
   method.prepare = [=](const Workload& work) {
     // workloads are kept until the program ends
-    return prepare_kernel<3>(std::shared_ptr<const Workload>(&work, [](const Workload*) {}), last, move, batched);
+    return prepare_kernel<3>(std::shared_ptr<const Workload>(&work, [](const Workload*) {}), settings, last, move,
+                             batched);
   };
   return method;
 }
@@ -110,7 +117,7 @@ void add_plane_methods(std::vector<Method>& list) {
     Method in_space = kernel(batched_warm, last, near_move, true), in_plane = in_space;
     in_plane.name = batched_warm_2d;
     in_plane.prepare = [=](const Workload& work) {
-      return prepare_kernel<2>(in_the_plane(work), last, near_move, true);
+      return prepare_kernel<2>(in_the_plane(work), published, last, near_move, true);
     };
     for (Method* method : {&in_space, &in_plane}) {
       method->applies = prisms;
@@ -222,6 +229,8 @@ std::vector<Method> own_methods() {
   for (const Stage last : {Stage::decision, Stage::area})
     list.push_back(kernel(batched_warm_threads, last, near_move, true, 2));
 
+  list.push_back(kernel(single_warm_path, Stage::overlap, near_move, false, 1, on_central_path));
+  list.push_back(kernel(batched_warm_path, Stage::overlap, near_move, true, 1, on_central_path));
   add_plane_methods(list);
 
   list.push_back({own_lp, "lp", "decision certificate", any_pair, prepare_lp});

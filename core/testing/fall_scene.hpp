@@ -62,9 +62,10 @@ inline std::string box_line(const std::string& name, const Corner& low, const Co
 // What the scene is overridden by for contacts whose force has a potential, and a step that keeps their books. Corners
 // are four times as soft then, so the stiffness is four times as large, and blocks go in deeper than potential
 // particles would allow, of which there are none.
+inline constexpr double smoothing = 1e-3;
 inline const std::vector<std::string> closed_books{"contact.normal=multipliers",
                                                    "contact.point=central_path",
-                                                   "contact.smoothing=1e-3",
+                                                   fmt::format("contact.smoothing={}", smoothing),
                                                    "contact.newton_tolerance=1e-3",
                                                    "contact.potential_radius=0.2",
                                                    "joint_properties.rock.normal_stiffness=1e8",
