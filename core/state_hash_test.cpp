@@ -114,6 +114,7 @@ TEST(StateHash, AnySkinGivesTheSame) {
   expect_no_skin(probe::collapse());
   expect_no_skin(probe::wall());
   expect_no_skin(probe::tumble());
+  expect_no_skin(probe::smooth_tumble());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Three lively models for comparing builds: everything slides, turns, parts and meets again, so that one different
+// Four lively models for comparing builds: everything slides, turns, parts and meets again, so that one different
 // rounding anywhere soon shows in every digit.
 #pragma once
 
@@ -91,6 +91,16 @@ inline Scene<3> tumble() {
   scene.settings.damping.local = 0;
   scene.settings.time.fraction = 0.1;
   set_in_motion(scene, 2.0, random);
+  return scene;
+}
+
+// the same by contacts on the central path
+inline Scene<3> smooth_tumble() {
+  Scene<3> scene = tumble();
+  scene.name = "smooth_tumble";
+  scene.model.properties[0].constant_stiffness = true;
+  scene.settings.contact.point = ContactPoint::central_path;
+  scene.settings.contact.normal = ContactNormal::multipliers;
   return scene;
 }
 
