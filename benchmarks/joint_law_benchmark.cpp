@@ -85,9 +85,8 @@ void by_hand(const Model<3>& model, State<3>& state) {
     const Vector<3> spin_a = angular_velocity(model.bodies[a], state.motions[a]);
     const Vector<3> spin_b = angular_velocity(model.bodies[b], state.motions[b]);
     const Vector<3>& n = c.geometry.normal;
-    const Vector<3> velocity = state.motions[b].velocity +
-                               spin_b.cross(c.geometry.point - between(model, state, a, b)) -
-                               state.motions[a].velocity - spin_a.cross(c.geometry.point);
+    const Vector<3> apart = between(model, state, a, b), drift = state.motions[b].velocity - state.motions[a].velocity;
+    const Vector<3> velocity = drift + spin_b.cross(c.geometry.point - apart) - spin_a.cross(c.geometry.point);
     JointKinematics<3> k;
     k.normal = n;
     k.overlap = c.geometry.overlap;
@@ -95,7 +94,10 @@ void by_hand(const Model<3>& model, State<3>& state) {
     k.closing_speed = -velocity.dot(n);
     k.slip.setZero();
     if (!c.history.normal.isZero(0)) {
-      k.slip = (velocity + k.closing_speed * n) * dt;
+      const Vector<3> before =
+          drift + spin_b.cross(c.history.point - apart + dt * drift) - spin_a.cross(c.history.point);
+      const Vector<3> twice = velocity + before - before.dot(c.history.normal) * c.history.normal;
+      k.slip = 0.5 * dt * (twice - twice.dot(n) * n);
       k.turn = 0.5 * n.dot(spin_a + spin_b) * dt;
       if (k.area < c.history.area) {
         const double left = k.area / c.history.area, stiffness = p.shear_stiffness * c.history.area;
@@ -111,6 +113,7 @@ void by_hand(const Model<3>& model, State<3>& state) {
     state.energy.flows.friction += answer.friction;
     c.history.plastic_slip += answer.plastic_slip;
     c.history.normal = n;
+    c.history.point = c.geometry.point;
     c.history.area = k.area;
     c.force = answer.force;
   }

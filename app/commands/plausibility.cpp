@@ -331,6 +331,8 @@ void judge_times(const StagePlan& stage, const StageForecast& forecast, double p
 // what else contacts by multipliers need for a force that has a potential
 template <int Dim>
 void judge_multipliers(const ContactSettings& contact, const Model<Dim>& model, Plausibility& result) {
+  if (contact.smoothing != ContactSettings{}.smoothing && contact.point != ContactPoint::central_path)
+    result.warnings.push_back("contact.smoothing acts only with contact.point = \"central_path\"");
   if (contact.normal != ContactNormal::multipliers) return;
   const char* const keeps = "contact.normal = \"multipliers\" keeps energy only with";
   if (contact.point != ContactPoint::central_path && contact.point != ContactPoint::chebyshev)
