@@ -48,8 +48,8 @@ int main(int argc, char** argv) {
   fmt::print("{} polyhedra fall into a box {} wide, on {} threads\n", blocks, plan.side, scene.settings.threads);
   std::fflush(stdout);
   ProgressLine line(true);
-  const shapes::FallFindings found =
-      shapes::fall_until_still(scene, plan.side * plan.pitch, [&](const ProgressReport& report) { line.show(report); });
+  const shapes::FallFindings found = shapes::fall_until_still(scene, plan.side * plan.pitch, {},
+                                                              [&](const ProgressReport& report) { line.show(report); });
   line.clear();
   const Promise promises[] = {
       {"kinetic energy at rest, of the drop's", found.kinetic, shapes::still},

@@ -22,7 +22,7 @@ template <int Dim>
 struct PairMotion {
   const Body<Dim>&a, &b;
   Vector<Dim> between;  // m
-  Vector<Dim> velocity_a, velocity_b;
+  Vector<Dim> drift;    // m/s, of the second centroid against the first
   Spin<Dim> spin_a, spin_b;
 
   // of both together, 1/kg; a fixed body is infinitely heavy
@@ -31,12 +31,12 @@ struct PairMotion {
   // of the second body against the first; `point` relative to the first one's centroid, `apart` from there to the
   // second one's
   Vector<Dim> velocity_at(const Vector<Dim>& point, const Vector<Dim>& apart) const {
-    return velocity_b + cross(spin_b, point - apart) - velocity_a - cross(spin_a, point);
+    return drift + cross(spin_b, point - apart) - cross(spin_a, point);
   }
   Vector<Dim> velocity_at(const Vector<Dim>& point) const { return velocity_at(point, between); }
   // where the contact was before the step
   Vector<Dim> velocity_before_at(const Vector<Dim>& point, double dt) const {
-    return velocity_at(point, between - (velocity_b - velocity_a) * dt);
+    return velocity_at(point, between - dt * drift);
   }
 };
 
@@ -46,8 +46,7 @@ PairMotion<Dim> motion_of(const Model<Dim>& model, const State<Dim>& state, cons
   return {model.bodies[a],
           model.bodies[b],
           between(model, state, a, b),
-          state.motions[a].velocity,
-          state.motions[b].velocity,
+          state.motions[b].velocity - state.motions[a].velocity,
           angular_velocity(model.bodies[a], state.motions[a]),
           angular_velocity(model.bodies[b], state.motions[b])};
 }

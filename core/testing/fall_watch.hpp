@@ -73,16 +73,21 @@ struct FallFindings {
   double time = 0, seconds = 0;  // simulated; wall clock
 };
 
-// Falls until next to nothing moves, whatever single blocks still do, or until the scene ends.
+// Falls until next to nothing moves, whatever single blocks still do, or until the scene ends. `frame` sees the begin,
+// what the scene's output asks for, and the end.
 inline FallFindings fall_until_still(const Prepared<3>& scene, double width,
+                                     const std::function<void(const State<3>&)>& frame = {},
                                      const std::function<void(const ProgressReport&)>& report = {}) {
   constexpr int steps_between_looks = 100;
   FallFindings found;
   Watcher<3> watcher;
   watcher.progress = report;
-  watcher.frame = [&](const Model<3>& model, const State<3>& state, double) {
-    found.deepest = std::max(found.deepest, deepest_corner(model, state, width));
+  const auto look = [&](const State<3>& state) {
+    found.deepest = std::max(found.deepest, deepest_corner(scene.model, state, width));
+    if (frame) frame(state);
   };
+  look(scene.state);
+  watcher.frame = [&](const Model<3>&, const State<3>& state, double) { look(state); };
   long long next_look = 0;
   watcher.pause = [&](const Progress<3>& now) {
     if (now.stage == 0) return false;
@@ -97,7 +102,7 @@ inline FallFindings fall_until_still(const Prepared<3>& scene, double width,
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   found.end = closure(progress.state);
   found.kinetic = kinetic_share(scene.model, progress.state);
-  found.deepest = std::max(found.deepest, deepest_corner(scene.model, progress.state, width));
+  look(progress.state);
   found.counters = progress.state.counters;
   found.time = progress.state.time;
   return found;
