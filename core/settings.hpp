@@ -39,9 +39,9 @@ struct ContactSettings {
   // exceed the largest overlap; large values tilt the normal of face contacts near an edge
   double potential_radius = 0.02;
 
-  // weight µ of the central path's barrier, times the smaller inscribed radius: as a face rocks, its force walks over it
-  // within an angle of some 2 µ over its width, and parts give way by some 10 to 30 µ before they resist. Smaller: the
-  // force jumps from corner to corner within a step; larger: blocks lie deeper
+  // weight µ of the central path's barrier, times the smaller inscribed radius: as a face rocks, its force walks over
+  // it within an angle of some 2 µ over its width, and parts give way by some 10 to 30 µ before they resist. Smaller:
+  // the force jumps from corner to corner within a step; larger: blocks lie deeper
   double smoothing = 3e-4;
 
   // Newton stops when its decrement before the step is below this; 1e-3 leaves 1e-6 of overlap and area, 1e-5 1e-9
