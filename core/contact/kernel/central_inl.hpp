@@ -112,19 +112,7 @@ HWY_INLINE void follow_path(Meeting<L, Dim>& m, double tolerance, int limit) {
     for (int k = 0; k < Dim; ++k)
       m.moved[k] = m.moved[k] + step[k];
     m.bound = m.bound - step[Dim];
-    Wide least = L::wide(std::numeric_limits<double>::max());
-    invert_slacks(m, [&](int slot) HWY_ATTR {
-      const Wide t = m.get(m.slack_at, slot) - taken(shift, slot);
-      m.set(t, m.slack_at, slot);
-      least = smaller(least, t);
-      return t;
-    });
-    m.least = select(moving, L::least(least), m.least);
-    const Bool inside = m.least > zero;
-    if (const Bool lost = but_not(m.good, inside); !none(lost)) {
-      m.good = both(m.good, inside);
-      invert_slacks(m);  // theirs are no inverses
-    }
+    const Bool inside = take_from_slacks(m, moving, [&](int slot) HWY_ATTR { return taken(shift, slot); });
     const Bool done = both(moving, decrement2 < enough);
     moving = both(but_not(moving, done), inside);
   }

@@ -13,113 +13,12 @@
 
 #include <limits>
 
-#include "core/contact/kernel/lanes_inl.hpp"
-#include "core/contact/kernel/records_inl.hpp"
+#include "core/contact/kernel/meeting_inl.hpp"
 #include "core/contact/kernel/section_inl.hpp"
-#include "core/contact/kernel/workspace.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace voussoir {
 namespace HWY_NAMESPACE {
-
-// ---- what one register's worth of pairs needs -----------------------------------------------------------------------
-
-template <class L, int Dim>
-struct Meeting : Fields<Dim> {
-  using Real = typename L::Real;
-  using Wide = typename L::Wide;
-  using Bool = typename L::Bool;
-
-  Sources<L::width> a, b;  // planes as the parts store them
-  Slots part[2];
-  int quads_a = 0, quads = 0;
-  double* numbers = nullptr;  // Fields of each slot, and two numbers of each plane as scratch behind
-
-  Components<Real, Dim> rotation[Dim], offset;  // rows; B's frame -> A's
-  Components<Real, Dim> point, axis, tangent;   // A's frame
-  // rows: normal, unit; tangent, binormal, as long as `across`. A vector has components along them, which add up to
-  // it, and products with them, which the planes' normals are kept as; times `inverse_across` across the normal, either
-  // are components along unit axes.
-  Components<Real, Dim> frame[Dim];
-  Real across, inverse_across;  // 3-D
-  Real reach;                   // m, the larger of the parts' radii
-  Real tolerance, potential_radius;
-  Real smoothing, diameter[2];  // m, on the central path alone
-  Bool good;
-  Bool fallback;  // a face's normal stood in for a gradient
-
-  Real rounding;                 // m, of a slack
-  Components<Real, Dim> moved;   // contact frame
-  Real least;                    // smallest slack
-  Components<Real, Dim> normal;  // along the frame's rows
-  Real bound, firmness;          // on the central path alone
-  Real overlap, area, face_a, face_b, iterations;
-
-  HWY_INLINE Components<Wide, Dim> wide(const Components<Real, Dim>& x) const {
-    Components<Wide, Dim> r;
-    for (int k = 0; k < Dim; ++k)
-      r[k] = L::wide(x[k]);
-    return r;
-  }
-  HWY_INLINE Wide get(int field, int slot) const {
-    return L::load(numbers + (slot * Fields<Dim>::fields + field) * L::step);
-  }
-  HWY_INLINE void set(const Wide& x, int field, int slot) {
-    L::store(x, numbers + (slot * Fields<Dim>::fields + field) * L::step);
-  }
-  HWY_INLINE Components<Wide, Dim> get_vector(int field, int slot) const {
-    Components<Wide, Dim> r;
-    for (int k = 0; k < Dim; ++k)
-      r[k] = get(field + k, slot);
-    return r;
-  }
-  HWY_INLINE void set_vector(const Components<Wide, Dim>& x, int field, int slot) {
-    for (int k = 0; k < Dim; ++k)
-      set(x[k], field + k, slot);
-  }
-  HWY_INLINE Components<Wide, Dim> normals(int slot) const { return get_vector(Fields<Dim>::normal_at, slot); }
-  static HWY_INLINE int room(int quads) { return quads * planes_per_quad * (Fields<Dim>::fields * L::width + 2); }
-  HWY_INLINE double* scratch() const { return numbers + quads * planes_per_quad * Fields<Dim>::fields * L::width; }
-  // one number of one plane
-  HWY_INLINE double number(int field, int plane, int lane = 0) const {
-    return numbers[(L::slot_of(plane) * Fields<Dim>::fields + field) * L::step + L::place_of(plane, lane)];
-  }
-};
-
-template <class Real>
-HWY_INLINE Real size_of(const Components<Real, 2>& x) {
-  return magnitude(x[0]) + magnitude(x[1]);
-}
-template <class Real>
-HWY_INLINE Real size_of(const Components<Real, 3>& x) {
-  return magnitude(x[0]) + magnitude(x[1]) + magnitude(x[2]);
-}
-
-template <class Real, int Dim>
-HWY_INLINE Components<Real, Dim> column(const Components<Real, Dim> (&rows)[Dim], int k) {
-  Components<Real, Dim> r;
-  for (int j = 0; j < Dim; ++j)
-    r[j] = rows[j][k];
-  return r;
-}
-
-// Σ x_k row_k
-template <class Real, int Dim>
-HWY_INLINE Components<Real, Dim> from_frame(const Components<Real, Dim> (&rows)[Dim], const Components<Real, Dim>& x) {
-  Components<Real, Dim> r = scaled(x[0], rows[0]);
-  for (int k = 1; k < Dim; ++k)
-    r = r + scaled(x[k], rows[k]);
-  return r;
-}
-
-// A vector that is unit but for rounding, made so by one step of Newton for 1/√: what axes and rotations lack would
-// else gather in the axis that goes from step to step.
-template <class L, int Dim>
-HWY_INLINE Components<typename L::Real, Dim> unit_again(const Components<typename L::Real, Dim>& x) {
-  return scaled(L::real(1.5) - L::real(0.5) * dot(x, x), x);
-}
-
-// ---- the stages -----------------------------------------------------------------------------------------------------
 
 // The tangent is what it was when the contact began, the normal has turned since: they span the frame as they are, for
 // Newton's method asks for no unit axes, and a root and a quotient stand in nobody's way.
@@ -278,6 +177,26 @@ HWY_INLINE void invert_slacks(Meeting<L, Dim>& m) {
   invert_slacks(m, [&](int slot) HWY_ATTR { return m.get(m.slack_at, slot); });
 }
 
+// What a step takes of each slack, and the inverses of what is left. Pairs that are no longer inside are lost.
+template <class L, int Dim, class Taken>
+HWY_INLINE typename L::Bool take_from_slacks(Meeting<L, Dim>& m, const typename L::Bool& moving, const Taken& taken) {
+  using Wide = typename L::Wide;
+  Wide least = L::wide(std::numeric_limits<double>::max());
+  invert_slacks(m, [&](int slot) HWY_ATTR {
+    const Wide slack = m.get(m.slack_at, slot) - taken(slot);
+    m.set(slack, m.slack_at, slot);
+    least = smaller(least, slack);
+    return slack;
+  });
+  m.least = select(moving, L::least(least), m.least);
+  const typename L::Bool inside = m.least > L::real(0);
+  if (const typename L::Bool lost = but_not(m.good, inside); !none(lost)) {
+    m.good = both(m.good, inside);
+    invert_slacks(m);  // theirs are no inverses
+  }
+  return inside;
+}
+
 // Damped Newton until the decrement before the last step was below the tolerance. Pairs that are done stand still.
 template <class L, int Dim>
 HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
@@ -321,19 +240,7 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
       m.moved[k] = m.moved[k] + step[k];
     }
     const Components<Wide, Dim> shift = m.wide(step);
-    Wide least = L::wide(std::numeric_limits<double>::max());
-    invert_slacks(m, [&](int slot) HWY_ATTR {
-      const Wide slack = m.get(m.slack_at, slot) - dot(m.normals(slot), shift);
-      m.set(slack, m.slack_at, slot);
-      least = smaller(least, slack);
-      return slack;
-    });
-    m.least = select(moving, L::least(least), m.least);
-    const Bool inside = m.least > zero;
-    if (const Bool lost = but_not(m.good, inside); !none(lost)) {
-      m.good = both(m.good, inside);
-      invert_slacks(m);  // theirs are no inverses
-    }
+    const Bool inside = take_from_slacks(m, moving, [&](int slot) HWY_ATTR { return dot(m.normals(slot), shift); });
     const Bool done = both(moving, decrement2 < enough);
     moving = both(but_not(moving, done), inside);
   }
