@@ -105,9 +105,9 @@ template <int Dim>
 inline constexpr int geometry_numbers = Dim == 3 ? 8 : 4;
 
 // the answers into the tasks' contacts
-template <class L, int Dim>
+template <bool OnPath, class L, int Dim>
 HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTask<Dim>> tasks,
-                        const SectionList* lists, bool on_central_path, KernelCounters& counters) {
+                        const SectionList* lists, KernelCounters& counters) {
   using Real = typename L::Real;
   constexpr int width = L::width;
   double good[width];
@@ -174,7 +174,7 @@ HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTa
     if (!measured) continue;
     contact.geometry.face_a = static_cast<int>(face_a[lane]);
     contact.geometry.face_b = static_cast<int>(face_b[lane]);
-    task.magnified = !on_central_path && magnified(overlap[lane], margins[lane]);
+    task.magnified = !OnPath && magnified(overlap[lane], margins[lane]);
     if (Dim == 2 || last < Stage::area) continue;
     const SectionList& list = lists[lane];
     if (!list.found_anew) continue;
@@ -217,7 +217,7 @@ HWY_INLINE void recall_section(const KernelTask<Dim>& task, int quads_a, Section
 }
 
 // as many tasks as the register holds pairs, or fewer, all to be resolved to the same stage
-template <class L, int Dim>
+template <bool OnPath, class L, int Dim>
 void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, Workspace& work,
                     KernelCounters& counters) {
   Meeting<L, Dim> m;
@@ -227,18 +227,18 @@ void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& optio
   if (Dim == 3 && last == Stage::area)
     for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane)
       recall_section(tasks[lane], m.quads_a, lists[lane]);
-  if (options.on_central_path) {
+  if constexpr (OnPath) {
     load_diameters<L, Dim>(m, tasks);
     resolve_on_central_path(m, last, options.newton_tolerance, options.newton_limit, lists);
   } else {
     resolve_from_point(m, last, options.newton_tolerance, options.newton_limit, lists);
   }
-  deliver(m, last, tasks, lists, options.on_central_path, counters);
-  if (options.on_central_path && last >= Stage::overlap) deliver_firmness(m, tasks);
+  deliver<OnPath>(m, last, tasks, lists, counters);
+  if (OnPath && last >= Stage::overlap) deliver_firmness(m, tasks);
 }
 
-template <int Dim>
-HWY_NOINLINE void standing(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters) {
+template <bool OnPath, int Dim>
+void standing_groups(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters) {
   constexpr std::size_t width = ManyPairs::width;
   Workspace& work = workspace();
   while (!tasks.empty()) {
@@ -246,11 +246,19 @@ HWY_NOINLINE void standing(std::span<KernelTask<Dim>> tasks, const KernelOptions
     while (count < std::min(width, tasks.size()) && tasks[count].pair->last == tasks[0].pair->last)
       ++count;
     if (count == 1)
-      standing_group<OnePair, Dim>(tasks.first(count), options, work, counters);
+      standing_group<OnPath, OnePair, Dim>(tasks.first(count), options, work, counters);
     else
-      standing_group<ManyPairs, Dim>(tasks.first(count), options, work, counters);
+      standing_group<OnPath, ManyPairs, Dim>(tasks.first(count), options, work, counters);
     tasks = tasks.subspan(count);
   }
+}
+
+template <int Dim>
+HWY_NOINLINE void standing(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters) {
+  if (options.on_central_path)
+    standing_groups<true>(tasks, options, counters);
+  else
+    standing_groups<false>(tasks, options, counters);
 }
 
 template <int Dim>
@@ -291,7 +299,7 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
     if (!certified()) return;
     m.point = m.point + x;
     clear(m);
-    return deliver(m, pair.last, std::span<KernelTask<Dim>>(&task, 1), &list, false, counters);
+    return deliver<false>(m, pair.last, std::span<KernelTask<Dim>>(&task, 1), &list, counters);
   }
 
   Components<double, Dim> axis = axis_of(m, tight);
@@ -334,7 +342,7 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   resolve_from_point(m, pair.last, options.newton_tolerance, options.newton_limit, &list);
   for (int k = 0; k < Dim; ++k)
     proof.tangent[k] = m.tangent[k];
-  deliver(m, pair.last, std::span<KernelTask<Dim>>(&task, 1), &list, false, counters);
+  deliver<false>(m, pair.last, std::span<KernelTask<Dim>>(&task, 1), &list, counters);
 }
 
 void Standing2(std::span<KernelTask<2>> t, const KernelOptions& o, KernelCounters& c) {
