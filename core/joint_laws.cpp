@@ -30,12 +30,12 @@ struct PairMotion {
 
   // of the second body against the first; `point` relative to the first one's centroid, `apart` from there to the
   // second one's
-  Vector<Dim> velocity_at(const Vector<Dim>& point, const Vector<Dim>& apart) const {
+  [[gnu::always_inline]] Vector<Dim> velocity_at(const Vector<Dim>& point, const Vector<Dim>& apart) const {
     return drift + cross(spin_b, point - apart) - cross(spin_a, point);
   }
-  Vector<Dim> velocity_at(const Vector<Dim>& point) const { return velocity_at(point, between); }
+  [[gnu::always_inline]] Vector<Dim> velocity_at(const Vector<Dim>& point) const { return velocity_at(point, between); }
   // where the contact was before the step
-  Vector<Dim> velocity_before_at(const Vector<Dim>& point, double dt) const {
+  [[gnu::always_inline]] Vector<Dim> velocity_before_at(const Vector<Dim>& point, double dt) const {
     return velocity_at(point, between - dt * drift);
   }
 };
