@@ -27,11 +27,7 @@ void expect_decision_by_separating_axes(std::uint64_t seed, int pairs) {
     const Matrix<Dim> turn = matrix(shapes::orientation<Dim>(random));
     // pushed together along a direction until they nearly touch, then a step of 1e-9 to 1 either way
     const Vector<Dim> along = shapes::direction<Dim>(random);
-    double inside = 0, outside = 6;
-    for (int k = 0; k < 40; ++k) {
-      const double middle = 0.5 * (inside + outside);
-      (oracle::separation<Dim>(a, b, turn, middle * along) > 0 ? outside : inside) = middle;
-    }
+    const double outside = distance_of_touching<Dim>(a, b, turn, along);
     const double step = shapes::power_of_ten(random, -9, 0) * (i % 2 ? 1 : -1);
     const Vector<Dim> offset = (outside + step) * along;
     const double gap = static_cast<double>(oracle::separation<Dim>(a, b, turn, offset));
@@ -239,11 +235,7 @@ void expect_symmetry(std::uint64_t seed, int pairs) {
     const Polytope<Dim> b = shapes::centred_block<Dim>(shapes::random_planes<Dim>(random, 5, 0.5));
     const Matrix<Dim> turn = matrix(shapes::orientation<Dim>(random));
     const Vector<Dim> along = shapes::direction<Dim>(random);
-    double inside = 0, outside = 6;
-    for (int k = 0; k < 40; ++k) {
-      const double middle = 0.5 * (inside + outside);
-      (oracle::separation<Dim>(a, b, turn, middle * along) > 0 ? outside : inside) = middle;
-    }
+    const double outside = distance_of_touching<Dim>(a, b, turn, along);
     const double depth = shapes::power_of_ten(random, -9, -2);
     const Vector<Dim> offset = (outside - depth) * along;
     const Outcome<Dim> ab = touch<Dim>(a, b, turn, offset);

@@ -130,11 +130,7 @@ void expect_less_by_the_smoothing(std::uint64_t seed) {
                         b = shapes::block<Dim>(shapes::random_planes<Dim>(random, shapes::integer(random, 0, 8), 0.5));
     const Matrix<Dim> turn = matrix(shapes::orientation<Dim>(random));
     const Vector<Dim> along = shapes::direction<Dim>(random);
-    double inside = 0, outside = 6;
-    for (int k = 0; k < 50; ++k) {
-      const double middle = 0.5 * (inside + outside);
-      (oracle::separation<Dim>(a, b, turn, middle * along) > 0 ? outside : inside) = middle;
-    }
+    const double outside = distance_of_touching<Dim>(a, b, turn, along);
     const double size = std::min(a.inscribed_radius, b.inscribed_radius);
     const Vector<Dim> offset = (outside - shapes::power_of_ten(random, -6, -0.5) * size) * along;
     const Contact<Dim> exact = touch<Dim>(a, b, turn, offset, by_multipliers).contact;
@@ -227,11 +223,7 @@ Loop loop_around(const Polytope<3>& a, const Polytope<3>& b, Random& random, dou
                  const ContactSettings& settings) {
   const Matrix<3> start = matrix(shapes::orientation<3>(random));
   const Vector<3> along = shapes::direction<3>(random);
-  double inside = 0, outside = 6;
-  for (int k = 0; k < 40; ++k) {
-    const double middle = 0.5 * (inside + outside);
-    (oracle::separation<3>(a, b, start, middle * along) > 0 ? outside : inside) = middle;
-  }
+  const double outside = distance_of_touching<3>(a, b, start, along);
   const Vector<3> centre = (outside - depth) * along;
   const Vector<3> u = 0.4 * depth * shapes::direction<3>(random), v = 0.4 * depth * shapes::direction<3>(random);
   const Vector<3> p = turning * shapes::direction<3>(random), q = turning * shapes::direction<3>(random);

@@ -85,6 +85,14 @@ KernelOptions kernel_options(const ContactSettings& settings) {
   return {settings.newton_tolerance, settings.newton_limit, on_central_path(settings)};
 }
 
+// by the general road, with a plane between what is separated
+template <int Dim>
+void resolve_slowly(const Pair<Dim>& pair, const ContactSettings& settings, const Solvers<Dim>& solvers,
+                    Contact<Dim>& contact, KernelCounters& counters) {
+  resolve_generally(pair, settings, solvers, contact, false, counters);
+  if (contact.status == ContactStatus::separated) keep_axis(pair, contact);
+}
+
 // nothing is known of the pair, or what was known no longer holds
 template <int Dim>
 void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const Solvers<Dim>& solvers,
@@ -100,11 +108,7 @@ void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const 
     if (separates(pair, axis, support(*pair.a, axis), contact)) return;
   }
   contact.geometry = {};
-  if (on_central_path(settings)) {
-    resolve_generally(pair, settings, solvers, contact, false, counters);
-    if (contact.status == ContactStatus::separated) keep_axis(pair, contact);
-    return;
-  }
+  if (on_central_path(settings)) return resolve_slowly(pair, settings, solvers, contact, counters);
   resolve_new(task, kernel_options(settings), counters);
   if (!task.answered) {
     const bool fresh = contact.proof.kind == ProofKind::interior_point;
@@ -112,15 +116,6 @@ void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const 
   }
   if (contact.status == ContactStatus::separated) return keep_axis(pair, contact);
   if (task.magnified) measure_overlap_carefully(pair, contact);
-}
-
-// with parts exchanged for others
-template <int Dim>
-void resolve_slowly(const Pair<Dim>& pair, const ContactSettings& settings, const Solvers<Dim>& solvers,
-                    Contact<Dim>& contact, KernelCounters& counters) {
-  if (still_separated(pair, contact, counters)) return;
-  resolve_generally(pair, settings, solvers, contact, false, counters);
-  if (contact.status == ContactStatus::separated) keep_axis(pair, contact);
 }
 
 // as many as the nearest cache holds with their contacts
@@ -176,7 +171,8 @@ void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
   counters.evaluations += static_cast<long long>(pairs.size());
   if (!kernel_suits(settings, solvers)) {
     for (std::size_t i = 0; i < pairs.size(); ++i)
-      resolve_slowly(pairs[i], settings, solvers, *contacts[i], counters);
+      if (!still_separated(pairs[i], *contacts[i], counters))
+        resolve_slowly(pairs[i], settings, solvers, *contacts[i], counters);
     return;
   }
   for (std::size_t from = 0; from < pairs.size(); from += pairs_together) {

@@ -54,6 +54,18 @@ Polytope<Dim> unit_cube() {
   return shapes::block<Dim>(shapes::cube<Dim>(0.5));
 }
 
+// m: how far along the direction B's centroid is when the parts touch, to 6 m / 2^40; a little more rather than less
+template <int Dim>
+double distance_of_touching(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<Dim>& turn,
+                            const Vector<Dim>& along) {
+  double inside = 0, outside = 6;
+  for (int k = 0; k < 40; ++k) {
+    const double middle = 0.5 * (inside + outside);
+    (oracle::separation<Dim>(a, b, turn, middle * along) > 0 ? outside : inside) = middle;
+  }
+  return outside;
+}
+
 // all planes in the first body's frame, seen from its centroid
 template <int Dim>
 HalfSpaces<Dim> planes_of(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<Dim>& turn,

@@ -34,9 +34,10 @@ inline double deepest_corner(const Model<3>& model, const State<3>& state, doubl
     const Body<3>& body = model.bodies[b];
     if (body.fixed) continue;
     const Vector<3> centroid = model.origin + body.reference + state.motions[b].displacement;
+    const Matrix<3> axes = matrix(state.motions[b].rotation);
     for (const Polytope<3>& part : body.parts)
       for (const Vector<3>& v : part.vertices) {
-        const Vector<3> x = centroid + matrix(state.motions[b].rotation) * v;
+        const Vector<3> x = centroid + axes * v;
         deepest = std::max({deepest, -x[0], x[0] - width, -x[1], x[1] - width, -x[2]});
       }
   }
