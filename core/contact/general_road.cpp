@@ -25,19 +25,6 @@ double smallest_slack(const HalfSpaces<Dim>& planes, const Vector<Dim>& point) {
   return least;
 }
 
-// the plane from `first` to before `last` that the program leans on most
-template <int Dim>
-int largest_multiplier(const FeasibilityResult<Dim>& lp, int first, int last) {
-  int face = -1;
-  double most = 0;
-  for (int k = 0; k <= Dim; ++k)
-    if (lp.basis[k] >= first && lp.basis[k] < last && lp.multipliers[k] > most) {
-      most = lp.multipliers[k];
-      face = lp.basis[k];
-    }
-  return face;
-}
-
 // one part's share of the normal: its unit gradient, or the normal of its nearest face where the gradient is zero
 template <int Dim>
 Vector<Dim> potential_direction(std::span<const HalfSpace<Dim>> faces, const Vector<Dim>& point, double radius,
@@ -245,46 +232,64 @@ struct Resolver {
     return false;
   }
 
-  // the program's own gradient and value
-  void lean_on_program(Vector<Dim>& gradient, double& value, int& face_a, int& face_b) const {
-    gradient = program_gradient();
-    value = lp.value;
-    face_a = largest_multiplier(lp, 0, faces_a);
-    face_b = largest_multiplier(lp, faces_a, static_cast<int>(planes.size()));
+  // what one part's planes bear of the program, or of its barrier
+  struct Bearing {
+    Vector<Dim> gradient = Vector<Dim>::Zero();  // Σ λ a
+    double weight = 0;                           // Σ λ
+    double most = 0;                             // largest λ, at `face`
+    int face = -1;
+
+    void add(double multiplier, const Vector<Dim>& normal, int plane) {
+      gradient += multiplier * normal;
+      weight += multiplier;
+      if (multiplier <= most) return;
+      most = multiplier;
+      face = plane;
+    }
+  };
+
+  // the program's own, by part; its value
+  double lean_on_program(Bearing (&parts)[2]) const {
+    for (int k = 0; k <= Dim; ++k)
+      if (const int plane = lp.basis[k]; plane >= 0)
+        parts[plane < faces_a ? 0 : 1].add(lp.multipliers[k], planes[plane].normal, plane);
+    return lp.value;
   }
 
   // Those of its barrier. Each plane's distance is taken relative to the diameter of its part, which no point of both
   // exceeds, and the two logarithms that any contact has, of a plane of each part at twice the smoothing, are left out:
   // so far planes and near ones add to the value, it is above the program's, and parts that do not touch feel no force.
-  void lean_on_path(Vector<Dim>& gradient, double& value, int& face_a, int& face_b) const {
+  double lean_on_path(Bearing (&parts)[2]) const {
     const double weight = smoothing(), diameter_a = 2 * pair.a->radius, diameter_b = 2 * pair.b->radius;
     LogarithmOfProduct logarithms;
     logarithms.multiply((diameter_a / (2 * weight)) * (diameter_b / (2 * weight)));
-    gradient.setZero();
-    double most_a = 0, most_b = 0;
     for (int i = 0; i < static_cast<int>(planes.size()); ++i) {
-      const double t = path.bound - signed_distance(planes[i], path.point), multiplier = weight / t;
+      const double t = path.bound - signed_distance(planes[i], path.point);
       logarithms.multiply(t / (i < faces_a ? diameter_a : diameter_b));
-      if (i < faces_a) gradient += multiplier * planes[i].normal;
-      double& most = i < faces_a ? most_a : most_b;
-      if (multiplier <= most) continue;
-      most = multiplier;
-      (i < faces_a ? face_a : face_b) = i;
+      parts[i < faces_a ? 0 : 1].add(weight / t, planes[i].normal, i);
     }
-    value = path.bound - weight * (logarithms.sum() + 2);
+    return path.bound - weight * (logarithms.sum() + 2);
   }
 
   // Where B moves, the program's value s grows by its gradient g at the program's point: -s/|g| is the overlap of the
   // features that the program leans on. |g| is 1/2 between faces, less at edges and corners; with 4|g|² of a stiffness
   // k the force is that of the potential 2 k s², which does not jump where other planes become tight.
   bool measure_by_multipliers(Vector<Dim>& normal, double& overlap, int& face_a, int& face_b) {
-    double value;
-    if (on_central_path())
-      lean_on_path(normal, value, face_a, face_b);
-    else
-      lean_on_program(normal, value, face_a, face_b);
-    const double length = normal.norm();
-    if (!(length > parallel_gradients)) {
+    Bearing parts[2];
+    const double value = on_central_path() ? lean_on_path(parts) : lean_on_program(parts);
+    face_a = parts[0].face;
+    face_b = parts[1].face;
+    normal = parts[0].gradient;
+    double length = normal.norm(), least = parallel_gradients;
+    if (!(length > least)) {
+      // The parts' gradients are opposite. Where they all but vanish, as in the tip of a needle, whose planes bear the
+      // point and cancel, that of the part whose planes bear less has kept its digits.
+      const bool first = parts[0].weight <= parts[1].weight;
+      if (!first) normal = -parts[1].gradient;
+      length = normal.norm();
+      least *= parts[first ? 0 : 1].weight;
+    }
+    if (!(length > least)) {
       contact.status = ContactStatus::no_normal;
       return false;
     }
