@@ -82,11 +82,10 @@ void by_hand(const Model<3>& model, State<3>& state) {
     if (!c.touching()) continue;
     const JointProperties& p = model.properties[c.properties];
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
-    const Vector<3> spin_a = angular_velocity(model.bodies[a], state.motions[a]);
-    const Vector<3> spin_b = angular_velocity(model.bodies[b], state.motions[b]);
+    const Stance<3>&at_a = state.stances[a], &at_b = state.stances[b];
     const Vector<3>& n = c.geometry.normal;
-    const Vector<3> apart = between(model, state, a, b), drift = state.motions[b].velocity - state.motions[a].velocity;
-    const Vector<3> velocity = drift + spin_b.cross(c.geometry.point - apart) - spin_a.cross(c.geometry.point);
+    const Vector<3> apart = between(at_a, at_b), drift = at_b.velocity - at_a.velocity;
+    const Vector<3> velocity = drift + at_b.spin.cross(c.geometry.point - apart) - at_a.spin.cross(c.geometry.point);
     JointKinematics<3> k;
     k.normal = n;
     k.overlap = c.geometry.overlap;
@@ -95,10 +94,10 @@ void by_hand(const Model<3>& model, State<3>& state) {
     k.slip.setZero();
     if (!c.history.normal.isZero(0)) {
       const Vector<3> before =
-          drift + spin_b.cross(c.history.point - apart + dt * drift) - spin_a.cross(c.history.point);
+          drift + at_b.spin.cross(c.history.point - apart + dt * drift) - at_a.spin.cross(c.history.point);
       const Vector<3> twice = velocity + before - before.dot(c.history.normal) * c.history.normal;
       k.slip = 0.5 * dt * (twice - twice.dot(n) * n);
-      k.turn = 0.5 * n.dot(spin_a + spin_b) * dt;
+      k.turn = 0.5 * n.dot(at_a.spin + at_b.spin) * dt;
       if (k.area < c.history.area) {
         const double left = k.area / c.history.area, stiffness = p.shear_stiffness * c.history.area;
         if (stiffness > 0)

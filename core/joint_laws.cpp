@@ -20,13 +20,10 @@ double spin_about(const Vector<2>&, const Spin<2>&, const Spin<2>&) {
 // how the two bodies of a contact move
 template <int Dim>
 struct PairMotion {
-  const Body<Dim>&a, &b;
   Vector<Dim> between;  // m
   Vector<Dim> drift;    // m/s, of the second centroid against the first
-  Spin<Dim> spin_a, spin_b;
-
-  // of both together, 1/kg; a fixed body is infinitely heavy
-  double inverse_mass() const { return (a.fixed ? 0 : 1 / a.mass) + (b.fixed ? 0 : 1 / b.mass); }
+  const Spin<Dim>&spin_a, &spin_b;
+  double inverse_mass;  // of both together, 1/kg
 
   // of the second body against the first; `point` relative to the first one's centroid, `apart` from there to the
   // second one's
@@ -42,13 +39,8 @@ struct PairMotion {
 
 template <int Dim>
 PairMotion<Dim> motion_of(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
-  const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
-  return {model.bodies[a],
-          model.bodies[b],
-          between(model, state, a, b),
-          state.motions[b].velocity - state.motions[a].velocity,
-          angular_velocity(model.bodies[a], state.motions[a]),
-          angular_velocity(model.bodies[b], state.motions[b])};
+  const Stance<Dim>&a = state.stances[model.parts[c.part_a].body], &b = state.stances[model.parts[c.part_b].body];
+  return {between(a, b), b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
 }
 
 // where a joint is loaded
@@ -66,10 +58,6 @@ struct Booked {
   double elastic = 0, friction = 0, dashpots = 0, stiffening = 0;
   long long snap_backs = 0;
 };
-
-// Contacts whose bookings are summed together before they go to the ledger: fixed, so that the sums do not depend on
-// the number of threads.
-constexpr int booked_together = 256;
 
 // the answer of a joint with laws of its own
 template <int Dim>
@@ -132,7 +120,7 @@ template <int Dim>
   const double friction = state.schedule.friction[friction_of];
   const double damping =
       settings.damping.viscous_ratio > 0 && !state.relaxation.under_way
-          ? 2 * settings.damping.viscous_ratio * std::sqrt(k.area * k.firmness / motion.inverse_mass() * at.share)
+          ? 2 * settings.damping.viscous_ratio * std::sqrt(k.area * k.firmness / motion.inverse_mass * at.share)
           : 0;
   const JointForce<Dim> answer =
       properties.laws == 0 ? elastic_coulomb<Dim>(properties, friction,
@@ -193,20 +181,9 @@ template <int Dim>
 
 template <int Dim>
 void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  static thread_local std::vector<Booked> own;
-  std::vector<Booked>& sums = own;  // this thread's, filled by all
-  const int count = static_cast<int>(state.contacts.size());
-  const int groups = (count + booked_together - 1) / booked_together;
-  sums.resize(groups);
-  on_threads(team(settings.threads, state.contacts.size()), groups, [&](int g) {
-    Booked sum;
-    for (int i = g * booked_together; i < std::min(count, (g + 1) * booked_together); ++i)
-      answer(model, settings, static_cast<std::size_t>(i), state, sum);
-    sums[g] = sum;
-  });
-
   state.energy.elastic = 0;
-  for (const Booked& b : sums) {
+  const auto work = [&](int i, Booked& sum) { answer(model, settings, static_cast<std::size_t>(i), state, sum); };
+  for (const Booked& b : sums_in_groups<Booked>(settings.threads, state.contacts.size(), work)) {
     state.energy.elastic += b.elastic;
     state.energy.flows.friction += b.friction;
     state.energy.flows.dashpots += b.dashpots;

@@ -2,8 +2,10 @@
 // every piece writes to its own place.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <vector>
 
 namespace voussoir {
 
@@ -39,6 +41,23 @@ void on_threads(int threads, int count, const Work& work) {
 template <class Work>
 void each_on_threads(int threads, std::size_t count, const Work& work) {
   on_threads(team(threads, count), static_cast<int>(count), work);
+}
+
+// Sums over light pieces: work(i, sum) for those of each group, the groups' sums in their order. Groups are of a fixed
+// size, so that no sum depends on the number of threads. What it gives holds until its next use.
+template <class Sum, class Work>
+const std::vector<Sum>& sums_in_groups(int threads, std::size_t count, const Work& work) {
+  constexpr std::size_t together = 256;
+  static thread_local std::vector<Sum> own;
+  std::vector<Sum>& sums = own;  // this thread's, filled by all
+  sums.resize((count + together - 1) / together);
+  on_threads(team(threads, count), static_cast<int>(sums.size()), [&](int group) {
+    Sum sum{};
+    for (std::size_t i = group * together; i < std::min(count, (group + 1) * together); ++i)
+      work(static_cast<int>(i), sum);
+    sums[group] = sum;
+  });
+  return sums;
 }
 
 }  // namespace voussoir

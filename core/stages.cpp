@@ -1,6 +1,7 @@
 #include "core/stages.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -20,6 +21,10 @@ namespace {
 
 // candidates are those within half a skin of either part, and a little: enough until one has moved that far
 constexpr double candidate_reach = 0.5 * (1 + 1e-9);
+
+// a few roundings: what is multiplied by these is a lower, an upper bound of what it would be without any
+constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
+constexpr double upwards = 1 + 4 * std::numeric_limits<double>::epsilon();
 
 template <int Dim>
 double smallest_size(const Model<Dim>& model) {
@@ -55,13 +60,13 @@ Box<Dim> bounds(const Model<Dim>& model, const State<Dim>& state, int part, doub
   const Body<Dim>& body = model.bodies[id.body];
   Box<Dim> box{Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity), id.body, body.still()};
   if (!body.present) return box;
-  const Matrix<Dim>& axes = state.axes[id.body];
+  const Stance<Dim>& at = state.stances[id.body];
   for (const Vector<Dim>& v : body.parts[id.part].vertices) {
-    const Vector<Dim> x = axes * v;
+    const Vector<Dim> x = at.axes * v;
     box.low = box.low.cwiseMin(x);
     box.high = box.high.cwiseMax(x);
   }
-  const Vector<Dim> centroid = body.reference + state.motions[id.body].displacement;
+  const Vector<Dim> centroid = at.reference + at.displacement;
   const Vector<Dim> reach = Vector<Dim>::Constant(margin + rounding * body.radius) + rounding * centroid.cwiseAbs();
   box.low += centroid - reach;
   box.high += centroid + reach;
@@ -90,25 +95,45 @@ std::size_t most_cells(const Model<Dim>& model) {
   return static_cast<std::size_t>(most);
 }
 
-// the boxes of all parts
 template <int Dim>
-void bound_parts(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, double margin,
-                 std::vector<Box<Dim>>& boxes) {
-  boxes.resize(model.parts.size());
-  each_on_threads(settings.threads, boxes.size(), [&](int part) { boxes[part] = bounds(model, state, part, margin); });
+void find_stances(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  state.stances.resize(model.bodies.size());
+  each_on_threads(settings.threads, state.stances.size(),
+                  [&](int b) { state.stances[b] = stance(model.bodies[b], state.motions[b]); });
+}
+
+// whether a body may have left its half of the skin
+template <int Dim>
+bool outdated(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, double skin) {
+  if (state.built.size() != model.bodies.size()) return true;
+  std::atomic<bool> left = false;
+  each_on_threads(settings.threads, model.bodies.size(), [&](int b) {
+    if (!model.bodies[b].still() && moved(model.bodies[b], state.built[b], state.motions[b]) > 0.5 * skin)
+      left.store(true, std::memory_order_relaxed);
+  });
+  return left;
 }
 
 template <int Dim>
-void find_axes(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  state.axes.resize(model.bodies.size());
-  each_on_threads(settings.threads, state.axes.size(),
-                  [&](int b) { state.axes[b] = matrix(state.motions[b].rotation); });
+void list_by_body(const Model<Dim>& model, State<Dim>& state) {
+  std::vector<int>&first = state.by_body.first, &places = state.by_body.places;
+  first.assign(model.bodies.size() + 1, 0);
+  places.resize(2 * state.contacts.size());
+  const auto each = [&](const auto& visit) {
+    for (std::size_t i = state.contacts.size(); i-- > 0;)
+      for (const int part : {state.contacts[i].part_a, state.contacts[i].part_b})
+        visit(model.parts[part].body, static_cast<int>(i));
+  };
+  // the end of each body's, lowered to its begin as they go in from the last to the first
+  each([&](int body, int) { ++first[body]; });
+  for (std::size_t b = 0; b + 1 < first.size(); ++b)
+    first[b + 1] += first[b];
+  each([&](int body, int place) { places[--first[body]] = place; });
 }
 
 // adds what each body has moved since the last step; rounded upwards, so that it bounds
 template <int Dim>
 void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  constexpr double upwards = 1 + 4 * std::numeric_limits<double>::epsilon();
   if (state.travels.size() != model.bodies.size()) {
     state.travels.clear();
     for (const Motion<Dim>& m : state.motions)
@@ -127,6 +152,21 @@ void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>
 template <int Dim>
 double travelled(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
   return state.travels[model.parts[c.part_a].body].distance + state.travels[model.parts[c.part_b].body].distance;
+}
+
+// Whether the boxes of a contact's parts meet. They go on to, or not to, until their bodies have moved by as much as
+// they overlap, or are apart, along the decisive axis.
+template <int Dim>
+bool boxes_meet(const Model<Dim>& model, const State<Dim>& state, Contact<Dim>& c) {
+  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+  const double way = travelled(model, state, c);
+  if (way < c.boxes_until) return c.status != ContactStatus::apart;
+  const Box<Dim> a = bounds(model, state, c.part_a, 0), b = bounds(model, state, c.part_b, 0);
+  const double depth = (a.high.cwiseMin(b.high) - a.low.cwiseMax(b.low)).minCoeff();
+  const double size = std::max({a.low.cwiseAbs().maxCoeff(), a.high.cwiseAbs().maxCoeff(), b.low.cwiseAbs().maxCoeff(),
+                                b.high.cwiseAbs().maxCoeff()});
+  c.boxes_until = downwards * (way + (std::abs(depth) - rounding * size));
+  return meet(a, b);
 }
 
 // nor do its sub-contacts count any more
@@ -165,7 +205,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
   waiting.clear();
   for (int i = first; i < last; ++i) {
     Contact<Dim>& c = state.contacts[i];
-    if (!meet(state.bounds[c.part_a], state.bounds[c.part_b])) {
+    if (!boxes_meet(model, state, c)) {
       set_apart(c);
       continue;
     }
@@ -174,14 +214,13 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
       continue;
     }
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
-    const Matrix<Dim>& axes = state.axes[a];
-    pairs.push_back({&model.polytope(c.part_a), &model.polytope(c.part_b), axes, axes.transpose() * state.axes[b],
-                     axes.transpose() * between(model, state, a, b), stage});
+    const Stance<Dim>&at_a = state.stances[a], &at_b = state.stances[b];
+    pairs.push_back({&model.polytope(c.part_a), &model.polytope(c.part_b), at_a.axes, at_a.axes.transpose() * at_b.axes,
+                     at_a.axes.transpose() * between(at_a, at_b), stage});
     waiting.push_back(&c);
   }
   narrow_phase<Dim>(pairs, settings.contact, model.solvers, waiting, tally.kernel);
 
-  constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
   const std::size_t stride = state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
   for (std::size_t i = 0; i < waiting.size(); ++i) {
     Contact<Dim>* const c = waiting[i];
@@ -220,35 +259,27 @@ void add(Counters& total, const Tally& tally) {
   total.deep_overlaps += k.deep_overlaps;
 }
 
-// what a contact does to its bodies; none where it does not touch
+// what a contact that touches does to one of its bodies
 template <int Dim>
-struct Push {
-  int a = -1, b = -1;
-  Vector<Dim> force;             // N, on b
-  Spin<Dim> moment_a, moment_b;  // N m, of that force about either centroid
-};
-template <int Dim>
-Push<Dim> push_of(const Model<Dim>& model, const State<Dim>& state, std::size_t place) {
+void push(const Model<Dim>& model, const State<Dim>& state, int place, int body, Load<Dim>& load) {
   const Contact<Dim>& c = state.contacts[place];
-  Push<Dim> push;
-  if (!c.touching()) return push;
-  push.a = model.parts[c.part_a].body;
-  push.b = model.parts[c.part_b].body;
-  push.force = c.force;
-  push.moment_a.setZero();
-  push.moment_b.setZero();
-  const Vector<Dim> apart = between(model, state, push.a, push.b);
-  const auto turn = [&](const Vector<Dim>& point, const Vector<Dim>& force) {
-    push.moment_a += moment(point, force);
-    push.moment_b += moment(Vector<Dim>(point - apart), force);
+  if (!c.touching()) return;
+  const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
+  const bool on_b = body == b;
+  const Vector<Dim> apart = between(state.stances[a], state.stances[b]);
+  Spin<Dim> turn = Spin<Dim>::Zero();  // of the force on the second body, about the centroid of this one
+  const auto add = [&](const Vector<Dim>& point, const Vector<Dim>& force) {
+    turn += moment(on_b ? Vector<Dim>(point - apart) : point, force);
   };
   if (c.cells == 0) {
-    turn(c.geometry.point, c.force);
-    return push;
+    add(c.geometry.point, c.force);
+  } else {
+    for (const SubContact<Dim>& s : subs_of(state, static_cast<std::size_t>(place)))
+      if (s.area > 0) add(s.point, s.force);
   }
-  for (const SubContact<Dim>& s : subs_of(state, place))
-    if (s.area > 0) turn(s.point, s.force);
-  return push;
+  const double sign = on_b ? 1 : -1;
+  load.force += sign * c.force;
+  load.moment += sign * turn;
 }
 
 // gravity that grows lifts or lowers the potential energy of what has already moved
@@ -262,6 +293,13 @@ void book_gravity_ramp(const Model<Dim>& model, State<Dim>& state) {
       state.energy.flows.ramp -= growth * model.bodies[b].mass * model.gravity.dot(state.motions[b].displacement);
 }
 
+// What the motion of some bodies adds to the books: kinetic energy, and flows before and after the time of the
+// positions.
+struct Booked {
+  double kinetic = 0;
+  EnergyFlows before, after;
+};
+
 void book(EnergyFlows& flows, double gravity, double boundary, double load, double damping, double prescribed) {
   flows.gravity += gravity;
   flows.boundary += boundary;
@@ -270,28 +308,54 @@ void book(EnergyFlows& flows, double gravity, double boundary, double load, doub
   flows.prescribed += prescribed;
 }
 
+void add(EnergyFlows& flows, const EnergyFlows& more) {
+  flows.gravity += more.gravity;
+  flows.boundary += more.boundary;
+  flows.contacts += more.contacts;
+  flows.local += more.local;
+  flows.prescribed += more.prescribed;
+}
+
+template <int Dim>
+void book(const Model<Dim>& model, const State<Dim>& state, const std::vector<KickEnergy<Dim>>& kicks, int b,
+          Booked& booked) {
+  const Body<Dim>& body = model.bodies[b];
+  if (body.still()) return;
+  const KickEnergy<Dim>& kick = kicks[b];
+  const Vector<Dim> gravity = weight(model, state, static_cast<std::size_t>(b));
+  const BoundaryWork push = boundary_work(body, state.stances[b].axes, kick);
+  booked.kinetic += kick.kinetic;
+  book(booked.before, gravity.dot(kick.path_before), push.before, kick.load_before, kick.damping_before,
+       kick.prescribed_before);
+  book(booked.after, gravity.dot(kick.path_after), push.after, kick.load_after, kick.damping_after,
+       kick.prescribed_after);
+}
+
 }  // namespace
 
 template <int Dim>
 void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const double skin = settings.contact.skin * smallest_size(model);
-  bool stale = state.built.size() != model.bodies.size();
-  for (std::size_t b = 0; b < model.bodies.size() && !stale; ++b)
-    stale = !model.bodies[b].still() && moved(model.bodies[b], state.built[b], state.motions[b]) > 0.5 * skin;
-  if (!stale) return;
+  if (!outdated(model, settings, state, skin)) {
+    if (state.by_body.first.empty()) list_by_body(model, state);  // read from a checkpoint
+    return;
+  }
 
   // lists that keep their memory: this thread's, filled by all
-  static thread_local std::vector<Box<Dim>> boxes;
+  static thread_local std::vector<Box<Dim>> own_boxes;
   static thread_local std::vector<std::pair<int, int>> own_pairs;
   static thread_local std::vector<Contact<Dim>> own_renewed;
   static thread_local std::vector<SubContact<Dim>> own_subs;
   static thread_local std::vector<int> own_origin;
+  std::vector<Box<Dim>>& boxes = own_boxes;
   std::vector<std::pair<int, int>>& pairs = own_pairs;
   std::vector<Contact<Dim>>& renewed = own_renewed;
   std::vector<SubContact<Dim>>& renewed_subs = own_subs;
   std::vector<int>& origin = own_origin;  // of each pair: its place in the old list, or -1
-  find_axes(model, settings, state);
-  bound_parts(model, settings, state, candidate_reach * skin, boxes);
+  find_stances(model, settings, state);
+  boxes.resize(model.parts.size());
+  each_on_threads(settings.threads, boxes.size(),
+                  [&](int part) { boxes[part] = bounds(model, state, part, candidate_reach * skin); });
   overlapping_pairs(boxes, settings.threads, pairs);
 
   // standing candidates keep their record: both lists are in ascending order
@@ -318,6 +382,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   });
   std::swap(state.contacts, renewed);
   std::swap(state.subs, renewed_subs);
+  list_by_body(model, state);
   state.built.clear();
   for (const Motion<Dim>& m : state.motions)
     state.built.push_back({m.displacement, m.rotation});
@@ -328,9 +393,8 @@ template <int Dim>
 void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const int count = static_cast<int>(state.contacts.size());
   const Stage stage = needs_area(model) ? Stage::area : Stage::overlap;
-  find_axes(model, settings, state);
+  find_stances(model, settings, state);
   count_travels(model, settings, state);
-  bound_parts(model, settings, state, 0, state.bounds);
   // batches that stay in the cache, and enough of them for every thread
   const int batch = std::clamp(count / settings.threads + 1, 16, 256), batches = (count + batch - 1) / batch;
   static thread_local std::vector<Tally> own;
@@ -346,22 +410,12 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
 template <int Dim>
 void sum_loads(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   each_on_threads(settings.threads, state.loads.size(), [&](int b) {
-    state.loads[b] = boundary_load(model.bodies[b], state.axes[b]);
-    state.loads[b].force += weight(model, state, static_cast<std::size_t>(b));
+    Load<Dim> load = boundary_load(model.bodies[b], state.stances[b].axes);
+    load.force += weight(model, state, static_cast<std::size_t>(b));
+    for (const int place : contacts_of(state, b))
+      push(model, state, place, b, load);
+    state.loads[b] = load;
   });
-  // what each contact does, then in their order to whom
-  static thread_local std::vector<Push<Dim>> own;
-  std::vector<Push<Dim>>& pushes = own;  // this thread's, filled by all
-  pushes.resize(state.contacts.size());
-  each_on_threads(settings.threads, pushes.size(),
-                  [&](int i) { pushes[i] = push_of(model, state, static_cast<std::size_t>(i)); });
-  for (const Push<Dim>& p : pushes) {
-    if (p.a < 0) continue;
-    state.loads[p.a].force -= p.force;
-    state.loads[p.a].moment -= p.moment_a;
-    state.loads[p.b].force += p.force;
-    state.loads[p.b].moment += p.moment_b;
-  }
 }
 
 template <int Dim>
@@ -382,31 +436,23 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
 
   book_gravity_ramp(model, state);
   const StepTimes times{0.5 * (last + state.time_step), state.time_step};
-  EnergyLedger& energy = state.energy;
   const double elapsed = state.time + 0.5 * state.time_step - state.schedule.started;  // at the middle of the step
-  EnergyFlows after;
-  energy.kinetic = 0;
   const KickRule rule{.local_damping = settings.damping.local};
-  const auto& kicks = advance_bodies<Dim>(model, settings.threads, {&rule, 1}, times, state);
-  auto prescribed = model.prescribed.begin();
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body<Dim>& body = model.bodies[b];
-    if (body.still()) continue;
-    KickEnergy<Dim> kick = kicks[b];
-    if (body.prescribed) force(body, *prescribed++, state.loads[b], elapsed, times, state.motions[b], kick);
-    const Vector<Dim> gravity = weight(model, state, b);
-    const BoundaryWork push = boundary_work(body, state.axes[b], kick);
-    energy.kinetic += kick.kinetic;
-    book(energy.flows, gravity.dot(kick.path_before), push.before, kick.load_before, kick.damping_before,
-         kick.prescribed_before);
-    book(after, gravity.dot(kick.path_after), push.after, kick.load_after, kick.damping_after, kick.prescribed_after);
+  std::vector<KickEnergy<Dim>>& kicks = advance_bodies<Dim>(model, settings.threads, {&rule, 1}, times, state);
+  for (const PrescribedMotion<Dim>& p : model.prescribed)
+    force(model.bodies[p.body], p, state.loads[p.body], elapsed, times, state.motions[p.body], kicks[p.body]);
+
+  EnergyLedger& energy = state.energy;
+  energy.kinetic = 0;
+  EnergyFlows after;
+  const auto work = [&](int b, Booked& sum) { book(model, state, kicks, b, sum); };
+  for (const Booked& sum : sums_in_groups<Booked>(settings.threads, kicks.size(), work)) {
+    energy.kinetic += sum.kinetic;
+    add(energy.flows, sum.before);
+    add(after, sum.after);
   }
   balance(energy);
-  energy.flows.gravity += after.gravity;
-  energy.flows.boundary += after.boundary;
-  energy.flows.contacts += after.contacts;
-  energy.flows.local += after.local;
-  energy.flows.prescribed += after.prescribed;
+  add(energy.flows, after);
   state.time += state.time_step;
 }
 

@@ -41,7 +41,19 @@ Spin<3> angular_momentum(const Body<3>& body, const Rotation<3>& rotation, const
   return (principal_to_world(body, rotation).transpose() * velocity).cwiseProduct(body.inertia);
 }
 
+template <int Dim>
+Stance<Dim> stance(const Body<Dim>& body, const Motion<Dim>& motion) {
+  return {body.reference,
+          motion.displacement,
+          matrix(motion.rotation),
+          motion.velocity,
+          angular_velocity(body, motion),
+          body.fixed ? 0 : 1 / body.mass};
+}
+
 template State<2> initial_state<2>(const Model<2>&);
 template State<3> initial_state<3>(const Model<3>&);
+template Stance<2> stance<2>(const Body<2>&, const Motion<2>&);
+template Stance<3> stance<3>(const Body<3>&, const Motion<3>&);
 
 }  // namespace voussoir

@@ -37,6 +37,21 @@ struct Travel {
   double distance = 0;  // m
 };
 
+// where a body is and how it goes, as its contacts ask; rebuilt every step
+template <int Dim>
+struct Stance {
+  Vector<Dim> reference, displacement;  // m
+  Matrix<Dim> axes;                     // its frame in world axes
+  Vector<Dim> velocity;                 // m/s
+  Spin<Dim> spin;                       // rad/s, world axes
+  double inverse_mass;                  // 1/kg; 0: fixed
+};
+
+// The contacts of each body in their order: those of body b lie in `places` from first[b] up to first[b + 1].
+struct ContactsByBody {
+  std::vector<int> first, places;
+};
+
 // what the last step did to a body; rebuilt every step
 template <int Dim>
 struct Load {
@@ -89,8 +104,8 @@ struct State {
   std::vector<SubContact<Dim>> subs;   // as many places for each contact, in their order; none where no joint has any
   std::vector<Placement<Dim>> built;   // where the bodies stood when the candidates were last listed
   std::vector<Travel<Dim>> travels;    // by body
-  std::vector<Matrix<Dim>> axes;       // by body: its frame in world axes; rebuilt every step
-  std::vector<Box<Dim>> bounds;        // by part; rebuilt every step
+  std::vector<Stance<Dim>> stances;    // by body; rebuilt every step
+  ContactsByBody by_body;              // places in `contacts`; rebuilt with them
   std::vector<double> frequency;       // rad/s, by body: stiffest mode of the last time-step estimate
   Relaxation<Dim> relaxation;
   Schedule schedule;
@@ -108,6 +123,14 @@ auto subs_of(AnyState& state, std::size_t place) {
   return std::span(state.subs).subspan(place * stride, std::min<std::size_t>(stride, state.contacts[place].cells));
 }
 
+// the places of a body's contacts in State::contacts
+template <int Dim>
+std::span<const int> contacts_of(const State<Dim>& state, int body) {
+  const auto& [first, places] = state.by_body;
+  if (first.empty()) return {};  // no candidates have been listed
+  return std::span(places).subspan(first[body], first[body + 1] - first[body]);
+}
+
 // rest at the reference configuration
 template <int Dim>
 State<Dim> initial_state(const Model<Dim>& model);
@@ -115,10 +138,11 @@ State<Dim> initial_state(const Model<Dim>& model);
 // The second body's centroid seen from the first's, m: reference positions first, so that small displacements are not
 // lost.
 template <int Dim>
-Vector<Dim> between(const Model<Dim>& model, const State<Dim>& state, int a, int b) {
-  return (model.bodies[b].reference - model.bodies[a].reference) +
-         (state.motions[b].displacement - state.motions[a].displacement);
+Vector<Dim> between(const Stance<Dim>& a, const Stance<Dim>& b) {
+  return (b.reference - a.reference) + (b.displacement - a.displacement);
 }
+template <int Dim>
+Stance<Dim> stance(const Body<Dim>& body, const Motion<Dim>& motion);
 
 // of a body under the gravity of now, N
 template <int Dim>

@@ -88,8 +88,9 @@ void serialize(Archive& archive, Proof<Dim>& p) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, Contact<Dim>& c) {
-  auto& [part_a, part_b, joint, properties, cells, divided_face, status, geometry, history, proof, force, free_until,
-         area_rated] = c;
+  // boxes are looked at anew
+  auto& [part_a, part_b, joint, properties, cells, divided_face, status, boxes_until, free_until, area_rated, geometry,
+         history, proof, force] = c;
   archive(part_a, part_b, joint, properties, cells, divided_face, status, geometry, history, proof, force, free_until,
           area_rated);
 }
@@ -136,9 +137,9 @@ void serialize(Archive& archive, EnergyLedger& e) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
-  // axes and bounds are rebuilt before they are read
-  auto& [motions, loads, contacts, subs, built, travels, axes, bounds, frequency, relaxation, schedule, time, time_step,
-         step_allowed, energy, counters] = s;
+  // stances and lists by body are rebuilt before they are read
+  auto& [motions, loads, contacts, subs, built, travels, stances, by_body, frequency, relaxation, schedule, time,
+         time_step, step_allowed, energy, counters] = s;
   archive(motions, loads, contacts, subs, built, travels, frequency, relaxation, schedule, time, time_step,
           step_allowed, energy, counters);
 }

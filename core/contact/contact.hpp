@@ -85,13 +85,16 @@ struct Contact {
   int cells = 0;               // sub-contacts that carry it, in State::subs; 0: it carries itself
   int divided_face = -1;       // theirs: of the first part, or, counted on behind its faces, of the second
   ContactStatus status = ContactStatus::apart;
+  // m: what was found of the pair holds until its bodies' travels add up to this
+  double boxes_until = 0;  // whether its boxes meet
+  double free_until = 0;   // that it is separated
+  // m²: the area the time step was last chosen for, times what stress stiffened it; negative: not yet
+  double area_rated = -1;
+  // most steps ask the above and no more of most pairs, a cache line
   ContactGeometry<Dim> geometry;
   JointState<Dim> history;  // of all sub-contacts together where there are any
   Proof<Dim> proof;
   Vector<Dim> force = Vector<Dim>::Zero();  // N on the second body
-  double free_until = 0;                    // m: a separated pair cannot meet before its bodies' travels add up to this
-  // m²: the area the time step was last chosen for, times what stress stiffened it; negative: not yet
-  double area_rated = -1;
 
   bool touching() const { return status == ContactStatus::touching; }
   bool unanswered() const { return status > ContactStatus::touching; }

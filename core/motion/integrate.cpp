@@ -160,9 +160,8 @@ KickEnergy<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, const Kick
 }
 
 template <int Dim>
-const std::vector<KickEnergy<Dim>>& advance_bodies(const Model<Dim>& model, int threads,
-                                                   std::span<const KickRule> rules, StepTimes times,
-                                                   State<Dim>& state) {
+std::vector<KickEnergy<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std::span<const KickRule> rules,
+                                             StepTimes times, State<Dim>& state) {
   static thread_local std::vector<KickEnergy<Dim>> own;
   std::vector<KickEnergy<Dim>>& kicks = own;  // this thread's, filled by all
   kicks.resize(model.bodies.size());
@@ -211,10 +210,10 @@ double unbalanced_ratio(const Model<Dim>& model, const State<Dim>& state) {
 
 template KickEnergy<2> advance<2>(const Body<2>&, const Load<2>&, const KickRule&, StepTimes, Motion<2>&);
 template KickEnergy<3> advance<3>(const Body<3>&, const Load<3>&, const KickRule&, StepTimes, Motion<3>&);
-template const std::vector<KickEnergy<2>>& advance_bodies<2>(const Model<2>&, int, std::span<const KickRule>, StepTimes,
-                                                             State<2>&);
-template const std::vector<KickEnergy<3>>& advance_bodies<3>(const Model<3>&, int, std::span<const KickRule>, StepTimes,
-                                                             State<3>&);
+template std::vector<KickEnergy<2>>& advance_bodies<2>(const Model<2>&, int, std::span<const KickRule>, StepTimes,
+                                                       State<2>&);
+template std::vector<KickEnergy<3>>& advance_bodies<3>(const Model<3>&, int, std::span<const KickRule>, StepTimes,
+                                                       State<3>&);
 template double unbalanced_ratio<2>(const Model<2>&, const State<2>&);
 template double unbalanced_ratio<3>(const Model<3>&, const State<3>&);
 

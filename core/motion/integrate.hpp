@@ -60,8 +60,8 @@ KickEnergy<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, const Kick
 // Advances every free body, on as many threads; `rules` has one for each body, or one for all. What each kick did, by
 // body: until the next call on this thread.
 template <int Dim>
-const std::vector<KickEnergy<Dim>>& advance_bodies(const Model<Dim>& model, int threads,
-                                                   std::span<const KickRule> rules, StepTimes times, State<Dim>& state);
+std::vector<KickEnergy<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std::span<const KickRule> rules,
+                                             StepTimes times, State<Dim>& state);
 
 // force left after damping each component against its velocity: f - α |f| sign(v)
 double damped(double force, double velocity, double local_damping);

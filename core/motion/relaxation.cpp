@@ -140,7 +140,7 @@ void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>&
     const KickEnergy<Dim>& kick = kicks[b];
     const Vector<Dim> gravity = weight(model, state, b);
     const double down_before = gravity.dot(kick.path_before), down_after = gravity.dot(kick.path_after);
-    const BoundaryWork push = boundary_work(model.bodies[b], state.axes[b], kick);
+    const BoundaryWork push = boundary_work(model.bodies[b], state.stances[b].axes, kick);
     energy.flows.gravity += down_before;
     energy.flows.boundary += push.before;
     energy.flows.contacts += kick.load_before - down_before - push.before;

@@ -162,66 +162,61 @@ struct Asked {
   }
 };
 
+// What a contact adds to one of its bodies that is asked: stiffness, or what may strike it. The contact is rated anew
+// by the first that is asked.
+template <int Dim>
+void bear(const Model<Dim>& model, const Asked& asked, State<Dim>& state, int place, int body,
+          Stiffness<Dim>& stiffness, double& impact) {
+  Contact<Dim>& c = state.contacts[place];
+  if (c.status == ContactStatus::apart) return;
+  const int ia = model.parts[c.part_a].body, ib = model.parts[c.part_b].body;
+  const bool fixed_a = model.bodies[ia].fixed, fixed_b = model.bodies[ib].fixed;
+  const bool asked_a = asked.place[ia] >= 0, asked_b = asked.place[ib] >= 0;
+  const double factor = fixed_a || fixed_b ? 1 : 2;
+  const auto rate = [&](double area) {
+    if (body == ib && asked_a) return;
+    // a body that is not asked has counted on no more than the rating so far
+    const bool both = (asked_a || fixed_a) && (asked_b || fixed_b);
+    c.area_rated = both ? area_margin * area : std::min(c.area_rated, area_margin * area);
+  };
+  if (!c.touching()) {
+    const double face = std::min(model.polytope(c.part_a).largest_face, model.polytope(c.part_b).largest_face);
+    rate(face);
+    impact += factor * stiffest_joint(model.properties, face);
+    return;
+  }
+  const JointProperties& p = model.properties[c.properties];
+  const auto subs = subs_of(std::as_const(state), static_cast<std::size_t>(place));
+  rate(c.geometry.area * stiffening<Dim>(p, c, subs));
+  const Vector<Dim> apart = between(state.stances[ia], state.stances[ib]);
+  // `gyration2` times the area: what the cell about its own point adds to rocking and spin, at most
+  const auto add_cell = [&](const Vector<Dim>& point, double overlap, double area, double gyration2) {
+    const Tangent now = tangent(p, overlap);
+    add<Dim>(stiffness, factor, contact_stiffness<Dim>(now, area, c.geometry.normal),
+             body == ia ? point : Vector<Dim>(point - apart));
+    const double turning = factor * area * std::max(now.normal, now.shear) * gyration2;
+    for (int i = Dim; i < freedoms<Dim>; ++i)
+      stiffness(i, i) += turning;
+  };
+  if (c.cells == 0)
+    return add_cell(c.geometry.point, c.geometry.overlap, p.constant_stiffness ? 1 : c.geometry.area, 0);
+  const double unit = p.constant_stiffness ? c.geometry.area : 1;
+  for (const SubContact<Dim>& s : subs)
+    if (s.area > 0) add_cell(s.point, s.overlap, s.area / unit, s.gyration2);
+}
+
 // the estimate, anew for the bodies asked for
 template <int Dim>
 TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
                           const Asked& asked, State<Dim>& state) {
-  static thread_local std::vector<Stiffness<Dim>> own_stiffness;
-  static thread_local std::vector<double> own_impact;
-  std::vector<Stiffness<Dim>>& stiffness = own_stiffness;  // this thread's, seen by all
-  std::vector<double>& impact = own_impact;                // N/m that may act at the radius
-  stiffness.assign(asked.bodies.size(), Stiffness<Dim>::Zero());
-  impact.assign(asked.bodies.size(), 0);
-
-  for (Contact<Dim>& c : state.contacts) {
-    const int ia = model.parts[c.part_a].body, ib = model.parts[c.part_b].body;
-    const int at_a = asked.place[ia], at_b = asked.place[ib];
-    if (c.status == ContactStatus::apart || (at_a < 0 && at_b < 0)) continue;
-    const Body<Dim>&a = model.bodies[ia], &b = model.bodies[ib];
-    const double factor = a.fixed || b.fixed ? 1 : 2;
-    // a body that is not asked has counted on no more than the rating so far
-    const bool both = (at_a >= 0 || a.fixed) && (at_b >= 0 || b.fixed);
-    const auto rate = [&](double area) {
-      c.area_rated = both ? area_margin * area : std::min(c.area_rated, area_margin * area);
-    };
-    if (c.touching()) {
-      const JointProperties& p = model.properties[c.properties];
-      const auto subs = subs_of(std::as_const(state), &c - state.contacts.data());
-      rate(c.geometry.area * stiffening<Dim>(p, c, subs));
-      const Vector<Dim> apart = between(model, state, ia, ib);
-      // `gyration2` times the area: what the cell about its own point adds to rocking and spin, at most
-      const auto bear = [&](const Vector<Dim>& point, double overlap, double area, double gyration2) {
-        const Tangent now = tangent(p, overlap);
-        const Matrix<Dim> k = contact_stiffness<Dim>(now, area, c.geometry.normal);
-        const double turning = factor * area * std::max(now.normal, now.shear) * gyration2;
-        for (const auto& [at, arm] : {std::pair(at_a, point), std::pair(at_b, Vector<Dim>(point - apart))}) {
-          if (at < 0) continue;
-          add<Dim>(stiffness[at], factor, k, arm);
-          for (int i = Dim; i < freedoms<Dim>; ++i)
-            stiffness[at](i, i) += turning;
-        }
-      };
-      if (c.cells == 0) {
-        bear(c.geometry.point, c.geometry.overlap, p.constant_stiffness ? 1 : c.geometry.area, 0);
-        continue;
-      }
-      const double unit = p.constant_stiffness ? c.geometry.area : 1;
-      for (const SubContact<Dim>& s : subs)
-        if (s.area > 0) bear(s.point, s.overlap, s.area / unit, s.gyration2);
-      continue;
-    }
-    const double face = std::min(model.polytope(c.part_a).largest_face, model.polytope(c.part_b).largest_face);
-    rate(face);
-    const double strikes = factor * stiffest_joint(model.properties, face);
-    for (const int at : {at_a, at_b})
-      if (at >= 0) impact[at] += strikes;
-  }
-
-  // each body by itself
   state.frequency.resize(model.bodies.size(), 0);
   each_on_threads(settings.threads, asked.bodies.size(), [&](int i) {
     const int body = asked.bodies[i];
-    state.frequency[body] = std::sqrt(stiffest(model, body, state.motions[body].rotation, stiffness[i], impact[i]));
+    Stiffness<Dim> stiffness = Stiffness<Dim>::Zero();
+    double impact = 0;  // N/m that may act at the radius
+    for (const int place : contacts_of(state, body))
+      bear(model, asked, state, place, body, stiffness, impact);
+    state.frequency[body] = std::sqrt(stiffest(model, body, state.motions[body].rotation, stiffness, impact));
   });
   double largest = 0;
   for (const double frequency : state.frequency)
