@@ -95,13 +95,6 @@ std::size_t most_cells(const Model<Dim>& model) {
   return static_cast<std::size_t>(most);
 }
 
-template <int Dim>
-void find_stances(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  state.stances.resize(model.bodies.size());
-  each_on_threads(settings.threads, state.stances.size(),
-                  [&](int b) { state.stances[b] = stance(model.bodies[b], state.motions[b]); });
-}
-
 // whether a body may have left its half of the skin
 template <int Dim>
 bool outdated(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, double skin) {
@@ -112,23 +105,6 @@ bool outdated(const Model<Dim>& model, const Settings& settings, const State<Dim
       left.store(true, std::memory_order_relaxed);
   });
   return left;
-}
-
-template <int Dim>
-void list_by_body(const Model<Dim>& model, State<Dim>& state) {
-  std::vector<int>&first = state.by_body.first, &places = state.by_body.places;
-  first.assign(model.bodies.size() + 1, 0);
-  places.resize(2 * state.contacts.size());
-  const auto each = [&](const auto& visit) {
-    for (std::size_t i = state.contacts.size(); i-- > 0;)
-      for (const int part : {state.contacts[i].part_a, state.contacts[i].part_b})
-        visit(model.parts[part].body, static_cast<int>(i));
-  };
-  // the end of each body's, lowered to its begin as they go in from the last to the first
-  each([&](int body, int) { ++first[body]; });
-  for (std::size_t b = 0; b + 1 < first.size(); ++b)
-    first[b + 1] += first[b];
-  each([&](int body, int place) { places[--first[body]] = place; });
 }
 
 // adds what each body has moved since the last step; rounded upwards, so that it bounds
@@ -352,7 +328,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   std::vector<Contact<Dim>>& renewed = own_renewed;
   std::vector<SubContact<Dim>>& renewed_subs = own_subs;
   std::vector<int>& origin = own_origin;  // of each pair: its place in the old list, or -1
-  find_stances(model, settings, state);
+  find_stances(model, settings.threads, state);
   boxes.resize(model.parts.size());
   each_on_threads(settings.threads, boxes.size(),
                   [&](int part) { boxes[part] = bounds(model, state, part, candidate_reach * skin); });
@@ -393,7 +369,7 @@ template <int Dim>
 void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const int count = static_cast<int>(state.contacts.size());
   const Stage stage = needs_area(model) ? Stage::area : Stage::overlap;
-  find_stances(model, settings, state);
+  find_stances(model, settings.threads, state);
   count_travels(model, settings, state);
   // batches that stay in the cache, and enough of them for every thread
   const int batch = std::clamp(count / settings.threads + 1, 16, 256), batches = (count + batch - 1) / batch;

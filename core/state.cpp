@@ -1,5 +1,7 @@
 #include "core/state.hpp"
 
+#include "core/on_threads.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -42,18 +44,42 @@ Spin<3> angular_momentum(const Body<3>& body, const Rotation<3>& rotation, const
 }
 
 template <int Dim>
-Stance<Dim> stance(const Body<Dim>& body, const Motion<Dim>& motion) {
-  return {body.reference,
-          motion.displacement,
-          matrix(motion.rotation),
-          motion.velocity,
-          angular_velocity(body, motion),
-          body.fixed ? 0 : 1 / body.mass};
+void find_stances(const Model<Dim>& model, int threads, State<Dim>& state) {
+  state.stances.resize(model.bodies.size());
+  each_on_threads(threads, state.stances.size(), [&](int b) {
+    const Body<Dim>& body = model.bodies[b];
+    const Motion<Dim>& motion = state.motions[b];
+    state.stances[b] = {body.reference,
+                        motion.displacement,
+                        matrix(motion.rotation),
+                        motion.velocity,
+                        angular_velocity(body, motion),
+                        body.fixed ? 0 : 1 / body.mass};
+  });
+}
+
+template <int Dim>
+void list_by_body(const Model<Dim>& model, State<Dim>& state) {
+  std::vector<int>&first = state.by_body.first, &places = state.by_body.places;
+  first.assign(model.bodies.size() + 1, 0);
+  places.resize(2 * state.contacts.size());
+  const auto each = [&](const auto& visit) {
+    for (std::size_t i = state.contacts.size(); i-- > 0;)
+      for (const int part : {state.contacts[i].part_a, state.contacts[i].part_b})
+        visit(model.parts[part].body, static_cast<int>(i));
+  };
+  // the end of each body's, lowered to its begin as they go in from the last to the first
+  each([&](int body, int) { ++first[body]; });
+  for (std::size_t b = 0; b + 1 < first.size(); ++b)
+    first[b + 1] += first[b];
+  each([&](int body, int place) { places[--first[body]] = place; });
 }
 
 template State<2> initial_state<2>(const Model<2>&);
 template State<3> initial_state<3>(const Model<3>&);
-template Stance<2> stance<2>(const Body<2>&, const Motion<2>&);
-template Stance<3> stance<3>(const Body<3>&, const Motion<3>&);
+template void find_stances<2>(const Model<2>&, int, State<2>&);
+template void find_stances<3>(const Model<3>&, int, State<3>&);
+template void list_by_body<2>(const Model<2>&, State<2>&);
+template void list_by_body<3>(const Model<3>&, State<3>&);
 
 }  // namespace voussoir

@@ -141,8 +141,14 @@ template <int Dim>
 Vector<Dim> between(const Stance<Dim>& a, const Stance<Dim>& b) {
   return (b.reference - a.reference) + (b.displacement - a.displacement);
 }
+
+// State::stances from the motions
 template <int Dim>
-Stance<Dim> stance(const Body<Dim>& body, const Motion<Dim>& motion);
+void find_stances(const Model<Dim>& model, int threads, State<Dim>& state);
+
+// State::by_body from the contacts
+template <int Dim>
+void list_by_body(const Model<Dim>& model, State<Dim>& state);
 
 // of a body under the gravity of now, N
 template <int Dim>

@@ -82,6 +82,8 @@ struct RandomAssembly {
       c.geometry.area = power_of_ten(random, -2, 0);
       state.contacts.push_back(c);
     }
+    find_stances(model, 1, state);
+    list_by_body(model, state);
   }
 
   // stiffest square frequency of all free bodies together, every coupling included
