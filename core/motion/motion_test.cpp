@@ -373,13 +373,13 @@ TEST(TimeStep, ACandidateOrAFlightIsAtLeastAsSlowAsItsContactWouldBe) {
     Contact<3> c;
     c.part_b = 1;
     c.status = ContactStatus::separated;
-    if (candidate) state.contacts = {c};
+    if (candidate) shapes::set_contacts(model, {c}, state);
     const double before = estimate_time_step(model, {}, {}, state).limit;
     c.status = ContactStatus::touching;
     c.geometry.point = {0, 0, 0.5};
     c.geometry.normal = {0, 0, 1};
     c.geometry.area = 1;
-    state.contacts = {c};
+    shapes::set_contacts(model, {c}, state);
     EXPECT_LT(before, estimate_time_step(model, {}, {}, state).limit);
   }
 }
@@ -399,7 +399,7 @@ TEST(TimeStep, WithADashpotTheLimitIsWhereTheStepBreaks) {
   c.part_b = 1;
   c.status = ContactStatus::touching;
   c.geometry.normal = {1, 0};
-  state.contacts = {c};
+  shapes::set_contacts(model, {c}, state);
   const Body<2>& body = model.bodies[0];
   for (const double xi : {0.0, 0.1, 0.5, 1.0, 3.0}) {
     const double limit = estimate_time_step(model, {}, {.local = 0, .viscous_ratio = xi}, state).limit;

@@ -46,6 +46,14 @@ auto velocity_at(const Vector<Dim>& arm) {
   return j;
 }
 
+// as the step would have found them
+template <int Dim>
+void set_contacts(const Model<Dim>& model, const std::vector<Contact<Dim>>& contacts, State<Dim>& state) {
+  state.contacts = contacts;
+  find_stances(model, 1, state);
+  list_by_body(model, state);
+}
+
 // random bodies, the last of them fixed, with random contacts between them; every free body has one
 template <int Dim>
 struct RandomAssembly {
@@ -69,8 +77,9 @@ struct RandomAssembly {
       m.rotation = orientation<Dim>(random);
       m.displacement = 0.01 * normal_vector<Dim>(random);
     }
-    while (static_cast<int>(state.contacts.size()) < contacts) {
-      const int place = static_cast<int>(state.contacts.size());
+    std::vector<Contact<Dim>> made;
+    while (static_cast<int>(made.size()) < contacts) {
+      const int place = static_cast<int>(made.size());
       const int a = place < free ? place : integer(random, 0, free - 1);
       Contact<Dim> c;
       c.part_a = a;
@@ -80,10 +89,9 @@ struct RandomAssembly {
       c.geometry.point = uniform(random, 0.2, 1) * model.bodies[a].radius * direction<Dim>(random);
       c.geometry.normal = direction<Dim>(random);
       c.geometry.area = power_of_ten(random, -2, 0);
-      state.contacts.push_back(c);
+      made.push_back(c);
     }
-    find_stances(model, 1, state);
-    list_by_body(model, state);
+    set_contacts(model, made, state);
   }
 
   // stiffest square frequency of all free bodies together, every coupling included
