@@ -105,6 +105,29 @@ TEST(Multipliers, CrossedEdgesAreTheDistanceOfTheirLines) {
   }
 }
 
+// A needle's planes bear its tip and all but cancel: the direction is that of the plane that bears next to nothing.
+TEST(Multipliers, ANeedlesTipHasTheFacesNormal) {
+  const Polytope<3> large = shapes::block<3>(shapes::cube<3>(3));
+  for (const double slope : {1e-3, 1e-7}) {
+    const double lean = 1 / std::hypot(1, slope), down = -slope * lean;
+    const Polytope<3> needle = shapes::block<3>(
+        {{{lean, 0, down}, 0}, {{-lean, 0, down}, 0}, {{0, lean, down}, 0}, {{0, -lean, down}, 0}, {{0, 0, 1}, 1}});
+    const double depth = 0.3;
+    for (const ContactSettings& settings : {by_multipliers, smoothed}) {
+      const Contact<3> above = touch<3>(large, needle, Matrix<3>::Identity(), {0, 0, 3 - depth}, settings).contact,
+                       below = touch<3>(needle, large, Matrix<3>::Identity(), {0, 0, depth - 3}, settings).contact;
+      for (const auto& [contact, sign] : {std::pair(above, 1), std::pair(below, -1)}) {
+        ASSERT_TRUE(contact.touching());
+        EXPECT_LT((sign * contact.geometry.normal - Vector<3>::UnitZ()).norm(), 1e-6);
+        // the ball in the tip keeps from the face what it keeps from the needle's planes
+        EXPECT_LE(contact.geometry.overlap, depth * (1 + 2 * slope));
+        EXPECT_GE(contact.geometry.overlap, (settings.point == ContactPoint::chebyshev ? 0.99 : 0.9) * depth);
+        EXPECT_NEAR(contact.geometry.firmness, 4 * slope * slope, 0.1 * 4 * slope * slope);
+      }
+    }
+  }
+}
+
 TEST(Multipliers, OneDeepInsideTheOtherHasNoNormal) {
   const Polytope<3> large = shapes::block<3>(shapes::cube<3>(3)), small = unit_cube<3>();
   Random random(94);
