@@ -1,4 +1,5 @@
-// Counts every allocation of the program. For one source file of a program: it replaces operator new.
+// Counts every allocation of the program. For one source file of a program: it replaces operator new. Not with
+// ThreadSanitizer, whose own lets no other stand beside it: then nothing is counted.
 #pragma once
 
 #include <atomic>
@@ -9,8 +10,20 @@ namespace voussoir {
 
 inline std::atomic<long long> allocations{0};
 
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define VOUSSOIR_ALLOCATIONS_NOT_COUNTED
+#endif
+#endif
+#ifdef VOUSSOIR_ALLOCATIONS_NOT_COUNTED
+inline constexpr bool allocations_are_counted = false;
+#else
+inline constexpr bool allocations_are_counted = true;
+#endif
+
 }  // namespace voussoir
 
+#ifndef VOUSSOIR_ALLOCATIONS_NOT_COUNTED
 // not inlined, or the compiler takes malloc and delete for a mistake
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++voussoir::allocations;
@@ -23,3 +36,4 @@ inline std::atomic<long long> allocations{0};
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
 }
+#endif
