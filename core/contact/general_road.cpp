@@ -83,17 +83,12 @@ struct Resolver {
   bool lp_solved = false;
   CentralPathResult<Dim> path;
 
-  // Σ over A's planes of λ a: how the program's value grows as B moves
-  Vector<Dim> program_gradient() const {
-    Vector<Dim> gradient = Vector<Dim>::Zero();
-    for (int k = 0; k <= Dim; ++k)
-      if (lp.basis[k] >= 0 && lp.basis[k] < faces_a) gradient += lp.multipliers[k] * planes[lp.basis[k]].normal;
-    return gradient;
-  }
-
-  // its unit vector, which separates the parts, or nearly does; false when it vanishes, one part deep inside the other
+  // along which the program's value grows most as B moves, unit: it separates the parts, or nearly does; false when
+  // there is none, one part deep inside the other
   bool separating_direction(Vector<Dim>& axis) const {
-    axis = program_gradient();
+    Bearing parts[2];
+    lean_on_program(parts);
+    axis = parts[0].gradient;
     const double length = axis.norm();
     if (!(length > parallel_gradients)) return false;
     axis /= length;
