@@ -164,7 +164,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     const bool changing = follow(schedule, state);
     step(model, settings, state);
     ++progress.steps;
-    report.unbalanced = goal.rest ? unbalanced_ratio(model, state) : -1;
+    report.unbalanced = goal.rest ? unbalanced_ratio(model, settings.threads, state) : -1;
     if (hooks.after_step) hooks.after_step(state, report.unbalanced);
 
     // a wrong force must not be stepped over

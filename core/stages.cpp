@@ -45,6 +45,14 @@ double turned_by(const Rotation<3>& from, const Rotation<3>& to) {
   return chord < 0.5 ? 2.1 * chord : longest;
 }
 
+// where the bodies stand; the list keeps its memory
+template <int Dim>
+void note_placements(const State<Dim>& state, std::vector<Placement<Dim>>& placements) {
+  placements.clear();
+  for (const Motion<Dim>& m : state.motions)
+    placements.push_back({m.displacement, m.rotation});
+}
+
 // how far any point of a body may have moved, at most
 template <int Dim>
 double moved(const Body<Dim>& body, const Placement<Dim>& then, const Motion<Dim>& now) {
@@ -76,6 +84,7 @@ Box<Dim> bounds(const Model<Dim>& model, const State<Dim>& state, int part, doub
 // the joint a contact lies on: of the two faces' joints the later cut
 template <int Dim>
 int joint_of(const Model<Dim>& model, const Contact<Dim>& c) {
+  if (model.joints.empty()) return no_joint;
   return std::max(model.polytope(c.part_a).joints[c.geometry.face_a],
                   model.polytope(c.part_b).joints[c.geometry.face_b]);
 }
@@ -111,23 +120,22 @@ bool outdated(const Model<Dim>& model, const Settings& settings, const State<Dim
 template <int Dim>
 void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   if (state.travels.size() != model.bodies.size()) {
-    state.travels.clear();
-    for (const Motion<Dim>& m : state.motions)
-      state.travels.push_back({{m.displacement, m.rotation}, 0});
+    note_placements(state, state.counted);
+    state.travels.assign(state.motions.size(), 0);
   }
   each_on_threads(settings.threads, state.travels.size(), [&](int b) {
     if (model.bodies[b].still()) return;
     const Motion<Dim>& now = state.motions[b];
-    Travel<Dim>& t = state.travels[b];
-    const double way = moved(model.bodies[b], t.last, now);
-    if (way > 0) t.distance = (t.distance + upwards * way) * upwards;
-    t.last = {now.displacement, now.rotation};
+    double& travel = state.travels[b];
+    const double way = moved(model.bodies[b], state.counted[b], now);
+    if (way > 0) travel = (travel + upwards * way) * upwards;
+    state.counted[b] = {now.displacement, now.rotation};
   });
 }
 
 template <int Dim>
 double travelled(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
-  return state.travels[model.parts[c.part_a].body].distance + state.travels[model.parts[c.part_b].body].distance;
+  return state.travels[model.parts[c.part_a].body] + state.travels[model.parts[c.part_b].body];
 }
 
 // Whether the boxes of a contact's parts meet. They go on to, or not to, until their bodies have moved by as much as
@@ -242,10 +250,11 @@ void push(const Model<Dim>& model, const State<Dim>& state, int place, int body,
   if (!c.touching()) return;
   const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
   const bool on_b = body == b;
-  const Vector<Dim> apart = between(state.stances[a], state.stances[b]);
+  Vector<Dim> centroid = Vector<Dim>::Zero();  // of this body, from that of the first
+  if (on_b) centroid = between(state.stances[a], state.stances[b]);
   Spin<Dim> turn = Spin<Dim>::Zero();  // of the force on the second body, about the centroid of this one
   const auto add = [&](const Vector<Dim>& point, const Vector<Dim>& force) {
-    turn += moment(on_b ? Vector<Dim>(point - apart) : point, force);
+    turn += moment(Vector<Dim>(point - centroid), force);
   };
   if (c.cells == 0) {
     add(c.geometry.point, c.force);
@@ -359,9 +368,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   std::swap(state.contacts, renewed);
   std::swap(state.subs, renewed_subs);
   list_by_body(model, state);
-  state.built.clear();
-  for (const Motion<Dim>& m : state.motions)
-    state.built.push_back({m.displacement, m.rotation});
+  note_placements(state, state.built);
   ++state.counters.neighbour_builds;
 }
 

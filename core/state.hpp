@@ -30,13 +30,6 @@ struct Placement {
   Rotation<Dim> rotation;
 };
 
-// how far any point of a body may have gone, all ways added up
-template <int Dim>
-struct Travel {
-  Placement<Dim> last;  // up to where it is counted
-  double distance = 0;  // m
-};
-
 // where a body is and how it goes, as its contacts ask; rebuilt every step
 template <int Dim>
 struct Stance {
@@ -98,15 +91,16 @@ struct Counters {
 
 template <int Dim>
 struct State {
-  std::vector<Motion<Dim>> motions;    // by body
-  std::vector<Load<Dim>> loads;        // by body
-  std::vector<Contact<Dim>> contacts;  // candidate pairs by (part a, part b); those that touch carry history
-  std::vector<SubContact<Dim>> subs;   // as many places for each contact, in their order; none where no joint has any
-  std::vector<Placement<Dim>> built;   // where the bodies stood when the candidates were last listed
-  std::vector<Travel<Dim>> travels;    // by body
-  std::vector<Stance<Dim>> stances;    // by body; rebuilt every step
-  ContactsByBody by_body;              // places in `contacts`; rebuilt with them
-  std::vector<double> frequency;       // rad/s, by body: stiffest mode of the last time-step estimate
+  std::vector<Motion<Dim>> motions;     // by body
+  std::vector<Load<Dim>> loads;         // by body
+  std::vector<Contact<Dim>> contacts;   // candidate pairs by (part a, part b); those that touch carry history
+  std::vector<SubContact<Dim>> subs;    // as many places for each contact, in their order; none where no joint has any
+  std::vector<Placement<Dim>> built;    // where the bodies stood when the candidates were last listed
+  std::vector<Placement<Dim>> counted;  // by body: up to where its travel is counted
+  std::vector<double> travels;          // m, by body: how far any of its points may have gone, all ways added up
+  std::vector<Stance<Dim>> stances;     // by body; rebuilt every step
+  ContactsByBody by_body;               // places in `contacts`; rebuilt with them
+  std::vector<double> frequency;        // rad/s, by body: stiffest mode of the last time-step estimate
   Relaxation<Dim> relaxation;
   Schedule schedule;
   double time = 0;          // s

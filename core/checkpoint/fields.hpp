@@ -51,12 +51,6 @@ void serialize(Archive& archive, Placement<Dim>& p) {
 }
 
 template <class Archive, int Dim>
-void serialize(Archive& archive, Travel<Dim>& t) {
-  auto& [last, distance] = t;
-  archive(last, distance);
-}
-
-template <class Archive, int Dim>
 void serialize(Archive& archive, Load<Dim>& l) {
   auto& [force, moment] = l;
   archive(force, moment);
@@ -138,9 +132,9 @@ void serialize(Archive& archive, EnergyLedger& e) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
   // stances and lists by body are rebuilt before they are read
-  auto& [motions, loads, contacts, subs, built, travels, stances, by_body, frequency, relaxation, schedule, time,
-         time_step, step_allowed, energy, counters] = s;
-  archive(motions, loads, contacts, subs, built, travels, frequency, relaxation, schedule, time, time_step,
+  auto& [motions, loads, contacts, subs, built, counted, travels, stances, by_body, frequency, relaxation, schedule,
+         time, time_step, step_allowed, energy, counters] = s;
+  archive(motions, loads, contacts, subs, built, counted, travels, frequency, relaxation, schedule, time, time_step,
           step_allowed, energy, counters);
 }
 

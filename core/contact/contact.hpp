@@ -90,11 +90,11 @@ struct Contact {
   double free_until = 0;   // that it is separated
   // m²: the area the time step was last chosen for, times what stress stiffened it; negative: not yet
   double area_rated = -1;
-  // most steps ask the above and no more of most pairs, a cache line
+  // most steps ask the above and no more of most pairs, a cache line; a body's loads ask the force and the point
+  Vector<Dim> force = Vector<Dim>::Zero();  // N on the second body
   ContactGeometry<Dim> geometry;
   JointState<Dim> history;  // of all sub-contacts together where there are any
   Proof<Dim> proof;
-  Vector<Dim> force = Vector<Dim>::Zero();  // N on the second body
 
   bool touching() const { return status == ContactStatus::touching; }
   bool unanswered() const { return status > ContactStatus::touching; }

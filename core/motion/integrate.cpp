@@ -129,6 +129,28 @@ void drift_spin(const Body<3>& body, double dt, Motion<3>& motion) {
   motion.rotation.quaternion.normalize();
 }
 
+// N: what acts on a body and what its momentum still amounts to, the momentum times its highest frequency
+template <int Dim>
+double unbalanced_force(const Model<Dim>& model, const State<Dim>& state, int b) {
+  const Body<Dim>& body = model.bodies[b];
+  if (body.fixed) return 0;
+  double frequency = static_cast<std::size_t>(b) < state.frequency.size() ? state.frequency[b] : 0;
+  // mass times frequency goes with the root of the mass
+  if (state.relaxation.under_way) frequency *= std::sqrt(state.relaxation.inertia[b]);
+  double squares = 0, momentum = 0;
+  for (int k = 0; k < Dim; ++k) {
+    if (!body.free_translation[k]) continue;
+    squares += state.loads[b].force[k] * state.loads[b].force[k];
+    momentum += std::pow(body.mass * state.motions[b].velocity[k], 2);
+  }
+  for (int k = 0; k < spin_freedoms<Dim>; ++k) {
+    if (!body.free_rotation[k]) continue;
+    squares += std::pow(state.loads[b].moment[k] / body.radius, 2);
+    momentum += std::pow(state.motions[b].angular_momentum[k] / body.radius, 2);
+  }
+  return std::sqrt(squares) + frequency * std::sqrt(momentum);
+}
+
 }  // namespace
 
 double damped(double force, double velocity, double local_damping) {
@@ -174,36 +196,28 @@ std::vector<KickEnergy<Dim>>& advance_bodies(const Model<Dim>& model, int thread
 }
 
 template <int Dim>
-double unbalanced_ratio(const Model<Dim>& model, const State<Dim>& state) {
-  double sum = 0;
-  long long touching = 0;
-  for (const Contact<Dim>& c : state.contacts) {
-    if (!c.touching()) continue;
-    sum += c.force.norm();
-    ++touching;
+double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& state) {
+  struct Borne {
+    double forces = 0;  // N
+    long long touching = 0;
+  };
+  Borne all;
+  for (const Borne& some : sums_in_groups<Borne>(threads, state.contacts.size(), [&](int i, Borne&sum) {
+         const Contact<Dim>& c = state.contacts[i];
+         if (!c.touching()) return;
+         sum.forces += c.force.norm();
+         ++sum.touching;
+       })) {
+    all.forces += some.forces;
+    all.touching += some.touching;
   }
-  const double mean = touching > 0 ? sum / static_cast<double>(touching) : 0;
+  const double mean = all.touching > 0 ? all.forces / static_cast<double>(all.touching) : 0;
 
   double largest = 0;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body<Dim>& body = model.bodies[b];
-    if (body.fixed) continue;
-    double frequency = b < state.frequency.size() ? state.frequency[b] : 0;
-    // mass times frequency goes with the root of the mass
-    if (state.relaxation.under_way) frequency *= std::sqrt(state.relaxation.inertia[b]);
-    double squares = 0, momentum = 0;
-    for (int k = 0; k < Dim; ++k) {
-      if (!body.free_translation[k]) continue;
-      squares += state.loads[b].force[k] * state.loads[b].force[k];
-      momentum += std::pow(body.mass * state.motions[b].velocity[k], 2);
-    }
-    for (int k = 0; k < spin_freedoms<Dim>; ++k) {
-      if (!body.free_rotation[k]) continue;
-      squares += std::pow(state.loads[b].moment[k] / body.radius, 2);
-      momentum += std::pow(state.motions[b].angular_momentum[k] / body.radius, 2);
-    }
-    largest = std::max(largest, std::sqrt(squares) + frequency * std::sqrt(momentum));
-  }
+  for (const double of_some : sums_in_groups<double>(threads, model.bodies.size(), [&](int b, double&most) {
+         most = std::max(most, unbalanced_force(model, state, b));
+       }))
+    largest = std::max(largest, of_some);
   if (largest == 0) return 0;
   return mean > 0 ? largest / mean : std::numeric_limits<double>::infinity();
 }
@@ -214,7 +228,7 @@ template std::vector<KickEnergy<2>>& advance_bodies<2>(const Model<2>&, int, std
                                                        State<2>&);
 template std::vector<KickEnergy<3>>& advance_bodies<3>(const Model<3>&, int, std::span<const KickRule>, StepTimes,
                                                        State<3>&);
-template double unbalanced_ratio<2>(const Model<2>&, const State<2>&);
-template double unbalanced_ratio<3>(const Model<3>&, const State<3>&);
+template double unbalanced_ratio<2>(const Model<2>&, int, const State<2>&);
+template double unbalanced_ratio<3>(const Model<3>&, int, const State<3>&);
 
 }  // namespace voussoir

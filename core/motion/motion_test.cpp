@@ -244,22 +244,22 @@ TEST(Unbalanced, ComparesForceAndMomentumWithTheContacts) {
   model.bodies[0].fixed = true;
   list_parts(model);
   State<2> state = initial_state(model);
-  EXPECT_EQ(unbalanced_ratio(model, state), 0);
+  EXPECT_EQ(unbalanced_ratio(model, 1, state), 0);
   state.loads[0].force = {1e9, 0};  // on the fixed one: no matter
-  EXPECT_EQ(unbalanced_ratio(model, state), 0);
+  EXPECT_EQ(unbalanced_ratio(model, 1, state), 0);
   state.loads[1].force = {3, 4};
-  EXPECT_EQ(unbalanced_ratio(model, state), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(unbalanced_ratio(model, 1, state), std::numeric_limits<double>::infinity());
   Contact<2> contact;
   contact.part_b = 1;
   contact.status = ContactStatus::touching;
   contact.force = {0, 50};
   state.contacts = {contact};
-  EXPECT_NEAR(unbalanced_ratio(model, state), 0.1, rounding);
+  EXPECT_NEAR(unbalanced_ratio(model, 1, state), 0.1, rounding);
   // momentum times frequency counts as force
   state.loads[1].force.setZero();
   state.motions[1].velocity = {2 / model.bodies[1].mass, 0};
   state.frequency = {0, 10};
-  EXPECT_NEAR(unbalanced_ratio(model, state), 0.4, rounding);
+  EXPECT_NEAR(unbalanced_ratio(model, 1, state), 0.4, rounding);
 }
 
 // ---- time step ------------------------------------------------------------------------------------------------------
