@@ -27,10 +27,7 @@ HWY_INLINE Workspace& workspace() {
   return own;
 }
 
-// numbers of planes: the parts' faces, A's first, and the padded planes
-HWY_INLINE int padded(int plane, int count_a, int quads_a) {
-  return plane < count_a ? plane : plane - count_a + quads_a * planes_per_quad;
-}
+// a plane's number among the parts' faces, A's first, from that among the padded planes
 HWY_INLINE int unpadded(int plane, int count_a, int quads_a) {
   return plane < count_a ? plane : plane + count_a - quads_a * planes_per_quad;
 }
@@ -56,11 +53,10 @@ template <class L, int Dim>
 HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks, Workspace& work) {
   static_assert(records_are_dense<2>() && records_are_dense<3>());
   const double *pairs[L::width], *proofs[L::width], *numbers[L::width];
-  double real[L::width];
+  const int real = static_cast<int>(tasks.size());
   int least_a = tasks[0].planes_a, most_a = least_a, least_b = tasks[0].planes_b, most_b = least_b;
   for (int lane = 0; lane < L::width; ++lane) {
-    real[lane] = lane < static_cast<int>(tasks.size());
-    const KernelTask<Dim>& task = tasks[real[lane] != 0 ? lane : 0];
+    const KernelTask<Dim>& task = tasks[lane < real ? lane : 0];
     pairs[lane] = task.pair->rotation.data();
     proofs[lane] = task.contact->proof.point.data();
     numbers[lane] = &task.potential_radius;
@@ -89,7 +85,7 @@ HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks
   m.tolerance = number[1];
   m.reach = number[2];
   m.smoothing = number[3];
-  m.good = L::picked(real);
+  m.good = L::first(real);
   m.a.least_count = least_a;
   m.b.least_count = least_b;
   m.quads_a = quads_of(most_a);
@@ -198,22 +194,30 @@ HWY_INLINE void deliver_firmness(const Meeting<L, Dim>& m, std::span<KernelTask<
 // what no distance between points of the part exceeds
 template <class L, int Dim>
 HWY_INLINE void load_diameters(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks) {
-  double a[L::width], b[L::width];
-  for (int lane = 0; lane < L::width; ++lane) {
-    const Pair<Dim>& pair = *tasks[lane < static_cast<int>(tasks.size()) ? lane : 0].pair;
-    a[lane] = 2 * pair.a->radius;
-    b[lane] = 2 * pair.b->radius;
-  }
-  m.diameter[0] = L::pick(a);
-  m.diameter[1] = L::pick(b);
+  const auto pair = [&](int lane) -> const Pair<Dim>& {
+    return *tasks[lane < static_cast<int>(tasks.size()) ? lane : 0].pair;
+  };
+  m.diameter[0] = L::collect([&](int lane) { return 2 * pair(lane).a->radius; });
+  m.diameter[1] = L::collect([&](int lane) { return 2 * pair(lane).b->radius; });
 }
 
-template <int Dim>
-HWY_INLINE void recall_section(const KernelTask<Dim>& task, int quads_a, SectionList& list) {
-  const Proof<Dim>& proof = task.contact->proof;
-  list.size = proof.section_size;
-  for (int k = 0; k < list.size; ++k)
-    list.planes[k] = padded(proof.section[k], task.planes_a, quads_a);
+// the list of the step before, by the padded planes' numbers; what lies behind its end in the proof is read and dropped
+HWY_INLINE void recall_section(const KernelTask<3>& task, int quads_a, SectionList& list) {
+  using Kept = decltype(Proof<3>::section);
+  using Plane = Kept::value_type;
+  static_assert(sizeof(Proof<3>) >=
+                offsetof(Proof<3>, section) + std::tuple_size_v<decltype(SectionList::planes)> * sizeof(Plane));
+  const hn::CappedTag<int, 8> d;
+  const hn::Rebind<Plane, decltype(d)> kept;
+  const Kept& section = task.contact->proof.section;
+  list.size = task.contact->proof.section_size;
+  const auto size = hn::Set(d, list.size), first = hn::Set(d, static_cast<int>(section[0]));
+  const auto last_of_a = hn::Set(d, task.planes_a - 1), apart = hn::Set(d, quads_a * planes_per_quad - task.planes_a);
+  for (std::size_t k = 0; k < list.planes.size(); k += hn::Lanes(d)) {
+    const auto own = hn::PromoteTo(d, hn::LoadU(kept, section.data() + k));
+    const auto plane = hn::IfThenElse(hn::Lt(hn::Iota(d, static_cast<int>(k)), size), own, first);
+    hn::StoreU(hn::Add(plane, hn::IfThenElseZero(hn::Gt(plane, last_of_a), apart)), d, list.planes.data() + k);
+  }
 }
 
 // as many tasks as the register holds pairs, or fewer, all to be resolved to the same stage
@@ -224,9 +228,9 @@ void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& optio
   SectionList lists[L::width];
   begin<L, Dim>(m, tasks, work);
   const Stage last = tasks[0].pair->last;
-  if (Dim == 3 && last == Stage::area)
-    for (int lane = 0; lane < static_cast<int>(tasks.size()); ++lane)
-      recall_section(tasks[lane], m.quads_a, lists[lane]);
+  if constexpr (Dim == 3)
+    for (int lane = 0; last == Stage::area && lane < L::width; ++lane)
+      recall_section(tasks[lane < static_cast<int>(tasks.size()) ? lane : 0], m.quads_a, lists[lane]);
   if constexpr (OnPath) {
     load_diameters<L, Dim>(m, tasks);
     resolve_on_central_path(m, last, options.newton_tolerance, options.newton_limit, lists);

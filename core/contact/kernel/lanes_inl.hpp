@@ -1,5 +1,5 @@
-// Numbers for the contact kernel's two ways to fill a vector register: the planes of one pair (OnePair) or one plane of
-// several pairs (ManyPairs). Compiled once for each instruction set, inside its namespace.
+// The contact kernel's two ways to fill a vector register: with the planes of one pair (OnePair) or one plane of
+// several pairs (ManyPairs).
 //
 // Both ways make the same roundings: only +, -, *, /, square root, minimum and maximum of IEEE doubles occur, never a
 // fused multiply-add, and a sum over planes is always four strided partial sums combined as (0+1)+(2+3). So a pair
@@ -11,181 +11,14 @@
 #define VOUSSOIR_LANES_INL
 #endif
 
-#include <hwy/highway.h>
-
-#include <cmath>
 #include <limits>
 
+#include "core/contact/kernel/packs_inl.hpp"
 #include "core/contact/kernel/workspace.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace voussoir {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-// ---- M registers of the tag D as one number -------------------------------------------------------------------------
-
-template <class D, int M>
-struct Pack {
-  hn::Vec<D> v[M];
-};
-template <class D, int M>
-struct PackMask {
-  hn::Mask<D> m[M];
-};
-
-#define VOUSSOIR_BINARY(name, function)                                  \
-  template <class D, int M>                                              \
-  HWY_INLINE Pack<D, M> name(const Pack<D, M>& a, const Pack<D, M>& b) { \
-    Pack<D, M> r;                                                        \
-    for (int k = 0; k < M; ++k)                                          \
-      r.v[k] = hn::function(a.v[k], b.v[k]);                             \
-    return r;                                                            \
-  }
-VOUSSOIR_BINARY(operator+, Add)
-VOUSSOIR_BINARY(operator-, Sub)
-VOUSSOIR_BINARY(operator*, Mul)
-VOUSSOIR_BINARY(operator/, Div)
-VOUSSOIR_BINARY(smaller, Min)
-VOUSSOIR_BINARY(larger, Max)
-VOUSSOIR_BINARY(with_sign_of, CopySign)
-#undef VOUSSOIR_BINARY
-
-#define VOUSSOIR_UNARY(name, function)              \
-  template <class D, int M>                         \
-  HWY_INLINE Pack<D, M> name(const Pack<D, M>& a) { \
-    Pack<D, M> r;                                   \
-    for (int k = 0; k < M; ++k)                     \
-      r.v[k] = hn::function(a.v[k]);                \
-    return r;                                       \
-  }
-VOUSSOIR_UNARY(operator-, Neg)
-VOUSSOIR_UNARY(magnitude, Abs)
-VOUSSOIR_UNARY(root, Sqrt)
-#undef VOUSSOIR_UNARY
-
-template <class D, int M>
-HWY_INLINE PackMask<D, M> operator<(const Pack<D, M>& a, const Pack<D, M>& b) {
-  PackMask<D, M> r;
-  for (int k = 0; k < M; ++k)
-    r.m[k] = hn::Lt(a.v[k], b.v[k]);
-  return r;
-}
-template <class D, int M>
-HWY_INLINE PackMask<D, M> operator>(const Pack<D, M>& a, const Pack<D, M>& b) {
-  return b < a;
-}
-template <class D, int M>
-HWY_INLINE Pack<D, M> select(const PackMask<D, M>& mask, const Pack<D, M>& yes, const Pack<D, M>& no) {
-  Pack<D, M> r;
-  for (int k = 0; k < M; ++k)
-    r.v[k] = hn::IfThenElse(mask.m[k], yes.v[k], no.v[k]);
-  return r;
-}
-template <class D, int M>
-HWY_INLINE PackMask<D, M> both(const PackMask<D, M>& a, const PackMask<D, M>& b) {
-  PackMask<D, M> r;
-  for (int k = 0; k < M; ++k)
-    r.m[k] = hn::And(a.m[k], b.m[k]);
-  return r;
-}
-template <class D, int M>
-HWY_INLINE PackMask<D, M> either(const PackMask<D, M>& a, const PackMask<D, M>& b) {
-  PackMask<D, M> r;
-  for (int k = 0; k < M; ++k)
-    r.m[k] = hn::Or(a.m[k], b.m[k]);
-  return r;
-}
-template <class D, int M>
-HWY_INLINE PackMask<D, M> but_not(const PackMask<D, M>& a, const PackMask<D, M>& b) {  // a and not b
-  PackMask<D, M> r;
-  for (int k = 0; k < M; ++k)
-    r.m[k] = hn::AndNot(b.m[k], a.m[k]);
-  return r;
-}
-template <class D, int M>
-HWY_INLINE bool none(const PackMask<D, M>& a) {
-  bool r = true;
-  for (int k = 0; k < M; ++k)
-    r = r && hn::AllFalse(D(), a.m[k]);
-  return r;
-}
-
-// the same for one number
-HWY_INLINE double smaller(double a, double b) {
-  return a < b ? a : b;
-}
-HWY_INLINE double larger(double a, double b) {
-  return a > b ? a : b;
-}
-HWY_INLINE double with_sign_of(double a, double b) {
-  return std::copysign(a, b);
-}
-HWY_INLINE double magnitude(double a) {
-  return std::abs(a);
-}
-HWY_INLINE double root(double a) {
-  return std::sqrt(a);
-}
-HWY_INLINE double select(bool mask, double yes, double no) {
-  return mask ? yes : no;
-}
-HWY_INLINE bool both(bool a, bool b) {
-  return a && b;
-}
-HWY_INLINE bool either(bool a, bool b) {
-  return a || b;
-}
-HWY_INLINE bool but_not(bool a, bool b) {
-  return a && !b;
-}
-HWY_INLINE bool none(bool a) {
-  return !a;
-}
-
-// ---- small vectors --------------------------------------------------------------------------------------------------
-
-template <class R, int Dim>
-struct Components {
-  R c[Dim];
-  HWY_INLINE R& operator[](int k) { return c[k]; }
-  HWY_INLINE const R& operator[](int k) const { return c[k]; }
-};
-
-template <class R, int Dim>
-HWY_INLINE R dot(const Components<R, Dim>& a, const Components<R, Dim>& b) {
-  R r = a[0] * b[0] + a[1] * b[1];
-  if constexpr (Dim == 3) r = r + a[2] * b[2];
-  return r;
-}
-template <class R, int Dim>
-HWY_INLINE Components<R, Dim> operator-(const Components<R, Dim>& a, const Components<R, Dim>& b) {
-  Components<R, Dim> r;
-  for (int k = 0; k < Dim; ++k)
-    r[k] = a[k] - b[k];
-  return r;
-}
-template <class R, int Dim>
-HWY_INLINE Components<R, Dim> operator+(const Components<R, Dim>& a, const Components<R, Dim>& b) {
-  Components<R, Dim> r;
-  for (int k = 0; k < Dim; ++k)
-    r[k] = a[k] + b[k];
-  return r;
-}
-template <class R, int Dim>
-HWY_INLINE Components<R, Dim> scaled(const R& f, const Components<R, Dim>& a) {
-  Components<R, Dim> r;
-  for (int k = 0; k < Dim; ++k)
-    r[k] = f * a[k];
-  return r;
-}
-template <class R>
-HWY_INLINE Components<R, 3> cross_product(const Components<R, 3>& a, const Components<R, 3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-// ---- the two ways ---------------------------------------------------------------------------------------------------
 
 // One pair: a register holds four of its planes.
 struct OnePair {
@@ -204,8 +37,13 @@ struct OnePair {
 
   static HWY_INLINE Real real(double x) { return x; }
   static HWY_INLINE Real pick(const double* x) { return *x; }
+  template <class F>
+  static HWY_INLINE Real collect(const F& value) {
+    return value(0);
+  }
   static HWY_INLINE void put(const Real& x, double* out) { *out = x; }
   static HWY_INLINE Bool picked(const double* x) { return *x != 0; }
+  static HWY_INLINE Bool first(int count) { return count > 0; }
   static HWY_INLINE int count(Bool x) { return x; }
   static HWY_INLINE double total(Real x) { return x; }
   static HWY_INLINE Wide wide(double x) {
@@ -220,26 +58,15 @@ struct OnePair {
       r.v[k] = hn::LoadU(Tag(), from + k * tag_lanes);
     return r;
   }
-  // four numbers that do not lie side by side: a register loaded behind single stores would wait for them
   static HWY_INLINE Wide of(double n0, double n1, double n2, double n3) {
-#if HWY_TARGET != HWY_SCALAR
-    if constexpr (tag_lanes == planes_per_quad) {
-      const Tag d;
-      const auto low = hn::InterleaveLower(d, hn::Set(d, n0), hn::Set(d, n1));
-      return {{hn::ConcatLowerLower(d, hn::InterleaveLower(d, hn::Set(d, n2), hn::Set(d, n3)), low)}};
-    }
-#endif
-    const double n[planes_per_quad] = {n0, n1, n2, n3};
-    return load(n);
+    return collected<Tag, registers>([&](int k) { return k == 0 ? n0 : k == 1 ? n1 : k == 2 ? n2 : n3; });
   }
   static HWY_INLINE void store(const Wide& x, double* to) {
     for (int k = 0; k < registers; ++k)
       hn::StoreU(x.v[k], Tag(), to + k * tag_lanes);
   }
   // pairs that failed have left already: nothing to replace
-  static HWY_INLINE const Wide& where(bool, const Wide& x, double) {
-    return x;
-  }
+  static HWY_INLINE const Wide& where(bool, const Wide& x, double) { return x; }
   // numbers of the planes in slot 0, and how far those of the next are
   static HWY_INLINE Wide first_numbers() {
     static constexpr double n[planes_per_quad] = {0, 1, 2, 3};
@@ -376,8 +203,13 @@ struct ManyPairs {
   static HWY_INLINE const Wide& wide(const Wide& x) { return x; }
   static HWY_INLINE Real real(double x) { return wide(x); }
   static HWY_INLINE Real pick(const double* x) { return {{hn::LoadU(Tag(), x)}}; }
+  template <class F>
+  static HWY_INLINE Real collect(const F& value) {
+    return collected<Tag, 1>(value);
+  }
   static HWY_INLINE void put(const Real& x, double* out) { hn::StoreU(x.v[0], Tag(), out); }
   static HWY_INLINE Bool picked(const double* x) { return pick(x) > wide(0); }
+  static HWY_INLINE Bool first(int count) { return {{hn::FirstN(Tag(), count)}}; }
   static HWY_INLINE int count(const Bool& x) { return static_cast<int>(hn::CountTrue(Tag(), x.m[0])); }
   // of whole numbers, whose sum is the same in any order
   static HWY_INLINE double total(const Real& x) { return hn::GetLane(hn::SumOfLanes(Tag(), x.v[0])); }
@@ -413,10 +245,11 @@ struct ManyPairs {
     }
     if (slot < slots.last) set(one / get(slot), slot);
   }
-  // As many strides side by side as the registers hold: 4 of 3 sums, 2 of 5, 1 of 9.
+  // As many strides side by side as the registers hold: of 32, 4 of 5 sums and 1 of 9.
   template <int K, int N, class F>
   static HWY_INLINE void sum(const Slots (&parts)[N], Wide (&out)[K], const F& add) {
-    constexpr int strides = K <= 3 ? 4 : K <= 5 ? 2 : 1;
+    constexpr bool many_registers = HWY_MAX_BYTES >= 64;
+    constexpr int strides = K <= 3 || (K <= 5 && many_registers) ? 4 : K <= 5 ? 2 : 1;
     Wide partial[planes_per_quad][K];
     for (int from = 0; from < planes_per_quad; from += strides) {
       Wide acc[strides][K];

@@ -39,31 +39,23 @@ HWY_INLINE void section_area_of(const SectionPlanes<L>& planes, const Slots (&pa
                                 const typename L::Bool& good, typename L::Real& area, typename L::Bool& known) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
-  constexpr int most = std::tuple_size_v<decltype(SectionList::planes)>;
+  constexpr int most = SectionList::most;
   const Real zero = L::real(0), one = L::real(1);
   int longest = 0;
-  double sizes[L::width];
-  for (int lane = 0; lane < L::width; ++lane) {
+  for (int lane = 0; lane < L::width; ++lane)
     longest = std::max(longest, lists[lane].size);
-    sizes[lane] = lists[lane].size;
-  }
   area = zero;
-  const Real size = L::pick(sizes);
+  const Real size = L::collect([&](int lane) { return static_cast<double>(lists[lane].size); });
   known = both(good, size > L::real(2));
   if (none(known)) return;
 
-  // planes of the lists; short ones end with their first plane again and again
   Real a0[most + 1], a1[most + 1];
   for (int k = 0; k <= longest; ++k) {
-    double x[L::width], y[L::width];
-    for (int lane = 0; lane < L::width; ++lane) {
-      const SectionList& list = lists[lane];
-      const int plane = list.size > 0 ? list.planes[k < list.size ? k : 0] : 0;
-      x[lane] = planes.q0_of(plane, lane);
-      y[lane] = planes.q1_of(plane, lane);
-    }
-    a0[k] = L::pick(x);
-    a1[k] = L::pick(y);
+    const double* places[L::width];
+    for (int lane = 0; lane < L::width; ++lane)
+      places[lane] = planes.place(lists[lane].planes[k], lane);
+    a0[k] = L::collect([&](int lane) { return places[lane][0]; });
+    a1[k] = L::collect([&](int lane) { return places[lane][L::step]; });
   }
 
   Real c0[most + 1], c1[most + 1];
@@ -187,7 +179,7 @@ HWY_INLINE void rebuild_sections(const SectionPlanes<L>& planes, const Slots (&p
     if (!find_section(alone, quads, list, size, areas[lane])) {
       failed[lane] = 1;
       areas[lane] = 0;
-    } else if (size <= static_cast<int>(lists[lane].planes.size())) {
+    } else if (size <= SectionList::most) {
       std::copy(list, list + size, lists[lane].planes.begin());
       lists[lane].size = size;
     }

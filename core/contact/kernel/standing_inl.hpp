@@ -253,15 +253,12 @@ HWY_INLINE Components<typename L::Real, Dim> nearest_normal(const Meeting<L, Dim
   typename L::Real value, number;
   const auto closeness = [&](int slot) HWY_ATTR { return -m.get(m.slack_at, slot); };
   find_largest<L>(m.part[part], -std::numeric_limits<double>::max(), closeness, value, number);
-  double faces[L::width], normal[Dim][L::width];
+  double faces[L::width];
   L::put(number, faces);
+  const int first = part ? m.quads_a * planes_per_quad : 0;
   Components<typename L::Real, Dim> n;
-  for (int k = 0; k < Dim; ++k) {
-    for (int lane = 0; lane < L::width; ++lane)
-      normal[k][lane] =
-          m.number(m.normal_at + k, (part ? m.quads_a * planes_per_quad : 0) + static_cast<int>(faces[lane]), lane);
-    n[k] = L::pick(normal[k]);
-  }
+  for (int k = 0; k < Dim; ++k)
+    n[k] = L::collect([&](int lane) { return m.number(m.normal_at + k, first + static_cast<int>(faces[lane]), lane); });
   return rescaled(m, n);
 }
 

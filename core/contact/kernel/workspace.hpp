@@ -90,10 +90,12 @@ struct Fields {
 
 // the section's planes in cyclic order, numbered as the padded planes are
 struct SectionList {
+  static constexpr int most = std::tuple_size_v<decltype(Proof<3>::section)>;
   int size = 0;
-  bool found_anew = false;                                                 // not the list that came in
-  std::array<int, std::tuple_size_v<decltype(Proof<3>::section)>> planes;  // the first `size` of them
+  bool found_anew = false;     // not the list that came in
+  std::array<int, 16> planes;  // `size` of them, then the first again and again
 };
+static_assert(SectionList::most < std::tuple_size_v<decltype(SectionList::planes)>);
 
 // grows, never shrinks: the step allocates nothing
 struct Workspace {
