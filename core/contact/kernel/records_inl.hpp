@@ -136,16 +136,17 @@ HWY_INLINE void load_planes(const Sources<L::width>& source, int slot, Component
                             typename L::Wide& offset) {
   static_assert(row_length<Dim> == 4);
   const double* rows[L::step];
-  const int first = L::one_pair ? slot * planes_per_quad : slot,
-            last = L::one_pair ? first + planes_per_quad - 1 : slot;
-  if (last < source.least_count) {
-    for (int k = 0; k < L::step; ++k)
-      rows[k] = source.rows[L::one_pair ? 0 : k] + (L::one_pair ? first + k : first) * row_length<Dim>;
+  if constexpr (L::one_pair) {
+    const int left = source.count[0] - slot * planes_per_quad;  // at least one
+    const double* const here = source.rows[0] + slot * planes_per_quad * row_length<Dim>;
+    for (int k = 0; k < planes_per_quad; ++k)
+      rows[k] = k < left ? here + k * row_length<Dim> : padding_row<Dim>;
+  } else if (slot < source.least_count) {
+    for (int lane = 0; lane < L::width; ++lane)
+      rows[lane] = source.rows[lane] + slot * row_length<Dim>;
   } else {
-    for (int k = 0; k < L::step; ++k) {
-      const int plane = L::one_pair ? first + k : first, lane = L::one_pair ? 0 : k;
-      rows[k] = plane < source.count[lane] ? source.rows[lane] + plane * row_length<Dim> : padding_row<Dim>;
-    }
+    for (int lane = 0; lane < L::width; ++lane)
+      rows[lane] = slot < source.count[lane] ? source.rows[lane] + slot * row_length<Dim> : padding_row<Dim>;
   }
   using Tag = typename L::Tag;
   constexpr int registers = sizeof(offset.v) / sizeof(offset.v[0]);

@@ -104,10 +104,11 @@ HWY_INLINE void assemble_in_first(Meeting<L, Dim>& m) {
   });
 }
 
-// Newton's direction of -Σ log s in a graded frame, and its decrement²; `solved` where the system has full rank. By
-// elimination from the top without quotients: each pivot d carries the pivots above it as factors, so that no quotient
-// waits for another. (By the adjugate a single pair takes a twentieth less, but its decrement cancels where one plane
-// is a millionth as near as the others, and Newton stops beside the centre: two of 625,000 pairs.)
+// Newton's direction of -Σ log s in a graded frame, and its decrement²; `solved` where the system has full rank. The
+// first unknown is eliminated without a quotient, the other two follow by Cramer's rule, so that no quotient waits for
+// another. The decrement is a sum of squares. (By the adjugate of all three and the product of step and gradient, the
+// decrement cancels where one plane is a millionth as near as the others, and Newton stops beside the centre: two of
+// 625,000 pairs.)
 template <class L, int Dim>
 HWY_INLINE void newton_direction(const typename L::Real (&sums)[Dim + Dim * (Dim + 1) / 2],
                                  Components<typename L::Real, Dim>& step, typename L::Real& decrement2,
@@ -131,9 +132,9 @@ HWY_INLINE void newton_direction(const typename L::Real (&sums)[Dim + Dim * (Dim
     solved = both(both(h00 > zero, d1 > tiny * square), d2 > tiny * (d1 * (h00 * h22)));
     const Real i0 = one / select(solved, h00, one), i1 = one / select(solved, d1, one),
                i2 = select(solved, one / select(solved, d2, one), zero);
-    const Real y1 = h01 * g0 - h00 * g1, y2 = d1 * (h02 * g0 - h00 * g2) - c * y1;
+    const Real y1 = h01 * g0 - h00 * g1, z = h02 * g0 - h00 * g2, y2 = d1 * z - c * y1;
     step[2] = y2 * i2;
-    step[1] = (y1 - c * step[2]) * i1;
+    step[1] = (y1 * e - c * z) * i2;
     step[0] = -(g0 + h01 * step[1] + h02 * step[2]) * i0;
     decrement2 = (g0 * g0 + (y1 * y1 + y2 * step[2]) * i1) * i0;
   }
