@@ -201,22 +201,22 @@ double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& 
     double forces = 0;  // N
     long long touching = 0;
   };
+  const auto bear = [&](int i, Borne& sum) {
+    const Contact<Dim>& c = state.contacts[i];
+    if (!c.touching()) return;
+    sum.forces += c.force.norm();
+    ++sum.touching;
+  };
   Borne all;
-  for (const Borne& some : sums_in_groups<Borne>(threads, state.contacts.size(), [&](int i, Borne&sum) {
-         const Contact<Dim>& c = state.contacts[i];
-         if (!c.touching()) return;
-         sum.forces += c.force.norm();
-         ++sum.touching;
-       })) {
+  for (const Borne& some : sums_in_groups<Borne>(threads, state.contacts.size(), bear)) {
     all.forces += some.forces;
     all.touching += some.touching;
   }
   const double mean = all.touching > 0 ? all.forces / static_cast<double>(all.touching) : 0;
 
+  const auto raise = [&](int b, double& most) { most = std::max(most, unbalanced_force(model, state, b)); };
   double largest = 0;
-  for (const double of_some : sums_in_groups<double>(threads, model.bodies.size(), [&](int b, double&most) {
-         most = std::max(most, unbalanced_force(model, state, b));
-       }))
+  for (const double of_some : sums_in_groups<double>(threads, model.bodies.size(), raise))
     largest = std::max(largest, of_some);
   if (largest == 0) return 0;
   return mean > 0 ? largest / mean : std::numeric_limits<double>::infinity();
