@@ -105,16 +105,24 @@ struct OnePair {
       r = hn::Min(r, x.v[k]);
     return hn::GetLane(hn::MinOfLanes(Tag(), r));
   }
-  static HWY_INLINE double most(const Wide& x) {
+  // the largest, in every lane
+  static HWY_INLINE hn::Vec<Tag> top(const Wide& x) {
     hn::Vec<Tag> r = x.v[0];
     for (int k = 1; k < registers; ++k)
       r = hn::Max(r, x.v[k]);
-    return hn::GetLane(hn::MaxOfLanes(Tag(), r));
+    return hn::MaxOfLanes(Tag(), r);
+  }
+  static HWY_INLINE double most(const Wide& x) {
+    return hn::GetLane(top(x));
   }
   // the largest, and of equal ones the first
   static HWY_INLINE void most_of(const Wide& x, const Wide& number, double& value, double& where) {
-    value = most(x);
-    where = least(select(x < wide(value), wide(std::numeric_limits<double>::max()), number));
+    const hn::Vec<Tag> highest = top(x);
+    value = hn::GetLane(highest);
+    Wide all;
+    for (int k = 0; k < registers; ++k)
+      all.v[k] = highest;
+    where = least(select(x < all, wide(std::numeric_limits<double>::max()), number));
   }
   static HWY_INLINE Slots slots(int first_quad, int planes) {
     return {first_quad, first_quad + quads_of(planes)};
