@@ -48,15 +48,20 @@ constexpr bool records_are_dense() {
          sizeof(Vectors) == Dim * sizeof(double) && sizeof(Matrix<Dim>) == Dim * sizeof(Vectors);
 }
 
-// the tasks of one register; lanes beyond them repeat the first and are not good
+// lanes beyond the tasks repeat the first
+template <class Task>
+HWY_INLINE Task& task_of(std::span<Task> tasks, int lane) {
+  return tasks[lane < static_cast<int>(tasks.size()) ? lane : 0];
+}
+
+// the tasks of one register; lanes beyond them are not good
 template <class L, int Dim>
 HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks, Workspace& work) {
   static_assert(records_are_dense<2>() && records_are_dense<3>());
   const double *pairs[L::width], *proofs[L::width], *numbers[L::width];
-  const int real = static_cast<int>(tasks.size());
   int least_a = tasks[0].planes_a, most_a = least_a, least_b = tasks[0].planes_b, most_b = least_b;
   for (int lane = 0; lane < L::width; ++lane) {
-    const KernelTask<Dim>& task = tasks[lane < real ? lane : 0];
+    const KernelTask<Dim>& task = task_of(tasks, lane);
     pairs[lane] = task.pair->rotation.data();
     proofs[lane] = task.contact->proof.point.data();
     numbers[lane] = &task.potential_radius;
@@ -85,7 +90,7 @@ HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks
   m.tolerance = number[1];
   m.reach = number[2];
   m.smoothing = number[3];
-  m.good = L::first(real);
+  m.good = L::first(static_cast<int>(tasks.size()));
   m.a.least_count = least_a;
   m.b.least_count = least_b;
   m.quads_a = quads_of(most_a);
@@ -113,7 +118,7 @@ HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTa
   const double* axes[width];
   double *proofs[width], *geometries[width];
   for (int lane = 0; lane < width; ++lane) {
-    const KernelTask<Dim>& task = tasks[lane < static_cast<int>(tasks.size()) ? lane : 0];
+    const KernelTask<Dim>& task = task_of(tasks, lane);
     axes[lane] = task.pair->axes.data();
     proofs[lane] = good[lane] != 0 ? &task.contact->proof.margin : nowhere;
     geometries[lane] = good[lane] != 0 ? task.contact->geometry.point.data() : nowhere;
@@ -194,11 +199,8 @@ HWY_INLINE void deliver_firmness(const Meeting<L, Dim>& m, std::span<KernelTask<
 // what no distance between points of the part exceeds
 template <class L, int Dim>
 HWY_INLINE void load_diameters(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks) {
-  const auto pair = [&](int lane) -> const Pair<Dim>& {
-    return *tasks[lane < static_cast<int>(tasks.size()) ? lane : 0].pair;
-  };
-  m.diameter[0] = L::collect([&](int lane) { return 2 * pair(lane).a->radius; });
-  m.diameter[1] = L::collect([&](int lane) { return 2 * pair(lane).b->radius; });
+  m.diameter[0] = L::collect([&](int lane) { return 2 * task_of(tasks, lane).pair->a->radius; });
+  m.diameter[1] = L::collect([&](int lane) { return 2 * task_of(tasks, lane).pair->b->radius; });
 }
 
 // the list of the step before, by the padded planes' numbers; what lies behind its end in the proof is read and dropped
@@ -228,9 +230,11 @@ void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& optio
   SectionList lists[L::width];
   begin<L, Dim>(m, tasks, work);
   const Stage last = tasks[0].pair->last;
-  if constexpr (Dim == 3)
-    for (int lane = 0; last == Stage::area && lane < L::width; ++lane)
-      recall_section(tasks[lane < static_cast<int>(tasks.size()) ? lane : 0], m.quads_a, lists[lane]);
+  if constexpr (Dim == 3) {
+    if (last == Stage::area)
+      for (int lane = 0; lane < L::width; ++lane)
+        recall_section(task_of(tasks, lane), m.quads_a, lists[lane]);
+  }
   if constexpr (OnPath) {
     load_diameters<L, Dim>(m, tasks);
     resolve_on_central_path(m, last, options.newton_tolerance, options.newton_limit, lists);

@@ -253,7 +253,7 @@ struct ManyPairs {
     }
     if (slot < slots.last) set(one / get(slot), slot);
   }
-  // As many strides side by side as the registers hold: of 32, 4 of 5 sums and 1 of 9.
+  // As many strides side by side as the registers hold: 4 of 3 sums, 2 of 5 or 4 where there are 32 registers, 1 of 9.
   template <int K, int N, class F>
   static HWY_INLINE void sum(const Slots (&parts)[N], Wide (&out)[K], const F& add) {
     constexpr bool many_registers = HWY_MAX_BYTES >= 64;

@@ -76,20 +76,19 @@ HWY_INLINE Pack<D, M> select(const PackMask<D, M>& mask, const Pack<D, M>& yes, 
     r.v[k] = hn::IfThenElse(mask.m[k], yes.v[k], no.v[k]);
   return r;
 }
-template <class D, int M>
-HWY_INLINE PackMask<D, M> both(const PackMask<D, M>& a, const PackMask<D, M>& b) {
-  PackMask<D, M> r;
-  for (int k = 0; k < M; ++k)
-    r.m[k] = hn::And(a.m[k], b.m[k]);
-  return r;
-}
-template <class D, int M>
-HWY_INLINE PackMask<D, M> either(const PackMask<D, M>& a, const PackMask<D, M>& b) {
-  PackMask<D, M> r;
-  for (int k = 0; k < M; ++k)
-    r.m[k] = hn::Or(a.m[k], b.m[k]);
-  return r;
-}
+
+#define VOUSSOIR_OF_MASKS(name, function)                                            \
+  template <class D, int M>                                                          \
+  HWY_INLINE PackMask<D, M> name(const PackMask<D, M>& a, const PackMask<D, M>& b) { \
+    PackMask<D, M> r;                                                                \
+    for (int k = 0; k < M; ++k)                                                      \
+      r.m[k] = hn::function(a.m[k], b.m[k]);                                         \
+    return r;                                                                        \
+  }
+VOUSSOIR_OF_MASKS(both, And)
+VOUSSOIR_OF_MASKS(either, Or)
+#undef VOUSSOIR_OF_MASKS
+
 template <class D, int M>
 HWY_INLINE PackMask<D, M> but_not(const PackMask<D, M>& a, const PackMask<D, M>& b) {  // a and not b
   PackMask<D, M> r;
