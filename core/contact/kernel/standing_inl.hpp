@@ -25,7 +25,8 @@ namespace HWY_NAMESPACE {
 template <class L, int Dim>
 HWY_INLINE void build_frame(Meeting<L, Dim>& m) {
   using Real = typename L::Real;
-  m.frame[0] = m.axis;
+  for (int k = 0; k < Dim; ++k)  // number by number: a copy of all would wait for the stores before it
+    m.frame[0][k] = m.axis[k];
   if constexpr (Dim == 2) {
     m.frame[1] = {-m.axis[1], m.axis[0]};
   } else {
@@ -390,7 +391,8 @@ HWY_INLINE void resolve_from_point(Meeting<L, Dim>& m, Stage last, double tolera
   m.rounding = m.rounding + L::real(4 * slack_rounding) * size_of(m.moved);
   m.good = both(m.good, m.least > m.rounding);
   const Components<Real, Dim> shift = from_frame(m.frame, m.moved);
-  m.point = m.point + shift;
+  for (int k = 0; k < Dim; ++k)  // as in build_frame
+    m.point[k] = m.point[k] + shift[k];
   if (last == Stage::point || none(m.good)) return;
   measure_overlap(m);
   if (last == Stage::overlap || none(m.good)) return;
