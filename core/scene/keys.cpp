@@ -138,7 +138,7 @@ const KeyRow rows[] = {
     {.table = "cylinder", .key = "sides", .type = integer, .range = {3, 256}, .fallback = "24", .example = "12",
      .meaning = "of the polygon that stands for the circle"},
     {.table = "joint_properties", .key = "name", .type = name, .example = "\"rock\"", .required = true,
-     .meaning = "unique among the joint properties"},
+     .meaning = "unique among the joint properties; `default`, else the first, serves faces that no joint made"},
     {.table = "joint_properties", .key = "normal_stiffness", .unit = "Pa/m", .range = stiffness,
      .usual = usual_stiffness, .example = "10e9",
      .required = true, .meaning = "normal stress per overlap (N/m with constant_stiffness)",

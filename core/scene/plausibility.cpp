@@ -115,6 +115,16 @@ void judge_properties(const PropertiesSpec& spec, Warnings& warnings) {
                   "is tiny beside" + other + ", 0.01 to 1 times it is usual; is the unit of one wrong?"));
 }
 
+// where nobody said which of several serves
+void judge_default(const Scene& scene, Warnings& warnings) {
+  const auto is_default = [](const PropertiesSpec& p) { return p.properties.name == "default"; };
+  const std::vector<PropertiesSpec>& all = scene.properties;
+  if (all.size() < 2 || std::any_of(all.begin(), all.end(), is_default)) return;
+  warnings.push_back(complaint(all.front().subject, "name",
+                               "serves where faces meet that no joint made (sides of the domain, walls, blocks given "
+                               "directly), because it is the first; name the joint_properties meant for them default"));
+}
+
 // a block and the keys that shape it
 template <int Dim>
 std::string described(const Model<Dim>& model, const Body<Dim>& body) {
@@ -226,6 +236,7 @@ std::vector<std::string> implausible_values(const Scene& scene, const Prepared<D
   judge_gravity(scene, warnings);
   for (const PropertiesSpec& p : scene.properties)
     judge_properties(p, warnings);
+  judge_default(scene, warnings);
   for (const StageSpec& stage : scene.stages)
     judge_moves(stage, warnings);
   judge_domain<Dim>(scene, prepared.model, warnings);

@@ -315,6 +315,18 @@ TEST(Plausibility, TellsAJointThatCutsNothing) {
   EXPECT_NE(text.find("cuts no block"), std::string::npos);
 }
 
+TEST(Plausibility, TellsWhichOfSeveralPropertiesServesFacesOfNoJoint) {
+  const auto soil = [](const std::string& name) {
+    return wedge + "[[joint_properties]]\nname = \"" + name +
+           "\"\nnormal_stiffness = 1e7\nshear_stiffness = 1e6\nfriction_deg = 20\n";
+  };
+  const std::vector<std::string> named = {"joints.A.properties=rock", "joints.B.properties=rock"};
+  EXPECT_EQ(warnings(soil("default"), named), "");
+  EXPECT_NE(warnings(soil("soil"), named).find("name = \"rock\": serves where faces meet that no joint made"),
+            std::string::npos)
+      << warnings(soil("soil"), named);
+}
+
 // two convex parts make an L that is one body, whatever their order
 TEST(Prepare, JoinsPartsToOneBody) {
   const std::string two_parts =
