@@ -46,6 +46,22 @@ Vector<Dim> potential_direction(std::span<const HalfSpace<Dim>> faces, const Vec
   return faces[face].normal;
 }
 
+// unit, across the normal: the next thinnest direction, of the plane with the largest tangential part over its slack
+template <int Dim>
+Vector<Dim> thinnest_across(const HalfSpaces<Dim>& planes, const Vector<Dim>& point, const Vector<Dim>& normal) {
+  Vector<Dim> thinnest = perpendicular(normal);
+  double most = 0;
+  for (const HalfSpace<Dim>& p : planes) {
+    const Vector<Dim> across = p.normal - p.normal.dot(normal) * normal;
+    const double slack = -signed_distance(p, point), length = across.norm();
+    if (length > most * slack) {
+      most = length / slack;
+      thinnest = across / length;
+    }
+  }
+  return thinnest;
+}
+
 // of as many factors at once as stay far from overflow
 class LogarithmOfProduct {
  public:
@@ -78,6 +94,7 @@ struct Resolver {
   double rounding;     // m: of a slack
   double proven;       // m: margin of the proof that needs no second one; 0: none
   int faces_a;
+  bool was_undecided;  // the step before
   Vector<Dim> start;
   FeasibilityResult<Dim> lp;
   bool lp_solved = false;
@@ -121,6 +138,7 @@ struct Resolver {
     if (!(smallest_slack<Dim>(planes, start) > rounding + tolerance)) {
       contact.status = ContactStatus::undecided;
       contact.proof = {};
+      contact.proof.basis = lp.basis;  // where the program starts next time
       ++counters.undecided;
       return false;
     }
@@ -130,12 +148,10 @@ struct Resolver {
 
   bool establish_cold() {
     // the basis that separated the parts last time often still does; if not, the contact starts as any new one would
-    if (contact.proof.kind == ProofKind::multipliers) {
-      const std::array<int, Dim + 1> old = contact.proof.basis;
-      if (!solve_lp(old)) return false;
-    }
+    const std::array<int, Dim + 1> old = contact.proof.basis;
+    if (contact.proof.kind == ProofKind::multipliers && !solve_lp(old)) return false;
     contact.proof = {};
-    return solve_lp(pair.a->basis);
+    return solve_lp(was_undecided ? old : pair.a->basis);
   }
 
   bool by_multipliers() const { return settings.normal == ContactNormal::multipliers; }
@@ -335,7 +351,7 @@ struct Resolver {
     geometry.face_b = face_b - faces_a;
     geometry.normal = pair.axes * normal;
     contact.proof.axis = normal;
-    contact.proof.tangent = perpendicular(normal);
+    contact.proof.tangent = thinnest_across<Dim>(planes, point, normal);
     if (!by_multipliers() && settings.overlap == OverlapSearch::closed_form && magnified(overlap, contact.proof.margin))
       measure_overlap_carefully(pair, contact);
   }
@@ -462,6 +478,7 @@ void resolve_generally(const Pair<Dim>& pair, const ContactSettings& settings, c
                 .rounding = slack_rounding * coordinates,
                 .proven = fresh ? contact.proof.margin : 0,
                 .faces_a = static_cast<int>(pair.a->faces.size()),
+                .was_undecided = contact.status == ContactStatus::undecided,
                 .start = {},
                 .lp = {},
                 .path = {}}

@@ -99,7 +99,9 @@ void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const 
                   KernelCounters& counters) {
   const Pair<Dim>& pair = *task.pair;
   Contact<Dim>& contact = *task.contact;
-  contact.proof = {};
+  // then the proof holds nothing but where the program starts
+  const bool was_undecided = contact.status == ContactStatus::undecided;
+  if (!was_undecided) contact.proof = {};
   ++counters.cold_starts;
   const Vector<Dim> between = pair.offset + pair.rotation * pair.b->centre - pair.a->centre;
   const double distance = between.norm();
@@ -108,7 +110,8 @@ void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const 
     if (separates(pair, axis, support(*pair.a, axis), contact)) return;
   }
   contact.geometry = {};
-  if (on_central_path(settings)) return resolve_slowly(pair, settings, solvers, contact, counters);
+  // what twice the digits could not tell, the kernel will not
+  if (on_central_path(settings) || was_undecided) return resolve_slowly(pair, settings, solvers, contact, counters);
   resolve_new(task, kernel_options(settings), counters);
   if (!task.answered) {
     const bool fresh = contact.proof.kind == ProofKind::interior_point;

@@ -48,8 +48,8 @@ struct KernelCounters {
 };
 
 // Resolves each pair into the contact at the same place: status, geometry and proof. A contact that has a proof starts
-// from it; a new one starts cold, so its result depends on the pair alone. A pair gives the same bits alone and in any
-// batch. History is not touched.
+// from it; a new one starts cold, so its result depends on the pair alone; one that rounding hid starts where the
+// program ended. A pair gives the same bits alone and in any batch. History is not touched.
 template <int Dim>
 void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& settings, const Solvers<Dim>& solvers,
                   std::span<Contact<Dim>* const> contacts, KernelCounters& counters);

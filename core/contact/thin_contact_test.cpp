@@ -145,6 +145,59 @@ TEST(WarmStart, StandsForTheSameContact) {
   }
 }
 
+// Edges along each other, thin in two directions and too degenerate for the kernel to begin: what stands from there
+// must fit its frame, however the blocks lie in their own.
+TEST(WarmStart, WhatTheGeneralRoadFoundStandsInTheKernel) {
+  Random random(76);
+  constexpr int slivers = 200, steps = 20;
+  int found_generally = 0, stood = 0;
+  for (int i = 0; i < slivers; ++i) {
+    const Matrix<3> lie = matrix(shapes::orientation<3>(random));
+    const Polytope<3> cube = shapes::block<3>(shapes::placed<3>(shapes::cube<3>(0.5), lie, Vector<3>::Zero()));
+    const double thin = shapes::power_of_ten(random, -11, -6), other = shapes::uniform(random, 0.3, 3);
+    const Matrix<3> turn = Eigen::AngleAxisd(0.3 * thin, shapes::direction<3>(random)).toRotationMatrix();
+    Vector<3> offset(1 - thin, shapes::uniform(random, -0.5, 0.5), 1 - other * thin);
+    const auto now = [&](const Contact<3>& before) {
+      return touch<3>(cube, cube, turn, Vector<3>(lie * offset), {}, before);
+    };
+    const Outcome<3> first = now({});
+    if (!first.contact.touching() || first.counters.lp_solves < 2) continue;
+    ++found_generally;
+    Contact<3> standing = first.contact;
+    for (int step = 0; step < steps; ++step) {
+      offset += 0.01 * thin * shapes::direction<3>(random);
+      const Outcome<3> next = now(standing);
+      stood += static_cast<int>(next.counters.point_hits);
+      standing = next.contact;
+    }
+  }
+  EXPECT_GT(found_generally, slivers / 4);
+  EXPECT_GT(stood, found_generally * steps * 9 / 10);
+}
+
+TEST(WarmStart, WhatRoundingHidesStartsWhereItsProgramEnded) {
+  Random random(77);
+  long long pivots_first = 0, pivots_again = 0;
+  for (int i = 0; i < 50; ++i) {
+    const Matrix<3> lie = matrix(shapes::orientation<3>(random));
+    const Polytope<3> cube = shapes::block<3>(shapes::placed<3>(shapes::cube<3>(0.5), lie, Vector<3>::Zero()));
+    const auto at = [&](double distance, const Contact<3>& before) {
+      return touch<3>(cube, cube, Matrix<3>::Identity(), Vector<3>(lie * Vector<3>(0.3, 0.2, distance)), {}, before);
+    };
+    const Outcome<3> first = at(1, {}), again = at(1, first.contact);
+    ASSERT_EQ(first.contact.status, ContactStatus::undecided);
+    EXPECT_EQ(again.contact.status, ContactStatus::undecided);
+    pivots_first += first.counters.lp_pivots;
+    pivots_again += again.counters.lp_pivots;
+    EXPECT_EQ(at(1.1, again.contact).contact.status, ContactStatus::separated);
+    const Contact<3> met = at(0.999, again.contact).contact, fresh = at(0.999, {}).contact;
+    ASSERT_TRUE(met.touching());
+    EXPECT_LT((met.geometry.point - fresh.geometry.point).norm(), point_tolerance);
+    EXPECT_NEAR(met.geometry.overlap, fresh.geometry.overlap, exact);
+  }
+  EXPECT_LT(4 * pivots_again, pivots_first);
+}
+
 // each step turns the axis of the step before into its frame: a length it lacked once would be lacked for ever
 TEST(WarmStart, TheNormalStaysUnitHoweverLongTheContactStands) {
   Random random(73);
