@@ -80,16 +80,19 @@ struct OnePair {
     if constexpr (tag_lanes == planes_per_quad) {
       // four at a time, turned so that they are added side by side
       const Tag d;
-      double sums[K + planes_per_quad];
+      const hn::Half<Tag> half;
       for (int k = 0; k < K; k += planes_per_quad) {
         const auto last = [&](int i) { return x[k + i < K ? k + i : K - 1].v[0]; };
         const auto a = last(0), b = last(1), c = last(2), e = last(3);
         const auto ab = hn::Add(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b));
         const auto ce = hn::Add(hn::InterleaveLower(d, c, e), hn::InterleaveUpper(d, c, e));
-        hn::StoreU(hn::Add(hn::ConcatLowerLower(d, ce, ab), hn::ConcatUpperUpper(d, ce, ab)), d, sums + k);
+        const auto sums = hn::Add(hn::ConcatLowerLower(d, ce, ab), hn::ConcatUpperUpper(d, ce, ab));
+        const auto low = hn::LowerHalf(half, sums), high = hn::UpperHalf(half, sums);
+        out[k] = hn::GetLane(low);
+        if (k + 1 < K) out[k + 1] = hn::GetLane(hn::InterleaveUpper(half, low, low));
+        if (k + 2 < K) out[k + 2] = hn::GetLane(high);
+        if (k + 3 < K) out[k + 3] = hn::GetLane(hn::InterleaveUpper(half, high, high));
       }
-      for (int k = 0; k < K; ++k)
-        out[k] = sums[k];
       return;
     }
 #endif
