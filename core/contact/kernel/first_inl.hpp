@@ -16,14 +16,17 @@ HWY_BEFORE_NAMESPACE();
 namespace voussoir {
 namespace HWY_NAMESPACE {
 
-// Tight planes of the dual simplex. With C = columns (a_i, 1), C λ = (0, …, 0, 1) and (x, -s) C = d.
+// Tight planes of the dual simplex, one in each lane; in 2-D the last lane holds none. With C = columns (a_i, 1),
+// C λ = (0, …, 0, 1) and (x, -s) C = d.
 template <int Dim>
 struct TightPlanes {
   static constexpr int size = Dim + 1;
-  int planes[size];  // padded numbers
-  double inverse[size][planes_per_quad], offsets[size];
+  int planes[planes_per_quad];           // padded numbers
+  OnePair::Wide inverse[size], offsets;  // columns of C's inverse
 
-  HWY_INLINE OnePair::Wide row(int k) const { return OnePair::load(inverse[k]); }
+  HWY_INLINE void multipliers(double (&lambda)[planes_per_quad]) const {
+    OnePair::store(larger(inverse[Dim], OnePair::wide(0)), lambda);
+  }
 };
 
 template <int Dim>
@@ -40,67 +43,80 @@ HWY_INLINE void most_violated(const Meeting<OnePair, Dim>& m, const Components<d
                               int& plane) {
   using L = OnePair;
   const Components<L::Wide, Dim> at = m.wide(x);
-  double number;
   const auto violation = [&](int slot) HWY_ATTR { return dot(m.normals(slot), at) - m.get(m.slack_at, slot); };
-  find_largest<L>({0, m.quads}, -std::numeric_limits<double>::max(), violation, value, number);
-  plane = static_cast<int>(number);
+  find_largest<L>({0, m.quads}, -std::numeric_limits<double>::max(), violation, value, plane);
 }
 
 // x and -s where the tight planes meet
 template <int Dim>
 HWY_INLINE void meet(const TightPlanes<Dim>& t, Components<double, Dim>& x, double& s) {
-  using L = OnePair;
-  L::Wide sum = L::wide(t.offsets[0]) * t.row(0);
-  for (int k = 1; k <= Dim; ++k)
-    sum = sum + L::wide(t.offsets[k]) * t.row(k);
-  double y[planes_per_quad];
-  L::store(sum, y);
+  OnePair::Wide products[Dim + 1];
+  for (int j = 0; j <= Dim; ++j)
+    products[j] = t.offsets * t.inverse[j];
+  double y[Dim + 1];
+  OnePair::add_up<Dim + 1>(products, y);
   for (int j = 0; j < Dim; ++j)
     x[j] = y[j];
   s = -y[Dim];
 }
 
-// the entering plane takes the place of the first tight plane to lose its multiplier
+// the tight plane that leaves, known when compiled: nothing waits for its number but the branch to here
+template <int leave, int Dim>
+HWY_INLINE void replace(TightPlanes<Dim>& t, const OnePair::Wide& mu, int plane, double offset) {
+  using L = OnePair;
+  const auto leaving = L::only<leave>();
+  const L::Wide inverse_pivot = L::spread<leave>(L::wide(1) / select(leaving, mu, L::wide(1)));
+  for (L::Wide& column : t.inverse) {
+    const L::Wide entered = inverse_pivot * L::spread<leave>(column);
+    column = select(leaving, entered, column - mu * entered);
+  }
+  t.planes[leave] = plane;
+  t.offsets = select(leaving, L::wide(offset), t.offsets);
+}
+
+// the entering plane takes the place of the first tight plane to lose its multiplier, of several that with the largest
+// pivot
 template <int Dim>
 HWY_INLINE bool exchange(TightPlanes<Dim>& t, int plane, const Components<double, Dim>& normal, double offset) {
   using L = OnePair;
-  constexpr int size = TightPlanes<Dim>::size;
-  const L::Wide entering =
-      Dim == 3 ? L::of(normal[0], normal[1], normal[Dim - 1], 1) : L::of(normal[0], normal[1], 1, 0);
-  L::Wide terms[size], sizes[size];
-  for (int k = 0; k < size; ++k) {
-    terms[k] = t.row(k) * entering;
-    sizes[k] = magnitude(terms[k]);
+  using Wide = L::Wide;
+  Wide mu = L::wide(0), size_of_mu = mu;
+  for (int j = 0; j < Dim; ++j) {
+    const Wide term = t.inverse[j] * L::wide(normal[j]);
+    mu = mu + term;
+    size_of_mu = size_of_mu + magnitude(term);
   }
-  double mu[size], size_of_mu[size];
-  L::add_up<size>(terms, mu);
-  L::add_up<size>(sizes, size_of_mu);
+  mu = mu + t.inverse[Dim];
+  size_of_mu = size_of_mu + magnitude(t.inverse[Dim]);
+  double pivots[planes_per_quad], sizes[planes_per_quad], lambda[planes_per_quad];
+  L::store(mu, pivots);
+  L::store(L::wide(exchange_rounding) * size_of_mu, sizes);
+  t.multipliers(lambda);
   int leave = -1;
   double least = std::numeric_limits<double>::max();
-  for (int k = 0; k < size; ++k) {
-    if (mu[k] <= exchange_rounding * size_of_mu[k]) continue;
-    const double ratio = larger(t.inverse[k][Dim], 0) / mu[k];
-    if (ratio < least || (ratio == least && leave >= 0 && mu[k] > mu[leave])) {
+  for (int k = 0; k <= Dim; ++k) {
+    if (pivots[k] <= sizes[k]) continue;
+    const double ratio = lambda[k] / pivots[k];
+    if (ratio < least || (ratio == least && leave >= 0 && pivots[k] > pivots[leave])) {
       least = ratio;
       leave = k;
     }
   }
-  if (leave < 0) return false;
-  const L::Wide entered = L::wide(1 / mu[leave]) * t.row(leave);
-  for (int k = 0; k < size; ++k)
-    L::store(k == leave ? entered : t.row(k) - L::wide(mu[k]) * entered, t.inverse[k]);
-  t.planes[leave] = plane;
-  t.offsets[leave] = offset;
-  return true;
+  if (leave == 0) replace<0>(t, mu, plane, offset);
+  if (leave == 1) replace<1>(t, mu, plane, offset);
+  if (leave == 2) replace<2>(t, mu, plane, offset);
+  if (leave == 3) replace<3>(t, mu, plane, offset);
+  return leave >= 0;
 }
 
 // Σ over A's planes of λ a: it separates the parts, or nearly does
 template <int Dim>
 HWY_INLINE Components<double, Dim> axis_of(const Meeting<OnePair, Dim>& m, const TightPlanes<Dim>& t) {
   Components<double, Dim> axis{};
+  double lambda[planes_per_quad];
+  t.multipliers(lambda);
   for (int k = 0; k <= Dim; ++k)
-    if (t.planes[k] < m.quads_a * planes_per_quad)
-      axis = axis + scaled(larger(t.inverse[k][Dim], 0), normal_of(m, t.planes[k]));
+    if (t.planes[k] < m.quads_a * planes_per_quad) axis = axis + scaled(lambda[k], normal_of(m, t.planes[k]));
   return axis;
 }
 
@@ -108,12 +124,13 @@ HWY_INLINE Components<double, Dim> axis_of(const Meeting<OnePair, Dim>& m, const
 template <int Dim>
 HWY_INLINE double proven_bound(const Meeting<OnePair, Dim>& m, const TightPlanes<Dim>& t, double reach) {
   Components<double, Dim> residual{};
-  double sum = 0, offsets = 0;
+  double sum = 0, offsets = 0, lambda[planes_per_quad], offset[planes_per_quad];
+  t.multipliers(lambda);
+  OnePair::store(t.offsets, offset);
   for (int k = 0; k <= Dim; ++k) {
-    const double lambda = larger(t.inverse[k][Dim], 0);
-    residual = residual + scaled(lambda, normal_of(m, t.planes[k]));
-    offsets += lambda * t.offsets[k];
-    sum += lambda;
+    residual = residual + scaled(lambda[k], normal_of(m, t.planes[k]));
+    offsets += lambda[k] * offset[k];
+    sum += lambda[k];
   }
   return -(offsets + size_of(residual) * reach) / sum - m.rounding - slack_rounding * reach;
 }
@@ -149,14 +166,15 @@ HWY_INLINE Components<double, Dim> thinnest_across(const Meeting<OnePair, Dim>& 
                                                    const Components<double, Dim>& x) {
   using L = OnePair;
   const Components<L::Wide, Dim> direction = m.wide(axis), at = m.wide(x);
-  double value, number;
+  double value;
+  int number;
   const auto thinness = [&](int slot) HWY_ATTR {
     const Components<L::Wide, Dim> n = m.normals(slot);
     const L::Wide along = dot(n, direction), slack = m.get(m.slack_at, slot) - dot(n, at);
     return (L::wide(1) - along * along) / (slack * slack);
   };
   find_largest<L>({0, m.quads}, -1, thinness, value, number);
-  const Components<double, Dim> n = normal_of(m, static_cast<int>(number));
+  const Components<double, Dim> n = normal_of(m, number);
   const Components<double, Dim> across = n - scaled(dot(n, axis), axis);
   const double length = root(dot(across, across));
   return length > 0 ? scaled(1 / length, across) : across;

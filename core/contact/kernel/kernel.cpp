@@ -286,11 +286,11 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   for (int k = 0; k <= Dim; ++k) {
     if (a.basis[k] < 0) return;
     tight.planes[k] = a.basis[k];
-    tight.offsets[k] = m.number(m.slack_at, a.basis[k]);
-    const auto& inverse = a.basis_inverse;
-    OnePair::store(OnePair::of(inverse(k, 0), inverse(k, 1), inverse(k, 2), Dim == 3 ? inverse(k, Dim) : 0),
-                   tight.inverse[k]);
+    const auto column = a.basis_inverse.col(k);
+    tight.inverse[k] = OnePair::of(column[0], column[1], column[2], Dim == 3 ? column[Dim] : 0);
   }
+  const auto offset = [&](int k) { return k <= Dim ? m.number(m.slack_at, a.basis[k]) : 0; };
+  tight.offsets = OnePair::of(offset(0), offset(1), offset(2), offset(3));
   Components<double, Dim> x;
   double worst = 0, bound = 0;
   int pivots = 0;

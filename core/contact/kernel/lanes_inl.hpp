@@ -11,6 +11,9 @@
 #define VOUSSOIR_LANES_INL
 #endif
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <limits>
 
 #include "core/contact/kernel/packs_inl.hpp"
@@ -30,12 +33,14 @@ struct OnePair {
   using Wide = Pack<Tag, registers>;  // of planes
   using Real = double;                // of pairs
   using Bool = bool;
+  using Number = int;  // of a plane
   // a slot is what one Wide holds
   static constexpr int step = planes_per_quad;
   static HWY_INLINE int slot_of(unsigned plane) { return static_cast<int>(plane / planes_per_quad); }
   static HWY_INLINE int place_of(unsigned plane, int) { return plane % planes_per_quad; }  // within the slot
 
   static HWY_INLINE Real real(double x) { return x; }
+  static HWY_INLINE Number number(int n) { return n; }
   static HWY_INLINE Real pick(const double* x) { return *x; }
   template <class F>
   static HWY_INLINE Real collect(const F& value) {
@@ -67,40 +72,32 @@ struct OnePair {
   }
   // pairs that failed have left already: nothing to replace
   static HWY_INLINE const Wide& where(bool, const Wide& x, double) { return x; }
-  // numbers of the planes in slot 0, and how far those of the next are
-  static HWY_INLINE Wide first_numbers() {
-    static constexpr double n[planes_per_quad] = {0, 1, 2, 3};
-    return load(n);
-  }
-  static constexpr double numbers_apart = planes_per_quad;
-  // (0+1)+(2+3) of each
-  template <int K>
+  // (0+1)+(2+3) of each, from the k-th on
+  template <int K, int k = 0>
   static HWY_INLINE void add_up(const Wide (&x)[K], double (&out)[K]) {
 #if HWY_TARGET != HWY_SCALAR
     if constexpr (tag_lanes == planes_per_quad) {
       // four at a time, turned so that they are added side by side
       const Tag d;
       const hn::Half<Tag> half;
-      for (int k = 0; k < K; k += planes_per_quad) {
-        const auto last = [&](int i) { return x[k + i < K ? k + i : K - 1].v[0]; };
-        const auto a = last(0), b = last(1), c = last(2), e = last(3);
-        const auto ab = hn::Add(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b));
-        const auto ce = hn::Add(hn::InterleaveLower(d, c, e), hn::InterleaveUpper(d, c, e));
-        const auto sums = hn::Add(hn::ConcatLowerLower(d, ce, ab), hn::ConcatUpperUpper(d, ce, ab));
-        const auto low = hn::LowerHalf(half, sums), high = hn::UpperHalf(half, sums);
-        out[k] = hn::GetLane(low);
-        if (k + 1 < K) out[k + 1] = hn::GetLane(hn::InterleaveUpper(half, low, low));
-        if (k + 2 < K) out[k + 2] = hn::GetLane(high);
-        if (k + 3 < K) out[k + 3] = hn::GetLane(hn::InterleaveUpper(half, high, high));
-      }
+      const auto last = [&](int i) { return x[k + i < K ? k + i : K - 1].v[0]; };
+      const auto a = last(0), b = last(1), c = last(2), e = last(3);
+      const auto ab = hn::Add(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b));
+      const auto ce = hn::Add(hn::InterleaveLower(d, c, e), hn::InterleaveUpper(d, c, e));
+      const auto sums = hn::Add(hn::ConcatLowerLower(d, ce, ab), hn::ConcatUpperUpper(d, ce, ab));
+      const auto low = hn::LowerHalf(half, sums), high = hn::UpperHalf(half, sums);
+      out[k] = hn::GetLane(low);
+      if constexpr (k + 1 < K) out[k + 1] = hn::GetLane(hn::InterleaveUpper(half, low, low));
+      if constexpr (k + 2 < K) out[k + 2] = hn::GetLane(high);
+      if constexpr (k + 3 < K) out[k + 3] = hn::GetLane(hn::InterleaveUpper(half, high, high));
+      if constexpr (k + planes_per_quad < K) add_up<K, k + planes_per_quad>(x, out);
       return;
     }
 #endif
-    for (int k = 0; k < K; ++k) {
-      double p[planes_per_quad];
-      store(x[k], p);
-      out[k] = (p[0] + p[1]) + (p[2] + p[3]);
-    }
+    double p[planes_per_quad];
+    store(x[k], p);
+    out[k] = (p[0] + p[1]) + (p[2] + p[3]);
+    if constexpr (k + 1 < K) add_up<K, k + 1>(x, out);
   }
   static HWY_INLINE double least(const Wide& x) {
     hn::Vec<Tag> r = x.v[0];
@@ -109,23 +106,48 @@ struct OnePair {
     return hn::GetLane(hn::MinOfLanes(Tag(), r));
   }
   // the largest, in every lane
-  static HWY_INLINE hn::Vec<Tag> top(const Wide& x) {
+  static HWY_INLINE Wide top(const Wide& x) {
     hn::Vec<Tag> r = x.v[0];
     for (int k = 1; k < registers; ++k)
       r = hn::Max(r, x.v[k]);
-    return hn::MaxOfLanes(Tag(), r);
-  }
-  static HWY_INLINE double most(const Wide& x) {
-    return hn::GetLane(top(x));
-  }
-  // the largest, and of equal ones the first
-  static HWY_INLINE void most_of(const Wide& x, const Wide& number, double& value, double& where) {
-    const hn::Vec<Tag> highest = top(x);
-    value = hn::GetLane(highest);
+    r = hn::MaxOfLanes(Tag(), r);
     Wide all;
     for (int k = 0; k < registers; ++k)
-      all.v[k] = highest;
-    where = least(select(x < all, wide(std::numeric_limits<double>::max()), number));
+      all.v[k] = r;
+    return all;
+  }
+  static HWY_INLINE double most(const Wide& x) {
+    return hn::GetLane(top(x).v[0]);
+  }
+  // one bit of each plane that has the value
+  static HWY_INLINE std::uint64_t places_of(const Wide& value, const Wide& x) {
+    std::uint64_t places = 0;
+    for (int k = 0; k < registers; ++k) {
+      std::uint8_t bits[8] = {};  // as many as Highway may write
+      hn::StoreMaskBits(Tag(), hn::Eq(x.v[k], value.v[k]), bits);
+      places |= std::uint64_t{bits[0]} << (k * tag_lanes);
+    }
+    return places;
+  }
+  // true at the place alone
+  template <int place>
+  static HWY_INLINE PackMask<Tag, registers> only() {
+    return of(place == 0, place == 1, place == 2, place == 3) > wide(0);
+  }
+  // the number at the place, in every lane
+  template <int place>
+  static HWY_INLINE Wide spread(const Wide& x) {
+    Wide r;
+    hn::Vec<Tag> here = x.v[place / tag_lanes];
+#if HWY_TARGET != HWY_SCALAR
+    const Tag d;
+    if constexpr (tag_lanes == 4)
+      here = place / 2 ? hn::ConcatUpperUpper(d, here, here) : hn::ConcatLowerLower(d, here, here);
+    here = place % 2 ? hn::InterleaveUpper(d, here, here) : hn::InterleaveLower(d, here, here);
+#endif
+    for (int k = 0; k < registers; ++k)
+      r.v[k] = here;
+    return r;
   }
   static HWY_INLINE Slots slots(int first_quad, int planes) {
     return {first_quad, first_quad + quads_of(planes)};
@@ -206,6 +228,7 @@ struct ManyPairs {
   using Wide = Pack<Tag, 1>;
   using Real = Wide;
   using Bool = PackMask<Tag, 1>;
+  using Number = Wide;  // of a plane
   static constexpr int step = width;
   static HWY_INLINE int slot_of(int plane) { return plane; }
   static HWY_INLINE int place_of(int, int lane) { return lane; }
@@ -213,6 +236,7 @@ struct ManyPairs {
   static HWY_INLINE Wide wide(double x) { return {{hn::Set(Tag(), x)}}; }
   static HWY_INLINE const Wide& wide(const Wide& x) { return x; }
   static HWY_INLINE Real real(double x) { return wide(x); }
+  static HWY_INLINE Number number(int n) { return wide(static_cast<double>(n)); }
   static HWY_INLINE Real pick(const double* x) { return {{hn::LoadU(Tag(), x)}}; }
   template <class F>
   static HWY_INLINE Real collect(const F& value) {
@@ -230,14 +254,8 @@ struct ManyPairs {
   static HWY_INLINE Wide where(const Bool& good, const Wide& x, double otherwise) {
     return select(good, x, wide(otherwise));
   }
-  static HWY_INLINE Wide first_numbers() { return wide(0); }
-  static constexpr double numbers_apart = 1;
   static HWY_INLINE const Real& least(const Wide& x) { return x; }
   static HWY_INLINE const Real& most(const Wide& x) { return x; }
-  static HWY_INLINE void most_of(const Wide& x, const Wide& number, Real& value, Real& where) {
-    value = x;
-    where = number;
-  }
   static HWY_INLINE Slots slots(int first_quad, int planes) {
     return {first_quad * planes_per_quad, first_quad * planes_per_quad + planes};
   }
@@ -305,18 +323,42 @@ HWY_INLINE void for_slots(const Slots (&parts)[2], const F& visit) {
 // floor: the number is -1.
 template <class L, class F>
 HWY_INLINE void find_largest(const Slots& slots, double floor, const F& value, typename L::Real& largest,
-                             typename L::Real& where) {
+                             typename L::Number& where) {
   using Wide = typename L::Wide;
-  Wide best = L::wide(floor), place = L::wide(-1.0), number = L::first_numbers();
-  const Wide apart = L::wide(static_cast<double>(L::numbers_apart));
-  for_slots(slots, [&](int slot) HWY_ATTR {
-    const Wide here = value(slot);
-    const auto better = here > best;
-    best = select(better, here, best);
-    place = select(better, number, place);
-    number = number + apart;
-  });
-  L::most_of(best, place, largest, where);
+  if constexpr (L::one_pair) {
+    // the value first, as others wait for it, then where it is
+    constexpr int most_kept = 16;
+    Wide kept[most_kept];
+    largest = floor;
+    where = -1;
+    for (int from = slots.first; from < slots.last; from += most_kept) {
+      const int count = std::min(slots.last - from, most_kept);
+      Wide best = L::wide(largest);
+      for (int k = 0; k < count; ++k) {
+        kept[k] = value(from + k);
+        best = larger(best, kept[k]);
+      }
+      best = L::top(best);
+      const double most = hn::GetLane(best.v[0]);
+      if (!(most > largest)) continue;
+      largest = most;
+      std::uint64_t places = 0;
+      for (int k = 0; k < count; ++k)
+        places |= L::places_of(best, kept[k]) << (k * planes_per_quad);
+      where = (from - slots.first) * planes_per_quad + std::countr_zero(places);
+    }
+  } else {
+    Wide number = L::number(0);
+    largest = L::wide(floor);
+    where = L::number(-1);
+    for_slots(slots, [&](int slot) HWY_ATTR {
+      const Wide here = value(slot);
+      const auto better = here > largest;
+      largest = select(better, here, largest);
+      where = select(better, number, where);
+      number = number + L::number(1);
+    });
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -43,7 +43,8 @@ struct Meeting : Fields<Dim> {
   Real least;                    // smallest slack
   Components<Real, Dim> normal;  // along the frame's rows
   Real bound, firmness;          // on the central path alone
-  Real overlap, area, face_a, face_b, iterations;
+  Real overlap, area, iterations;
+  typename L::Number face_a, face_b;
 
   HWY_INLINE Components<Wide, Dim> wide(const Components<Real, Dim>& x) const {
     Components<Wide, Dim> r;

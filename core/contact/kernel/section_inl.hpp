@@ -91,10 +91,8 @@ HWY_INLINE void highest_plane(const SectionPlanes<OnePair>& planes, int quads, d
                               int& plane) {
   using L = OnePair;
   const L::Wide x = L::wide(y0), y = L::wide(y1);
-  double number;
   const auto height = [&](int slot) HWY_ATTR { return planes.q0(slot) * x + planes.q1(slot) * y; };
-  find_largest<L>({0, quads}, -std::numeric_limits<double>::max(), height, value, number);
-  plane = static_cast<int>(number);
+  find_largest<L>({0, quads}, -std::numeric_limits<double>::max(), height, value, plane);
 }
 
 // Finds the cyclic list from nothing: four extreme planes, then at each corner the plane that cuts it off, until none

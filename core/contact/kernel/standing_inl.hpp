@@ -252,7 +252,8 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
 // the normal of the part's face with the smallest slack, along unit axes
 template <class L, int Dim>
 HWY_INLINE Components<typename L::Real, Dim> nearest_normal(const Meeting<L, Dim>& m, int part) {
-  typename L::Real value, number;
+  typename L::Real value;
+  typename L::Number number;
   const auto closeness = [&](int slot) HWY_ATTR { return -m.get(m.slack_at, slot); };
   find_largest<L>(m.part[part], -std::numeric_limits<double>::max(), closeness, value, number);
   double faces[L::width];
@@ -306,7 +307,8 @@ HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
   m.normal = scaled(one / select(m.good, whole, one), along);
 
   const Components<Wide, Dim> direction = m.wide(along);
-  Real steepest[2], face[2];
+  Real steepest[2];
+  typename L::Number face[2];
   for (int part = 0; part < 2; ++part) {
     const auto slope = [&](int slot) HWY_ATTR {
       const Wide closing = m.get(m.inverse_at, slot) * dot(m.normals(slot), direction);
@@ -369,7 +371,8 @@ template <class L, int Dim>
 HWY_INLINE void clear(Meeting<L, Dim>& m) {
   for (int k = 0; k < Dim; ++k)
     m.moved[k] = m.normal[k] = L::real(0);
-  m.iterations = m.overlap = m.area = m.face_a = m.face_b = L::real(0);
+  m.iterations = m.overlap = m.area = L::real(0);
+  m.face_a = m.face_b = L::number(0);
   m.fallback = but_not(m.good, m.good);
 }
 
