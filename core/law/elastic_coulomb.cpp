@@ -5,9 +5,21 @@
 
 namespace voussoir {
 
+namespace {
+
+// squares of lengths between these are numbers, and sums of them too
+constexpr double least_squared = 1e-140, most_squared = 1e140;
+
+bool squares(double length) {
+  return length > least_squared && length < most_squared;
+}
+
+}  // namespace
+
 template <int Dim>
 double length_of(const Vector<Dim>& v) {
   const double largest = v.cwiseAbs().maxCoeff();
+  if (squares(largest)) return v.norm();
   return largest > 0 ? largest * (v / largest).norm() : 0;
 }
 template double length_of<2>(const Vector<2>&);
@@ -15,16 +27,35 @@ template double length_of<3>(const Vector<3>&);
 
 namespace {
 
-// Gives `turned` the length of `shear`, from which it differs by rounding. The difference of their squares is taken as
-// (a - b)·(a + b), where nothing cancels, and added as a correction: the quotient of the two lengths is rounded so
-// unevenly that a force carried round once in 1e6 steps would come back longer by 1e-11.
+// The difference of the lengths' squares is taken as (a - b)·(a + b), where nothing cancels, and added as a correction:
+// the quotient of the two lengths is rounded so unevenly that a force carried round once in 1e6 steps would come back
+// longer by 1e-11.
+template <int Dim>
+Vector<Dim> corrected(const Vector<Dim>& shear, const Vector<Dim>& turned) {
+  const double excess = (shear - turned).dot(shear + turned) / turned.squaredNorm();  // |a|²/|b|² - 1
+  return turned + excess / (1 + std::sqrt(1 + excess)) * turned;
+}
+
+// gives `turned` the length of `shear`, from which it differs by rounding
 template <int Dim>
 Vector<Dim> with_length_of(const Vector<Dim>& shear, const Vector<Dim>& turned) {
   const double scale = turned.cwiseAbs().maxCoeff();
+  if (squares(scale)) return corrected(shear, turned);
   if (scale == 0) return Vector<Dim>::Zero();
-  const double excess =
-      ((shear - turned) / scale).dot((shear + turned) / scale) / (turned / scale).squaredNorm();  // |a|²/|b|² - 1
-  return turned + excess / (1 + std::sqrt(1 + excess)) * turned;
+  return scale * corrected<Dim>(shear / scale, turned / scale);
+}
+
+// below it the series is exact to rounding
+constexpr double small_turn = 1e-3;
+
+// v turned about an axis across it
+Vector<3> turned_about(const Vector<3>& axis, double angle, const Vector<3>& v) {
+  if (angle == 0) return v;
+  const double square = angle * angle;
+  const bool small = std::abs(angle) < small_turn;
+  const double cosine = small ? 1 - square * (0.5 - square * (1.0 / 24)) : std::cos(angle);
+  const double sine = small ? angle * (1 - square * (1.0 / 6 - square * (1.0 / 120))) : std::sin(angle);
+  return cosine * v + sine * axis.cross(v);
 }
 
 }  // namespace
@@ -43,9 +74,10 @@ Vector<3> carried(const Vector<3>& shear, const Vector<3>& old_normal, const Vec
   const double cosine = old_normal.dot(normal);
   if (cosine > 0) {
     const Vector<3> axis = old_normal.cross(normal);
-    turned += axis.cross(shear) + axis.cross(axis.cross(shear)) / (1 + cosine);
+    const Vector<3> across = axis.cross(shear);
+    turned += across + 1 / (1 + cosine) * axis.cross(across);
   }
-  if (turn != 0) turned = std::cos(turn) * turned + std::sin(turn) * normal.cross(turned);
+  turned = turned_about(normal, turn, turned);
   turned -= normal.dot(turned) * normal;
   return with_length_of<3>(shear, turned);
 }
