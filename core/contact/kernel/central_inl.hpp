@@ -170,8 +170,8 @@ HWY_INLINE void measure_by_barrier(Meeting<L, Dim>& m) {
   m.firmness = L::real(4) * length * length;
   Real most;
   const auto closeness = [&](int slot) HWY_ATTR { return m.get(m.inverse_at, slot); };
-  find_largest<L>(m.part[0], 0, closeness, most, m.face_a);
-  find_largest<L>(m.part[1], 0, closeness, most, m.face_b);
+  L::find_largest(m.part[0], 0, closeness, most, m.face_a);
+  L::find_largest(m.part[1], 0, closeness, most, m.face_b);
 }
 
 // everything from the start on; the results of pairs that are not good mean nothing

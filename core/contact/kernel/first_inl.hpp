@@ -44,7 +44,7 @@ HWY_INLINE void most_violated(const Meeting<OnePair, Dim>& m, const Components<d
   using L = OnePair;
   const Components<L::Wide, Dim> at = m.wide(x);
   const auto violation = [&](int slot) HWY_ATTR { return dot(m.normals(slot), at) - m.get(m.slack_at, slot); };
-  find_largest<L>({0, m.quads}, -std::numeric_limits<double>::max(), violation, value, plane);
+  L::find_largest({0, m.quads}, -std::numeric_limits<double>::max(), violation, value, plane);
 }
 
 // x and -s where the tight planes meet
@@ -173,7 +173,7 @@ HWY_INLINE Components<double, Dim> thinnest_across(const Meeting<OnePair, Dim>& 
     const L::Wide along = dot(n, direction), slack = m.get(m.slack_at, slot) - dot(n, at);
     return (L::wide(1) - along * along) / (slack * slack);
   };
-  find_largest<L>({0, m.quads}, -1, thinness, value, number);
+  L::find_largest({0, m.quads}, -1, thinness, value, number);
   const Components<double, Dim> n = normal_of(m, number);
   const Components<double, Dim> across = n - scaled(dot(n, axis), axis);
   const double length = root(dot(across, across));

@@ -287,10 +287,9 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
     if (a.basis[k] < 0) return;
     tight.planes[k] = a.basis[k];
     const auto column = a.basis_inverse.col(k);
-    tight.inverse[k] = OnePair::of(column[0], column[1], column[2], Dim == 3 ? column[Dim] : 0);
+    tight.inverse[k] = OnePair::of([&](int plane) { return plane <= Dim ? column[plane] : 0; });
   }
-  const auto offset = [&](int k) { return k <= Dim ? m.number(m.slack_at, a.basis[k]) : 0; };
-  tight.offsets = OnePair::of(offset(0), offset(1), offset(2), offset(3));
+  tight.offsets = OnePair::of([&](int plane) { return plane <= Dim ? m.number(m.slack_at, a.basis[plane]) : 0; });
   Components<double, Dim> x;
   double worst = 0, bound = 0;
   int pivots = 0;

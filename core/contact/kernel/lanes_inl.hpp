@@ -51,20 +51,23 @@ struct OnePair {
   static HWY_INLINE Bool first(int count) { return count > 0; }
   static HWY_INLINE int count(Bool x) { return x; }
   static HWY_INLINE double total(Real x) { return x; }
-  static HWY_INLINE Wide wide(double x) {
+  static HWY_INLINE Wide filled(const hn::Vec<Tag>& x) {
     Wide r;
     for (int k = 0; k < registers; ++k)
-      r.v[k] = hn::Set(Tag(), x);
+      r.v[k] = x;
     return r;
   }
+  static HWY_INLINE Wide wide(double x) { return filled(hn::Set(Tag(), x)); }
   static HWY_INLINE Wide load(const double* from) {
     Wide r;
     for (int k = 0; k < registers; ++k)
       r.v[k] = hn::LoadU(Tag(), from + k * tag_lanes);
     return r;
   }
-  static HWY_INLINE Wide of(double n0, double n1, double n2, double n3) {
-    return collected<Tag, registers>([&](int k) { return k == 0 ? n0 : k == 1 ? n1 : k == 2 ? n2 : n3; });
+  // the number of each place
+  template <class F>
+  static HWY_INLINE Wide of(const F& number) {
+    return collected<Tag, registers>(number);
   }
   static HWY_INLINE void store(const Wide& x, double* to) {
     for (int k = 0; k < registers; ++k)
@@ -110,11 +113,7 @@ struct OnePair {
     hn::Vec<Tag> r = x.v[0];
     for (int k = 1; k < registers; ++k)
       r = hn::Max(r, x.v[k]);
-    r = hn::MaxOfLanes(Tag(), r);
-    Wide all;
-    for (int k = 0; k < registers; ++k)
-      all.v[k] = r;
-    return all;
+    return filled(hn::MaxOfLanes(Tag(), r));
   }
   static HWY_INLINE double most(const Wide& x) {
     return hn::GetLane(top(x).v[0]);
@@ -129,15 +128,39 @@ struct OnePair {
     }
     return places;
   }
+  // The largest of value(slot) and the number of its plane among theirs; of equal ones the first. Nothing above the
+  // floor: the number is -1. The value comes first, as others wait for it, then where it is.
+  template <class F>
+  static HWY_INLINE void find_largest(const Slots& slots, double floor, const F& value, double& largest, int& where) {
+    constexpr int most_kept = 16;
+    Wide kept[most_kept];
+    largest = floor;
+    where = -1;
+    for (int from = slots.first; from < slots.last; from += most_kept) {
+      const int count = std::min(slots.last - from, most_kept);
+      Wide best = wide(largest);
+      for (int k = 0; k < count; ++k) {
+        kept[k] = value(from + k);
+        best = larger(best, kept[k]);
+      }
+      best = top(best);
+      const double most = hn::GetLane(best.v[0]);
+      if (!(most > largest)) continue;
+      largest = most;
+      std::uint64_t places = 0;
+      for (int k = 0; k < count; ++k)
+        places |= places_of(best, kept[k]) << (k * planes_per_quad);
+      where = (from - slots.first) * planes_per_quad + std::countr_zero(places);
+    }
+  }
   // true at the place alone
   template <int place>
   static HWY_INLINE PackMask<Tag, registers> only() {
-    return of(place == 0, place == 1, place == 2, place == 3) > wide(0);
+    return of([](int k) { return k == place ? 1.0 : 0.0; }) > wide(0);
   }
   // the number at the place, in every lane
   template <int place>
   static HWY_INLINE Wide spread(const Wide& x) {
-    Wide r;
     hn::Vec<Tag> here = x.v[place / tag_lanes];
 #if HWY_TARGET != HWY_SCALAR
     const Tag d;
@@ -145,9 +168,7 @@ struct OnePair {
       here = place / 2 ? hn::ConcatUpperUpper(d, here, here) : hn::ConcatLowerLower(d, here, here);
     here = place % 2 ? hn::InterleaveUpper(d, here, here) : hn::InterleaveLower(d, here, here);
 #endif
-    for (int k = 0; k < registers; ++k)
-      r.v[k] = here;
-    return r;
+    return filled(here);
   }
   static HWY_INLINE Slots slots(int first_quad, int planes) {
     return {first_quad, first_quad + quads_of(planes)};
@@ -256,6 +277,20 @@ struct ManyPairs {
   }
   static HWY_INLINE const Real& least(const Wide& x) { return x; }
   static HWY_INLINE const Real& most(const Wide& x) { return x; }
+  // as OnePair's
+  template <class F>
+  static HWY_INLINE void find_largest(const Slots& slots, double floor, const F& value, Real& largest, Number& where) {
+    Number plane = number(0);
+    largest = wide(floor);
+    where = number(-1);
+    for (int slot = slots.first; slot < slots.last; ++slot) {
+      const Wide here = value(slot);
+      const auto better = here > largest;
+      largest = select(better, here, largest);
+      where = select(better, plane, where);
+      plane = plane + number(1);
+    }
+  }
   static HWY_INLINE Slots slots(int first_quad, int planes) {
     return {first_quad * planes_per_quad, first_quad * planes_per_quad + planes};
   }
@@ -317,48 +352,6 @@ template <class L, class F>
 HWY_INLINE void for_slots(const Slots (&parts)[2], const F& visit) {
   for (const Slots& run : L::runs(parts).all)
     for_slots(run, visit);
-}
-
-// The largest of value(slot) and the number of its plane among theirs; of equal ones the first. Nothing above the
-// floor: the number is -1.
-template <class L, class F>
-HWY_INLINE void find_largest(const Slots& slots, double floor, const F& value, typename L::Real& largest,
-                             typename L::Number& where) {
-  using Wide = typename L::Wide;
-  if constexpr (L::one_pair) {
-    // the value first, as others wait for it, then where it is
-    constexpr int most_kept = 16;
-    Wide kept[most_kept];
-    largest = floor;
-    where = -1;
-    for (int from = slots.first; from < slots.last; from += most_kept) {
-      const int count = std::min(slots.last - from, most_kept);
-      Wide best = L::wide(largest);
-      for (int k = 0; k < count; ++k) {
-        kept[k] = value(from + k);
-        best = larger(best, kept[k]);
-      }
-      best = L::top(best);
-      const double most = hn::GetLane(best.v[0]);
-      if (!(most > largest)) continue;
-      largest = most;
-      std::uint64_t places = 0;
-      for (int k = 0; k < count; ++k)
-        places |= L::places_of(best, kept[k]) << (k * planes_per_quad);
-      where = (from - slots.first) * planes_per_quad + std::countr_zero(places);
-    }
-  } else {
-    Wide number = L::number(0);
-    largest = L::wide(floor);
-    where = L::number(-1);
-    for_slots(slots, [&](int slot) HWY_ATTR {
-      const Wide here = value(slot);
-      const auto better = here > largest;
-      largest = select(better, here, largest);
-      where = select(better, number, where);
-      number = number + L::number(1);
-    });
-  }
 }
 
 }  // namespace HWY_NAMESPACE

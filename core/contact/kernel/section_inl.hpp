@@ -92,7 +92,7 @@ HWY_INLINE void highest_plane(const SectionPlanes<OnePair>& planes, int quads, d
   using L = OnePair;
   const L::Wide x = L::wide(y0), y = L::wide(y1);
   const auto height = [&](int slot) HWY_ATTR { return planes.q0(slot) * x + planes.q1(slot) * y; };
-  find_largest<L>({0, quads}, -std::numeric_limits<double>::max(), height, value, plane);
+  L::find_largest({0, quads}, -std::numeric_limits<double>::max(), height, value, plane);
 }
 
 // Finds the cyclic list from nothing: four extreme planes, then at each corner the plane that cuts it off, until none

@@ -255,7 +255,7 @@ HWY_INLINE Components<typename L::Real, Dim> nearest_normal(const Meeting<L, Dim
   typename L::Real value;
   typename L::Number number;
   const auto closeness = [&](int slot) HWY_ATTR { return -m.get(m.slack_at, slot); };
-  find_largest<L>(m.part[part], -std::numeric_limits<double>::max(), closeness, value, number);
+  L::find_largest(m.part[part], -std::numeric_limits<double>::max(), closeness, value, number);
   double faces[L::width];
   L::put(number, faces);
   const int first = part ? m.quads_a * planes_per_quad : 0;
@@ -314,7 +314,7 @@ HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
       const Wide closing = m.get(m.inverse_at, slot) * dot(m.normals(slot), direction);
       return part ? -closing : closing;
     };
-    find_largest<L>(m.part[part], 0, slope, steepest[part], face[part]);
+    L::find_largest(m.part[part], 0, slope, steepest[part], face[part]);
     m.good = both(m.good, steepest[part] > zero);
   }
   m.overlap = whole / select(m.good, steepest[0], one) + whole / select(m.good, steepest[1], one);
