@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
-# Installs the built library into a scratch prefix and builds the consumer against it, plainly and with -march=native.
+# Installs into a scratch prefix, runs a scene by the program that lies there, and builds the consumer against the
+# library that does, plainly and with -march=native.
 set -euo pipefail
 build=$1 source=$2 scratch=$3 compiler=$4
 rm -rf "$scratch"
 cmake --install "$build" --prefix "$scratch/prefix" >/dev/null
+"$scratch/prefix/bin/voussoir" run "$(dirname "$0")/two_cubes.toml" --out "$scratch/results" --quiet
+test -s "$scratch/results/results.json"
 for flags in "" "-march=native"; do
   folder="$scratch/build$flags"
   cmake -S "$source" -B "$folder" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_CXX_COMPILER="$compiler" \
