@@ -45,6 +45,9 @@ constexpr bool records_are_dense() {
          offsetof(ContactGeometry<Dim>, normal) == offsetof(ContactGeometry<Dim>, point) + sizeof(Vectors) &&
          offsetof(ContactGeometry<Dim>, overlap) == offsetof(ContactGeometry<Dim>, normal) + sizeof(Vectors) &&
          offsetof(ContactGeometry<Dim>, area) == offsetof(ContactGeometry<Dim>, overlap) + sizeof(double) &&
+         offsetof(KernelTask<Dim>, tolerance) == offsetof(KernelTask<Dim>, potential_radius) + sizeof(double) &&
+         offsetof(KernelTask<Dim>, reach) == offsetof(KernelTask<Dim>, tolerance) + sizeof(double) &&
+         offsetof(KernelTask<Dim>, smoothing) == offsetof(KernelTask<Dim>, reach) + sizeof(double) &&
          sizeof(Vectors) == Dim * sizeof(double) && sizeof(Matrix<Dim>) == Dim * sizeof(Vectors);
 }
 
