@@ -57,12 +57,6 @@ void serialize(Archive& archive, Load<Dim>& l) {
 }
 
 template <class Archive, int Dim>
-void serialize(Archive& archive, Box<Dim>& b) {
-  auto& [low, high, body, fixed] = b;
-  archive(low, high, body, fixed);
-}
-
-template <class Archive, int Dim>
 void serialize(Archive& archive, ContactGeometry<Dim>& g) {
   auto& [point, normal, overlap, area, firmness, face_a, face_b] = g;
   archive(point, normal, overlap, area, firmness, face_a, face_b);
@@ -83,9 +77,9 @@ void serialize(Archive& archive, Proof<Dim>& p) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, Contact<Dim>& c) {
   // boxes are looked at anew
-  auto& [part_a, part_b, joint, properties, cells, divided_face, status, boxes_until, free_until, area_rated, geometry,
-         history, proof, force] = c;
-  archive(part_a, part_b, joint, properties, cells, divided_face, status, geometry, history, proof, force, free_until,
+  auto& [part_a, part_b, joint, properties, cells, divided_face, status, boxes_until, free_until, area_rated, force,
+         geometry, history, proof] = c;
+  archive(part_a, part_b, joint, properties, cells, divided_face, status, force, geometry, history, proof, free_until,
           area_rated);
 }
 
