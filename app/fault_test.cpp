@@ -104,7 +104,9 @@ TEST_F(Faults, ThirtyKillsLoseNothing) {
   survive_kills(30);
 }
 
-TEST_F(Faults, DISABLED_AThousandKillsLoseNothing) {
+using FaultsLong = Faults;
+
+TEST_F(FaultsLong, AThousandKillsLoseNothing) {
   survive_kills(1000);
 }
 

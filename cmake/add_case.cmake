@@ -2,7 +2,7 @@
 #   program case_<name>, CTest entry case.<name> (label case), and per figure report.<x> (label report), which draws
 #   <build>/reports/figures/<x>.svg from the files that the case's test left in <build>/cases/<name>.
 #   Files are looked for beside the calling CMakeLists.txt, then in its folder <name>.
-#   With LONG, its tests named DISABLED_… are case.<name>.long (label long), which only `ctest -C Long` runs.
+#   With LONG, its test suites whose names end in Long are case.<name>.long (label long), which only `ctest -C Long` runs.
 # voussoir_case_not_modelled(<name> …)
 #   a case that is listed in the verdict table as not yet modelled.
 # The lists end in the global properties VOUSSOIR_CASES and VOUSSOIR_CASES_NOT_MODELLED, so that the summary asks for
@@ -28,15 +28,13 @@ function(voussoir_case name)
   # the whole program is one entry: its rows replace those of earlier runs
   set(output ${PROJECT_BINARY_DIR}/cases/${name})
   file(MAKE_DIRECTORY ${output})
-  add_test(NAME case.${name} COMMAND case_${name} --gtest_brief=1 WORKING_DIRECTORY ${output})
+  voussoir_test_entries(case.${name} case_${name} ${output} ${arg_LONG} ${sources})
   set(environment VOUSSOIR_VERDICTS=${PROJECT_BINARY_DIR}/verdicts VOUSSOIR_CASE_OUTPUT=${PROJECT_BINARY_DIR}/cases
                   VOUSSOIR_FRESH=1)
   set_tests_properties(case.${name} PROPERTIES LABELS case FIXTURES_SETUP case_${name} ENVIRONMENT "${environment}")
 
   if(arg_LONG)
-    add_test(NAME case.${name}.long CONFIGURATIONS Long WORKING_DIRECTORY ${output}
-      COMMAND case_${name} --gtest_brief=1 --gtest_also_run_disabled_tests --gtest_filter=*DISABLED_*)
-    set_tests_properties(case.${name}.long PROPERTIES LABELS long TIMEOUT 14400
+    set_tests_properties(case.${name}.long PROPERTIES
       ENVIRONMENT "VOUSSOIR_VERDICTS=${PROJECT_BINARY_DIR}/verdicts-long;VOUSSOIR_CASE_OUTPUT=${PROJECT_BINARY_DIR}/cases-long")
   endif()
 

@@ -1,6 +1,6 @@
 # voussoir_test(<name> [LONG] LABEL <label> SOURCES <files…> LIBS <targets…>): one GoogleTest program, one CTest entry,
-# with floating-point traps on. With LONG, its tests named DISABLED_… are <name>.long (label long), which only
-# `ctest -C Long` runs.
+# with floating-point traps on. With LONG, its test suites whose names end in Long are <name>.long (label long), which
+# only `ctest -C Long` runs.
 function(voussoir_test name)
   cmake_parse_arguments(arg "LONG" "LABEL" "SOURCES;LIBS" ${ARGN})
   if(NOT VOUSSOIR_BUILD_TESTS)
@@ -12,11 +12,33 @@ function(voussoir_test name)
   # a test's own code need not be fast, and compiling it is what `make test` waits for
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${target} PRIVATE VOUSSOIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  add_test(NAME ${name} COMMAND ${target} --gtest_brief=1 WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  voussoir_test_entries(${name} ${target} ${CMAKE_CURRENT_BINARY_DIR} ${arg_LONG} ${arg_SOURCES})
   set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL})
-  if(arg_LONG)
-    add_test(NAME ${name}.long CONFIGURATIONS Long WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
-      COMMAND ${target} --gtest_brief=1 --gtest_also_run_disabled_tests --gtest_filter=*DISABLED_*)
+endfunction()
+
+# The CTest entries of a GoogleTest program that runs in a folder: <name>, and with `long` <name>.long. Long suites
+# and `long` without one another are a mistake: one would run in every `make test`, the other would run nothing; so is a
+# test named DISABLED_…, which nothing runs.
+function(voussoir_test_entries name target folder long)
+  set(suites)
+  foreach(source ${ARGN})
+    file(STRINGS ${source} found REGEX "^TEST(_F|_P)?\\([A-Za-z]+Long,")
+    list(APPEND suites ${found})
+    file(STRINGS ${source} disabled REGEX "^TEST.*DISABLED_")
+    if(disabled)
+      message(FATAL_ERROR "${name}: ${disabled} would never run; a long test stands in a suite whose name ends in Long")
+    endif()
+  endforeach()
+  if(suites AND NOT long)
+    message(FATAL_ERROR "${name}: test suites whose names end in Long need LONG: ${suites}")
+  elseif(long AND NOT suites)
+    message(FATAL_ERROR "${name}: LONG, but there is no test suite whose name ends in Long")
+  endif()
+  add_test(NAME ${name} WORKING_DIRECTORY ${folder}
+    COMMAND ${target} --gtest_brief=1 $<$<BOOL:${long}>:--gtest_filter=-*Long.*> COMMAND_EXPAND_LISTS)
+  if(long)
+    add_test(NAME ${name}.long CONFIGURATIONS Long WORKING_DIRECTORY ${folder}
+      COMMAND ${target} --gtest_brief=1 --gtest_filter=*Long.*)
     set_tests_properties(${name}.long PROPERTIES LABELS long TIMEOUT 14400)
   endif()
 endfunction()

@@ -128,7 +128,7 @@ TEST(ColumnAtRest, RelaxationTakesFifteenTimesFewerSteps) {
 }
 
 // run by make test-long
-TEST(ColumnAtRest, DISABLED_SoDoLongerColumns) {
+TEST(ColumnAtRestLong, SoDoLongerColumns) {
   CaseReport report("column");
   compare(report, 200, 0.05, 0.2);
   compare(report, 400, 0.1, 1);

@@ -168,7 +168,7 @@ TEST(FreeFall, BooksCloseWithTheSquareOfTheStep) {
   write_csv("free_fall", "books.csv", {"fraction", "published", "multipliers", "central_path"}, open);
 }
 
-TEST(FreeFall, DISABLED_EveryShapeFalls) {
+TEST(FreeFallLong, EveryShapeFalls) {
   CaseReport report("free_fall");
   for (int kind = 0; kind < 5; ++kind) {
     FallPlan plan;

@@ -129,7 +129,7 @@ TEST(Robustness, FoundBlocksStayMended) {
   }
 }
 
-TEST(Robustness, DISABLED_DenseMap) {
+TEST(RobustnessLong, DenseMap) {
   CaseReport report("robustness");
   const Grid g =
       grid(1, {4, 6, 12, 24, 40, 100, 400},

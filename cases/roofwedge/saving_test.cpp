@@ -11,7 +11,7 @@ namespace voussoir::cases {
 namespace {
 
 // long: the thesis' way takes a million and a half steps
-TEST(RoofWedgeSaving, DISABLED_BisectionAgainstTheThesisRate) {
+TEST(RoofWedgeSavingLong, BisectionAgainstTheThesisRate) {
   constexpr double degrees = 180 / std::numbers::pi;
   reference::RoofWedge wedge;
   for (int i = 0; i < 3; ++i) {

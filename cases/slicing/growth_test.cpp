@@ -222,7 +222,7 @@ TEST(SlicingGrowth, ProgramsGrowAsTheNumberOfBlocks) {
 }
 
 // to more than a hundred thousand blocks, and without culling at twenty thousand
-TEST(SlicingGrowth, DISABLED_ToAHundredThousandBlocks) {
+TEST(SlicingGrowthLong, ToAHundredThousandBlocks) {
   CaseReport report("slicing");
   study(report, {"persistent", "table_4_1_persistent.toml", {0.1, 0.2, 0.26, 0.4, 0.55}, 3});
   study(report, {"finite", "table_4_1.toml", {0.005, 0.015, 0.042, 0.09, 0.15}, 3});

@@ -160,7 +160,7 @@ TEST(SlicingSettling, ACornerOfItComesToRest) {
   draw(settled);
 }
 
-TEST(SlicingSettling, DISABLED_TwentyFiveHundredBlocksComeToRest) {
+TEST(SlicingSettlingLong, TwentyFiveHundredBlocksComeToRest) {
   CaseReport report("slicing");
   const Film settled = settle("settling.toml");
   check(report, ", 2500 blocks", settled);

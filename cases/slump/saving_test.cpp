@@ -11,7 +11,7 @@ namespace {
 // Long: the thesis' way takes four million steps of fifty contacts. Sought is the angle of this model with this failure
 // displacement, found by a finer bracket: the slope yields and rests again while it moves, so that the angle goes with
 // the displacement that counts as failure (README), which is no matter of the search.
-TEST(SlumpSaving, DISABLED_BisectionAgainstTheThesisRate) {
+TEST(SlumpSavingLong, BisectionAgainstTheThesisRate) {
   verification::CaseReport report("slump", {"critical friction, bisection over ten degrees"});
   const SceneRun fine = run("scene.toml");
   const SoughtAngle sought{value(fine, "critical_friction"), "the same model, bisection to 0.013 degrees",

@@ -220,12 +220,12 @@ TEST(Slump, IsLostByDistinctElements) {
 }
 
 // the scenes as they stand
-TEST(Slump, DISABLED_IsLostByTheWholeSearch) {
+TEST(SlumpLong, IsLostByTheWholeSearch) {
   CaseReport report("slump");
   judge_loss(report, "DEM, whole search", lose<2>("scene.toml"));
 }
 
-TEST(Slump, DISABLED_IsLostAsASliceInSpace) {
+TEST(SlumpLong, IsLostAsASliceInSpace) {
   CaseReport report("slump");
   judge_loss(report, "DEM, slice in space", lose<3>("slice.toml"));
 }

@@ -263,7 +263,7 @@ TEST(SlumpVariants, AreLostAsBlocksThatDoNotDilate) {
   });
 }
 
-TEST(SlumpVariants, DISABLED_AreLostByDistinctElements) {
+TEST(SlumpVariantsLong, AreLostByDistinctElements) {
   CaseReport report("slump");
   try_variants(report, [](const Variant&) { return Roads::three; });
 }

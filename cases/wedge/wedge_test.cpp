@@ -158,7 +158,7 @@ TEST(Wedge, HoldsToALowerAngleWhereItMayTurn) {
     let_it_turn(report, along, restrained);
 }
 
-TEST(Wedge, DISABLED_HoldsToALowerAngleWhereItMayTurnOnManyPoints) {
+TEST(WedgeLong, HoldsToALowerAngleWhereItMayTurnOnManyPoints) {
   CaseReport report("wedge");
   const double restrained = value(run("equal_stiffness.toml"), "critical_friction");
   for (const int along : {3, 8, 16})
@@ -257,7 +257,7 @@ TEST(Wedge, RandomWedges) {
 }
 
 // the same over many more draws; run by make test-long
-TEST(Wedge, DISABLED_ManyRandomWedges) {
+TEST(WedgeLong, ManyRandomWedges) {
   CaseReport report("wedge");
   try_random_wedges(report, 20132, {150, 150, 30});
 }

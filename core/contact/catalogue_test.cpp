@@ -57,7 +57,7 @@ void expect_program_of_many_planes(int count) {
 TEST(Program, OfAThousandPlanesIsProvenByItsBasis) {
   expect_program_of_many_planes(1000);
 }
-TEST(Program, DISABLED_OfFourThousandPlanesIsProvenByItsBasis) {
+TEST(ProgramLong, OfFourThousandPlanesIsProvenByItsBasis) {
   expect_program_of_many_planes(4000);
 }
 

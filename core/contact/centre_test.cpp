@@ -147,7 +147,7 @@ TEST(Centre, IsTheConvergedOneOverDepthAspectAndDistance3D) {
 TEST(Centre, IsTheConvergedOneOverDepthAspectAndDistance2D) {
   expect_grid<2>(402, 8);
 }
-TEST(Centre, DISABLED_DenseGrid) {
+TEST(CentreLong, DenseGrid) {
   expect_grid<3>(403, 200);
   expect_grid<2>(404, 1000);
 }
@@ -255,7 +255,7 @@ void expect_no_jump(int steps) {
 TEST(Centre, MovesWithoutAJumpFromCornerToEdgeToFace) {
   expect_no_jump(2000);
 }
-TEST(Centre, DISABLED_MovesWithoutAJumpInAHundredThousandSteps) {
+TEST(CentreLong, MovesWithoutAJumpInAHundredThousandSteps) {
   expect_no_jump(100'000);
 }
 

@@ -271,7 +271,7 @@ TEST(SamePair, InAnyOrderUnitAndFrame3D) {
 TEST(SamePair, InAnyOrderUnitAndFrame2D) {
   expect_symmetries<2>(0, 7000);
 }
-TEST(SamePair, DISABLED_InAnyOrderUnitAndFrameAHundredThousand) {
+TEST(SamePairLong, InAnyOrderUnitAndFrameAHundredThousand) {
   expect_symmetries<3>(10'000, 60'000);
   expect_symmetries<2>(10'000, 60'000);
 }
@@ -376,7 +376,7 @@ TEST(SamePair, AloneAndInAnyBatch2D) {
   expect_same_bits_in_company<2>({}, 0, 1000);
   expect_same_bits_in_company<2>(on_central_path, 0, 1000);
 }
-TEST(SamePair, DISABLED_AloneAndInAnyBatchFiftyThousand) {
+TEST(SamePairLong, AloneAndInAnyBatchFiftyThousand) {
   SKIP_WITH_FAST_ARITHMETIC();
   for (int part = 0; part < 50; ++part) {
     for (const ContactSettings& settings : {ContactSettings{}, on_central_path}) {

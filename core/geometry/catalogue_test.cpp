@@ -135,7 +135,7 @@ TEST(BlockCatalogue, RandomBlocksHaveTheirExactMassAndCorners3D) {
 TEST(BlockCatalogue, RandomBlocksHaveTheirExactMassAndCorners2D) {
   expect_blocks<2>(0, 250);
 }
-TEST(BlockCatalogue, DISABLED_AHundredThousandBlocks) {
+TEST(BlockCatalogueLong, AHundredThousandBlocks) {
   expect_blocks<3>(1000, 51'000);
   expect_blocks<2>(1000, 51'000);
 }

@@ -1,5 +1,5 @@
-// The joint law at its extremes: turns in any number of steps, forces of any size, paths of any kind. Tests named
-// DISABLED_ are the long siblings of those before them (`make test-long`).
+// The joint law at its extremes: turns in any number of steps, forces of any size, paths of any kind. Suites named
+// …Long hold the long siblings of the tests before them (`make test-long`).
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -77,7 +77,7 @@ TEST(LawExtremes, AFullTurnOfTheNormalInAnyNumberOfSteps) {
     expect_full_turn<3>(62, steps);
   }
 }
-TEST(LawExtremes, DISABLED_AFullTurnOfTheNormalIn1e7Steps) {
+TEST(LawExtremesLong, AFullTurnOfTheNormalIn1e7Steps) {
   expect_full_turn<2>(61, 10'000'000);
   expect_full_turn<3>(62, 10'000'000);
 }
@@ -102,7 +102,7 @@ TEST(LawExtremes, AStandingNormalKeepsTheShear) {
   expect_standing<2>(63, 500'000);
   expect_standing<3>(64, 500'000);
 }
-TEST(LawExtremes, DISABLED_AStandingNormalKeepsTheShearFor1e7Steps) {
+TEST(LawExtremesLong, AStandingNormalKeepsTheShearFor1e7Steps) {
   expect_standing<2>(63, 10'000'000);
   expect_standing<3>(64, 10'000'000);
 }
@@ -318,7 +318,7 @@ TEST(LawExtremes, DissipationIsNeverNegative) {
   expect_no_negative_dissipation<2>(73, 100'000);
   expect_no_negative_dissipation<3>(74, 100'000);
 }
-TEST(LawExtremes, DISABLED_DissipationIsNeverNegativeOn1e6Paths) {
+TEST(LawExtremesLong, DissipationIsNeverNegativeOn1e6Paths) {
   expect_no_negative_dissipation<2>(75, 1'000'000);
   expect_no_negative_dissipation<3>(76, 1'000'000);
 }

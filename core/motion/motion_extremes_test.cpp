@@ -1,5 +1,5 @@
-// Rotation, energy, creep and the time step at their extremes. Tests named DISABLED_ are the long siblings of those
-// before them (`make test-long`).
+// Rotation, energy, creep and the time step at their extremes. Suites named …Long hold the long siblings
+// of the tests before them (`make test-long`).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -61,7 +61,7 @@ void expect_constant_spin(std::uint64_t seed, long long steps) {
 TEST(MotionExtremes, AConstantSpinEndsWhereItShould) {
   expect_constant_spin(81, 200'000);
 }
-TEST(MotionExtremes, DISABLED_AConstantSpinEndsWhereItShouldAfter1e7Steps) {
+TEST(MotionExtremesLong, AConstantSpinEndsWhereItShouldAfter1e7Steps) {
   expect_constant_spin(81, 10'000'000);
 }
 
@@ -246,7 +246,7 @@ TEST(MotionExtremes, EnergyDoesNotDriftAtASmallStep) {
   expect_energy(1'000'000);
 }
 
-TEST(MotionExtremes, DISABLED_EnergyOver1e7StepsAtEachShareOfTheLimit) {
+TEST(MotionExtremesLong, EnergyOver1e7StepsAtEachShareOfTheLimit) {
   const long long steps = 10'000'000;
   expect_energy(steps);
   fmt::print("largest relative error and drift of the energy in 1e7 steps\n{:>8} {:>20} {:>20} {:>20}\n", "dt/limit",
@@ -357,7 +357,7 @@ TEST(MotionExtremes, TheEstimatedStepIsSafeAndUseful) {
   expect_safe_and_useful_step<2>(87, 10'000);
   expect_safe_and_useful_step<3>(88, 10'000);
 }
-TEST(MotionExtremes, DISABLED_TheEstimatedStepIsSafeAndUsefulIn1e5Sets) {
+TEST(MotionExtremesLong, TheEstimatedStepIsSafeAndUsefulIn1e5Sets) {
   expect_safe_and_useful_step<2>(89, 100'000);
   expect_safe_and_useful_step<3>(90, 100'000);
 }

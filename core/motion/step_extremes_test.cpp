@@ -1,5 +1,5 @@
-// Whole steps at their extremes: masses and stiffnesses far apart, any damping, places far away, long rest, NaN. Tests
-// named DISABLED_ are the long siblings of those before them (`make test-long`).
+// Whole steps at their extremes: masses and stiffnesses far apart, any damping, places far away, long rest, NaN. Suites
+// named …Long hold the long siblings of the tests before them (`make test-long`).
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -145,13 +145,13 @@ TEST(StepExtremes, APebbleAndAMountain) {
   expect_pebble_and_mountain<2>(20'000);
   expect_pebble_and_mountain<3>(20'000);
 }
-TEST(StepExtremes, DISABLED_APebbleAndAMountainFor1e6Steps) {
+TEST(StepExtremesLong, APebbleAndAMountainFor1e6Steps) {
   expect_pebble_and_mountain<2>(1'000'000);
   expect_pebble_and_mountain<3>(1'000'000);
 }
 
 // the mountain's own swing takes 1e5 times as many steps as the pebble's
-TEST(StepExtremes, DISABLED_AMountainSwingsOnAPebble) {
+TEST(StepExtremesLong, AMountainSwingsOnAPebble) {
   const Stack<2> stack = mountain_on_pebble<2>(4e13, 4e13);
   const double frequency = stack.frequencies().first, overlap = stack.mass(stack.upper) * gravity / stack.k_upper;
   EXPECT_NEAR(measured_frequency(stack, stack.upper, 0.3 * overlap * frequency, 2), frequency, 1e-3 * frequency);
@@ -298,7 +298,7 @@ TEST(StepExtremes, ABlockAtRestOnASlopeStays) {
     expect_rest<3>(local_damping, 100'000);
   }
 }
-TEST(StepExtremes, DISABLED_ABlockAtRestOnASlopeStaysFor1e7Steps) {
+TEST(StepExtremesLong, ABlockAtRestOnASlopeStaysFor1e7Steps) {
   for (const double local_damping : {0.7, 0.0}) {
     expect_rest<2>(local_damping, 10'000'000);
     expect_rest<3>(local_damping, 10'000'000);
