@@ -17,13 +17,15 @@ namespace {
 // ten-thousandth of one.
 constexpr double last_step = 1e-3;
 
-// sets the scheduled values; true while they still change
+// sets the scheduled values to those of the time of the positions; true while they still change
 template <int Dim>
 bool follow(const RunSchedule& plan, State<Dim>& state) {
-  const double elapsed = state.time - state.schedule.started;
+  const double began = state.schedule.started, elapsed = state.time - began;
   bool changing = false;
   if (plan.gravity.ramp > 0) {
-    const double from = plan.gravity.from, share = std::min(1.0, elapsed / plan.gravity.ramp);
+    // the sum, not the difference, is what a stage that ends with its ramp reaches exactly
+    const double share = state.time >= began + plan.gravity.ramp ? 1 : elapsed / plan.gravity.ramp;
+    const double from = plan.gravity.from;
     state.schedule.gravity_factor = from + (plan.gravity.to.value_or(1) - from) * share;
     changing = share < 1;
   } else if (plan.gravity.to) {
@@ -159,10 +161,12 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     return report;
   };
 
+  // the forces of a step, and what comes after the run, stand under the schedule at the time of the positions
+  bool changing = follow(schedule, state);
   while (true) {
     if (hooks.pause && hooks.pause()) return stop(StopReason::interrupted);
-    const bool changing = follow(schedule, state);
     step(model, settings, state);
+    const bool changed = std::exchange(changing, follow(schedule, state));
     ++progress.steps;
     report.unbalanced = goal.rest ? unbalanced_ratio(model, settings.threads, state) : -1;
     if (hooks.after_step) hooks.after_step(state, report.unbalanced);
@@ -174,7 +178,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
       return stop(StopReason::not_finite, name_of(model, body) + " at " + moment_of(state));
 
     // rest must last, and cannot come while gravity or friction still changes
-    const bool settled = goal.rest && !changing && report.unbalanced <= settings.equilibrium.unbalanced;
+    const bool settled = goal.rest && !changed && report.unbalanced <= settings.equilibrium.unbalanced;
     progress.at_rest = settled ? progress.at_rest + 1 : 0;
     if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
     if (goal.moved_away > 0 && farthest(model, state, progress.begin) > goal.moved_away)

@@ -403,6 +403,23 @@ TEST(Run, TakesGravityFromOneMultipleToAnother) {
   EXPECT_NEAR(state.contacts.front().geometry.overlap / overlap, 1.0 / 3, 1e-5);
 }
 
+TEST(Run, EndsARampWithItsLastStep) {
+  const Model<2> model = block_on_plate<2>(0, 35 * degree);
+  constexpr double time_step = 1.0 / 4096;
+  Settings settings;
+  settings.time.step = time_step;
+  State<2> state = initial_state(model);
+  const RunReport report = run<2>(model, settings, {.end_time = 4 * time_step},
+                                  {.gravity = {.ramp = 4 * time_step}, .properties = {}}, state);
+  EXPECT_EQ(report.steps, 4);
+  EXPECT_EQ(state.schedule.gravity_factor, 1);
+  // the same when friction falls
+  state.schedule.started = state.time;
+  run<2>(model, settings, {.end_time = state.time + 4 * time_step},
+         {.friction_rate = 0.1 / time_step, .friction_from = 0.6, .friction_to = 0.2, .properties = {0}}, state);
+  EXPECT_EQ(state.schedule.friction[0], 0.2);
+}
+
 TEST(Model, RemovedBodiesTouchNothingAndIdsStay) {
   Model<3> model = block_on_plate<3>(0, 35 * degree);
   const int block = index_of(model, "block"), plate = index_of(model, "plate");
