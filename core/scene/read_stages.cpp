@@ -85,8 +85,7 @@ void chain_gravity(std::vector<StageSpec>& stages) {
     GravityPlan& gravity = settle ? settle->gravity : run->gravity;
     if (gravity.ramp > 0) {
       if (gravity.to) gravity.from = acting;
-      const double share = run ? std::min(1.0, run->duration / gravity.ramp) : 1;
-      acting = gravity.from + (gravity.to.value_or(1) - gravity.from) * share;
+      acting = gravity.to.value_or(1);
     } else if (gravity.to || first) {
       acting = gravity.to.value_or(1);
     }
@@ -111,6 +110,11 @@ RunPlan read_run(const Subject& table) {
   RunPlan plan;
   read(table, "duration_s", plan.duration);
   plan.gravity = read_gravity(table);
+  if (plan.gravity.ramp > plan.duration)
+    refuse(table, "gravity_ramp_s",
+           "must be at most duration_s (" + value_text(*table.node->find("duration_s")) +
+               "): the stage would end before gravity has grown; shorten the ramp or lengthen the stage, state "
+               "gravity_to = 0 for a stage without gravity");
   return plan;
 }
 

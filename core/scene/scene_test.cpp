@@ -115,9 +115,9 @@ kind = "settle"
 gravity_ramp_s = 2
 gravity_to = 10
 [[stage]]
-name = "half way to twenty"
+name = "to twenty"
 kind = "run"
-duration_s = 1
+duration_s = 2
 gravity_ramp_s = 2
 gravity_to = 20
 [[stage]]
@@ -131,11 +131,24 @@ kind = "settle"
 gravity_ramp_s = 2
 )",
                                   "scene.toml");
-  const double from[] = {0, 0, 10, 15, 0};
+  const double from[] = {0, 0, 10, 20, 0};
   for (std::size_t i = 0; i < scene.stages.size(); ++i) {
     const auto& plan = scene.stages[i].plan.plan;
     const auto* settle = std::get_if<SettlePlan>(&plan);
     EXPECT_EQ(settle ? settle->gravity.from : std::get<RunPlan>(plan).gravity.from, from[i]) << i;
+  }
+}
+
+TEST(ReadScene, RefusesARampThatOutlastsItsStage) {
+  const std::string run = "dimension = 2\n[[stage]]\nname = \"load\"\nkind = \"run\"\nduration_s = 0.1\n";
+  EXPECT_NO_THROW(parse_scene(run + "gravity_ramp_s = 0.1\n", "scene.toml"));
+  try {
+    parse_scene(run + "gravity_ramp_s = 2\n", "scene.toml");
+    FAIL() << "5 % of gravity would act";
+  } catch (const SceneError& error) {
+    const std::string message = error.what();
+    for (const char* part : {"scene.toml:6", "stage.load.gravity_ramp_s = 2", "at most duration_s (0.1)", "gravity_to"})
+      EXPECT_NE(message.find(part), std::string::npos) << message;
   }
 }
 
