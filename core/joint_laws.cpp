@@ -116,10 +116,10 @@ template <int Dim>
     history.shear_force = carried(history.shear_force, history.normal, n, k.turn);
   }
 
-  // the dashpot over the root of the normal stiffness
+  // the dashpot over the root of the normal stiffness; between two immobile bodies there is nothing to damp
   const double friction = state.schedule.friction[friction_of];
   const double damping =
-      settings.damping.viscous_ratio > 0 && !state.relaxation.under_way
+      settings.damping.viscous_ratio > 0 && motion.inverse_mass > 0 && !state.relaxation.under_way
           ? 2 * settings.damping.viscous_ratio * std::sqrt(k.area * k.firmness / motion.inverse_mass * at.share)
           : 0;
   const JointForce<Dim> answer =

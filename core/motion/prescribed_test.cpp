@@ -159,6 +159,18 @@ TEST(Prescribed, MeetsWhatIsInItsWay) {
   }
 }
 
+// nothing can be damped between two blocks of which none can be moved
+TEST(Prescribed, OverlapsAFixedBlockUnderDashpots) {
+  Model<2> model = block_on_plate<2>(0, 35 * degree);
+  model.bodies[index_of(model, "block")].fixed = true;
+  Prepared<2> scene = scene_of(model, {run_of("press", 0.01, {move_of<2>("block", 1, -1e-2)})}, 1e-4);
+  scene.settings.damping.viscous_ratio = 0.5;
+  const Progress<2> end = whole_run(scene);
+  ASSERT_TRUE(end.state.contacts.front().touching());
+  const ContactGeometry<2>& at = end.state.contacts.front().geometry;
+  EXPECT_NEAR(end.state.contacts.front().force[1], model.properties[0].normal_stiffness * at.overlap * at.area, 1e-3);
+}
+
 // two squares on their corners, side by side: their boxes meet all the time, so only the way gone tells when to look
 TEST(Prescribed, WakesAPairThatWasProvenApart) {
   const Matrix<2> turn = matrix(Rotation<2>{45 * degree});
