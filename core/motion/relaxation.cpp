@@ -46,19 +46,23 @@ double share(const Body<Dim>& body) {
 }
 
 // The inertia with which a body's limit 2/ω times its share is the common step, stiffness having grown by the area
-// margin.
+// margin. A body keeps its own until one of its contacts outgrows its rating; at every hundredth step all are renewed.
 template <int Dim>
 void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  const double limit = estimate_time_step(model, settings, {.viscous_ratio = 0}, state).limit;
+  if (state.relaxation.until_renewal-- == 0) state.frequency.clear();
+  if (state.frequency.empty()) state.relaxation.until_renewal = steps_between_looks;
+  const auto renewed = renew_time_step(model, settings, {.viscous_ratio = 0}, state);
+  if (!renewed) return;
   if (state.step_allowed == 0)
-    state.step_allowed = settings.time.step.value_or(std::isfinite(limit) ? share_of_limit * limit : 0);
+    state.step_allowed =
+        settings.time.step.value_or(std::isfinite(renewed->limit) ? share_of_limit * renewed->limit : 0);
   demand_time_step(state);
+  // a body that was not looked at has its frequency still, and so the same inertia to the bit
   state.relaxation.inertia.assign(model.bodies.size(), 1);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const double to_limit = 0.5 * state.step_allowed * state.frequency[b] / share(model.bodies[b]);
     if (to_limit > 0) state.relaxation.inertia[b] = area_margin * to_limit * to_limit;
   }
-  state.relaxation.until_renewal = steps_between_looks;
 }
 
 // Critical damping of the present motion, 1/s, by Rayleigh's quotient: K v is what the contact forces lost over the
@@ -120,8 +124,7 @@ void begin_motion(State<Dim>& state) {
 template <int Dim>
 void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   Relaxation<Dim>& r = state.relaxation;
-  if (state.frequency.empty() || r.until_renewal-- == 0 || outgrown(model, state))
-    scale_inertia(model, settings, state);
+  scale_inertia(model, settings, state);
   const double dt = state.step_allowed, half = 0.5 * dt * critical_damping(model, state);
 
   // the kick is central: damping acts at the mean of the velocities before and after it

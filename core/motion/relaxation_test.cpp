@@ -5,6 +5,7 @@
 
 #include "core/run.hpp"
 #include "core/state_hash.hpp"
+#include "core/step.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir {
@@ -67,6 +68,36 @@ TEST(Relaxation, AlikeForLightAndHeavyBlocks) {
                   true_motion = rest_of(column(10, 100), Statics::local).report.steps;
   EXPECT_LT(static_cast<double>(uneven), 1.5 * static_cast<double>(even));
   EXPECT_GT(true_motion, 15 * uneven);
+}
+
+// One contact outgrows its rating at every step: only its two bodies are estimated again, all at every hundredth step.
+TEST(Relaxation, RenewsTheInertiaOfTheBodiesOfAnOutgrownContact) {
+  const Model<2> model = column(6);
+  Settings settings;
+  State<2> state = initial_state(model);
+  begin_relaxation(state);
+  const int settling = 20;
+  for (int i = 0; i < settling; ++i)
+    step(model, settings, state);
+  const auto outgrow = [&] {
+    for (Contact<2>& c : state.contacts)
+      if (model.parts[c.part_a].body == 1 && model.parts[c.part_b].body == 2) c.area_rated = 1e-3;
+  };
+  const std::vector<double> before = state.frequency, inertia = state.relaxation.inertia;
+  for (double& frequency : state.frequency)
+    frequency *= 2;  // a mark that an estimate wipes out
+  std::vector<int> renewed_after(model.bodies.size(), 0);
+  for (int i = 1; i <= 100; ++i) {
+    outgrow();
+    step(model, settings, state);
+    for (std::size_t b = 1; b < model.bodies.size(); ++b)
+      if (renewed_after[b] == 0 && state.frequency[b] < 1.5 * before[b]) renewed_after[b] = i;
+  }
+  const int rest_of_a_hundred = 101 - settling + 1;
+  EXPECT_EQ(renewed_after,
+            (std::vector<int>{0, 1, 1, rest_of_a_hundred, rest_of_a_hundred, rest_of_a_hundred, rest_of_a_hundred}));
+  for (std::size_t b = 1; b < model.bodies.size(); ++b)
+    EXPECT_NEAR(state.relaxation.inertia[b], inertia[b], 1e-9 * inertia[b]) << "the mark is gone";
 }
 
 // gravity put on gently: a block that turns freely, on a slope that it does not slide down

@@ -271,16 +271,8 @@ void demand_time_step(const State<Dim>& state) {
         "no contact and no joint property determines the time step: state time.step_s in the scene");
 }
 
-template <int Dim>
-bool outgrown(const Model<Dim>& model, const State<Dim>& state) {
-  return std::any_of(state.contacts.begin(), state.contacts.end(),
-                     [&](const Contact<Dim>& c) { return outgrown(model, state, c); });
-}
-
 template void demand_time_step<2>(const State<2>&);
 template void demand_time_step<3>(const State<3>&);
-template bool outgrown<2>(const Model<2>&, const State<2>&);
-template bool outgrown<3>(const Model<3>&, const State<3>&);
 template TimeStepEstimate estimate_time_step<2>(const Model<2>&, const Settings&, const DampingSettings&, State<2>&);
 template TimeStepEstimate estimate_time_step<3>(const Model<3>&, const Settings&, const DampingSettings&, State<3>&);
 template std::optional<TimeStepEstimate> renew_time_step<2>(const Model<2>&, const Settings&, const DampingSettings&,

@@ -41,8 +41,4 @@ std::optional<TimeStepEstimate> renew_time_step(const Model<Dim>& model, const S
 template <int Dim>
 void demand_time_step(const State<Dim>& state);
 
-// some contact is stiffer than the last estimate rated it for, or new to it
-template <int Dim>
-bool outgrown(const Model<Dim>& model, const State<Dim>& state);
-
 }  // namespace voussoir
