@@ -35,7 +35,7 @@ TEST_F(Program, RunWritesResultsThatOpen) {
   // weight over stiffness: 20 kN / 100 MN/m
   EXPECT_NEAR(settlement(where), -2e-4, 1e-8);
   EXPECT_EQ(lines_of(read(folder_ / where / "history.csv")).front(),
-            "time_s,stage,friction_deg,top_displacement_x_m,top_displacement_y_m,top_displacement_z_m");
+            "time_s,stage,top_displacement_x_m,top_displacement_y_m,top_displacement_z_m");
 }
 
 TEST_F(Program, TheEffectiveSceneRunsAgain) {

@@ -24,14 +24,14 @@ struct Value {
 struct StageResult {
   std::string name, kind;  // kind: settle, run, reduce
   std::string ended;       // why it stopped, e.g. "equilibrium", "end time", "bracket closed"
-  bool relaxed = false;    // came to rest by relaxation: its time and velocities are fictitious
+  bool relaxed = false;    // ended by relaxation: its time and velocities are fictitious (ends_relaxed)
   long long steps = 0;
   double time = 0;        // s simulated within the stage
   double time_step = 0;   // s at its end
   double unbalanced = 0;  // the equilibrium measure at its end
 };
 
-// column names carry their unit: time_s, wedge_displacement_x_m, friction_deg …
+// column names carry their unit: time_s, wedge_displacement_x_m, friction_rock_deg …
 struct History {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;

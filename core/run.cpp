@@ -104,8 +104,8 @@ std::string first_unanswered(const Model<Dim>& model, const State<Dim>& state) {
 }
 
 template <int Dim>
-RunProgress<Dim> begin_run(const RunGoal& goal, bool relaxes, State<Dim>& state) {
-  if (relaxes)
+RunProgress<Dim> begin_run(const RunGoal& goal, bool relaxing, State<Dim>& state) {
+  if (relaxing)
     begin_relaxation(state);
   else
     begin_motion(state);
@@ -145,16 +145,16 @@ std::string describe(StopReason reason) {
 template <int Dim>
 RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& goal, const RunSchedule& schedule,
               State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks) {
-  const bool relaxes = goal.rest && settings.damping.statics == Statics::adaptive;
+  const bool relaxing = relaxes(goal.rest, settings.damping);
   if (!progress.under_way) {
     std::vector<Vector<Dim>> stated = std::move(progress.begin);
-    progress = begin_run(goal, relaxes, state);
+    progress = begin_run(goal, relaxing, state);
     if (!stated.empty()) progress.begin = std::move(stated);
   }
   RunReport report;
   const auto stop = [&](StopReason reason, const std::string& detail = {}) {
     progress.under_way = reason == StopReason::interrupted;
-    if (relaxes && !progress.under_way) end_relaxation(state);
+    if (relaxing && !progress.under_way) end_relaxation(state);
     report.reason = reason;
     report.detail = detail;
     report.steps = progress.steps;

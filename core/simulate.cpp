@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "core/motion/prescribed.hpp"
+#include "core/motion/relaxation.hpp"
 #include "core/stages.hpp"
 #include "core/state_hash.hpp"
 
@@ -19,6 +21,20 @@ constexpr long long steps_between_reports = 1000;
 
 // what the ledger may leave unexplained, as a share of the largest energy, before a run is doubted
 constexpr double energy_left_open = 0.05;
+
+// the joint properties whose friction some stage changes: each has a column in the history
+template <int Dim>
+std::vector<int> properties_followed(const Prepared<Dim>& scene) {
+  std::set<int> followed;
+  for (const StagePlan& stage : scene.stages) {
+    const auto* reduction = std::get_if<ReducePlan>(&stage.plan);
+    if (!reduction && !stage.change.friction) continue;
+    const ReducePlan all;  // a stage that states an angle gives it to every joint
+    for (const int p : chosen_properties(scene.model, stage.change.friction ? all : *reduction))
+      followed.insert(p);
+  }
+  return {followed.begin(), followed.end()};
+}
 
 // a stage that has ended
 struct Executed {
@@ -35,15 +51,17 @@ struct Simulation {
   Settings settings;  // of the stage
   State<Dim>& state = progress.state;
   Results& results = progress.results;
+  std::vector<int> followed = properties_followed(scene);
   double seconds_before = progress.results.seconds;
   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
 
   const StagePlan& plan() const { return scene.stages[progress.stage]; }
 
-  // a row of the history: time, stage, friction angle, monitors
+  // a row of the history: time, stage, friction angles that change, monitors
   std::vector<double> row(const State<Dim>& now) const {
     std::vector<double> values{now.time, static_cast<double>(progress.stage + 1)};
-    values.push_back(now.schedule.friction.empty() ? 0 : now.schedule.friction.front() * degrees);
+    for (const int p : followed)
+      values.push_back(now.schedule.friction[p] * degrees);
     const std::vector<double> monitored = monitor_values<Dim>(scene.monitors, model, now);
     values.insert(values.end(), monitored.begin(), monitored.end());
     return values;
@@ -211,7 +229,7 @@ struct Simulation {
     r.name = plan().name;
     r.kind = done.kind;
     r.ended = done.ended;
-    r.relaxed = done.kind != "run" && settings.damping.statics == Statics::adaptive;
+    r.relaxed = ends_relaxed(plan(), settings.damping);
     r.steps = state.counters.steps - progress.steps_before;
     r.time = state.time - progress.stage_began;
     r.time_step = state.time_step;
@@ -262,7 +280,9 @@ template <int Dim>
 Progress<Dim> begin(const Prepared<Dim>& scene) {
   Progress<Dim> progress;
   progress.state = scene.state;
-  progress.results.history.columns = {"time_s", "stage", "friction_deg"};
+  progress.results.history.columns = {"time_s", "stage"};
+  for (const int p : properties_followed(scene))
+    progress.results.history.columns.push_back("friction_" + scene.model.properties[p].name + "_deg");
   for (const Column& c : monitor_columns<Dim>(scene.monitors))
     progress.results.history.columns.push_back(c.header());
   return progress;

@@ -7,6 +7,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/plausibility.hpp"
 #include "app/run_scene.hpp"
+#include "core/motion/relaxation.hpp"
 
 namespace voussoir {
 namespace {
@@ -95,7 +96,7 @@ std::string damping_text(const DampingSettings& damping) {
   std::string text;
   if (damping.local > 0) text = fmt::format("local {:g}", damping.local);
   if (damping.viscous_ratio > 0) text += fmt::format("{}viscous {:g}", text.empty() ? "" : ", ", damping.viscous_ratio);
-  const std::string rest = damping.statics == Statics::adaptive ? "; to rest by relaxation" : "";
+  const std::string rest = relaxes(true, damping) ? "; to rest by relaxation" : "";
   return (text.empty() ? "none" : text) + rest;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/motion/relaxation.hpp"
 #include "core/motion/time_step.hpp"
 #include "core/stages.hpp"
 
@@ -61,7 +62,7 @@ double own_weight_overlap(const Model<Dim>& model, const Body<Dim>& body) {
 // (share α) drives every swing inwards with 1-α and outwards with 1+α of the force, the dashpot takes ξω of the
 // amplitude per time. Relaxation damps critically.
 double settling_time(double overlap, double g, const DampingSettings& damping, double rest) {
-  if (damping.statics == Statics::adaptive) return -std::log(rest) / std::sqrt(g / overlap);
+  if (relaxes(true, damping)) return -std::log(rest) / std::sqrt(g / overlap);
   const double frequency = std::sqrt(g / overlap), in = std::sqrt(1 - damping.local),
                out = std::sqrt(1 + damping.local);
   const double half_swing = 0.5 * std::numbers::pi * (1 / in + 1 / out) / frequency;
@@ -213,20 +214,12 @@ void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const 
                     smallest, largest));
 }
 
-// a stage that relaxes from its first step on stops every body
-bool relaxes(const StagePlan& stage, const DampingSettings& damping) {
-  if (damping.statics != Statics::adaptive) return false;
-  if (const auto* plan = std::get_if<ReducePlan>(&stage.plan))
-    return plan->method == ReductionMethod::bisection || plan->method == ReductionMethod::steps;
-  return std::holds_alternative<SettlePlan>(stage.plan);
-}
-
 // initial velocities that the first stage forgets
 template <int Dim>
 void judge_velocities(const Prepared<Dim>& prepared, const Model<Dim>& model, Plausibility& result) {
   if (prepared.stages.empty()) return;
   const StagePlan& first = prepared.stages.front();
-  if (!relaxes(first, first.damping.value_or(prepared.settings.damping))) return;
+  if (!begins_relaxing(first, first.damping.value_or(prepared.settings.damping))) return;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Motion<Dim>& motion = prepared.state.motions[b];
     if (!moves(model.bodies[b]) || (motion.velocity.isZero(0) && motion.angular_momentum.isZero(0))) continue;
@@ -250,7 +243,7 @@ void judge_stage(const StagePlan& stage, const DampingSettings& damping, const T
         fmt::format("{}: time.fraction = {} is above {}{}: contacts that open and close gain energy", where,
                     time.fraction, fraction, undamped ? ", the most without damping" : ""));
   const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
-  if (seeks_rest && undamped && damping.statics == Statics::local)
+  if (seeks_rest && undamped && !begins_relaxing(stage, damping))
     result.warnings.push_back(where + " waits for rest but nothing damps: give it damping.local = 0.7");
   if (const auto* plan = std::get_if<ReducePlan>(&stage.plan);
       plan && smallest > 0 && plan->failure_displacement > smallest)

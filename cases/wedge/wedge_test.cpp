@@ -105,7 +105,7 @@ TEST(Wedge, StepwiseReduction) {
   report.record(angle_check("critical friction, stepwise", Kind::exact, "Hoek & Bray (1974)", expected, 0.05,
                             "half a step of 0.05, and the bias of elastic settlement (0.002 at ks = kn/10)"),
                 value(scene, "critical_friction"), cost(scene));
-  std::vector<double> friction = column(scene, "friction_deg", 2), slip;
+  std::vector<double> friction = column(scene, "friction_rock_deg", 2), slip;
   const std::vector<double> x = column(scene, "wedge_displacement_x_m", 2),
                             y = column(scene, "wedge_displacement_y_m", 2),
                             z = column(scene, "wedge_displacement_z_m", 2);

@@ -96,7 +96,20 @@ bool at_rest(const Motion<Dim>& m) {
   return m.velocity.isZero(0) && m.angular_momentum.isZero(0);
 }
 
+bool at_constant_rate(const StagePlan& stage) {
+  const auto* plan = std::get_if<ReducePlan>(&stage.plan);
+  return plan && (plan->method == ReductionMethod::rate || plan->method == ReductionMethod::two_rates);
+}
+
 }  // namespace
+
+bool begins_relaxing(const StagePlan& stage, const DampingSettings& damping) {
+  return relaxes(!std::holds_alternative<RunPlan>(stage.plan), damping);
+}
+
+bool ends_relaxed(const StagePlan& stage, const DampingSettings& damping) {
+  return begins_relaxing(stage, damping) && !at_constant_rate(stage);
+}
 
 template <int Dim>
 void begin_relaxation(State<Dim>& state) {

@@ -16,6 +16,18 @@
 
 namespace voussoir {
 
+// Whether a run relaxes: one that seeks rest, unless it is to come there in true motion.
+inline bool relaxes(bool seeks_rest, const DampingSettings& damping) {
+  return seeks_rest && damping.statics == Statics::adaptive;
+}
+
+// Whether a stage under this damping begins by relaxation, which stops every body; every reduction begins at rest.
+bool begins_relaxing(const StagePlan& stage, const DampingSettings& damping);
+
+// Whether it ends by relaxation, so that its time and its velocities are fictitious; a reduction at constant rate ends
+// in true motion.
+bool ends_relaxed(const StagePlan& stage, const DampingSettings& damping);
+
 // stops all bodies; from here on the step relaxes
 template <int Dim>
 void begin_relaxation(State<Dim>& state);

@@ -1,5 +1,9 @@
 // history.csv: the monitors over time. One header line, the unit at the end of each column's name; every number has the
-// fewest digits that read back to the same number.
+// fewest digits that read back to the same number. Columns:
+//   time_s                 simulated time
+//   stage                  from 1
+//   friction_<name>_deg    friction angle in force of each joint property whose friction a stage reduces or states
+//   <monitor>_<quantity>…  what the monitors follow (core/monitor.hpp)
 #pragma once
 
 #include <filesystem>

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/motion/relaxation.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -124,13 +126,13 @@ struct Search {
         state.schedule.friction[p] = progress.target;
   }
 
-  bool relaxes() const { return !falls() && settings.damping.statics == Statics::adaptive && !progress.true_motion; }
+  bool relaxes_now() const { return relaxes(!falls() && !progress.true_motion, settings.damping); }
 
   Trial go_on(const RunHooks<Dim>& hooks) {
     RunGoal goal;
     goal.rest = !falls();
     goal.moved_away = failure_displacement;
-    goal.step_limit = relaxes() ? std::max(1LL, plan.step_limit / relaxation_share) : plan.step_limit;
+    goal.step_limit = relaxes_now() ? std::max(1LL, plan.step_limit / relaxation_share) : plan.step_limit;
     if (falls()) goal.time_limit = progress.time_limit;
     const RunSchedule schedule{{}, progress.friction_rate, progress.friction_from, progress.target, properties};
     Settings own = settings;
@@ -220,7 +222,7 @@ struct Search {
     while (true) {
       if (!progress.run.under_way) begin_trial();
       Trial outcome = go_on(hooks);
-      if (report.last.reason == StopReason::step_limit && relaxes()) {
+      if (report.last.reason == StopReason::step_limit && relaxes_now()) {
         progress.true_motion = true;
         outcome = go_on(hooks);
       }
@@ -236,16 +238,6 @@ struct Search {
 };
 
 template <int Dim>
-std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& plan) {
-  std::vector<int> chosen;
-  for (std::size_t p = 0; p < model.properties.size(); ++p)
-    if (plan.properties.empty() ||
-        std::find(plan.properties.begin(), plan.properties.end(), model.properties[p].name) != plan.properties.end())
-      chosen.push_back(static_cast<int>(p));
-  return chosen;
-}
-
-template <int Dim>
 double default_failure_displacement(const Model<Dim>& model) {
   double smallest = 0;
   for (const Body<Dim>& b : model.bodies)
@@ -254,6 +246,16 @@ double default_failure_displacement(const Model<Dim>& model) {
 }
 
 }  // namespace
+
+template <int Dim>
+std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& plan) {
+  std::vector<int> chosen;
+  for (std::size_t p = 0; p < model.properties.size(); ++p)
+    if (plan.properties.empty() ||
+        std::find(plan.properties.begin(), plan.properties.end(), model.properties[p].name) != plan.properties.end())
+      chosen.push_back(static_cast<int>(p));
+  return chosen;
+}
 
 template <int Dim>
 ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,
@@ -287,6 +289,8 @@ ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const 
   return search.report;
 }
 
+template std::vector<int> chosen_properties<2>(const Model<2>&, const ReducePlan&);
+template std::vector<int> chosen_properties<3>(const Model<3>&, const ReducePlan&);
 template ReductionReport reduce<2>(const Model<2>&, const Settings&, const ReducePlan&, State<2>&,
                                    ReductionProgress<2>&, const RunHooks<2>&, const TrialHook<2>&);
 template ReductionReport reduce<3>(const Model<3>&, const Settings&, const ReducePlan&, State<3>&,

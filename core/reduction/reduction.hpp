@@ -40,6 +40,10 @@ struct ReductionProgress {
 template <int Dim>
 using TrialHook = std::function<void(const State<Dim>&, double friction, Trial outcome)>;
 
+// the joint properties whose friction a plan lowers: places in Model::properties, ascending
+template <int Dim>
+std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& plan);
+
 // Lowers the friction of the plan's joint properties from `from` towards `to`.
 //   bisection  every trial starts from the last stable state; ends with a bracket within the tolerance
 //   steps      each step runs to equilibrium (thesis, Method B); ends at the first that does not

@@ -1,0 +1,106 @@
+// Whole scenes in memory: what their histories and results say.
+#include "core/simulate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/testing/models.hpp"
+
+namespace voussoir {
+namespace {
+
+using shapes::block_on_plate;
+using shapes::degree;
+
+StagePlan stage_of(const std::string& name, std::variant<SettlePlan, RunPlan, ReducePlan> plan) {
+  StagePlan stage;
+  stage.name = name;
+  stage.plan = std::move(plan);
+  return stage;
+}
+
+// a block on a plate that dips by 30 degrees, on a joint "joint"; a second property, "other", comes first
+Prepared<2> block_on_slope(const std::vector<StagePlan>& stages) {
+  Prepared<2> scene;
+  scene.model = block_on_plate<2>(30 * degree, 40 * degree);
+  JointProperties other = scene.model.properties.front();
+  other.name = "other";
+  scene.model.properties.insert(scene.model.properties.begin(), other);
+  for (Joint<2>& joint : scene.model.joints)
+    joint.properties = 1;
+  scene.model.default_properties = 1;
+  scene.state = initial_state(scene.model);
+  scene.stages = stages;
+  return scene;
+}
+
+ReducePlan reduction_to(double to, ReductionMethod method = ReductionMethod::bisection) {
+  ReducePlan plan;
+  plan.method = method;
+  plan.properties = {"joint"};
+  plan.from = 35 * degree;
+  plan.to = to;
+  plan.tolerance = 0.5 * degree;
+  plan.step = 1 * degree;
+  plan.rate = 4 * degree;
+  plan.slower_rate = 2 * degree;
+  plan.failure_displacement = 0.01;
+  return plan;
+}
+
+template <int Dim>
+Results results_of(const Prepared<Dim>& scene, const Watcher<Dim>& watcher = {}) {
+  Progress<Dim> progress = begin(scene);
+  EXPECT_TRUE(simulate(scene, progress, watcher));
+  return progress.results;
+}
+
+std::vector<double> column_of(const History& history, const std::string& name) {
+  const auto found = std::find(history.columns.begin(), history.columns.end(), name);
+  EXPECT_NE(found, history.columns.end()) << name;
+  std::vector<double> column;
+  if (found == history.columns.end()) return column;
+  for (const std::vector<double>& row : history.rows)
+    column.push_back(row[found - history.columns.begin()]);
+  return column;
+}
+
+TEST(Simulate, TheHistoryShowsEveryFrictionThatChangesAndNoOther) {
+  const auto settled = stage_of("settle", SettlePlan{});
+  const Results results = results_of(block_on_slope({settled, stage_of("reduce", reduction_to(27 * degree))}));
+  EXPECT_EQ(results.history.columns, (std::vector<std::string>{"time_s", "stage", "friction_joint_deg"}));
+  const std::vector<double> friction = column_of(results.history, "friction_joint_deg");
+  ASSERT_FALSE(friction.empty());
+  EXPECT_NEAR(friction.front(), 40, 1e-9);
+  EXPECT_NEAR(friction.back(), 30, 0.5) << "the reduced one, at the last stable angle";
+
+  // a stage that states an angle gives it to every joint
+  StagePlan slide = stage_of("slide", RunPlan{.duration = 0.01});
+  slide.change.friction = 20 * degree;
+  const Results slid = results_of(block_on_slope({settled, slide}));
+  EXPECT_NEAR(column_of(slid.history, "friction_joint_deg").back(), 20, 1e-9);
+  EXPECT_NEAR(column_of(slid.history, "friction_other_deg").back(), 20, 1e-9);
+
+  EXPECT_EQ(results_of(block_on_slope({settled})).history.columns, (std::vector<std::string>{"time_s", "stage"}));
+}
+
+TEST(Simulate, AStageIsMarkedRelaxedWhereItEndsByRelaxation) {
+  const auto relaxed = [](const std::variant<SettlePlan, RunPlan, ReducePlan>& plan, Statics statics) {
+    Prepared<2> scene = block_on_slope({stage_of("only", plan)});
+    scene.settings.damping.statics = statics;
+    return results_of(scene).stages.at(0).relaxed;
+  };
+  EXPECT_TRUE(relaxed(SettlePlan{}, Statics::adaptive));
+  EXPECT_FALSE(relaxed(SettlePlan{}, Statics::local));
+  EXPECT_FALSE(relaxed(RunPlan{.duration = 0.01}, Statics::adaptive));
+  EXPECT_TRUE(relaxed(reduction_to(27 * degree), Statics::adaptive));
+  EXPECT_TRUE(relaxed(reduction_to(27 * degree, ReductionMethod::steps), Statics::adaptive));
+  // a fall at constant rate is true motion, though the search begins at rest
+  EXPECT_FALSE(relaxed(reduction_to(10 * degree, ReductionMethod::rate), Statics::adaptive));
+  EXPECT_FALSE(relaxed(reduction_to(10 * degree, ReductionMethod::two_rates), Statics::adaptive));
+}
+
+}  // namespace
+}  // namespace voussoir
