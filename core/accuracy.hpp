@@ -11,6 +11,9 @@ namespace voussoir {
 inline constexpr std::array<std::string_view, 3> accuracy_levels{"fast", "balanced", "reference"};
 inline constexpr std::array<double, 3> accuracy_promises{0.05, 0.01, 0.001};
 
+// deg: of a smaller critical angle, what a level leaves open is a larger share than it promises
+inline constexpr double least_promised_angle = 15;
+
 // What a level sets where the scene does not state the key itself. How many points carry a joint face is not among
 // them: it decides what a joint resists, not how well it is computed.
 struct LevelSetting {
@@ -21,7 +24,7 @@ struct LevelSetting {
 };
 
 inline constexpr LevelSetting level_settings[] = {
-    // half the bracket is left open, of critical angles from 15 degrees on
+    // half the bracket is left open, of critical angles from least_promised_angle on
     {"stage", "tolerance_deg", {0.5, 0.1, 0.01}, false, "wedge, roofwedge, incline, slump"},
     // half a step is left open
     {"stage", "step_deg", {0.5, 0.1, 0.02}, false, "wedge, roofwedge"},

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "core/accuracy.hpp"
 #include "core/motion/prescribed.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/stages.hpp"
@@ -241,7 +242,18 @@ struct Simulation {
     tell(state, r.ended, r.unbalanced, 1);
   }
 
+  // where an accuracy level set how closely an angle is found, its promise ends below some angle
+  void judge_level() {
+    for (const auto& [name, value] : results.values)
+      if (!scene.accuracy_level.empty() && name.ends_with("critical_friction") && value.value < least_promised_angle)
+        results.warnings.push_back(fmt::format(
+            "accuracy.level = \"{}\" promises its accuracy of critical angles from {:g} deg on; {} is {:.3g} "
+            "± {:.2g} deg: lower tolerance_deg or step_deg of its stage, or take a finer level",
+            scene.accuracy_level, least_promised_angle, name, value.value, value.error_bar.value_or(0)));
+  }
+
   void add_final_results() {
+    judge_level();
     const std::vector<Column> columns = monitor_columns<Dim>(scene.monitors);
     const std::vector<double> values = monitor_values<Dim>(scene.monitors, model, state);
     for (std::size_t k = 0; k < columns.size(); ++k)

@@ -78,8 +78,8 @@ bool has_an_order(const Study& study, const std::string& quantity, const std::st
 // what a level in a scene promises; nothing for any other setting
 std::optional<double> promise_of(const StudyRow& row) {
   if (row.key != level_key) return std::nullopt;
-  for (std::size_t k = 0; k < std::size(level_names); ++k)
-    if (row.value == level_names[k]) return accuracy_levels[k];
+  for (std::size_t k = 0; k < accuracy_levels.size(); ++k)
+    if (row.value == accuracy_levels[k]) return accuracy_promises[k];
   throw std::runtime_error(fmt::format("study.csv: there is no accuracy level '{}'", row.value));
 }
 
@@ -235,7 +235,7 @@ Study judge_study(const std::vector<StudyRow>& rows, const std::map<std::string,
 
   mark_pareto_front(study);
   for (const std::string& quantity : study.quantities) {
-    for (const double level : accuracy_levels)
+    for (const double level : accuracy_promises)
       study.recommendations.push_back(recommend(study, quantity, level));
     for (const std::string& sweep : sweeps_of(study, quantity))
       if (has_an_order(study, quantity, sweep)) study.orders.push_back(order_of(study, quantity, sweep));

@@ -7,16 +7,14 @@
 #include <string_view>
 #include <vector>
 
+#include "core/accuracy.hpp"
 #include "reports/study_order.hpp"
 
 namespace voussoir::reports {
 
 // Smallest error that is drawn and listed, in place of anything closer: a logarithm needs a number above zero, and a
-// thousandth of the finest level below is as good as exact when settings are chosen.
+// thousandth of the finest promise of accuracy.hpp is as good as exact when settings are chosen.
 constexpr double relative_error_floor = 1e-6;
-
-// The accuracies a recommendation is given for.
-constexpr double accuracy_levels[] = {0.05, 0.01, 0.001};
 
 // One line of study.csv: one setting of one knob, one quantity.
 struct StudyRow {
@@ -47,7 +45,7 @@ struct StudyPoint {
 
 struct Recommendation {
   std::string quantity;
-  double level = 0.0;
+  double level = 0.0;                  // one of accuracy_promises
   std::optional<StudyPoint> cheapest;  // unset when no setting reaches the level
 };
 
@@ -66,9 +64,8 @@ struct Study {
   std::vector<SweepOrder> orders;
 };
 
-// What [accuracy] level = "…" promises, as the scene's key: the names of accuracy_levels.
+// the scene's key that takes one of accuracy_levels
 inline constexpr std::string_view level_key = "accuracy.level";
-inline constexpr std::string_view level_names[] = {"fast", "balanced", "reference"};
 
 // One line for every level that a study sweeps and that misses what it promises; empty when all keep it.
 std::string broken_promises(const Study& study);

@@ -21,6 +21,7 @@ TEST(Architecture, AllowsArrowsTowardsTheGround) {
   EXPECT_TRUE(arrow("app/main.cpp", "core/reduction/bisection.hpp").empty());
   EXPECT_TRUE(arrow("cases/wedge/wedge_test.cpp", "reference/wedge/wedge.hpp").empty());
   EXPECT_TRUE(arrow("reports/manual.cpp", "verification/verdicts.hpp").empty());
+  EXPECT_TRUE(arrow("reports/study_report.hpp", "core/accuracy.hpp").empty());
   EXPECT_TRUE(arrow("core/contact/overlap.cpp", "Eigen/Dense").empty());
 
   // a unit test may make its blocks with a neighbour
@@ -56,6 +57,7 @@ TEST(Architecture, KeepsTheHousesApart) {
     EXPECT_FALSE(arrow(std::string(folder) + "/x.cpp", "core/model.hpp").empty()) << folder;
   EXPECT_FALSE(arrow("reference/wedge/wedge_test.cpp", "verification/verification.hpp").empty());
   EXPECT_FALSE(arrow("verification/summary.cpp", "reports/text.hpp").empty());
+  EXPECT_FALSE(arrow("reports/study_report.cpp", "core/model.hpp").empty());
   EXPECT_FALSE(arrow("benchmarks/step.cpp", "cases/wedge/x.hpp").empty());
   EXPECT_FALSE(arrow("core/step.cpp", "fuzz/require.hpp").empty());
 }

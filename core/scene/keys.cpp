@@ -268,9 +268,8 @@ const KeyRow rows[] = {
 
     // ---- numerical choices: the defaults are those of core/settings.hpp, which a test compares
     {.table = "accuracy", .key = "level", .type = choice, .example = "\"balanced\"", .required = true,
-     .choices = {"fast", "balanced", "reference"},
-     .meaning = "sets what the scene does not state itself: tolerances of a reduction, its ramps, rest and the time step, "
-         "as the cases' studies found them to keep an error of 5 %, 1 % or 0.1 %"},
+     .choices = {"fast", "balanced", "reference"}, .meaning = "sets what the scene leaves out, tolerances, ramps, rest and "
+         "time step, as the cases' studies found it for an error of 5 %, 1 % or 0.1 %, of critical angles from 15 deg on"},
     {.table = "contact", .key = "lp", .type = choice, .fallback = "\"own\"", .example = "\"glpk\"",
      .choices = {"own", "glpk"}, .meaning = "solver of the linear program that tells whether two blocks overlap",
      .breaks = "glpk is slow, a reference only"},

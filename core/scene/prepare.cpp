@@ -283,6 +283,7 @@ Prepared<Dim> prepare(const Scene& scene) {
   Prepared<Dim> prepared;
   Model<Dim>& model = prepared.model;
   prepared.title = scene.title;
+  if (const Node* accuracy = scene.tree->find("accuracy")) prepared.accuracy_level = accuracy->find("level")->text;
   prepared.settings = scene.settings;
   prepared.output = scene.output;
 

@@ -20,6 +20,7 @@ struct Monitor {
 template <int Dim>
 struct Prepared {
   std::string title;
+  std::string accuracy_level;  // that the scene names; empty: none
   Model<Dim> model;
   State<Dim> state;  // initial velocities set
   Settings settings;
