@@ -214,11 +214,26 @@ TEST_F(Program, LimitAnswersProvesAndDraws) {
   EXPECT_EQ(run("limit " + weaker + "--load left").code, 0);
   EXPECT_GT(results("out")["values"]["collapse_factor"]["value"], 0);
   const Ended any = run("limit " + squares_ + "--out any");
-  EXPECT_EQ(any.code, 1);
+  EXPECT_EQ(any.code, 0);
   EXPECT_NE(any.out.find("stand without friction"), std::string::npos) << any.out;
-  EXPECT_EQ(results("any")["status"], "incomplete");
+  EXPECT_EQ(results("any")["status"], "done");
+  EXPECT_EQ(results("any")["values"]["critical_friction"]["value"], 0);
   const std::string changed = "--overwrite --out any --set stage.settle.friction_deg=10";
-  expect_one_line(run("limit " + squares_ + changed), 1, "before its first stage");
+  expect_one_line(run("limit " + squares_ + changed), 0, "before its first stage");
+
+  // a block that leans out over its base topples however rough it is: other words, another value, another code
+  write("leaning.toml",
+        "dimension = 2\ngravity = [0, -10]\ndensity = 2000\n"
+        "blocks = [{ name = \"base\", box = { min = [0, -1], max = [1, 0] }, fixed = true },\n"
+        "          { name = \"leaning\", vertices = [[0, 0], [1, 0], [4, 3], [3, 3]] }]\n"
+        "joint_properties = [{ name = \"r\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]\n"
+        "stage = [{ name = \"s\", kind = \"settle\" }]\n");
+  const Ended none = run("limit leaning.toml --out none");
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.out.find("no friction up to 89 degrees is enough"), std::string::npos) << none.out;
+  EXPECT_EQ(results("none")["status"], "incomplete");
+  EXPECT_FALSE(results("none")["values"].contains("critical_friction"));
+  EXPECT_NEAR(results("none")["values"]["friction_not_enough"]["value"].get<double>(), 89, 1e-9);
   expect_one_line(run("limit " + cubes_ + "--out bad"), 2, "dimension = 3");
   expect_one_line(run("limit " + slump + "--friction roc --out bad"), 2, "there are: rock");
   EXPECT_FALSE(fs::exists(folder_ / "bad"));

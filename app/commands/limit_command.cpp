@@ -46,7 +46,7 @@ void line(const char* label, const std::string& text) {
 void print_values(const LimitAnalysis& analysis) {
   if (!analysis.message.empty()) line("result", analysis.message);
   for (const auto& [name, value] : analysis.values)
-    line(name == analysis.values.front().first ? "result" : "",
+    line(analysis.message.empty() && name == analysis.values.front().first ? "result" : "",
          fmt::format("{} {:.9g}{}{}", name, value.value,
                      value.error_bar ? fmt::format(" ± {:.1g}", *value.error_bar) : "",
                      value.unit == "1" ? "" : " " + value.unit));
@@ -89,9 +89,9 @@ void print_analysis(const LimitAnalysis& analysis, const fs::path& folder) {
   fmt::print("results: {}\n", folder.string());
 }
 
-ExitCode exit_code(LimitStatus status) {
-  if (status == LimitStatus::solver_failed) return ExitCode::numerical;
-  return status == LimitStatus::found ? ExitCode::done : ExitCode::incomplete;
+ExitCode exit_code(const LimitAnalysis& analysis) {
+  if (analysis.status == LimitStatus::solver_failed) return ExitCode::numerical;
+  return analysis.answered ? ExitCode::done : ExitCode::incomplete;
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ ExitCode limit_command(const LimitArguments& arguments) {
     tell("voussoir: warning: {}\n", warning);
   write_limit_files(analysis, folder);
   print_analysis(analysis, folder);
-  return exit_code(analysis.status);
+  return exit_code(analysis);
 }
 
 #endif

@@ -74,12 +74,18 @@ void seek_friction(const std::vector<std::string>& properties, LimitAnalysis& an
                                  bracketed(found.collapses, found.stands, "bisection over linear programs"));
     analysis.values.emplace_back("force_missing_below", Value{found.missing, "weight of a block", {}, ""});
   }
-  if (found.status == LimitStatus::carries_any)
+  if (found.status == LimitStatus::carries_any) {
     analysis.message = "the blocks stand without friction in these joints: no angle is critical";
-  if (found.status == LimitStatus::carries_nothing)
+    analysis.values.emplace_back("critical_friction", Value{found.stands * degrees, "deg", {}, "stands at this angle"});
+  }
+  if (found.status == LimitStatus::carries_nothing) {
+    analysis.values.emplace_back("friction_not_enough",
+                                 Value{found.collapses * degrees, "deg", {}, "fails at the largest angle tried"});
+    analysis.values.emplace_back("force_missing", Value{found.missing, "weight of a block", {}, "at that angle"});
     analysis.message =
         "no friction up to 89 degrees is enough: the mechanism overturns blocks or leaves them without support; look "
         "at the figure, fix what should hold, or restrain the rotation that should not count";
+  }
 }
 
 void seek_factor(LimitLoad load, LimitAnalysis& analysis) {
@@ -135,6 +141,8 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
   refuse_empty(analysis.status);
   if (analysis.status == LimitStatus::solver_failed)
     analysis.message = "GLPK found no answer to a linear program; blocks of very different size are the usual cause";
+  analysis.answered =
+      analysis.status == LimitStatus::found || (!request.load && analysis.status == LimitStatus::carries_any);
   analysis.mechanism = describe_mechanism(analysis.model, analysis.state.velocities);
   return analysis;
 }

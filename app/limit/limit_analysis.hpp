@@ -25,7 +25,8 @@ struct LimitAnalysis {
   std::vector<Interface> interfaces;
   std::string sought;  // "critical friction angle of all joints", …
   LimitStatus status = LimitStatus::found;
-  std::string message;  // why nothing was found, and what helps; empty where something was
+  bool answered = false;  // a value was found, that no friction is needed included
+  std::string message;    // why none was, and what helps, or what the value means; else empty
   std::vector<std::pair<std::string, Value>> values;
   LimitState state;
   Evidence evidence;

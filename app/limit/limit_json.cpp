@@ -73,9 +73,7 @@ std::string limit_json(const LimitAnalysis& analysis) {
   json["warnings"] = analysis.warnings;
   json["program"] = {{"version", version()}, {"commit", commit()}, {"compiler", compiler()}};
   json["sought"] = analysis.sought;
-  json["status"] = analysis.status == LimitStatus::found           ? "done"
-                   : analysis.status == LimitStatus::solver_failed ? "failed"
-                                                                   : "incomplete";
+  json["status"] = analysis.answered ? "done" : analysis.status == LimitStatus::solver_failed ? "failed" : "incomplete";
   json["message"] = analysis.message;
   json["caveat"] = associated_flow_caveat;
   json["values"] = values_json(analysis);
