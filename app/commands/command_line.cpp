@@ -251,7 +251,8 @@ int parse_and_act(int argument_count, char** arguments) {
   add_limit(program, limit, action);
   add_joint_test(program, joint_test, action);
   add_study(program, study, action);
-  CLI::App* docs = program.add_subcommand("docs", "every key a scene may hold, as Markdown");
+  CLI::App* docs =
+      program.add_subcommand("docs", "every key of scenes and studies and every column of history.csv, as Markdown");
   docs->callback([&] { action = docs_command; });
 
   try {

@@ -109,7 +109,7 @@ ExitCode joint_test_command(const JointTestArguments& arguments);
 // done before is kept while scene and program are the same.
 ExitCode study_command(const StudyArguments& arguments);
 
-// every key a scene may hold, as Markdown, on stdout
+// every key a scene and a study may hold and every column of history.csv, as Markdown, on stdout
 ExitCode docs_command();
 
 }  // namespace voussoir

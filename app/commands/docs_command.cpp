@@ -1,12 +1,83 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/study_plan.hpp"
+#include "core/monitor.hpp"
+#include "core/scene/keys.hpp"
 #include "core/scene/scene.hpp"
+#include "core/simulate.hpp"
 
 namespace voussoir {
+namespace {
+
+struct Meaning {
+  std::string_view begin;  // of the column's name, or of the monitored quantity's
+  std::string_view text;
+};
+
+constexpr Meaning column_meanings[] = {
+    {"time", "simulated time since the first stage began; in stages that come to rest by relaxation it is fictitious"},
+    {"stage", "number of the stage, from 1"},
+    {"trial", "number of the trial within a strength reduction; 0: the path to the answer, or no reduction"},
+    {"friction", "friction angle in force, in degrees: the one that a reduction lowers"},
+};
+
+constexpr Meaning quantity_meanings[] = {
+    {"displacement", "of the block's centroid since the first stage began, along the world's axes"},
+    {"velocity", "of the centroid, along the world's axes; where a stage relaxes, fictitious"},
+    {"rotation",
+     "since the first stage began: the rotation vector about the world's axes; in 2-D one column, counter-clockwise"},
+    {"angular_velocity", "about the world's axes; in 2-D one column"},
+    {"contact_load", "sum of the forces that all contacts of the block exert on it"},
+    {"contact_force",
+     "of all touching contacts of the joint: the sums of normal force (compression positive), of the sizes of shear "
+     "force and of area, "
+     "their number, the largest mobilised friction angle, and the angle between the joint's own normal and that of the "
+     "contact that carries most"},
+};
+
+template <std::size_t Count>
+std::string_view meaning_of(std::string_view name, const Meaning (&meanings)[Count]) {
+  for (const Meaning& meaning : meanings)
+    if (name.starts_with(meaning.begin)) return meaning.text;
+  return "";
+}
+
+// the columns that a simulation writes, asked of the code that writes them
+std::string history_documentation() {
+  Prepared<3> example;
+  example.model.properties.push_back({.name = "rock"});
+  example.stages.emplace_back().change.friction = 0;
+  std::string text = R"(
+# history.csv
+
+`voussoir run` writes one row at each output.history_interval_s, or about 200 rows a stage, and one at the end of each stage; a
+search for the critical friction writes one at the end of each trial. A cell is empty where its number is not finite.
+
+| column | meaning |
+|---|---|
+)";
+  for (const std::string& column : begin(example).results.history.columns)
+    text += fmt::format("| `{}` | {} |\n", column, meaning_of(column, column_meanings));
+  text +=
+      "\nThen the columns of each monitor, which begin with its name, here `m`:\n\n| quantity | columns | meaning "
+      "|\n|---|---|---|\n";
+  const std::vector<std::string_view>& quantities = find_row({"monitors"}, "quantities")->choices;
+  for (std::size_t k = 0; k < quantities.size(); ++k) {
+    std::vector<std::string> headers;
+    for (const Column& column : monitor_columns<3>({{"m", static_cast<Quantity>(k), 0}}))
+      headers.push_back("`" + column.header() + "`");
+    text += fmt::format("| {} | {} | {} |\n", quantities[k], fmt::join(headers, ", "),
+                        meaning_of(quantities[k], quantity_meanings));
+  }
+  return text;
+}
+
+}  // namespace
 
 ExitCode docs_command() {
-  fmt::print("{}", scene_documentation());
+  fmt::print("{}{}{}", scene_documentation(), history_documentation(), study_documentation());
   return ExitCode::done;
 }
 

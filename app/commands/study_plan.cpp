@@ -15,6 +15,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// every key a study may hold; "" is the top of the file
+struct StudyKey {
+  std::string_view table, key, value, meaning;
+};
+
+constexpr StudyKey study_keys[] = {
+    {"", "scene", "text, required", "the scene's file, relative to the study"},
+    {"", "quantity", "text, required",
+     "a value of results.json, e.g. `\"critical_friction\"`; with `history` the name of what it takes"},
+    {"", "history", "table", "takes the quantity from a column of history.csv instead"},
+    {"", "set", "list of texts", "`\"key=value\"` as after --set, for every run"},
+    {"", "sweep", "list of tables, required", "one setting that is changed, `[[sweep]]`, as many as are wanted"},
+    {"history", "column", "text, required", "a column of history.csv, by its whole name"},
+    {"history", "take", "one of `\"largest\"` `\"smallest\"` `\"last\"`, required", "which of its numbers"},
+    {"history", "unit", "text, required", "of that number, e.g. `\"N\"`"},
+    {"sweep", "name", "text, required", "in the table and the figure"},
+    {"sweep", "key", "text, required", "key of the scene as after --set, e.g. `\"time.fraction\"`"},
+    {"sweep", "values", "list, required", "what the key is set to, a run each"},
+    {"sweep", "unit", "text", "of the values, e.g. `\"deg\"`"},
+    {"sweep", "scene", "text", "another scene for this sweep"},
+    {"sweep", "set", "list of texts", "`\"key=value\"` for every run of this sweep, after the study's own"},
+    {"sweep", "extrapolate", "table",
+     "adds what each two neighbouring runs give at a value of 0, where the result goes with a power of the value"},
+    {"extrapolate", "power", "number, required", "that power, above 0, at most 10; 0.6666667 for a rate of reduction"},
+};
+
 Node read_tree(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
   if (fs::is_directory(path) || !stream)
@@ -23,7 +49,10 @@ Node read_tree(const fs::path& path) {
   return parse_toml(text, std::make_shared<const std::string>(path.string()));
 }
 
-void refuse_unknown_keys(const Subject& table, const std::vector<std::string>& known) {
+void refuse_unknown_keys(const Subject& table, std::string_view kind) {
+  std::vector<std::string> known;
+  for (const StudyKey& row : study_keys)
+    if (row.table == kind) known.emplace_back(row.key);
   for (const Member& member : table.node->members)
     if (std::find(known.begin(), known.end(), member.key) == known.end())
       refuse(member.value, key_path(table.path, member.key), "no such key; " + suggestion(member.key, known));
@@ -60,7 +89,7 @@ std::optional<HistoryQuantity> read_history(const Subject& top) {
   if (node->kind != Node::Kind::table)
     refuse(top, "history", "must be a table { column = …, take = \"largest\", unit = … }");
   const Subject table{node, "history"};
-  refuse_unknown_keys(table, {"column", "take", "unit"});
+  refuse_unknown_keys(table, "history");
   HistoryQuantity quantity;
   quantity.column = text_of(table, "column", "must name a column of history.csv");
   quantity.unit = text_of(table, "unit", "must be a text, e.g. \"N\"");
@@ -92,7 +121,7 @@ void read_extrapolation(const Subject& table, Sweep& sweep) {
   if (node->kind != Node::Kind::table)
     refuse(table, "extrapolate", "must be a table, e.g. extrapolate = { power = 0.6666667 }");
   const Subject extrapolate{node, key_path(table.path, "extrapolate")};
-  refuse_unknown_keys(extrapolate, {"power"});
+  refuse_unknown_keys(extrapolate, "extrapolate");
   const Node* power = node->find("power");
   if (!power || !power->is_number() || !(power->number > 0 && power->number <= 10))
     refuse(extrapolate, "power", "must be a number above 0, at most 10");
@@ -120,7 +149,7 @@ std::vector<std::string> read_overrides(const Subject& table) {
 }
 
 Sweep read_sweep(const Subject& table, const std::string& scene, const fs::path& folder) {
-  refuse_unknown_keys(table, {"name", "key", "values", "unit", "scene", "set", "extrapolate"});
+  refuse_unknown_keys(table, "sweep");
   Sweep sweep;
   sweep.name = text_of(table, "name", "must be a text: the sweep's name in the table and the figure");
   sweep.key = text_of(table, "key", "must be a key of the scene as after --set, e.g. \"time.fraction\"");
@@ -136,10 +165,35 @@ Sweep read_sweep(const Subject& table, const std::string& scene, const fs::path&
 
 }  // namespace
 
+std::string study_documentation() {
+  std::string text = R"(
+# Studies
+
+`voussoir study study.toml --out folder` runs a scene as it is and with one setting changed at a time.
+
+```toml
+scene = "scene.toml"
+quantity = "critical_friction"
+
+[[sweep]]
+name = "time step"
+key = "time.fraction"
+values = [0.2, 0.1, 0.05]
+```
+
+| table | key | value | meaning |
+|---|---|---|---|
+)";
+  for (const StudyKey& row : study_keys)
+    text += fmt::format("| {} | `{}` | {} | {} |\n", row.table.empty() ? "the top of the file" : row.table, row.key,
+                        row.value, row.meaning);
+  return text;
+}
+
 StudyPlan read_study_plan(const fs::path& path) {
   const Node tree = read_tree(path);
   const Subject top{&tree, ""};
-  refuse_unknown_keys(top, {"scene", "quantity", "history", "set", "sweep"});
+  refuse_unknown_keys(top, "");
   const std::string scene = text_of(top, "scene", "must be a scene's file name, relative to the study");
   StudyPlan plan;
   plan.quantity = text_of(top, "quantity", "must name a value of results.json, e.g. \"critical_friction\"");

@@ -38,4 +38,7 @@ struct StudyPlan {
 // Paths in the plan are relative to it. Strict: whatever it does not know is a SceneError with line and repair.
 StudyPlan read_study_plan(const std::filesystem::path& path);
 
+// every key a study may hold, in markdown, from the table that the reader refuses by
+std::string study_documentation();
+
 }  // namespace voussoir
