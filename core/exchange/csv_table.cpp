@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "core/exchange/text_scan.hpp"
 
@@ -61,6 +62,36 @@ std::vector<CsvCell> cells_of(std::string_view line, int number) {
   }
 }
 
+bool is_number(std::string_view text) {
+  double number = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return !text.empty() && error == std::errc() && stop == text.data() + text.size();
+}
+
+constexpr const char* comment_line = "a comment; a table has a header and rows and nothing else: remove this line";
+
+bool is_comment(std::string_view line) {
+  return line[line.find_first_not_of(" \t")] == '#';
+}
+
+// what other programs write for a header, named by what it is
+void refuse_other_headers(std::string_view line, int number) {
+  if (is_comment(line)) throw FileFault(number, 0, comment_line);
+  for (const auto& [separator, word] : {std::pair{';', "semicolons"}, {'\t', "tabs"}})
+    if (line.find(',') == std::string_view::npos && line.find(separator) != std::string_view::npos)
+      throw FileFault(number, static_cast<int>(line.find(separator)) + 1,
+                      fmt::format("columns are separated by {}; separate them by commas, and write decimals with a "
+                                  "point (a spreadsheet: save as CSV in English notation)",
+                                  word));
+}
+
+// a row with one cell more for each number whose decimals stand behind a comma
+bool may_hold_decimal_commas(const std::vector<CsvCell>& cells, std::size_t columns) {
+  return cells.size() > columns && std::all_of(cells.begin(), cells.end(), [](const CsvCell& cell) {
+           return cell.text.empty() || is_number(cell.text);
+         });
+}
+
 }  // namespace
 
 CsvTable parse_csv(std::string_view text, std::size_t most_rows) {
@@ -70,9 +101,12 @@ CsvTable parse_csv(std::string_view text, std::size_t most_rows) {
     const std::string_view line = reader.line();
     const int number = reader.number();
     if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
+    if (table.header.empty()) refuse_other_headers(line, number);
     std::vector<CsvCell> cells = cells_of(line, number);
     if (table.header.empty()) {
       table.header_line = number;
+      if (std::any_of(cells.begin(), cells.end(), [](const CsvCell& cell) { return is_number(cell.text); }))
+        throw FileFault(number, 0, "the header is missing: the first row names the columns, here it holds numbers");
       for (const CsvCell& cell : cells) {
         if (cell.text.empty())
           throw FileFault(number, cell.column, "a column without a name; the first row is the header");
@@ -83,10 +117,14 @@ CsvTable parse_csv(std::string_view text, std::size_t most_rows) {
       }
       continue;
     }
+    if (cells.size() != table.header.size() && is_comment(line)) throw FileFault(number, 0, comment_line);
     if (cells.size() != table.header.size())
       throw FileFault(number, 0,
                       "has " + std::to_string(cells.size()) + " cells where the header has " +
-                          std::to_string(table.header.size()) + "; leave a cell empty but keep its comma");
+                          std::to_string(table.header.size()) +
+                          (may_hold_decimal_commas(cells, table.header.size())
+                               ? "; were decimals written with a comma? write 3.5, not 3,5"
+                               : "; leave a cell empty but keep its comma"));
     if (table.rows.size() == most_rows)
       throw FileFault(number, 0, "more than " + std::to_string(most_rows) + " rows; divide the file");
     table.rows.push_back({number, std::move(cells)});

@@ -6,8 +6,15 @@
 
 namespace voussoir {
 
+bool is_utf_16(std::string_view text) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return true;
+  return text.size() >= 4 && ((text[0] == 0) != (text[1] == 0)) && (text[0] == 0) == (text[2] == 0) &&
+         (text[1] == 0) == (text[3] == 0);
+}
+
 LineReader::LineReader(std::string_view text) : left_(text) {
   if (left_.starts_with("\xEF\xBB\xBF")) left_.remove_prefix(3);
+  if (is_utf_16(left_)) throw FileFault(1, 0, save_as_utf_8);
 }
 
 bool LineReader::next() {
@@ -46,7 +53,8 @@ double number_of(const Word& word, const std::string& what) {
   const auto [stop, error] = std::from_chars(word.text.data(), end, number);
   if (error != std::errc() || stop != end || !std::isfinite(number))
     throw FileFault(word.line, word.column,
-                    what + " = " + shown(word.text) + ": must be a finite decimal number, for example 12.5 or -3e2");
+                    what + " = " + shown(word.text) + ": must be a finite decimal number, for example 12.5 or -3e2" +
+                        (word.text.find(',') == std::string_view::npos ? "" : "; write the decimals with a point"));
   return number;
 }
 

@@ -9,6 +9,12 @@
 
 namespace voussoir {
 
+// Whether a text is one of two bytes a character, as some editors save it: by its mark, or by its zeros. Nothing here
+// reads it.
+bool is_utf_16(std::string_view text);
+inline constexpr const char* save_as_utf_8 =
+    "is written in UTF-16; save it as UTF-8 (in an editor: save as, encoding UTF-8)";
+
 struct Word {
   std::string_view text;
   int line = 0, column = 0;

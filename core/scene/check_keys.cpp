@@ -52,7 +52,9 @@ std::string vector_rule(const KeyRow& row, std::size_t count) {
   if (!row.unit.empty()) rule += " in " + std::string(row.unit);
   if (count == 1) return rule + " because dimension = 2; write for example " + std::string(row.key) + " = 0.5";
   rule += count == 2 ? " (x, y) because dimension = 2" : " (x, y, z) because dimension = 3";
-  return rule + "; write for example " + std::string(row.key) + (count == 2 ? " = [0, 1]" : " = [0, 0, 1]");
+  const char* const upwards = count == 2 ? "[0, 1]" : "[0, 0, 1]";
+  const char* const downwards = count == 2 ? "[0, -9.81]" : "[0, 0, -9.81]";
+  return rule + "; write for example " + std::string(row.key) + " = " + (row.key == "gravity" ? downwards : upwards);
 }
 
 const Node* text_of(const Node& table, std::string_view key) {
@@ -178,6 +180,8 @@ void Checker::number(const KeyRow& row, const Node& node, const std::string& pat
 }
 
 void Checker::numbers(const KeyRow& row, const Node& node, const std::string& path, std::size_t count) const {
+  if (node.kind == Node::Kind::list && count > 1 && node.items.size() > count)
+    refuse(node, path, vector_rule(row, count) + "; decimals are written with a point, 9.81, not 9,81");
   if (node.kind != Node::Kind::list || node.items.size() != count) refuse(node, path, vector_rule(row, count));
   for (const Node& item : node.items) {
     if (!item.is_number()) refuse(item, path, vector_rule(row, count));

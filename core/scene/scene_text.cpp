@@ -1,6 +1,7 @@
 #include "core/scene/scene_text.hpp"
 
 #include <fstream>
+#include <system_error>
 
 #include "core/scene/scene_error.hpp"
 
@@ -9,7 +10,11 @@ namespace voussoir {
 std::string file_text(const std::filesystem::path& file) {
   std::error_code error;
   const std::string name = file.string();
-  if (!std::filesystem::exists(file, error)) throw SceneError(name + ": no such file; check the path of the scene");
+  if (!std::filesystem::exists(file, error)) {
+    if (error == std::errc::permission_denied)
+      throw SceneError(name + ": a folder on the way to it must not be entered; check the folders' permissions");
+    throw SceneError(name + ": no such file; check the path of the scene");
+  }
   if (!std::filesystem::is_regular_file(file, error))
     throw SceneError(name + ": not a file; give the path of a scene in TOML, e.g. scene.toml");
   const std::uintmax_t size = std::filesystem::file_size(file, error);

@@ -24,6 +24,7 @@
 #include <cctype>
 #include <vector>
 
+#include "core/exchange/text_scan.hpp"
 #include "core/floating_point_traps.hpp"
 
 namespace voussoir {
@@ -134,7 +135,29 @@ void set_place(Node& node, const Place& place) {
     set_place(member.value, place);
 }
 
-std::string repair_hint(std::string_view description) {
+std::string_view line_of(std::string_view text, std::size_t number) {
+  for (; number > 1 && !text.empty(); --number)
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  text = text.substr(0, text.find_first_of("\r\n"));
+  const std::size_t begin = text.find_first_not_of(" \t");
+  return begin == std::string_view::npos ? std::string_view() : text.substr(begin);
+}
+
+// "= 2,5": a digit on each side of a comma, in no list
+bool holds_decimal_comma(std::string_view line) {
+  if (line.find_first_of("[{\"'") != std::string_view::npos) return false;
+  const std::size_t comma = line.find(',');
+  return comma != std::string_view::npos && comma > 0 && comma + 1 < line.size() &&
+         std::isdigit(static_cast<unsigned char>(line[comma - 1])) &&
+         std::isdigit(static_cast<unsigned char>(line[comma + 1]));
+}
+
+// what the line shows that the parser cannot know
+std::string repair_hint(std::string_view description, std::string_view line) {
+  if (holds_decimal_comma(line)) return "; decimals are written with a point: 2.5, not 2,5";
+  for (const std::string_view mark : {"//", "/*", ";", "%", "--"})
+    if (line.starts_with(mark)) return "; a comment begins with #, not with " + std::string(mark);
+  if (line.ends_with(';')) return "; a line ends without a semicolon: remove it";
   const bool twice = description.find("redefine") != std::string_view::npos;
   return twice ? "; each key or table may stand once: remove one, and write [[name]] for the tables of a list"
                : "; correct the TOML here (texts in double quotes, lists as [1, 2, 3], one key = value a line)";
@@ -143,6 +166,7 @@ std::string repair_hint(std::string_view description) {
 }  // namespace
 
 Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>& source) {
+  if (is_utf_16(text)) throw SceneError(*source + ": " + save_as_utf_8);
   limit_size(text, *source);
   const WithoutTraps without_traps;  // "1e400" overflows inside the library on its way to a parse error
   try {
@@ -151,7 +175,8 @@ Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>&
     return root;
   } catch (const toml::parse_error& error) {
     throw SceneError(*source + ":" + std::to_string(error.source().begin.line) +
-                     ": not valid TOML: " + one_line(error.description(), 300) + repair_hint(error.description()));
+                     ": not valid TOML: " + one_line(error.description(), 300) +
+                     repair_hint(error.description(), line_of(text, error.source().begin.line)));
   }
 }
 
