@@ -124,6 +124,7 @@ struct Harmless {
 
 constexpr std::string_view is_default = "the default: the documented meaning of zero";
 constexpr std::string_view zero_place = "a place like any other";
+constexpr std::string_view slow = "slow, as laboratory tests and creep are";
 constexpr std::string_view beyond = "a domain plane bounds the box on this side";
 const Harmless harmless[] = {
     {"box", "max", "0", zero_place},
@@ -149,6 +150,17 @@ const Harmless harmless[] = {
     {"blocks", "angular_velocity", "0", "at rest, as without the key"},
     {"motion", "velocity", "0", "at rest, as without the key"},
     {"motion", "angular_velocity", "0", "at rest, as without the key"},
+    {"blocks", "velocity", "times 1e-3", slow},
+    {"blocks", "velocity", "times 1e-6", slow},
+    {"blocks", "angular_velocity", "times 1e-3", slow},
+    {"blocks", "angular_velocity", "times 1e-6", slow},
+    {"motion", "velocity", "times 1e-3", slow},
+    {"motion", "velocity", "times 1e-6", slow},
+    {"motion", "angular_velocity", "times 1e-3", slow},
+    {"motion", "angular_velocity", "times 1e-6", slow},
+    {"joints", "dip_direction", "times 1e-3", "a direction like any other"},
+    {"domain.planes", "dip_direction", "times 1e-3", "a direction like any other"},
+    {"output", "history_interval_s", "times 1e-3", "a row at every step"},
     {"motion", "velocity", "negative", "a direction like any other"},
     {"motion", "angular_velocity", "negative", "a direction like any other"},
     {"blocks", "angular_velocity", "negative", "a direction like any other"},

@@ -8,6 +8,7 @@
 #include "app/commands/plausibility.hpp"
 #include "app/run_scene.hpp"
 #include "core/motion/relaxation.hpp"
+#include "core/scene/plausibility.hpp"
 
 namespace voussoir {
 namespace {
@@ -84,11 +85,42 @@ void print_joints(const Model<Dim>& model) {
     label = "";
   }
   if (model.joints.size() > most_shown) line("", fmt::format("and {} more", model.joints.size() - most_shown));
-  label = "properties";
-  for (const JointProperties& p : model.properties) {
-    line(label, fmt::format("{}: normal {:g}, shear {:g} {}, friction {:g} deg", p.name, p.normal_stiffness,
-                            p.shear_stiffness, p.constant_stiffness ? "N/m" : "Pa/m", p.friction * degrees));
-    label = "";
+}
+
+// the laws that a plain joint has not, one after the other
+std::vector<std::string> laws_text(const JointProperties& p) {
+  std::vector<std::string> laws;
+  const auto add = [&](JointLaw law, auto... arguments) {
+    if (p.laws & law) laws.push_back(fmt::format(arguments...));
+  };
+  add(linear_normal, fmt::runtime("normal stiffness + {:g}/m times the normal stress"), p.normal_growth);
+  add(power_normal, fmt::runtime("normal stiffness times (normal stress / 1 Pa)^{:g}"), p.normal_exponent);
+  add(linear_shear, fmt::runtime("shear stiffness + {:g}/m times the normal stress"), p.shear_growth);
+  add(power_shear, fmt::runtime("shear stiffness times (normal stress / 1 Pa)^{:g}"), p.shear_exponent);
+  add(hardening, fmt::runtime("friction hardens within {:g} m of slip (normal stress / 1 Pa)^{:g}"), p.hardening_slip,
+      p.hardening_exponent);
+  add(softening, fmt::runtime("friction coefficient softens by {:g} within {:g} m of slip"), p.softening_drop,
+      p.softening_slip);
+  add(tension_bond, fmt::runtime("tension {:g} Pa where bonded"), p.tension);
+  add(cohesion_bond, fmt::runtime("cohesion {:g} Pa where bonded"), p.cohesion);
+  return laws;
+}
+
+template <int Dim>
+void print_properties(const Model<Dim>& model) {
+  const std::vector<bool> used = properties_of_faces(model);
+  for (std::size_t k = 0; k < model.properties.size(); ++k) {
+    const JointProperties& p = model.properties[k];
+    line(k == 0 ? "properties" : "",
+         fmt::format("{}: normal {:g}, shear {:g} {}, friction {:g} deg{}", p.name, p.normal_stiffness,
+                     p.shear_stiffness, p.constant_stiffness ? "N/m" : "Pa/m", p.friction * degrees,
+                     used[k] ? "" : "; of no face that may meet another"));
+    for (const std::string& law : laws_text(p))
+      line("", "  " + law);
+    line("", p.sub_contacts == 1
+                 ? "  one point a face"
+                 : fmt::format("  {} points a face", Dim == 2 ? fmt::format("{}", p.sub_contacts)
+                                                              : fmt::format("{0} x {0}", p.sub_contacts)));
   }
 }
 
@@ -135,8 +167,41 @@ struct PlanText {
   }
 };
 
+std::string numbers_text(const std::vector<double>& numbers) {
+  std::vector<std::string> texts;
+  for (const double number : numbers)
+    texts.push_back(fmt::format("{:g}", number + 0.0));
+  return fmt::format("({})", fmt::join(texts, ", "));
+}
+
+std::string move_text(const MovePlan& move) {
+  std::string text;
+  if (!move.velocity.empty()) {
+    std::string axes;
+    for (std::size_t k = 0; k < move.velocity.size(); ++k)
+      if (move.translation[k]) axes += "xyz"[k];
+    text = fmt::format("at {} m/s along {}", numbers_text(move.velocity), axes);
+  }
+  if (!move.angular_velocity.empty())
+    text += fmt::format("{}turning at {} rad/s", text.empty() ? "" : ", ", numbers_text(move.angular_velocity));
+  if (move.factor.frequency > 0)
+    text +=
+        fmt::format(", times a sine of {:g} Hz from {:g} deg on", move.factor.frequency, move.factor.phase * degrees);
+  if (!move.factor.times.empty())
+    text += fmt::format(", times {} at {} s", numbers_text(move.factor.factors), numbers_text(move.factor.times));
+  return text;
+}
+
+// what happens to the model before the stage, and what is forced upon it within
 std::string change_text(const Change& change) {
   std::string text;
+  for (const MovePlan& move : change.move)
+    text += "; moves blocks " + move_text(move);
+  for (const BoundaryPlan& plan : change.boundary)
+    text +=
+        fmt::format("; stress {} = {} Pa on outer faces of blocks",
+                    plan.stress.size() == 3 ? "(xx, yy, xy)" : "(xx, yy, zz, yz, zx, xy)", numbers_text(plan.stress));
+  if (change.bond) text += "; bonds closed joints that have tension or cohesion";
   if (!change.fix.empty()) text += "; fixes blocks";
   if (!change.release.empty()) text += "; releases blocks";
   if (!change.remove.empty()) text += "; removes blocks";
@@ -197,6 +262,16 @@ std::string inactive(const Prepared<Dim>& prepared) {
   if (!uses([](const DampingSettings& d) { return d.local > 0; })) list.push_back("local damping");
   if (!uses([](const DampingSettings& d) { return d.viscous_ratio > 0; })) list.push_back("viscous damping");
   if (model.joints.empty()) list.push_back("joints");
+  const auto none_changes = [&](auto test) {
+    return std::none_of(prepared.stages.begin(), prepared.stages.end(),
+                        [&](const StagePlan& s) { return test(s.change); });
+  };
+  const auto none_has = [&](auto test) { return std::none_of(model.properties.begin(), model.properties.end(), test); };
+  if (none_has([](const JointProperties& p) { return p.laws != 0; })) list.push_back("joint laws and strengths");
+  if (none_has([](const JointProperties& p) { return p.sub_contacts > 1; })) list.push_back("sub-contacts");
+  if (none_changes([](const Change& c) { return c.bond; })) list.push_back("bonds");
+  if (none_changes([](const Change& c) { return !c.move.empty(); })) list.push_back("prescribed motion");
+  if (none_changes([](const Change& c) { return !c.boundary.empty(); })) list.push_back("boundary stress");
   if (prepared.monitors.empty()) list.push_back("monitors");
   if (!prepared.output.frames) list.push_back("ParaView frames");
   if (std::none_of(prepared.stages.begin(), prepared.stages.end(),
@@ -227,6 +302,7 @@ void print_active(const Prepared<Dim>& prepared) {
   const Settings& settings = prepared.settings;
   print_blocks(prepared.model);
   print_joints(prepared.model);
+  print_properties(prepared.model);
   line("gravity", vector_text<Dim>(prepared.model.gravity) + " m/s²");
   line("damping", damping_text(settings.damping));
   line("solvers", solvers_text(settings.contact));
@@ -247,7 +323,8 @@ void print_derived(const Plausibility& plausibility) {
   for (const StageForecast& stage : plausibility.stages) {
     const std::string step = stage.time_step > 0 ? fmt::format("steps of {:.3g} s", stage.time_step)
                                                  : "no contact and no time.step_s: no time step yet";
-    const std::string count = stage.steps > 0 ? fmt::format(", about {:.1g} of them", stage.steps) : "";
+    const std::string count =
+        stage.steps > 0 ? fmt::format(", {} {:.1g} of them", text_of(stage.reckoning), stage.steps) : "";
     line("", fmt::format("{}: {}{}", stage.name, step, count));
   }
 }

@@ -7,8 +7,10 @@
 #include <limits>
 #include <numbers>
 
+#include "app/commands/plausible_assembly.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/motion/time_step.hpp"
+#include "core/scene/plausibility.hpp"
 #include "core/stages.hpp"
 
 namespace voussoir {
@@ -24,23 +26,23 @@ constexpr double many_steps = 1e6;            // hours
 constexpr double few_steps = 10;              // show nothing of a motion
 constexpr double small_step_share = 1e-3;     // of the stable time step, when stated
 constexpr double many_frames = 1e4;           // files
-constexpr double settlement_margin = 10;      // failure displacement over elastic settlement
-constexpr double wide_size_ratio = 100;       // largest over smallest inscribed radius
+constexpr double long_interval = 2;           // of output, over the longest stage
+constexpr double many_rows = 1e6;             // of history.csv: a hundred megabytes
+constexpr double relaxed_fraction = 0.9;      // of the stability limit: what relaxation takes for its step
+constexpr double dashpot_error = 0.4;         // of a restitution, over the fraction of the step (cases/bounce)
+constexpr double large_dashpot_error = 0.041;
+constexpr double settlement_margin = 10;  // failure displacement over elastic settlement
+constexpr double wide_size_ratio = 100;   // largest over smallest inscribed radius
 
 template <int Dim>
 bool moves(const Body<Dim>& body) {
   return body.present && !body.fixed;
 }
 
-template <int Dim>
-std::string name_of(const Model<Dim>& model, int body) {
-  return model.bodies[body].name.empty() ? std::to_string(body) : model.bodies[body].name;
-}
-
 // Overlap at which the joints under a body carry its weight: u such that sum k A (n·g)² u = W over its faces that look
-// down. 0 without gravity or without such a face.
+// down and may meet another. 0 without gravity or without such a face.
 template <int Dim>
-double own_weight_overlap(const Model<Dim>& model, const Body<Dim>& body) {
+double own_weight_overlap(const Model<Dim>& model, const std::vector<bool>& used, const Body<Dim>& body) {
   const double g = model.gravity.norm();
   if (g == 0) return 0;
   double stiffness = 0;
@@ -50,7 +52,7 @@ double own_weight_overlap(const Model<Dim>& model, const Body<Dim>& body) {
       if (slope <= 0) continue;
       const int joint = part.joints[f];
       const int properties = joint == no_joint ? model.default_properties : model.joints[joint].properties;
-      if (properties < 0 || properties >= static_cast<int>(model.properties.size())) continue;
+      if (properties < 0 || properties >= static_cast<int>(model.properties.size()) || !used[properties]) continue;
       const JointProperties& p = model.properties[properties];
       const double area = p.constant_stiffness ? 1 : face_area<Dim>(part, static_cast<int>(f));
       stiffness += p.normal_stiffness * area * slope * slope;
@@ -75,14 +77,24 @@ template <int Dim>
 double smallest_size(const Model<Dim>& model) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Body<Dim>& body : model.bodies)
-    if (moves(body)) smallest = std::min(smallest, body.size);
+    if (moves(body)) smallest = std::min(smallest, thickest_part(body));
   return std::isfinite(smallest) ? smallest : 0;
 }
 
+// a stage that relaxes from its first step on stops every body
+bool relaxes(const StagePlan& stage, const DampingSettings& damping) {
+  if (damping.statics != Statics::adaptive) return false;
+  if (const auto* plan = std::get_if<ReducePlan>(&stage.plan))
+    return plan->method == ReductionMethod::bisection || plan->method == ReductionMethod::steps;
+  return std::holds_alternative<SettlePlan>(stage.plan);
+}
+
 struct Forecaster {
-  double settling;  // s
-  double g;         // m/s²
-  double smallest;  // m: inscribed radius of a free block
+  double settling;   // s
+  double g;          // m/s²
+  double smallest;   // m: inscribed radius of a free block
+  double time_step;  // s
+  bool relaxed;      // there is no motion that could slide away
 
   double operator()(const SettlePlan& plan) const { return plan.gravity.ramp + settling; }
   double operator()(const RunPlan& plan) const { return plan.duration; }
@@ -92,7 +104,7 @@ struct Forecaster {
       case ReductionMethod::bisection:
         return (2 + std::ceil(std::log2(std::max(1.0, range / plan.tolerance)))) * trial(plan);
       case ReductionMethod::steps:
-        return std::ceil(range / plan.step) * settling + trial(plan);
+        return std::ceil(range / plan.step) * (ramp(plan) + settling);
       case ReductionMethod::rate:
         return range / plan.rate;
       case ReductionMethod::two_rates:
@@ -100,13 +112,20 @@ struct Forecaster {
     }
     return 0;
   }
+  double ramp(const ReducePlan& plan) const { return static_cast<double>(plan.ramp_steps) * time_step; }
   // a trial ends at rest, or when a body has slid away at a tenth of gravity
   double trial(const ReducePlan& plan) const {
     const double way = plan.failure_displacement > 0 ? plan.failure_displacement : 0.1 * smallest;
-    const double sliding = g > 0 ? std::sqrt(2 * way / (0.1 * g)) : 0;
-    return std::max(settling, sliding);
+    const double sliding = g > 0 && !relaxed ? std::sqrt(2 * way / (0.1 * g)) : 0;
+    return ramp(plan) + std::max(settling, sliding);
   }
 };
+
+Reckoning reckoning_of(const StagePlan& stage) {
+  if (std::holds_alternative<RunPlan>(stage.plan)) return Reckoning::about;
+  const auto* plan = std::get_if<ReducePlan>(&stage.plan);
+  return plan && plan->method != ReductionMethod::bisection ? Reckoning::at_most : Reckoning::at_least;
+}
 
 template <int Dim>
 void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, State<Dim>& state, Plausibility& result) {
@@ -116,23 +135,27 @@ void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, Sta
     const DampingSettings damping = stage.damping.value_or(prepared.settings.damping);
     const TimeStepEstimate estimate = estimate_time_step<Dim>(model, prepared.settings, damping, state);
     if (&stage == &prepared.stages.front()) result.step_limit = estimate.limit;
-    StageForecast forecast{stage.name, estimate.step};
+    const bool relaxed = relaxes(stage, damping);
+    StageForecast forecast{.name = stage.name, .time_step = estimate.step, .reckoning = reckoning_of(stage)};
+    if (relaxed && !prepared.settings.time.step && std::isfinite(estimate.limit))
+      forecast.time_step = relaxed_fraction * estimate.limit;
     double settling = 0;
     if (g > 0 && result.overlap > 0)
       settling = settling_time(result.overlap, g, damping, prepared.settings.equilibrium.unbalanced);
-    forecast.duration = std::visit(Forecaster{settling, g, smallest}, stage.plan);
-    if (estimate.step > 0) forecast.steps = forecast.duration / estimate.step;
+    forecast.duration = std::visit(Forecaster{settling, g, smallest, forecast.time_step, relaxed}, stage.plan);
+    if (forecast.time_step > 0) forecast.steps = forecast.duration / forecast.time_step;
     result.stages.push_back(forecast);
   }
 }
 
 template <int Dim>
 void find_overlaps(const Model<Dim>& model, Plausibility& result) {
+  const std::vector<bool> used = properties_of_faces(model);
   for (const Body<Dim>& body : model.bodies) {
     if (!moves(body)) continue;
-    const double overlap = own_weight_overlap(model, body);
+    const double overlap = own_weight_overlap(model, used, body);
     result.overlap = std::max(result.overlap, overlap);
-    result.overlap_share = std::max(result.overlap_share, overlap / body.size);
+    result.overlap_share = std::max(result.overlap_share, overlap / thickest_part(body));
   }
 }
 
@@ -182,29 +205,17 @@ void judge_first_contacts(const Prepared<Dim>& prepared, const Model<Dim>& model
 template <int Dim>
 void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
                   Plausibility& result) {
-  std::vector<bool> has_neighbour(model.bodies.size(), false);
-  for (const Contact<Dim>& contact : state.contacts)
-    for (const int part : {contact.part_a, contact.part_b})
-      has_neighbour[model.parts[part].body] = true;
-
   double smallest = 1e300, largest = 0;
   bool anything_moves = model.gravity.norm() > 0;
-  std::vector<int> falling;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
+    anything_moves |= body.prescribed;
     if (!moves(body)) continue;
-    smallest = std::min(smallest, body.size);
-    largest = std::max(largest, body.size);
+    smallest = std::min(smallest, thickest_part(body));
+    largest = std::max(largest, thickest_part(body));
     const Motion<Dim>& motion = prepared.state.motions[b];
-    anything_moves |= motion.velocity.norm() > 0 || motion.angular_momentum.norm() > 0;
-    if (model.gravity.norm() > 0 && !has_neighbour[b]) falling.push_back(static_cast<int>(b));
+    anything_moves |= motion.velocity.norm() > 0 || motion.angular_momentum.norm() > 0 || !body.boundary.empty();
   }
-  if (falling.size() == 1)
-    result.warnings.push_back(
-        fmt::format("block {} has no neighbour: it begins by falling", name_of(model, falling.front())));
-  if (falling.size() > 1)
-    result.warnings.push_back(fmt::format("{} blocks have no neighbour, {} the first: they begin by falling",
-                                          falling.size(), name_of(model, falling.front())));
   if (!anything_moves && state.contacts.empty())
     result.warnings.push_back("no gravity, no velocity and no contact: nothing will move");
   if (largest > wide_size_ratio * smallest)
@@ -243,6 +254,11 @@ void judge_stage(const StagePlan& stage, const DampingSettings& damping, const T
         fmt::format("{}: time.fraction = {} is above {}{}: contacts that open and close gain energy", where,
                     time.fraction, fraction, undamped ? ", the most without damping" : ""));
   const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
+  if (!seeks_rest && !time.step && damping.viscous_ratio > 0 && dashpot_error * time.fraction > large_dashpot_error)
+    result.warnings.push_back(fmt::format(
+        "{}: dashpots (damping.viscous_ratio = {}) at time.fraction = {} put the restitution of impacts some {:.2g} % "
+        "off, in proportion to the fraction; 0.02 leaves 1 %",
+        where, damping.viscous_ratio, time.fraction, 100 * dashpot_error * time.fraction));
   if (seeks_rest && undamped && !begins_relaxing(stage, damping))
     result.warnings.push_back(where + " waits for rest but nothing damps: give it damping.local = 0.7");
   if (const auto* plan = std::get_if<ReducePlan>(&stage.plan);
@@ -257,6 +273,24 @@ void judge_stage(const StagePlan& stage, const DampingSettings& damping, const T
         "{}.failure_displacement = {:.2g} m is less than {} times the elastic settlement of about {:.2g} m: "
         "settling may pass as failure",
         where, plan->failure_displacement, settlement_margin, overlap));
+}
+
+// A column of n blocks swings (2 n + 1)/π times as slowly as one of them, and an assembly as a column of its height.
+template <int Dim>
+double slowest_swing(const Model<Dim>& model, double period) {
+  const Vector<Dim> down = model.gravity / model.gravity.norm();
+  double low = std::numeric_limits<double>::infinity(), high = -low, sum = 0;
+  int count = 0;
+  for (const Body<Dim>& body : model.bodies) {
+    if (!moves(body)) continue;
+    low = std::min(low, down.dot(body.reference) - body.size);
+    high = std::max(high, down.dot(body.reference) + body.size);
+    sum += 2 * thickest_part(body);
+    ++count;
+  }
+  if (count == 0) return period;
+  const double layers = std::clamp((high - low) * count / sum, 1.0, static_cast<double>(count));
+  return period * std::max(1.0, (2 * layers + 1) / std::numbers::pi);
 }
 
 // the keys that make a stage long or short
@@ -283,15 +317,15 @@ void judge_steps(const StagePlan& stage, const StageForecast& forecast, Plausibi
   const char* const units =
       "or the time step (normal_stiffness, density, block sizes, time.fraction, time.step_s): is a unit wrong?";
   if (forecast.steps > many_steps)
-    result.warnings.push_back(fmt::format("stage.{} needs about {:.0e} steps of {:.2g} s: check {}, {}", stage.name,
-                                          forecast.steps, forecast.time_step, key, units));
+    result.warnings.push_back(fmt::format("stage.{} needs {} {:.0e} steps of {:.2g} s: check {}, {}", stage.name,
+                                          text_of(forecast.reckoning), forecast.steps, forecast.time_step, key, units));
   if (std::holds_alternative<RunPlan>(stage.plan) && forecast.time_step > 0 && forecast.steps < few_steps)
     result.warnings.push_back(fmt::format("stage.{} takes about {:.1g} steps of {:.2g} s: check {}, {}", stage.name,
                                           forecast.steps, forecast.time_step, key, units));
 }
 
-// what the times that a stage states mean beside its own times
-void judge_times(const StagePlan& stage, const StageForecast& forecast, double period, const OutputPlan& output,
+// What the times that a stage states mean beside its own times. `swing`: s, the slowest that the stage knows
+void judge_times(const StagePlan& stage, const StageForecast& forecast, double swing, const OutputPlan& output,
                  Plausibility& result) {
   const auto warn = [&](const std::string& key, double value, const std::string& what) {
     result.warnings.push_back(fmt::format("{} = {:.3g} s: {}; is it in s?", key, value, what));
@@ -305,20 +339,33 @@ void judge_times(const StagePlan& stage, const StageForecast& forecast, double p
       warn(where + ".time_limit_s", plan->time_limit,
            fmt::format("rest is expected after about {:.2g} s", forecast.duration));
   }
-  if (ramp > 0 && ramp < period)
+  if (ramp > 0 && ramp < swing)
     warn(where + ".gravity_ramp_s", ramp,
-         fmt::format("shorter than one swing of the blocks, {:.2g} s, it acts as a blow", period));
-  for (const auto& [key, interval] : {std::pair{"output.history_interval_s", output.history_interval},
-                                      std::pair{"output.frame_interval_s", output.frame_interval}}) {
-    if (interval == 0) continue;
-    if (interval < forecast.time_step)
-      warn(key, interval, fmt::format("shorter than the time step of {}, {:.2g} s", where, forecast.time_step));
-    if (forecast.duration > 0 && interval > forecast.duration)
-      warn(key, interval, fmt::format("longer than {}, about {:.2g} s", where, forecast.duration));
-  }
+         fmt::format("shorter than one swing of the blocks on their joints, {:.2g} s, it acts as a blow", swing));
+  if (output.history_interval > 0 && forecast.duration / output.history_interval > many_rows &&
+      forecast.steps > many_rows)
+    warn("output.history_interval_s", output.history_interval,
+         fmt::format("{} would write about {:.0e} rows", where, forecast.duration / output.history_interval));
   if (output.frames && output.frame_interval > 0 && forecast.duration / output.frame_interval > many_frames)
     warn("output.frame_interval_s", output.frame_interval,
          fmt::format("{} would write about {:.0e} files", where, forecast.duration / output.frame_interval));
+}
+
+// Intervals that no stage reaches, where all state how long they take: how long a stage takes to rest, and in which
+// time, is its own.
+void judge_intervals(const std::vector<StagePlan>& stages, const OutputPlan& output, Plausibility& result) {
+  double longest = 0;
+  for (const StagePlan& stage : stages) {
+    const auto* plan = std::get_if<RunPlan>(&stage.plan);
+    if (!plan) return;
+    longest = std::max(longest, plan->duration);
+  }
+  for (const auto& [key, interval] : {std::pair{"output.history_interval_s", output.history_interval},
+                                      std::pair{"output.frame_interval_s", output.frame_interval}})
+    if (interval > long_interval * longest)
+      result.warnings.push_back(
+          fmt::format("{} = {:.3g} s: longer than any stage, the longest of which takes {:.2g} s; is it in s?", key,
+                      interval, longest));
 }
 
 // what else contacts by multipliers need for a force that has a potential
@@ -330,9 +377,11 @@ void judge_multipliers(const ContactSettings& contact, const Model<Dim>& model, 
   const char* const keeps = "contact.normal = \"multipliers\" keeps energy only with";
   if (contact.point != ContactPoint::central_path && contact.point != ContactPoint::chebyshev)
     result.warnings.push_back(fmt::format("{} contact.point = \"central_path\"", keeps));
-  if (!std::all_of(model.properties.begin(), model.properties.end(),
-                   [](const JointProperties& p) { return p.constant_stiffness; }))
-    result.warnings.push_back(fmt::format("{} joint_properties.constant_stiffness = true", keeps));
+  const std::vector<bool> used = properties_of_faces(model);
+  bool constant = true;
+  for (std::size_t p = 0; p < used.size(); ++p)
+    constant &= !used[p] || model.properties[p].constant_stiffness;
+  if (!constant) result.warnings.push_back(fmt::format("{} joint_properties.constant_stiffness = true", keeps));
 }
 
 void judge_stated_step(const TimeSettings& time, Plausibility& result) {
@@ -367,6 +416,7 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
 
   // warnings
   judge_bodies(prepared, model, state, result);
+  judge_assembly(prepared, model, state, result.warnings);
   for (const StagePlan& stage : prepared.stages)
     judge_stage(stage, stage.damping.value_or(prepared.settings.damping), prepared.settings.time, result.overlap,
                 smallest_size(model), result);
@@ -376,15 +426,24 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
   judge_multipliers(prepared.settings.contact, model, result);
   judge_stated_step(prepared.settings.time, result);
   const double g = model.gravity.norm();
+  // relaxation, whose inertia is not the blocks', knows no slower swing than a block's
   const double period = g > 0 ? 2 * std::numbers::pi * std::sqrt(result.overlap / g) : 0;
+  const double swing = g > 0 ? slowest_swing(model, period) : 0;
+  judge_intervals(prepared.stages, prepared.output, result);
   for (std::size_t k = 0; k < prepared.stages.size(); ++k) {
-    judge_steps(prepared.stages[k], result.stages[k], result);
-    judge_times(prepared.stages[k], result.stages[k], period, prepared.output, result);
+    const StagePlan& stage = prepared.stages[k];
+    const bool relaxed = relaxes(stage, stage.damping.value_or(prepared.settings.damping));
+    judge_steps(stage, result.stages[k], result);
+    judge_times(stage, result.stages[k], relaxed ? period : swing, prepared.output, result);
   }
   return result;
 }
 
 }  // namespace
+
+const char* text_of(Reckoning reckoning) {
+  return reckoning == Reckoning::about ? "about" : reckoning == Reckoning::at_least ? "at least" : "at most";
+}
 
 Plausibility assess(const LoadedScene& scene) {
   Plausibility result = std::visit([](const auto& prepared) { return assess_prepared(prepared); }, scene.prepared);

@@ -9,11 +9,18 @@
 
 namespace voussoir {
 
+// How a number of steps is meant: how long many blocks take to rest nobody knows before, at which angle they fail
+// neither.
+enum class Reckoning { about, at_least, at_most };
+
+const char* text_of(Reckoning reckoning);
+
 struct StageForecast {
   std::string name;
-  double time_step = 0;  // s; 0 when no contact determines it
+  double time_step = 0;  // s; 0 when no contact determines it; of a stage that relaxes, fictitious
   double duration = 0;   // s: expected; 0 when nothing tells
   double steps = 0;      // 0 when nothing tells
+  Reckoning reckoning = Reckoning::about;
 };
 
 struct Plausibility {

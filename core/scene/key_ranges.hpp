@@ -26,12 +26,12 @@ inline constexpr Range count{1, 1e15};
 inline constexpr Range usual_density{500, 8000};
 inline constexpr Range usual_length{0.05, 1000};
 inline constexpr Range usual_stiffness{1e6, 1e12};
-inline constexpr Range usual_dip{.low = 1.6, .high = 90, .or_zero = true};         // 90 degrees are 1.57 radians
-inline constexpr Range usual_direction{.low = 6.3, .high = 360, .or_zero = true};  // 360 degrees are 6.28 radians
+inline constexpr Range usual_dip{.low = 1.6, .high = 90, .or_zero = true};  // 90 degrees are 1.57 radians
+inline constexpr Range usual_direction{.low = 0.1, .high = 360, .or_zero = true};
 inline constexpr Range usual_scatter{.low = 0.5, .high = 30, .or_zero = true};
 inline constexpr Range usual_friction{1.6, 85};
-inline constexpr Range usual_speed{.low = 1e-3, .high = 100, .above_low = true, .or_zero = true};
-inline constexpr Range usual_factor{.low = 0.01, .high = 200, .or_zero = true};  // a centrifuge
+inline constexpr Range usual_speed{.low = 1e-9, .high = 100, .above_low = true, .or_zero = true};  // 3 cm a year
+inline constexpr Range usual_factor{.low = 0.01, .high = 200, .or_zero = true};                    // a centrifuge
 inline constexpr Range usual_ramp{.low = 0.01, .high = 100, .or_zero = true};
 
 inline constexpr std::string_view dip_repair =

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "core/scene/bodies.hpp"
+#include "core/scene/key_ranges.hpp"
 #include "core/scene/keys.hpp"
 
 namespace voussoir {
@@ -23,6 +25,12 @@ constexpr double least_shear_share = 0.005;
 
 // a coordinate of less than this share of the scene is next to its zero; given in km, any coordinate is
 constexpr double small_share = 1e-3;
+
+// two gaps of a regular series differ by less, as a share of the larger
+constexpr double series_tolerance = 5e-4;
+
+// a coordinate in radians, turned into degrees, is a whole number of them but for what its digits leave out, degrees
+constexpr double whole_degree = 0.002;
 
 // smaller blocks so far from the scene's centre have lost half of their digits
 constexpr double lost_share = 1e-9;
@@ -53,9 +61,22 @@ bool is_coordinate(const KeyRow& row) {
   return row.unit == "m" && (row.type == KeyType::vector || row.key == "offset");
 }
 
+const Node* entry(const Node& node, std::size_t place) {
+  if (node.is_number()) return place == 0 ? &node : nullptr;
+  return place < node.items.size() ? &node.items[place] : nullptr;
+}
+
+// any direction from 0 to 360 degrees is one; what gives radians away are their digits
+bool is_radians_of_whole_degrees(double x) {
+  const double degrees = x * 180 / std::numbers::pi;
+  return degrees > 1 && degrees <= 360 && std::abs(degrees - std::round(degrees)) < whole_degree;
+}
+
 struct TableJudge {
   double extent;  // of the scene, m
   Warnings& warnings;
+  const Node* list = nullptr;            // whose table this is, if of one
+  std::vector<std::string_view> keys{};  // from that table to the value
 
   void value(const KeyRow& row, const Node& node, const std::string& path) {
     const double size = length(node);
@@ -63,26 +84,58 @@ struct TableJudge {
       warnings.push_back(complaint(node, path,
                                    "is unusual, " + usual_text(row) + " is usual; " +
                                        (row.slip.empty() ? "is the value right?" : std::string(row.slip))));
+    else if (row.slip == key_ranges::angle_slip && is_radians_of_whole_degrees(size))
+      warnings.push_back(complaint(
+          node, path, "is " + text(size * 180 / std::numbers::pi) + " deg in radians; " + std::string(row.slip)));
     if (is_coordinate(row) && has_small_entry(node))
       warnings.push_back(complaint(node, path,
                                    "holds a coordinate that is next to nothing in a scene of " + text(extent) +
                                        " m; coordinates are in m, was it given in km?"));
   }
 
-  bool has_small_entry(const Node& node) {
-    if (node.is_number()) return node.number != 0 && std::abs(node.number) <= small_share * extent;
-    return std::any_of(node.items.begin(), node.items.end(), [&](const Node& item) { return has_small_entry(item); });
+  bool is_small(double x) const { return x != 0 && std::abs(x) <= small_share * extent; }
+
+  bool has_small_entry(const Node& node) const {
+    for (std::size_t k = 0; const Node* number = entry(node, k); ++k)
+      if (is_small(number->number) && !in_series(number->number, k)) return true;
+    return false;
+  }
+
+  // one of at least three equally spaced coordinates that the tables of a list have in this place: the first of joints
+  // at 0.05, 0.10, 0.15 m, …
+  bool in_series(double x, std::size_t place) const {
+    std::vector<double> all;
+    for (std::size_t i = 0; list && i < list->items.size(); ++i) {
+      const Node* node = &list->items[i];
+      for (std::size_t k = 0; node && k < keys.size(); ++k)
+        node = node->find(keys[k]);
+      if (const Node* number = node ? entry(*node, place) : nullptr; number && number->is_number())
+        all.push_back(number->number);
+    }
+    // a series of nothing but small ones may be in km throughout
+    if (std::all_of(all.begin(), all.end(), [&](double other) { return other == 0 || is_small(other); })) return false;
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    for (std::size_t i = 2; i < all.size(); ++i) {
+      const double gap = all[i - 1] - all[i - 2], next = all[i] - all[i - 1];
+      const bool regular = std::abs(gap - next) <= series_tolerance * std::max(gap, next);
+      if (regular && (x == all[i - 2] || x == all[i - 1] || x == all[i])) return true;
+    }
+    return false;
   }
 
   void table(const Node& node, const Groups& groups, const std::string& path) {
     for (const Member& member : node.members) {
       const KeyRow& row = *find_row(groups, member.key);
       const std::string here = key_path(path, member.key);
+      keys.push_back(member.key);
       if (is_numeric(row)) value(row, member.value, here);
       if (row.type == KeyType::table) table(member.value, row.holds, here);
-      if (row.type != KeyType::tables) continue;
-      for (std::size_t i = 0; i < member.value.items.size(); ++i)
-        table(member.value.items[i], row.holds, item_path(here, member.value.items[i], i));
+      if (row.type == KeyType::tables)
+        for (std::size_t i = 0; i < member.value.items.size(); ++i)
+          TableJudge{extent, warnings, &member.value}.table(member.value.items[i], row.holds,
+                                                            item_path(here, member.value.items[i], i));
+      keys.pop_back();
     }
   }
 };
@@ -115,11 +168,12 @@ void judge_properties(const PropertiesSpec& spec, Warnings& warnings) {
                   "is tiny beside" + other + ", 0.01 to 1 times it is usual; is the unit of one wrong?"));
 }
 
-// where nobody said which of several serves
+// where nobody said which of several serves; the outer faces of one domain do not meet, those of blocks given directly
+// do
 void judge_default(const Scene& scene, Warnings& warnings) {
   const auto is_default = [](const PropertiesSpec& p) { return p.properties.name == "default"; };
   const std::vector<PropertiesSpec>& all = scene.properties;
-  if (all.size() < 2 || std::any_of(all.begin(), all.end(), is_default)) return;
+  if (all.size() < 2 || scene.blocks.empty() || std::any_of(all.begin(), all.end(), is_default)) return;
   warnings.push_back(complaint(all.front().subject, "name",
                                "serves where faces meet that no joint made (sides of the domain, walls, blocks given "
                                "directly), because it is the first; name the joint_properties meant for them default"));
@@ -138,25 +192,27 @@ std::string described(const Model<Dim>& model, const Body<Dim>& body) {
 
 template <int Dim>
 void judge_sizes(const Scene& scene, const Model<Dim>& model, Warnings& warnings) {
-  const auto by_size = [](const Body<Dim>& a, const Body<Dim>& b) { return a.size < b.size; };
+  const auto by_size = [](const Body<Dim>& a, const Body<Dim>& b) { return thickest_part(a) < thickest_part(b); };
   const auto by_radius = [](const Body<Dim>& a, const Body<Dim>& b) { return a.radius < b.radius; };
   const Body<Dim>& thinnest = *std::min_element(model.bodies.begin(), model.bodies.end(), by_size);
   const Body<Dim>& largest = *std::max_element(model.bodies.begin(), model.bodies.end(), by_radius);
   const std::string file = scene.file + ": ";
-  if (2 * thinnest.size < least_block)
-    warnings.push_back(file + described(model, thinnest) + " is " + text(2 * thinnest.size) +
+  const double thickness = 2 * thickest_part(thinnest);
+  if (thickness < least_block)
+    warnings.push_back(file + described(model, thinnest) + " is " + text(thickness) +
                        " m thick; coordinates are in m, were they given in km, or is it a sliver "
                        "(slicing.smallest_inscribed_radius)?");
   for (const Body<Dim>& body : model.bodies)
-    if (!body.fixed && 2 * body.size > most_block) {
-      warnings.push_back(file + described(model, body) + " is " + text(2 * body.size) +
+    if (!body.fixed && 2 * thickest_part(body) > most_block) {
+      warnings.push_back(file + described(model, body) + " is " + text(2 * thickest_part(body)) +
                          " m thick; coordinates are in m, were they given in mm?");
       break;
     }
-  if (largest.radius > widest_ratio * thinnest.size)
+  if (largest.radius > widest_ratio * thickness / 2)
     warnings.push_back(file + described(model, largest) + " reaches " + text(largest.radius) + " m, " +
-                       text(largest.radius / thinnest.size) + " times the inscribed radius of " +
-                       described(model, thinnest) + "; is a coordinate of one in the wrong unit?");
+                       text(2 * largest.radius / thickness) + " times the inscribed radius of " +
+                       described(model, thinnest) + "; is a coordinate of one in the wrong unit" +
+                       (thinnest.name.empty() ? ", or is it a sliver (slicing.smallest_inscribed_radius)?" : "?"));
   for (const Body<Dim>& body : model.bodies)
     if (body.size < lost_share * body.reference.norm()) {
       warnings.push_back(file + described(model, body) + " lies " + text(body.reference.norm()) +
@@ -171,9 +227,9 @@ void judge_sizes(const Scene& scene, const Model<Dim>& model, Warnings& warnings
 template <int Dim>
 double extent_of(const Model<Dim>& model) {
   Vector<Dim> low = model.bodies.front().reference, high = low;
-  double thinnest = model.bodies.front().size;
+  double thinnest = thickest_part(model.bodies.front());
   for (const Body<Dim>& body : model.bodies)
-    thinnest = std::min(thinnest, body.size);
+    thinnest = std::min(thinnest, thickest_part(body));
   for (const Body<Dim>& body : model.bodies)
     for (const Polytope<Dim>& part : body.parts)
       for (const Vector<Dim>& v : part.vertices) {
@@ -230,12 +286,40 @@ void judge_moves(const StageSpec& stage, Warnings& warnings) {
 }  // namespace
 
 template <int Dim>
+double thickest_part(const Body<Dim>& body) {
+  double radius = 0;
+  for (const Polytope<Dim>& part : body.parts)
+    radius = std::max(radius, part.inscribed_radius);
+  return radius;
+}
+
+template <int Dim>
+std::vector<bool> properties_of_faces(const Model<Dim>& model) {
+  std::vector<bool> used(model.properties.size(), false);
+  for (const Body<Dim>& body : model.bodies) {
+    bool by_joint = false;
+    for (const Polytope<Dim>& part : body.parts)
+      for (const int joint : part.joints)
+        if (joint != no_joint) used[model.joints[joint].properties] = by_joint = true;
+    // the outer faces of blocks that joints cut meet nothing; a block given directly has no others
+    if (!by_joint) used[model.default_properties] = true;
+  }
+  return used;
+}
+
+template double thickest_part<2>(const Body<2>&);
+template double thickest_part<3>(const Body<3>&);
+template std::vector<bool> properties_of_faces<2>(const Model<2>&);
+template std::vector<bool> properties_of_faces<3>(const Model<3>&);
+
+template <int Dim>
 std::vector<std::string> implausible_values(const Scene& scene, const Prepared<Dim>& prepared) {
   Warnings warnings;
   TableJudge{extent_of(prepared.model), warnings}.table(*scene.tree, {""}, "");
   judge_gravity(scene, warnings);
-  for (const PropertiesSpec& p : scene.properties)
-    judge_properties(p, warnings);
+  const std::vector<bool> used = properties_of_faces(prepared.model);
+  for (std::size_t p = 0; p < scene.properties.size(); ++p)
+    if (used[p]) judge_properties(scene.properties[p], warnings);
   judge_default(scene, warnings);
   for (const StageSpec& stage : scene.stages)
     judge_moves(stage, warnings);

@@ -15,4 +15,13 @@ namespace voussoir {
 template <int Dim>
 std::vector<std::string> implausible_values(const Scene& scene, const Prepared<Dim>& prepared);
 
+// m: inscribed radius of the largest part. A block that construction joints hold together may have thin ones and be
+// no sliver.
+template <int Dim>
+double thickest_part(const Body<Dim>& body);
+
+// for each of the model's properties whether a face that may meet another has them
+template <int Dim>
+std::vector<bool> properties_of_faces(const Model<Dim>& model);
+
 }  // namespace voussoir

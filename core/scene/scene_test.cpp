@@ -312,7 +312,7 @@ TEST(Plausibility, KnowsTheSignsOfWrongUnits) {
       {"joint_properties.rock.normal_stiffness=1e10", "is tiny beside normal_stiffness"},
       {"joint_properties.rock.normal_stiffness=1e14", "1e+06 to 1e+12 Pa/m is usual"},
       {"domain.planes.slope face.point=[0,0,-0.001]", "next to nothing in a scene of"},
-      {"domain.box.min=[-4e5,-4,-4]", "is a coordinate of one in the wrong unit?"}};
+      {"domain.box.min=[-4e5,-4,-4]", "is a coordinate of one in the wrong unit"}};
   for (const auto& [text, phrase] : all)
     EXPECT_NE(warnings(wedge, {text}).find(phrase), std::string::npos) << text << "\n" << warnings(wedge, {text});
   const std::string shake =
@@ -335,9 +335,12 @@ TEST(Plausibility, TellsWhichOfSeveralPropertiesServesFacesOfNoJoint) {
   };
   const std::vector<std::string> named = {"joints.A.properties=rock", "joints.B.properties=rock"};
   EXPECT_EQ(warnings(soil("default"), named), "");
-  EXPECT_NE(warnings(soil("soil"), named).find("name = \"rock\": serves where faces meet that no joint made"),
+  EXPECT_EQ(warnings(soil("soil"), named), "") << "the outer faces of one domain meet nothing";
+  const std::string wall = "[[blocks]]\nname = \"wall\"\nbox = { min = [4, -4, -4], max = [6, 4, 0] }\nfixed = true\n";
+  EXPECT_EQ(warnings(soil("default") + wall, named), "");
+  EXPECT_NE(warnings(soil("soil") + wall, named).find("name = \"rock\": serves where faces meet that no joint made"),
             std::string::npos)
-      << warnings(soil("soil"), named);
+      << warnings(soil("soil") + wall, named);
 }
 
 // two convex parts make an L that is one body, whatever their order

@@ -1,0 +1,301 @@
+// What `voussoir check` prints and warns of, what `voussoir docs` documents, and repairs that name the mistake.
+#include <array>
+
+#include "app/testing/program.hpp"
+
+namespace voussoir {
+namespace {
+
+using namespace program;
+
+const std::string ground =
+    "dimension = 2\ngravity = [0, -10]\ndensity = 2000\n"
+    "[[blocks]]\nname = \"ground\"\nbox = { min = [-5, -1], max = [15, 0] }\nfixed = true\n";
+
+const std::string rock =
+    "[[joint_properties]]\nname = \"rock\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e8\nfriction_deg = 30\n";
+
+const std::string settle = "[[stage]]\nname = \"rest\"\nkind = \"settle\"\n";
+
+std::string box(const std::string& name, double x, double y, double size = 1) {
+  return fmt::format("[[blocks]]\nname = \"{}\"\nbox = {{ min = [{}, {}], max = [{}, {}] }}\n", name, x, y, x + size,
+                     y + size);
+}
+
+class Check : public Program {
+ protected:
+  std::string check(const std::string& scene, const std::string& more = "") const {
+    write("scene.toml", scene);
+    const Ended ended = run("check scene.toml " + more);
+    EXPECT_EQ(ended.code, 0) << ended.err << scene;
+    return ended.out;
+  }
+  void tells(const std::string& scene, const std::string& part) const {
+    const std::string out = check(scene);
+    EXPECT_NE(out.find(part), std::string::npos) << part << "\n" << out;
+  }
+  void silent(const std::string& scene, const std::string& part) const {
+    const std::string out = check(scene);
+    EXPECT_EQ(out.find(part), std::string::npos) << part << "\n" << out;
+  }
+};
+
+// ---- what is active -----------------------------------------------------------------------------------------------
+
+TEST_F(Check, PrintsWhatAStageForcesUponTheModel) {
+  const std::string scene = ground + box("stone", 0, 0) + rock +
+                            "[[stage]]\nname = \"shake\"\nkind = \"run\"\nduration_s = 1\nbond = true\n"
+                            "[[stage.move]]\nbodies = [\"ground\"]\nvelocity = [0.1, 0]\ntranslation = [\"x\"]\n"
+                            "frequency_hz = 2\n"
+                            "[[stage.boundary]]\nbodies = [\"stone\"]\nstress = [5e4, 0, 0]\n";
+  tells(scene, "moves blocks at (0.1, 0) m/s along x, times a sine of 2 Hz from 0 deg on");
+  tells(scene, "stress (xx, yy, xy) = (50000, 0, 0) Pa on outer faces");
+  tells(scene, "bonds closed joints");
+  tells(ground + box("stone", 0, 0) + rock + settle, "bonds, prescribed motion, boundary stress");
+}
+
+TEST_F(Check, PrintsLawsStrengthsAndSubContacts) {
+  const std::string scene = ground + box("stone", 0, 0) + rock +
+                            "sub_contacts = 3\nnormal_law = \"linear\"\nnormal_growth = 7e4\nshear_law = \"power\"\n"
+                            "shear_exponent = 0.7\nfriction_law = \"softening\"\nsoftening_drop = 0.06\n"
+                            "softening_slip_m = 0.35\ntension = 7e4\ncohesion = 8e5\n" +
+                            settle;
+  for (const char* part :
+       {"3 points a face", "normal stiffness + 70000/m", "(normal stress / 1 Pa)^0.7", "softens by 0.06 within 0.35 m",
+        "tension 70000 Pa where bonded", "cohesion 800000 Pa where bonded"})
+    tells(scene, part);
+  tells(ground + box("stone", 0, 0) + rock + settle, "one point a face");
+}
+
+// ---- blocks -------------------------------------------------------------------------------------------------------
+
+TEST_F(Check, WarnsOfBlocksThatNothingHolds) {
+  // two on one another, in the air
+  const std::string pair = box("lower", 0, 3) + box("upper", 0, 4);
+  tells(ground + pair + rock + settle, "2 blocks, lower the first, are near one another, but no chain");
+  silent(ground + pair + box("leg 1", 0, 0) + box("leg 2", 0, 1) + box("leg 3", 0, 2) + rock + settle, "no chain");
+  silent(ground + pair + rock + settle + "[[restrain]]\nall = true\ntranslation = [\"y\"]\n", "no chain");
+  tells(ground + box("alone", 0, 3) + rock + settle, "block alone has no neighbour");
+}
+
+TEST_F(Check, WarnsOfBlocksInOnePlace) {
+  tells(ground + box("one", 0, 0) + box("two", 0, 0) + rock + settle, "blocks one and two lie in one another");
+  tells(ground + box("one", 0, 0) + box("two", 0.4, 0.4, 0.2) + rock + settle, "lie in one another");
+  silent(ground + box("one", 0, 0) + box("two", 1, 0) + rock + settle, "lie in one another");
+}
+
+TEST_F(Check, WarnsWhenAStageRemovesTheLastFreeBlock) {
+  const std::string two = ground + box("one", 0, 0) + box("two", 1, 0) + rock + settle;
+  tells(two + "remove = [{ bodies = [\"one\", \"two\"] }]\n", "stage.rest removes the last free block");
+  tells(two + "fix = [{ bodies = [\"one\", \"two\"] }]\n", "stage.rest fixes the last free block");
+  silent(two + "remove = [{ bodies = [\"one\"] }]\n", "last free block");
+}
+
+TEST_F(Check, WarnsOfPilesOnOnePointAFace) {
+  const std::string pile = ground + box("one", 0, 0) + box("two", 0, 0.99999) + box("three", 0, 1.99998) + rock;
+  tells(pile + settle, "3 free blocks rest on one another on one point a face");
+  silent(pile + "sub_contacts = 2\n" + settle, "one another on one point");
+  silent(pile + settle + "[[restrain]]\nall = true\nrotation = true\n", "one another on one point");
+}
+
+// ---- numbers ------------------------------------------------------------------------------------------------------
+
+TEST_F(Check, WarnsOfDashpotsWithLongSteps) {
+  const std::string scene = ground + box("stone", 0, 0) + rock +
+                            "[[stage]]\nname = \"fall\"\nkind = \"run\"\nduration_s = 1\n[damping]\nlocal = 0\n"
+                            "viscous_ratio = 0.2\n[time]\nfraction = ";
+  tells(scene + "0.2\n", "the restitution of impacts some 8 % off");
+  silent(scene + "0.1\n", "restitution");
+}
+
+TEST_F(Check, WarnsOfRampsThatActAsABlow) {
+  std::string tower = ground;
+  for (int k = 0; k < 20; ++k)
+    tower += box(fmt::format("b{}", k), 0, k * 1.0);
+  const std::string ramped = settle + "damping = { statics = \"local\" }\ngravity_ramp_s = ";
+  // one block swings in 9 ms, twenty on one another in 13 times as long
+  tells(tower + rock + ramped + "0.1\n", "it acts as a blow");
+  silent(tower + rock + ramped + "0.5\n", "it acts as a blow");
+  silent(ground + box("stone", 0, 0) + rock + ramped + "0.1\n", "it acts as a blow");
+}
+
+TEST_F(Check, IsSilentAboutOrdinaryDirectionsAndSpeeds) {
+  const std::string block =
+      "dimension = 3\ngravity = [0, 0, -10]\ndensity = 2000\ndomain = { box = { min = [-1, -1, -1], max = [1, 1, 1] } "
+      "}\n"
+      "[[joints]]\nname = \"A\"\ndip = 40\npoint = [0, 0, 0]\n" +
+      rock + "[[fix]]\nbelow = [\"A\"]\n" + settle;
+  const auto with_direction = [&](const std::string& direction) {
+    return std::string(block).replace(block.find("point = [0, 0, 0]"), 0, "dip_direction = " + direction + "\n");
+  };
+  silent(with_direction("4.8"), "warning:");
+  tells(with_direction("4.71238898"), ": is 270 deg in radians");
+  silent(ground + box("stone", 0, 0) + "velocity = [1e-6, 0]\n" + rock +
+             "[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = 1\n[time]\nfraction = 0.1\n[damping]\nlocal = 0\n",
+         "is unusual");
+}
+
+TEST_F(Check, IsSilentAboutWhatIsWell) {
+  // a frame interval beside a stage whose time is its own
+  silent(ground + box("stone", 0, 0) + rock + settle + "[output]\nframe_interval_s = 20\n", "frame_interval_s");
+  // properties that no face has
+  const std::string swapped =
+      "[[joint_properties]]\nname = \"spare\"\nnormal_stiffness = 1e8\nshear_stiffness = 1e9\nfriction_deg = 30\n";
+  const std::string named = std::string(rock).replace(rock.find("\"rock\""), 6, "\"default\"");
+  silent(ground + box("stone", 0, 0) + named + swapped + settle, "warning:");
+  tells(ground + box("stone", 0, 0) + named + swapped + settle,
+        "spare: normal 1e+08, shear 1e+09 Pa/m, friction 30 deg; of no face");
+  // the first of a regular series of joints
+  std::string joints =
+      "dimension = 2\ngravity = [0, -10]\ndensity = 2000\ndomain = { box = { min = [-40, -1], max = [40, 0] } }\n";
+  for (int k = 1; k <= 4; ++k)
+    joints +=
+        fmt::format("[[joints]]\nname = \"j{0}\"\ndip = 90\ndip_direction = 90\npoint = [{1}, 0]\n", k, 5 * k - 4.95);
+  joints += rock + "[[fix]]\nabove = [\"j1\"]\n" + settle;
+  silent(joints, "was it given in km");
+  tells(std::string(joints).replace(joints.find("point = [5.05"), 13, "point = [6.05"), "was it given in km");
+}
+
+TEST_F(Check, CallsNoPartOfAWeldedBlockASliver) {
+  // an excavation's face cuts 2 mm off a block that stays in one piece
+  const std::string scene =
+      "dimension = 2\ngravity = [0, -10]\ndensity = 2000\ndomain = { box = { min = [0, 0], max = [4, 4] } }\n"
+      "[[joints]]\nname = \"bed\"\ndip = 0\npoint = [0, 2]\n"
+      "[[joints]]\nname = \"weld\"\ndip = 90\ndip_direction = 90\npoint = [0.002, 0]\nkind = \"construction\"\n" +
+      rock + "[[fix]]\nbelow = [\"bed\"]\n" + settle;
+  silent(scene, "sliver");
+  silent(scene, "wrong unit");
+}
+
+// The steps that check announces beside those that are taken.
+TEST_F(Check, PromisesStepsThatAreTaken) {
+  const std::string scene = ground + box("stone", 0, 0) + rock +
+                            "[[stage]]\nname = \"rest\"\nkind = \"settle\"\ngravity_ramp_s = 0.2\n"
+                            "[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = 0.5\n[time]\nfraction = 0.1\n";
+  const std::string out = check(scene);
+  ASSERT_EQ(run("run scene.toml --out out").code, 0);
+  const nlohmann::json stages = results("out")["stages"];
+  const std::array<std::string, 2> words{"at least ", "about "};
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const std::string name = stages[k]["name"];
+    const std::size_t line = out.find(name + ": steps of"), word = out.find(words[k], line);
+    ASSERT_NE(line, std::string::npos) << out;
+    ASSERT_LT(word, out.find('\n', line)) << out;
+    const double promised = std::stod(out.substr(word + words[k].size())), taken = stages[k]["steps"];
+    // one digit is printed, and pairs that do not touch yet count as if they were as stiff as they can be
+    EXPECT_LT(promised, 3 * taken) << name << "\n" << out;
+    EXPECT_GT(promised, taken / 3) << name << "\n" << out;
+  }
+}
+
+// ---- repairs ------------------------------------------------------------------------------------------------------
+
+class Repair : public Program {
+ protected:
+  void refused_table(const std::string& table, const std::string& part) const {
+    write("a.csv", table);
+    write("scene.toml",
+          "dimension = 3\ndensity = 2000\njoints_file = \"a.csv\"\ndomain = { box = { min = [0, 0, 0], max = [1, 1, 1] "
+          "} }\n" +
+              rock + settle);
+    expect_one_line(run("check scene.toml"), 2, part);
+  }
+  void refused(const std::string& scene, const std::string& part) const {
+    write("scene.toml", scene);
+    expect_one_line(run("check scene.toml"), 2, part);
+  }
+};
+
+std::string utf_16(const std::string& text) {
+  std::string wide = "\xFF\xFE";
+  for (const char character : text)
+    wide += {character, '\0'};
+  return wide;
+}
+
+TEST_F(Repair, OfTablesNamesTheMistake) {
+  const std::string header = "dip_deg,dip_direction_deg,x_m,y_m,z_m\n", row = "30,90,0,0,0\n";
+  refused_table("# joints of the east wall\n" + header + row, "a.csv:1: a comment");
+  refused_table(header + "# the first\n" + row, "a.csv:2: a comment");
+  refused_table(row + row, "a.csv:1: the header is missing");
+  refused_table("dip_deg;dip_direction_deg;x_m;y_m;z_m\n30;90;0;0;0\n",
+                "a.csv:1:8: columns are separated by semicolons");
+  refused_table("dip_deg\tdip_direction_deg\tx_m\ty_m\tz_m\n", "columns are separated by tabs");
+  refused_table(header + "30,5,90,0,0,0\n", "write 3.5, not 3,5");
+  refused_table(header + "\"30,5\",90,0,0,0\n", "write the decimals with a point");
+  refused_table(utf_16(header + row), "is written in UTF-16; save it as UTF-8");
+  refused_table(utf_16(header + row).substr(2), "is written in UTF-16");
+  refused_table(header + "30,90,0,0\n", "has 4 cells where the header has 5; leave a cell empty but keep its comma");
+}
+
+TEST_F(Repair, OfScenesNamesTheMistake) {
+  refused("dimension = 2\ndensity = 2,5\n", "scene.toml:2: not valid TOML");
+  refused("dimension = 2\ndensity = 2,5\n", "decimals are written with a point: 2.5, not 2,5");
+  refused("dimension = 3\ngravity = [0, 0, -9,81]\n", "gravity = [0, 0, -9.81]; decimals are written with a point");
+  refused("dimension = 3\n// gravity\n", "a comment begins with #, not with //");
+  refused("dimension = 3;\n", "a line ends without a semicolon");
+  refused(utf_16("dimension = 3\n"), "is written in UTF-16; save it as UTF-8");
+}
+
+TEST_F(Repair, OfAFolderThatMustNotBeEnteredSaysSo) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root enters every folder";
+  fs::create_directories(folder_ / "closed");
+  write("closed/scene.toml", ground + rock + settle);
+  fs::permissions(folder_ / "closed", fs::perms::none);
+  expect_one_line(run("check closed/scene.toml"), 2, "must not be entered");
+  fs::permissions(folder_ / "closed", fs::perms::owner_all);
+}
+
+// ---- docs ---------------------------------------------------------------------------------------------------------
+
+TEST_F(Check, DocsHoldEveryColumnOfTheHistoryWithItsMeaning) {
+  const std::string docs = run("docs").out;
+  ASSERT_EQ(run("run " + cubes_ + "--out out").code, 0);
+  std::string header = lines_of(read(folder_ / "out/history.csv")).front();
+  std::istringstream columns(header);
+  for (std::string column; std::getline(columns, column, ',');) {
+    // a monitor's name stands for `m`
+    if (column.starts_with("top_")) column.replace(0, 3, "m");
+    EXPECT_NE(docs.find("`" + column + "`"), std::string::npos) << column;
+  }
+  const std::size_t begin = docs.find("# history.csv");
+  ASSERT_NE(begin, std::string::npos);
+  for (const std::string& line : lines_of(docs.substr(begin)))
+    EXPECT_EQ(line.find("|  |"), std::string::npos) << "a column without a meaning: " << line;
+  for (const char* part :
+       {"`m_normal_force_N`", "`m_mobilised_friction_deg`", "`m_angular_velocity_x_rad_per_s`", "from 15 deg on"})
+    EXPECT_NE(docs.find(part), std::string::npos) << part;
+}
+
+TEST_F(Check, DocsHoldTheKeysOfStudies) {
+  const std::string docs = run("docs").out;
+  for (const char* row : {"| the top of the file | `quantity` |", "| history | `take` |", "| sweep | `values` |",
+                          "| extrapolate | `power` |"})
+    EXPECT_NE(docs.find(row), std::string::npos) << row;
+}
+
+// ---- accuracy -----------------------------------------------------------------------------------------------------
+
+TEST_F(Check, AResultBelowTheAnglesThatALevelPromisesIsDoubted) {
+  const auto scene = [](int dip) {
+    return fmt::format(
+               "dimension = 2\ngravity = [0, -10]\ndensity = 2000\naccuracy = {{ level = \"fast\" }}\n"
+               "domain = {{ box = {{ min = [-1, -1], max = [1, 1] }} }}\n"
+               "joints = [{{ name = \"A\", dip = {}, dip_direction = 90, point = [0, 0] }}]\n",
+               dip) +
+           rock + "[[fix]]\nbelow = [\"A\"]\n[[restrain]]\nabove = [\"A\"]\nrotation = true\n" + settle +
+           "[[stage]]\nname = \"critical\"\nkind = \"reduce\"\nfrom_deg = 40\nto_deg = 2\n";
+  };
+  for (const int dip : {10, 25}) {
+    write("scene.toml", scene(dip));
+    const Ended ended = run("run scene.toml --overwrite --out out");
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const bool doubted =
+        results("out")["warnings"].dump().find("promises its accuracy of critical angles from 15") != std::string::npos;
+    EXPECT_EQ(doubted, dip < 15) << results("out")["warnings"].dump(2);
+    EXPECT_EQ(doubted, ended.err.find("from 15 deg on") != std::string::npos) << ended.err;
+  }
+}
+
+}  // namespace
+}  // namespace voussoir

@@ -1,0 +1,189 @@
+#include "app/commands/plausible_assembly.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+
+namespace voussoir {
+namespace {
+
+// piles and slopes begin with this many blocks; two on one another are a mechanism of their own
+constexpr std::size_t few_blocks = 3;
+
+// of the smaller inscribed radius: so deep inside another block is the middle of none that only touches it
+constexpr double deep_inside = 0.5;
+
+template <int Dim>
+bool is_free(const Body<Dim>& body) {
+  return body.present && !body.fixed && !body.prescribed;
+}
+
+template <int Dim>
+bool may_turn(const Body<Dim>& body) {
+  return is_free(body) && std::any_of(body.free_rotation.begin(), body.free_rotation.end(), [](bool f) { return f; });
+}
+
+// cannot follow gravity: fixed, driven, or restrained along all axes that it acts on
+template <int Dim>
+bool is_held(const Model<Dim>& model, const Body<Dim>& body) {
+  if (!is_free(body)) return true;
+  for (int k = 0; k < Dim; ++k)
+    if (body.free_translation[k] && model.gravity[k] != 0) return false;
+  return true;
+}
+
+// groups of bodies that chains of near pairs join
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int find(int body) {
+    while (parent_[body] != body)
+      body = parent_[body] = parent_[parent_[body]];
+    return body;
+  }
+  void join(int a, int b) { parent_[find(a)] = find(b); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+template <int Dim>
+void judge_ties(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings) {
+  if (model.gravity.norm() == 0) return;
+  Groups groups(model.bodies.size());
+  for (const Contact<Dim>& contact : state.contacts)
+    groups.join(model.parts[contact.part_a].body, model.parts[contact.part_b].body);
+  const int count = static_cast<int>(model.bodies.size());
+  std::set<int> tied;
+  for (int b = 0; b < count; ++b)
+    if (model.bodies[b].present && is_held(model, model.bodies[b])) tied.insert(groups.find(b));
+  std::map<int, std::vector<int>> untied;
+  for (int b = 0; b < count; ++b)
+    if (is_free(model.bodies[b]) && !tied.contains(groups.find(b))) untied[groups.find(b)].push_back(b);
+
+  std::vector<int> alone;
+  std::size_t together = 0;
+  const std::vector<int>* first_group = nullptr;
+  for (const auto& [root, bodies] : untied) {
+    if (bodies.size() == 1) {
+      alone.push_back(bodies.front());
+      continue;
+    }
+    together += bodies.size();
+    if (!first_group || bodies.front() < first_group->front()) first_group = &bodies;
+  }
+  std::sort(alone.begin(), alone.end());
+  if (alone.size() == 1)
+    warnings.push_back(fmt::format("block {} has no neighbour: it begins by falling", name_of(model, alone.front())));
+  if (alone.size() > 1)
+    warnings.push_back(fmt::format("{} blocks have no neighbour, {} the first: they begin by falling", alone.size(),
+                                   name_of(model, alone.front())));
+  if (together > 0)
+    warnings.push_back(fmt::format(
+        "{} blocks, {} the first, are near one another, but no chain of near blocks ties them to a fixed one: they "
+        "begin by falling; fix what should hold them",
+        together, name_of(model, first_group->front())));
+}
+
+// whether the middle of a part lies well inside another, as both stand before the first step
+template <int Dim>
+bool holds_middle(const Model<Dim>& model, int outer, int inner, double depth) {
+  const Body<Dim>&a = model.bodies[model.parts[outer].body], &b = model.bodies[model.parts[inner].body];
+  const Vector<Dim> middle = model.polytope(inner).centre + (b.reference - a.reference);
+  const HalfSpaces<Dim>& faces = model.polytope(outer).faces;
+  return std::all_of(faces.begin(), faces.end(),
+                     [&](const HalfSpace<Dim>& face) { return signed_distance(face, middle) < -depth; });
+}
+
+template <int Dim>
+void judge_places(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings) {
+  for (const Contact<Dim>& contact : state.contacts) {
+    const int a = contact.part_a, b = contact.part_b;
+    const double depth = deep_inside * std::min(model.polytope(a).inscribed_radius, model.polytope(b).inscribed_radius);
+    if (!holds_middle(model, a, b, depth) && !holds_middle(model, b, a, depth)) continue;
+    warnings.push_back(fmt::format("blocks {} and {} lie in one another: was one of them stated twice? remove it",
+                                   name_of(model, model.parts[a].body), name_of(model, model.parts[b].body)));
+    return;  // one tells
+  }
+}
+
+// the properties with which a pair meets, or will meet once loaded: blocks that one joint cut apart do not overlap yet
+template <int Dim>
+std::optional<int> properties_between(const Model<Dim>& model, const Contact<Dim>& contact) {
+  if (contact.touching()) return contact.properties;
+  const std::vector<int>&a = model.polytope(contact.part_a).joints, &b = model.polytope(contact.part_b).joints;
+  for (const int joint : a)
+    if (joint != no_joint && std::find(b.begin(), b.end(), joint) != b.end()) return model.joints[joint].properties;
+  return std::nullopt;
+}
+
+// blocks that may turn and rest on others that may, where one point carries each face
+template <int Dim>
+void judge_points(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings) {
+  if (model.gravity.norm() == 0) return;
+  std::set<int> blocks, properties;
+  for (const Contact<Dim>& contact : state.contacts) {
+    const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
+    if (!may_turn(model.bodies[a]) || !may_turn(model.bodies[b])) continue;
+    const std::optional<int> between = properties_between(model, contact);
+    if (!between || model.properties[*between].sub_contacts > 1) continue;
+    blocks.insert({a, b});
+    properties.insert(*between);
+  }
+  if (blocks.size() < few_blocks) return;
+  std::string keys;
+  for (const int p : properties)
+    keys += fmt::format("{}joint_properties.{}.sub_contacts", keys.empty() ? "" : ", ", model.properties[p].name);
+  warnings.push_back(
+      fmt::format("{} free blocks rest on one another on one point a face, which resists no spin, nor rocking as a "
+                  "face does: slopes "
+                  "and piles give way too early; set {} = 2 or more, or restrain what does not turn",
+                  blocks.size(), keys));
+}
+
+// a stage that leaves nothing to move
+template <int Dim>
+void judge_last_block(const Prepared<Dim>& prepared, std::vector<std::string>& warnings) {
+  const auto moves = [](const Body<Dim>& body) { return body.present && (!body.fixed || body.prescribed); };
+  Model<Dim> model = prepared.model;
+  bool before = std::any_of(model.bodies.begin(), model.bodies.end(), moves);
+  for (const StagePlan& stage : prepared.stages) {
+    const Change& change = stage.change;
+    if (change.fix.empty() && change.release.empty() && change.remove.empty() && change.move.empty()) continue;
+    model = apply(std::move(model), change);
+    const bool after = std::any_of(model.bodies.begin(), model.bodies.end(), moves);
+    if (before && !after)
+      warnings.push_back(
+          fmt::format("stage.{} {} the last free block: nothing is left to move; keep one, or end before", stage.name,
+                      change.remove.empty() ? "fixes" : "removes"));
+    before = after;
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+std::string name_of(const Model<Dim>& model, int body) {
+  return model.bodies[body].name.empty() ? std::to_string(body) : model.bodies[body].name;
+}
+
+template <int Dim>
+void judge_assembly(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
+                    std::vector<std::string>& warnings) {
+  judge_ties(model, state, warnings);
+  judge_places(model, state, warnings);
+  judge_points(model, state, warnings);
+  judge_last_block(prepared, warnings);
+}
+
+template std::string name_of<2>(const Model<2>&, int);
+template std::string name_of<3>(const Model<3>&, int);
+template void judge_assembly<2>(const Prepared<2>&, const Model<2>&, const State<2>&, std::vector<std::string>&);
+template void judge_assembly<3>(const Prepared<3>&, const Model<3>&, const State<3>&, std::vector<std::string>&);
+
+}  // namespace voussoir
