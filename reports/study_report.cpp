@@ -1,4 +1,5 @@
 #include "reports/study_report.hpp"
+#include "text/csv_table.hpp"
 
 #include <fmt/format.h>
 
@@ -8,13 +9,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "verification/csv.hpp"
-
 namespace voussoir::reports {
 namespace {
-
-using verification::csv_line;
-using verification::parse_csv;
 
 // s: study.csv counts no finer, and the figure's axis is a logarithm
 constexpr double shortest_time = 1e-3;
@@ -157,28 +153,32 @@ std::string point_table(const Study& study, const std::string& quantity) {
   return text;
 }
 
+std::vector<std::string> texts_of(const std::vector<CsvCell>& cells) {
+  std::vector<std::string> texts;
+  for (const CsvCell& cell : cells)
+    texts.push_back(cell.text);
+  return texts;
+}
+
 }  // namespace
 
 std::vector<StudyRow> read_study(std::string_view csv) {
-  const auto records = parse_csv(csv);
-  if (records.empty()) throw std::runtime_error("study.csv is empty");
+  const CsvTable table = parse_csv(csv);
   const std::vector<std::string> expected{"sweep",  "key",       "value",       "unit",   "quantity",
                                           "result", "error_bar", "result_unit", "status", "contact_evaluations",
                                           "steps",  "seconds"};
-  if (records.front() != expected)
+  const std::vector<std::string> found = texts_of(table.header);
+  if (found != expected)
     throw std::runtime_error(
-        fmt::format("study.csv has the columns '{}', expected '{}'", csv_line(records.front()), csv_line(expected)));
-  if (records.size() < 2) throw std::runtime_error("study.csv has no rows");
+        fmt::format("study.csv has the columns '{}', expected '{}'", csv_line(found), csv_line(expected)));
+  if (table.rows.empty()) throw std::runtime_error("study.csv has no rows");
 
   std::vector<StudyRow> rows;
-  for (std::size_t i = 1; i < records.size(); ++i) {
-    const auto& record = records[i];
-    if (record.size() != expected.size())
-      throw std::runtime_error(
-          fmt::format("study.csv, line {}: {} fields, expected {}", i + 1, record.size(), expected.size()));
+  for (const CsvRow& line : table.rows) {
+    const std::vector<std::string> record = texts_of(line.cells);
     const auto optional_number = [&](std::size_t column) -> std::optional<double> {
       if (record[column].empty()) return std::nullopt;
-      const double value = to_number(record[column], expected[column].c_str(), i + 1);
+      const double value = to_number(record[column], expected[column].c_str(), line.line);
       return std::isfinite(value) ? std::optional(value) : std::nullopt;
     };
     StudyRow row{record[0],          record[1], record[2], record[3], record[4], record[7],

@@ -1,17 +1,15 @@
 #include "reports/trade.hpp"
+#include "text/csv_table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "verification/csv.hpp"
-
 namespace voussoir::reports {
 namespace {
 
 using nlohmann::json;
-using verification::csv_line;
 
 // one number of one case, to be summed up over all
 struct Named {

@@ -53,8 +53,11 @@ TEST(Architecture, KeepsTheHousesApart) {
     EXPECT_FALSE(arrow("core/step.cpp", other).empty()) << other;
     EXPECT_FALSE(arrow("core/contact/overlap_test.cpp", other).empty()) << other;
   }
-  for (const char* folder : {"reference", "verification"})
+  for (const char* folder : {"reference", "verification", "text"})
     EXPECT_FALSE(arrow(std::string(folder) + "/x.cpp", "core/model.hpp").empty()) << folder;
+  for (const char* from : {"core/exchange/x.cpp", "verification/x.cpp", "app/x.cpp", "reports/x.cpp"})
+    EXPECT_TRUE(arrow(from, "text/csv_table.hpp").empty()) << from;
+  EXPECT_FALSE(arrow("reference/x.cpp", "text/csv_table.hpp").empty());
   EXPECT_FALSE(arrow("reference/wedge/wedge_test.cpp", "verification/verification.hpp").empty());
   EXPECT_FALSE(arrow("verification/summary.cpp", "reports/text.hpp").empty());
   EXPECT_FALSE(arrow("reports/study_report.cpp", "core/model.hpp").empty());

@@ -1,4 +1,5 @@
 #include "verification/verdicts.hpp"
+#include "text/csv_table.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +7,6 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
-
-#include "verification/csv.hpp"
 
 namespace voussoir::verification {
 namespace {

@@ -10,8 +10,8 @@
 #include "app/run_folder.hpp"
 #include "core/law/joint_path.hpp"
 #include "core/output/atomic_file.hpp"
-#include "core/output/history_csv.hpp"
 #include "core/scene/scene.hpp"
+#include "text/csv_table.hpp"
 
 namespace voussoir {
 namespace {
@@ -83,10 +83,12 @@ std::string table(const std::vector<JointTest>& tests) {
   return text;
 }
 
-std::string gnuplot_text(std::string text) {
-  for (const char bad : {'\'', '\\', '\n'})
-    std::replace(text.begin(), text.end(), bad, ' ');
-  return text;
+// between apostrophes, where gnuplot knows no other character
+std::string gnuplot_text(const std::string& text) {
+  std::string quoted;
+  for (const char character : text)
+    quoted += character == '\'' ? std::string("''") : std::string(1, character);
+  return quoted;
 }
 
 std::string figure(const std::vector<JointTest>& tests, bool normal) {
@@ -95,12 +97,14 @@ std::string figure(const std::vector<JointTest>& tests, bool normal) {
       "set output 'joint_test.svg'\nset datafile separator comma\nset key outside right noenhanced\nset grid\n";
   text += normal ? "set xlabel 'closure (µm)'\nset ylabel 'normal stress (MPa)'\nplot "
                  : "set xlabel 'slip (mm)'\nset ylabel 'shear stress (MPa)'\nplot ";
-  for (const JointTest& test : tests)
+  std::size_t row = 1;  // behind the header
+  for (const JointTest& test : tests) {
     text += fmt::format(
-        "{}'joint_test.csv' every ::1 using ((strcol(1) eq '{}' && $2 == {}) ? ${} * {} : NaN):(${} * 1e-6) with "
-        "lines lw 2 title '{}, {:g} MPa'",
-        &test == tests.data() ? "" : ", \\\n     ", gnuplot_text(test.name), test.stress, normal ? 3 : 4,
+        "{}'joint_test.csv' every ::{}::{} using (${} * {}):(${} * 1e-6) with lines lw 2 title '{}, {:g} MPa'",
+        &test == tests.data() ? "" : ", \\\n     ", row, row + test.points.size() - 1, normal ? 3 : 4,
         normal ? "1e6" : "1e3", normal ? 5 : 6, gnuplot_text(test.name), test.stress * 1e-6);
+    row += test.points.size();
+  }
   return text + "\n";
 }
 
@@ -127,10 +131,8 @@ ExitCode joint_test_command(const JointTestArguments& arguments) {
   const fs::path folder = !arguments.out.empty()
                               ? arguments.out
                               : fs::path("results") / (arguments.scene.scene.stem().string() + "_joint_test");
-  const FolderLock lock(folder);
-  if (!arguments.overwrite &&
-      (holds_results(folder) || holds_unfinished_run(folder) || fs::exists(folder / "joint_test.csv")))
-    throw folder_is_taken(folder);
+  const ClaimedFolder claim(folder, {"joint-test", {"joint_test.csv", "joint_test.gp", "joint_test.svg"}}, scene.files,
+                            arguments.overwrite);
   write_file(folder / "joint_test.csv", table(tests));
   write_file(folder / "joint_test.gp", figure(tests, arguments.path == "normal"));
   draw(folder);

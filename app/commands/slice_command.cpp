@@ -8,8 +8,8 @@
 #include "core/exchange/mesh.hpp"
 #include "core/exchange/tables.hpp"
 #include "core/output/atomic_file.hpp"
-#include "core/output/history_csv.hpp"
 #include "core/output/paraview.hpp"
+#include "text/csv_table.hpp"
 
 namespace voussoir {
 namespace {

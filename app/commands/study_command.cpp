@@ -15,7 +15,7 @@
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/fingerprint.hpp"
-#include "core/output/history_csv.hpp"
+#include "text/csv_table.hpp"
 
 namespace voussoir {
 namespace {
@@ -131,11 +131,10 @@ std::string study_csv(const StudyPlan& plan, const std::vector<StudyRow>& rows) 
   std::string text =
       "sweep,key,value,unit,quantity,result,error_bar,result_unit,status,contact_evaluations,steps,seconds\n";
   for (const StudyRow& row : rows)
-    text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.3f}\n", csv_cell(row.curve), csv_cell(row.key),
-                    csv_cell(row.value), csv_cell(row.unit), csv_cell(plan.quantity),
-                    row.result ? csv_cell(*row.result) : "", row.error_bar ? csv_cell(*row.error_bar) : "",
-                    csv_cell(row.result_unit), csv_cell(row.status), row.contact_evaluations, row.steps, row.seconds);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.3f}\n", csv_cell(row.curve), csv_cell(row.key),
+                        csv_cell(row.value), csv_cell(row.unit), csv_cell(plan.quantity), csv_cell(row.result),
+                        csv_cell(row.error_bar), csv_cell(row.result_unit), csv_cell(row.status),
+                        row.contact_evaluations, row.steps, row.seconds);
   return text;
 }
 

@@ -5,37 +5,33 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <vector>
+
+#include "core/scene/node.hpp"
+#include "text/csv_table.hpp"
+#include "text/plain_text.hpp"
+#include "text/read_file.hpp"
 
 namespace voussoir {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::istringstream stream(line);
-  std::vector<std::string> cells;
-  for (std::string cell; std::getline(stream, cell, ',');)
-    cells.push_back(cell);
-  return cells;
-}
+// as many monitors as anyone could have
+constexpr std::size_t most_columns = 100'000;
+
+constexpr std::uintmax_t largest_results = 64 << 20, largest_history = 2ull << 30;  // bytes
 
 // the finite numbers of a column; empty where there is no such column
 std::vector<double> column_of(const fs::path& history, const std::string& name) {
-  std::ifstream file(history);
-  std::string line;
-  std::getline(file, line);
-  const std::vector<std::string> names = cells_of(line);
-  const auto place = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  const std::string text = read_file(history, largest_history);
+  CsvReader reader(text, most_columns);
+  const std::optional<std::size_t> place = reader.find(name);
   std::vector<double> column;
-  while (place < names.size() && std::getline(file, line)) {
-    const std::vector<std::string> cells = cells_of(line);
+  for (CsvRow row; place && reader.next(row);) {
+    const std::string& cell = row.cells[*place].text;
     double number = 0;
-    if (place >= cells.size()) continue;
-    const std::string& cell = cells[place];
     if (std::from_chars(cell.data(), cell.data() + cell.size(), number).ec == std::errc{} && std::isfinite(number))
       column.push_back(number);
   }
@@ -73,7 +69,7 @@ RunFound found_in_json(const nlohmann::json& results, const fs::path& folder, co
   if (seconds.is_number()) found.seconds = seconds;
   const std::string status = results.at("status");
   if (status != "done") {
-    found.status = status + ": " + results.at("message").get<std::string>();
+    found.status = printable(status + ": " + results.at("message").get<std::string>());
     return found;
   }
   found.result =
@@ -87,12 +83,17 @@ RunFound found_in_json(const nlohmann::json& results, const fs::path& folder, co
 }  // namespace
 
 RunFound found_in(const fs::path& folder, const StudyPlan& plan) {
-  const fs::path file = folder / "results.json";
+  const auto damaged = [&](const char* name) {
+    return RunFound{.status = fmt::format("'{}' is damaged: remove it and study again", (folder / name).string())};
+  };
   try {
-    std::ifstream stream(file);
-    return found_in_json(nlohmann::json::parse(stream), folder, plan);
+    return found_in_json(nlohmann::json::parse(read_file(folder / "results.json", largest_results)), folder, plan);
   } catch (const nlohmann::json::exception&) {
-    return {.status = fmt::format("'{}' is damaged: remove it and study again", file.string())};
+    return damaged("results.json");
+  } catch (const FileFault&) {
+    return damaged("history.csv");
+  } catch (const ReadFault& fault) {
+    return {.status = fmt::format("results of '{}': {}", folder.string(), fault.what())};
   }
 }
 

@@ -3,11 +3,11 @@
 
 #include <cstring>
 
-#include "core/exchange/csv_table.hpp"
 #include "core/exchange/mesh.hpp"
 #include "core/exchange/tables.hpp"
 #include "core/floating_point_traps.hpp"
 #include "core/testing/shapes.hpp"
+#include "text/file_fault.hpp"
 
 namespace voussoir {
 namespace {
@@ -26,36 +26,6 @@ void expect_fault(const Read& read, int line, int column, const std::string& par
 }
 
 // ---- tables
-
-TEST(CsvTable, ReadsQuotesBlanksAndEveryLineEnd) {
-  const CsvTable table = parse_csv(
-      "\xEF\xBB\xBF"
-      "name, x_m ,note\r\n\r\n\"a, \"\"b\"\"\" , 1.5,\n c ,-2e3, d d \n");
-  ASSERT_EQ(table.rows.size(), 2u);
-  EXPECT_EQ(table.text(table.rows[0], "name"), "a, \"b\"");
-  EXPECT_EQ(table.number(table.rows[0], "x_m"), 1.5);
-  EXPECT_EQ(table.text(table.rows[0], "note"), "");
-  EXPECT_EQ(table.text(table.rows[1], "note"), "d d");
-  EXPECT_EQ(table.rows[0].line, 3);
-  EXPECT_EQ(table.rows[1].cells[1].column, 5);
-}
-
-TEST(CsvTable, TellsWhereItIsMalformed) {
-  const auto fault = [](const std::string& text, int line, int column, const std::string& part) {
-    expect_fault([&] { parse_csv(text); }, line, column, part);
-  };
-  fault("", 1, 0, "is empty");
-  fault("\n  \n", 1, 0, "is empty");
-  fault("a,,c\n", 1, 3, "without a name");
-  fault("a,b,a\n", 1, 5, "stands twice");
-  fault("a,b\n1\n", 2, 0, "has 1 cells where the header has 2");
-  fault("a,b\n1,2,3\n", 2, 0, "has 3 cells");
-  fault("a,b\n1,\"2\n", 2, 3, "not closed");
-  fault("a,b\n\"1\"2,3\n", 2, 4, "behind a closed quote");
-  fault(std::string("a,b\n1,\0", 7), 2, 3, "control character");
-  fault(std::string(100'000, ','), 1, 201, "more than 200 columns");
-  expect_fault([] { parse_csv("a\n1\n2\n\n3\n", 2); }, 5, 0, "more than 2 rows");
-}
 
 TEST(JointTable, TellsWhereItIsMalformed) {
   const std::string head = "name,dip_deg,dip_direction_deg,x_m,y_m,z_m,shape,length_m,width_m\n";

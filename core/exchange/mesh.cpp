@@ -12,7 +12,7 @@
 #include <map>
 #include <set>
 
-#include "core/exchange/text_scan.hpp"
+#include "text/text_scan.hpp"
 
 namespace voussoir {
 namespace {

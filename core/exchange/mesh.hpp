@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/exchange/file_fault.hpp"
 #include "core/geometry/types.hpp"
+#include "text/file_fault.hpp"
 
 namespace voussoir {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/exchange/csv_table.hpp"
-#include "core/exchange/text_scan.hpp"
 #include "core/geometry/half_space.hpp"
+#include "text/csv_table.hpp"
+#include "text/text_scan.hpp"
 
 namespace voussoir {
 namespace {
@@ -35,22 +35,10 @@ Names joined(Names names, const Names& more) {
   return names;
 }
 
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\" ") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char character : text)
-    quoted += character == '"' ? std::string("\"\"") : std::string(1, character);
-  return quoted + "\"";
-}
-
-std::string cell(const std::optional<double>& number) {
-  return number ? fmt::format("{}", *number) : std::string();
-}
-
 std::string cells(const std::vector<double>& numbers, std::size_t count) {
   std::string text;
   for (std::size_t k = 0; k < count; ++k)
-    text += "," + (k < numbers.size() ? fmt::format("{}", numbers[k]) : std::string());
+    text += "," + (k < numbers.size() ? csv_cell(numbers[k]) : std::string());
   return text;
 }
 
@@ -183,11 +171,11 @@ std::string joint_table(const std::vector<JointRow>& rows, int dimension) {
   if (dimension == 3) names.push_back("corners_m");
   std::string text = header(joined(names, {"properties", inside_column(dimension)}));
   for (const JointRow& joint : rows)
-    text +=
-        fmt::format("{},{},{},{}{}{},{}{}{},{},{}\n", cell(joint.name), cell(joint.set), cell(joint.dip_deg),
-                    cell(joint.dip_direction_deg), cells(joint.normal, dimension), cells(joint.point, dimension),
-                    shape_text(joint.shape, dimension), cells(joint.extents, dimension - 1),
-                    dimension == 3 ? "," + cell(corners_text(joint)) : "", cell(joint.properties), cell(joint.inside));
+    text += fmt::format("{},{},{},{}{}{},{}{}{},{},{}\n", csv_cell(joint.name), csv_cell(joint.set),
+                        csv_cell(joint.dip_deg), csv_cell(joint.dip_direction_deg), cells(joint.normal, dimension),
+                        cells(joint.point, dimension), shape_text(joint.shape, dimension),
+                        cells(joint.extents, dimension - 1), dimension == 3 ? "," + csv_cell(corners_text(joint)) : "",
+                        csv_cell(joint.properties), csv_cell(joint.inside));
   return text;
 }
 
@@ -216,7 +204,7 @@ std::vector<PlaneRow> read_plane_table(std::string_view text, int dimension) {
 std::string plane_table(const std::vector<PlaneRow>& rows, int dimension) {
   std::string text = header(joined(joined({"block", "part", "joint"}, normal_columns(dimension)), {"offset_m"}));
   for (const PlaneRow& plane : rows)
-    text += fmt::format("{},{},{}{},{}\n", cell(plane.block), plane.part, cell(plane.joint),
+    text += fmt::format("{},{},{}{},{}\n", csv_cell(plane.block), plane.part, csv_cell(plane.joint),
                         cells(plane.normal, dimension), plane.offset);
   return text;
 }

@@ -19,10 +19,4 @@ std::string history_csv(const History& history);
 // throws OutputError
 void write_history_csv(const std::filesystem::path& path, const History& history);
 
-// a text as one CSV cell: quoted when it holds a comma, a quote or a line break (RFC 4180)
-std::string csv_cell(const std::string& text);
-
-// a number as one CSV cell; empty when it is not finite
-std::string csv_cell(double number);
-
 }  // namespace voussoir

@@ -77,16 +77,6 @@ std::string item_path(const std::string& list_path, const Node& item, std::size_
   return list_path + "." + (named ? one_line(name->text, longest_value) : std::to_string(index + 1));
 }
 
-std::string one_line(std::string_view text, std::size_t limit) {
-  std::string line;
-  for (const char c : text) {
-    const bool begins_character = (static_cast<unsigned char>(c) & 0xC0) != 0x80;  // of UTF-8
-    if (line.size() >= limit && begins_character) return line + "…";
-    line += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  }
-  return line;
-}
-
 std::string value_text(const Node& node) {
   switch (node.kind) {
     case Node::Kind::boolean:

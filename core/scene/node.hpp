@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scene/scene_error.hpp"
+#include "text/plain_text.hpp"
 
 namespace voussoir {
 
@@ -53,7 +54,6 @@ std::string key_path(const std::string& table_path, std::string_view key);
 
 // one line, at most about 60 characters
 std::string value_text(const Node& node);
-std::string one_line(std::string_view text, std::size_t limit);
 std::string place_text(const Place& place);
 
 // "place: path = value: rule"; a key that is absent is reported at its table's line as missing

@@ -1,8 +1,10 @@
-#include "core/exchange/text_scan.hpp"
+#include "text/text_scan.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+
+#include "text/plain_text.hpp"
 
 namespace voussoir {
 
@@ -24,10 +26,9 @@ bool LineReader::next() {
   line_ = left_.substr(0, end);
   left_.remove_prefix(end == std::string_view::npos ? left_.size() : end + 1);
   if (line_.ends_with('\r')) line_.remove_suffix(1);
-  for (std::size_t i = 0; i < line_.size(); ++i)
-    if ((static_cast<unsigned char>(line_[i]) < 0x20 && line_[i] != '\t') || line_[i] == 0x7f)
-      throw FileFault(number_, static_cast<int>(i) + 1,
-                      "a control character, which no text file holds; is this a file of another kind?");
+  if (const auto fault = text_fault(line_, true))
+    throw FileFault(number_, static_cast<int>(fault->at) + 1,
+                    fault->what + "; save the file as plain text in UTF-8, if it is no file of another kind");
   return true;
 }
 
@@ -60,7 +61,7 @@ double number_of(const Word& word, const std::string& what) {
 
 std::string shown(std::string_view text) {
   constexpr std::size_t longest = 40;
-  return "'" + std::string(text.substr(0, longest)) + (text.size() > longest ? "…'" : "'");
+  return "'" + one_line(text, longest) + "'";
 }
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// What is wrong with a file of joints or blocks, and where.
+// What is wrong with a file that is read line by line, and where.
 #pragma once
 
 #include <stdexcept>

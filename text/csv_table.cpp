@@ -1,17 +1,37 @@
-#include "core/exchange/csv_table.hpp"
+#include "text/csv_table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
-#include "core/exchange/text_scan.hpp"
+#include "text/plain_text.hpp"
 
 namespace voussoir {
 namespace {
 
-// no table of ours has a tenth of it; a line of commas must not become a million columns
-constexpr std::size_t most_columns = 200;
+// what a spreadsheet takes for a formula
+bool begins_formula(std::string_view text) {
+  return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
+}
+
+std::string_view behind_apostrophes(std::string_view text) {
+  return text.substr(std::min(text.find_first_not_of('\''), text.size()));
+}
+
+bool is_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+// the text that a cell stands for
+std::string meant(std::string text) {
+  if (text.starts_with('\'') && begins_formula(behind_apostrophes(text))) text.erase(0, 1);
+  return text;
+}
 
 std::string trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t");
@@ -35,13 +55,13 @@ std::string quoted_cell(std::string_view line, int number, std::size_t& at) {
   }
 }
 
-std::vector<CsvCell> cells_of(std::string_view line, int number) {
+std::vector<CsvCell> cells_of(std::string_view line, int number, std::size_t most_columns) {
   std::vector<CsvCell> cells;
   std::size_t at = 0;
   while (true) {
     if (cells.size() == most_columns)
       throw FileFault(number, static_cast<int>(at) + 1,
-                      "more than " + std::to_string(most_columns) + " columns; is this a table of joints or planes?");
+                      "more than " + std::to_string(most_columns) + " columns; is this a table of this kind?");
     const std::size_t begin = std::min(line.find_first_not_of(" \t", at), line.size());
     if (begin < line.size() && line[begin] == '"') {
       at = begin;
@@ -50,22 +70,16 @@ std::vector<CsvCell> cells_of(std::string_view line, int number) {
       if (behind < line.size() && line[behind] != ',')
         throw FileFault(number, static_cast<int>(behind) + 1,
                         "text behind a closed quote; write a comma between cells");
-      cells.push_back({std::move(text), static_cast<int>(begin) + 1});
+      cells.push_back({meant(std::move(text)), static_cast<int>(begin) + 1});
       at = behind;
     } else {
       const std::size_t end = std::min(line.find(',', at), line.size());
-      cells.push_back({trimmed(line.substr(at, end - at)), static_cast<int>(begin) + 1});
+      cells.push_back({meant(trimmed(line.substr(at, end - at))), static_cast<int>(begin) + 1});
       at = end;
     }
     if (at >= line.size()) return cells;
     ++at;
   }
-}
-
-bool is_number(std::string_view text) {
-  double number = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return !text.empty() && error == std::errc() && stop == text.data() + text.size();
 }
 
 constexpr const char* comment_line = "a comment; a table has a header and rows and nothing else: remove this line";
@@ -92,51 +106,95 @@ bool may_hold_decimal_commas(const std::vector<CsvCell>& cells, std::size_t colu
          });
 }
 
+std::optional<std::size_t> place_of(const std::vector<CsvCell>& header, std::string_view name) {
+  const auto at = std::find_if(header.begin(), header.end(), [&](const CsvCell& cell) { return cell.text == name; });
+  if (at == header.end()) return {};
+  return at - header.begin();
+}
+
 }  // namespace
 
-CsvTable parse_csv(std::string_view text, std::size_t most_rows) {
-  CsvTable table;
-  LineReader reader(text);
-  while (reader.next()) {
-    const std::string_view line = reader.line();
-    const int number = reader.number();
-    if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
-    if (table.header.empty()) refuse_other_headers(line, number);
-    std::vector<CsvCell> cells = cells_of(line, number);
-    if (table.header.empty()) {
-      table.header_line = number;
-      if (std::any_of(cells.begin(), cells.end(), [](const CsvCell& cell) { return is_number(cell.text); }))
-        throw FileFault(number, 0, "the header is missing: the first row names the columns, here it holds numbers");
-      for (const CsvCell& cell : cells) {
-        if (cell.text.empty())
-          throw FileFault(number, cell.column, "a column without a name; the first row is the header");
-        if (table.find(cell.text))
-          throw FileFault(number, cell.column,
-                          "column " + shown(cell.text) + " stands twice in the header; remove one");
-        table.header.push_back(cell);
-      }
-      continue;
-    }
-    if (cells.size() != table.header.size() && is_comment(line)) throw FileFault(number, 0, comment_line);
-    if (cells.size() != table.header.size())
-      throw FileFault(number, 0,
-                      "has " + std::to_string(cells.size()) + " cells where the header has " +
-                          std::to_string(table.header.size()) +
-                          (may_hold_decimal_commas(cells, table.header.size())
-                               ? "; were decimals written with a comma? write 3.5, not 3,5"
-                               : "; leave a cell empty but keep its comma"));
-    if (table.rows.size() == most_rows)
-      throw FileFault(number, 0, "more than " + std::to_string(most_rows) + " rows; divide the file");
-    table.rows.push_back({number, std::move(cells)});
+std::string csv_cell(const std::string& text) {
+  std::string cell = printable(text);
+  const std::string_view rest = behind_apostrophes(cell);
+  if (begins_formula(rest) && (rest.size() < cell.size() || !is_number(cell))) cell.insert(cell.begin(), '\'');
+  if (cell.find_first_of(",;\"") == std::string::npos && cell == trimmed(cell)) return cell;
+  std::string quoted = "\"";
+  for (const char character : cell)
+    quoted += character == '"' ? std::string("\"\"") : std::string(1, character);
+  return quoted + "\"";
+}
+
+std::string csv_cell(double number) {
+  return std::isfinite(number) ? fmt::format("{}", number) : std::string();
+}
+
+std::string csv_cell(std::optional<double> number) {
+  return number ? csv_cell(*number) : std::string();
+}
+
+std::string csv_line(const std::vector<std::string>& texts) {
+  std::string line;
+  for (std::size_t k = 0; k < texts.size(); ++k)
+    line += (k > 0 ? "," : "") + csv_cell(texts[k]);
+  return line;
+}
+
+CsvReader::CsvReader(std::string_view text, std::size_t most_columns) : lines_(text), most_columns_(most_columns) {
+  CsvRow first;
+  if (!next_cells(first)) throw FileFault(1, 0, "is empty; the first row names the columns");
+  header_line_ = first.line;
+  if (std::any_of(first.cells.begin(), first.cells.end(), [](const CsvCell& cell) { return is_number(cell.text); }))
+    throw FileFault(first.line, 0, "the header is missing: the first row names the columns, here it holds numbers");
+  for (const CsvCell& cell : first.cells) {
+    if (cell.text.empty())
+      throw FileFault(first.line, cell.column, "a column without a name; the first row is the header");
+    if (find(cell.text))
+      throw FileFault(first.line, cell.column,
+                      "column " + shown(cell.text) + " stands twice in the header; remove one");
+    header_.push_back(cell);
   }
-  if (table.header.empty()) throw FileFault(1, 0, "is empty; the first row names the columns");
+}
+
+std::optional<std::size_t> CsvReader::find(std::string_view name) const {
+  return place_of(header_, name);
+}
+
+bool CsvReader::next_cells(CsvRow& row) {
+  while (lines_.next()) {
+    if (lines_.line().find_first_not_of(" \t") == std::string_view::npos) continue;
+    if (header_.empty()) refuse_other_headers(lines_.line(), lines_.number());
+    row = {lines_.number(), cells_of(lines_.line(), lines_.number(), most_columns_)};
+    return true;
+  }
+  return false;
+}
+
+bool CsvReader::next(CsvRow& row) {
+  if (!next_cells(row)) return false;
+  if (row.cells.size() == header_.size()) return true;
+  if (is_comment(lines_.line())) throw FileFault(row.line, 0, comment_line);
+  throw FileFault(row.line, 0,
+                  "has " + std::to_string(row.cells.size()) + " cells where the header has " +
+                      std::to_string(header_.size()) +
+                      (may_hold_decimal_commas(row.cells, header_.size())
+                           ? "; were decimals written with a comma? write 3.5, not 3,5"
+                           : "; leave a cell empty but keep its comma"));
+}
+
+CsvTable parse_csv(std::string_view text, std::size_t most_rows) {
+  CsvReader reader(text);
+  CsvTable table{reader.header_line(), reader.header(), {}};
+  for (CsvRow row; reader.next(row);) {
+    if (table.rows.size() == most_rows)
+      throw FileFault(row.line, 0, "more than " + std::to_string(most_rows) + " rows; divide the file");
+    table.rows.push_back(std::move(row));
+  }
   return table;
 }
 
 std::optional<std::size_t> CsvTable::find(std::string_view name) const {
-  const auto at = std::find_if(header.begin(), header.end(), [&](const CsvCell& cell) { return cell.text == name; });
-  if (at == header.end()) return {};
-  return at - header.begin();
+  return place_of(header, name);
 }
 
 void CsvTable::check_header(const std::vector<std::string>& required, const std::vector<std::string>& optional) const {

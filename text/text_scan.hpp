@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/exchange/file_fault.hpp"
+#include "text/file_fault.hpp"
 
 namespace voussoir {
 
@@ -25,7 +25,7 @@ class LineReader {
  public:
   explicit LineReader(std::string_view text);
 
-  // false at the end; refuses control characters, which tell of a binary file
+  // false at the end; refuses what is no plain text (text/plain_text.hpp), tabs apart
   bool next();
   std::string_view line() const { return line_; }
   int number() const { return number_; }  // from 1; of the last line once the end is reached
