@@ -1,5 +1,6 @@
 // Lines for people on stderr. Where nobody can read them (a log on a full disk), the work and its exit code matter
-// more: unlike fmt's print, this throws nothing of its own.
+// more: unlike fmt's print, this throws nothing of its own. What a terminal would obey is replaced
+// (text/plain_text.hpp).
 #pragma once
 
 #include <fmt/format.h>
@@ -7,11 +8,22 @@
 #include <cstdio>
 #include <utility>
 
+#include "text/plain_text.hpp"
+
 namespace voussoir {
 
+// one line, with its end
 template <class... Values>
 void tell(fmt::format_string<Values...> format, Values&&... values) {
-  std::fputs(fmt::format(format, std::forward<Values>(values)...).c_str(), stderr);
+  std::string line = fmt::format(format, std::forward<Values>(values)...);
+  if (line.ends_with('\n')) line.pop_back();
+  std::fputs((printable(line) + "\n").c_str(), stderr);
+}
+
+// replaces the line that the cursor of a terminal is in
+inline void rewrite_line(const std::string& line) {
+  std::fputs(("\r\033[K" + printable(line)).c_str(), stderr);
+  std::fflush(stderr);
 }
 
 }  // namespace voussoir

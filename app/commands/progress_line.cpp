@@ -38,15 +38,13 @@ void ProgressLine::show(const ProgressReport& report) {
   if (shown_ && now - last_shown_ < time_between_lines) return;
   last_shown_ = now;
   shown_ = true;
-  tell("\r\033[K{}", text(report, now));
-  std::fflush(stderr);
+  rewrite_line(text(report, now));
 }
 
 void ProgressLine::clear() {
   if (!shown_) return;
   shown_ = false;
-  tell("\r\033[K");
-  std::fflush(stderr);
+  rewrite_line("");
 }
 
 std::string ProgressLine::text(const ProgressReport& report, Clock::time_point now) const {

@@ -15,6 +15,7 @@
 #include "core/output/history_csv.hpp"
 #include "core/output/paraview.hpp"
 #include "core/output/results_json.hpp"
+#include "core/scene/toml_text.hpp"
 
 namespace voussoir {
 namespace {
@@ -194,6 +195,7 @@ ExitCode run_command(const RunArguments& arguments) {
   if (arguments.checkpoint_steps) conduct.checkpoint_steps = *arguments.checkpoint_steps;
   if (arguments.checkpoint_seconds) conduct.checkpoint_seconds = *arguments.checkpoint_seconds;
   const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides, conduct.threads);
+  require_sane_size(scene.text, arguments.scene.scene.string() + " with all that it names");  // for it is read again
   conduct.scene_hash = scene.hash;
   conduct.warnings = assess(scene).warnings;
   if (!arguments.quiet) print_warnings(conduct.warnings);

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
 
 #include "core/scene/node.hpp"
+#include "core/scene/scene_text.hpp"
 #include "core/scene/toml_text.hpp"
 
 namespace voussoir {
@@ -40,14 +40,6 @@ constexpr StudyKey study_keys[] = {
      "adds what each two neighbouring runs give at a value of 0, where the result goes with a power of the value"},
     {"extrapolate", "power", "number, required", "that power, above 0, at most 10; 0.6666667 for a rate of reduction"},
 };
-
-Node read_tree(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (fs::is_directory(path) || !stream)
-    throw SceneError(fmt::format("{}: cannot be read: is there such a file?", path.string()));
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return parse_toml(text, std::make_shared<const std::string>(path.string()));
-}
 
 void refuse_unknown_keys(const Subject& table, std::string_view kind) {
   std::vector<std::string> known;
@@ -191,7 +183,8 @@ values = [0.2, 0.1, 0.05]
 }
 
 StudyPlan read_study_plan(const fs::path& path) {
-  const Node tree = read_tree(path);
+  const Node tree = parse_toml(file_text(path), std::make_shared<const std::string>(path.string()));
+  require_plain_text(tree, "");
   const Subject top{&tree, ""};
   refuse_unknown_keys(top, "");
   const std::string scene = text_of(top, "scene", "must be a scene's file name, relative to the study");

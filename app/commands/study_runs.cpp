@@ -47,7 +47,7 @@ std::string last_line(const fs::path& file) {
   while (std::getline(stream, line))
     if (!line.empty()) last = line;
   const std::string prefix = "voussoir: ";
-  return last.starts_with(prefix) ? last.substr(prefix.size()) : last;
+  return printable(last.starts_with(prefix) ? last.substr(prefix.size()) : last);
 }
 
 class Runs {
@@ -78,7 +78,7 @@ class Runs {
       show_progress();
       std::this_thread::sleep_for(time_between_looks);
     }
-    if (watched_) tell("\r\033[K");
+    if (watched_) rewrite_line("");
     return interruption() == 0;
   }
 
@@ -149,8 +149,7 @@ class Runs {
         left -= std::min(going.process->seconds(), took_ / done_);
       line += ", about " + duration_text(left / conduct_.jobs) + " left";
     }
-    tell("\r\033[K{}", line);
-    std::fflush(stderr);
+    rewrite_line(line);
   }
 
   using Clock = std::chrono::steady_clock;

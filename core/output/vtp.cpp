@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "text/plain_text.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -79,7 +81,7 @@ void append_field_data(Text out, const PolyData& data) {
 
 std::string xml_escaped(const std::string& text) {
   std::string safe;
-  for (const char character : text) {
+  for (const char character : printable(text)) {
     switch (character) {
       case '&':
         safe += "&amp;";

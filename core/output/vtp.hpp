@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-// text between tags or in quotes
+// text between tags or in quotes; what is no plain text is replaced
 std::string xml_escaped(const std::string& text);
 
 struct DataArray {

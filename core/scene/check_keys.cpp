@@ -240,9 +240,6 @@ void check_text(const KeyRow& row, const Node& node, const std::string& path) {
   }
   constexpr std::size_t longest_text = 1000;  // bytes; a name or a title is one line
   if (node.text.size() > longest_text) refuse(node, path, "must be at most 1000 characters long; shorten it");
-  const bool control = std::any_of(node.text.begin(), node.text.end(),
-                                   [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
-  if (control) refuse(node, path, "must not contain line breaks or other control characters; write it in one line");
   if (row.type != KeyType::name) return;
   if (node.text.empty()) refuse(node, path, "must not be empty" + example_of(row));
   if (node.text.find_first_of(".=") != std::string::npos)
@@ -346,6 +343,7 @@ int scene_dimension(const Node& scene) {
 }
 
 void check_keys(const Node& scene) {
+  require_plain_text(scene, "");
   Checker{scene_dimension(scene)}.table(scene, {""}, "");
 }
 

@@ -17,7 +17,7 @@ enum class KeyType {
   integer,
   number,
   text,
-  name,     // a text without '.', '=' and control characters, so that --set can address it
+  name,     // a text without '.' and '=', so that --set can address it
   choice,   // one of KeyRow::choices
   vector,   // as many numbers as the scene has dimensions
   spin,     // 2-D a number, 3-D three numbers

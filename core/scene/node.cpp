@@ -1,5 +1,7 @@
 #include "core/scene/node.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -117,6 +119,24 @@ void refuse(const Node& node, const std::string& path, const std::string& rule) 
 
 void refuse(const Subject& table, std::string_view key, const std::string& rule) {
   throw SceneError(complaint(table, key, rule));
+}
+
+void require_plain_text(const Node& node, const std::string& path) {
+  const auto require = [&](const Node& holder, std::string_view text, const std::string& at, const char* subject) {
+    if (const auto fault = text_fault(text))
+      refuse(holder, at,
+             fmt::format("{} must not contain {}; write it in one line of plain text", subject, fault->what));
+  };
+  if (node.kind == Node::Kind::text) require(node, node.text, path, "it");
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const bool table = node.items[i].kind == Node::Kind::table;
+    require_plain_text(node.items[i], table ? item_path(path, node.items[i], i) : path);
+  }
+  for (const Member& member : node.members) {
+    const std::string here = key_path(path, member.key);
+    require(member.value, member.key, here, "the key");
+    require_plain_text(member.value, here);
+  }
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {

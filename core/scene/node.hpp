@@ -64,6 +64,9 @@ std::string complaint(const Subject& table, std::string_view key, const std::str
 [[noreturn]] void refuse(const Node& node, const std::string& path, const std::string& rule);
 [[noreturn]] void refuse(const Subject& table, std::string_view key, const std::string& rule);
 
+// Refuses the first text or key of the tree that is no plain text (text/plain_text.hpp); `path` is the tree's address.
+void require_plain_text(const Node& node, const std::string& path);
+
 // the name most like a mistyped one, or an empty text when none is near
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 

@@ -155,8 +155,6 @@ std::vector<InitialVelocitySpec> read_initial_velocity(const Subject& scene) {
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& overrides) {
   const auto source = std::make_shared<const std::string>(one_line(name, 1000));
-  if (text.size() > largest_scene_file) throw SceneError(*source + ": larger than 16 MB; a scene must be smaller");
-
   // the tree: parsed, laid over its base, overridden, held against the key table
   const auto tree =
       std::make_shared<Node>(with_base(parse_toml(text, source), std::filesystem::path(name).parent_path()));

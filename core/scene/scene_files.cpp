@@ -153,9 +153,7 @@ fs::path file_beside(const Node& stated, std::string_view key_view, const fs::pa
   const bool escapes = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
   if (escapes) refuse(stated, key, "must lie in the scene's own folder: give its name without .. or a leading /");
   std::error_code error;
-  const bool control =
-      std::any_of(stated.text.begin(), stated.text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
-  if (control || !fs::is_regular_file(folder / relative, error))
+  if (text_fault(stated.text) || !fs::is_regular_file(folder / relative, error))
     refuse(stated, key, "there is no such file beside the scene");
   const fs::path file = fs::canonical(folder / relative, error);
   if (error || !is_below(file, fs::canonical(folder.empty() ? "." : folder, error)))

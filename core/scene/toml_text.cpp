@@ -24,8 +24,9 @@
 #include <cctype>
 #include <vector>
 
-#include "core/exchange/text_scan.hpp"
+#include "text/text_scan.hpp"
 #include "core/floating_point_traps.hpp"
+#include "core/scene/scene_text.hpp"
 
 namespace voussoir {
 namespace {
@@ -95,25 +96,6 @@ Node converted(const toml::node& from, const Document& document) {
   return node;
 }
 
-// What a text claims, before anything is allocated for it. Keys of very many parts would nest tables until the stack
-// ends (the library limits nested values only); and every value needs a comma, an equals sign or a bracket.
-void limit_size(std::string_view text, const std::string& source) {
-  constexpr int most_dots = 100;
-  constexpr int most_values = 1'000'000;  // a few hundred bytes of memory each
-  int line = 1, dots = 0, values = 0;
-  for (const char c : text) {
-    if (c == '\n') ++line;
-    if (c == '\n' || c == ',' || c == '=') dots = 0;
-    if (c == '.' && ++dots > most_dots)
-      throw SceneError(
-          source + ":" + std::to_string(line) +
-          ": more than 100 dots in a row: keys must not nest so deeply; a scene needs three levels at most");
-    if ((c == ',' || c == '=' || c == '[' || c == '{') && ++values > most_values)
-      throw SceneError(source + ":" + std::to_string(line) +
-                       ": more than a million values: a scene must be smaller; divide it");
-  }
-}
-
 bool same_up_to_case(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
@@ -165,9 +147,29 @@ std::string repair_hint(std::string_view description, std::string_view line) {
 
 }  // namespace
 
+// What a text claims, before anything is allocated for it. Keys of very many parts would nest tables until the stack
+// ends (the library limits nested values only); and every value needs a comma, an equals sign or a bracket.
+void require_sane_size(std::string_view text, const std::string& source) {
+  if (text.size() > largest_scene_file) throw SceneError(source + ": larger than 16 MB; a scene must be smaller");
+  constexpr int most_dots = 100;
+  constexpr int most_values = 1'000'000;  // a few hundred bytes of memory each
+  int line = 1, dots = 0, values = 0;
+  for (const char c : text) {
+    if (c == '\n') ++line;
+    if (c == '\n' || c == ',' || c == '=') dots = 0;
+    if (c == '.' && ++dots > most_dots)
+      throw SceneError(
+          source + ":" + std::to_string(line) +
+          ": more than 100 dots in a row: keys must not nest so deeply; a scene needs three levels at most");
+    if ((c == ',' || c == '=' || c == '[' || c == '{') && ++values > most_values)
+      throw SceneError(source + ":" + std::to_string(line) +
+                       ": more than a million values: a scene must be smaller; divide it");
+  }
+}
+
 Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>& source) {
   if (is_utf_16(text)) throw SceneError(*source + ": " + save_as_utf_8);
-  limit_size(text, *source);
+  require_sane_size(text, *source);
   const WithoutTraps without_traps;  // "1e400" overflows inside the library on its way to a parse error
   try {
     Node root = converted(toml::parse(text, std::string_view(*source)), {text, source});
@@ -182,7 +184,7 @@ Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>&
 
 Node parse_toml_value(std::string_view text, const Place& place) {
   const auto source = std::make_shared<const std::string>(place_text(place));
-  limit_size(text, *source);
+  require_sane_size(text, *source);
   const WithoutTraps without_traps;  // "1e400" overflows inside the library on its way to a parse error
   Node value;
   try {

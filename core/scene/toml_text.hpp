@@ -7,6 +7,9 @@
 
 namespace voussoir {
 
+// Refuses a text that claims more than a scene may hold, before memory is taken for it.
+void require_sane_size(std::string_view text, const std::string& source);
+
 // the whole text of a scene file; syntax errors name the line
 Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>& source);
 
