@@ -12,7 +12,7 @@
 #include <iterator>
 
 #include "app/bad_input.hpp"
-#include "core/output/output_error.hpp"
+#include "core/output/atomic_file.hpp"
 
 namespace voussoir {
 namespace {
@@ -40,7 +40,9 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
     pointers.push_back(const_cast<char*>(argument.c_str()));
   pointers.push_back(nullptr);
 
-  const int output = ::open(messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  // a new file, whatever stood there: a link would lead elsewhere, a pipe would keep us waiting
+  remove_file(messages);
+  const int output = ::open(messages.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (output < 0) throw output_error(messages, errno);
   const int input = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   const pid_t parent = ::getpid();

@@ -115,7 +115,7 @@ TEST_F(FaultsLong, AThousandKillsLoseNothing) {
 TEST_F(Faults, ASignalStopsWithACheckpoint) {
   const std::string scene = write("scene.toml", large);
   const Contents& complete = undisturbed_large();
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGXCPU}) {
     const std::string out = at("stopped");
     fs::remove_all(out);
     Process process = under_way(scene, out);
@@ -143,6 +143,21 @@ TEST_F(Faults, ASecondSignalEndsAtOnce) {
   EXPECT_EQ(process.wait().signal, SIGTERM);
   EXPECT_EQ(finish(scene, out, large_steps).code, 0);
   expect_equal(contents_of(out), complete, "two signals");
+}
+
+// the system repeats it with every second of processor time
+TEST_F(Faults, ARepeatedLimitOfProcessorTimeStillLeavesACheckpoint) {
+  const std::string scene = write("scene.toml", large), out = at("stopped");
+  const Contents& complete = undisturbed_large();
+  Process process = under_way(scene, out);
+  ASSERT_TRUE(wait_until([&] { return fs::exists(out + "/checkpoint"); }));
+  for (int k = 0; k < 20; ++k) {
+    process.send(SIGXCPU);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  expect_one_line(process.wait(), 128 + SIGXCPU, "go on with 'voussoir resume " + out + "'");
+  EXPECT_EQ(finish(scene, out, large_steps).code, 0);
+  expect_equal(contents_of(out), complete, "a limit of processor time");
 }
 
 TEST_F(Faults, WhoIsToldToIgnoreAHangupDoesSo) {
@@ -371,6 +386,27 @@ TEST_F(Faults, ARunWithoutACheckpointStartsOver) {
   fs::remove(out + "/checkpoint.previous");
   EXPECT_EQ(run({.arguments = resume_arguments(out)}).code, 0);
   expect_equal(contents_of(out), complete, "no checkpoint");
+}
+
+// pictures are no part of what is computed
+TEST_F(Faults, FramesThatAreGoneStopNoRun) {
+  Contents wanted = undisturbed_large();
+  const std::string out = interrupted("stopped");
+  ASSERT_TRUE(fs::remove(out + "/frames/blocks_0000.vtp"));
+  expect_one_line(run({.arguments = resume_arguments(out)}), 0, "frames/blocks_0000.vtp the first");
+  Contents found = contents_of(out);
+  EXPECT_EQ(found.at("blocks.pvd").find("blocks_0000"), std::string::npos);
+  EXPECT_NE(found.at("contacts.pvd").find("contacts_0000"), std::string::npos);
+  wanted.erase("frames/blocks_0000.vtp");
+  found["blocks.pvd"] = wanted["blocks.pvd"];
+  expect_equal(found, wanted, "a frame is gone");
+
+  fs::remove_all(out);
+  interrupted("stopped");
+  fs::remove_all(out + "/frames");
+  expect_one_line(run({.arguments = resume_arguments(out)}), 0, "the first");
+  EXPECT_EQ(contents_of(out).at("results.json"), wanted.at("results.json"));
+  EXPECT_TRUE(fs::exists(out + "/frames/blocks_0009.vtp")) << "the later ones are there";
 }
 
 TEST_F(Faults, AnInterruptedRunIsNotOverwrittenUnasked) {

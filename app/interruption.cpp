@@ -10,15 +10,17 @@
 namespace voussoir {
 namespace {
 
-constexpr int asking[] = {SIGINT, SIGTERM, SIGHUP};
+// SIGXCPU: a batch system's limit of processor time; SIGUSR1: its notice before it kills
+constexpr int asking[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGXCPU};
 
 volatile std::sig_atomic_t noted = 0;
 
-// the next one, whichever it is, ends the program
+// The next one, whichever it is, ends the program; but SIGXCPU comes again with every further second of processor time,
+// also while the checkpoint is written.
 void note(int signal) {
   noted = signal;
   for (const int other : asking)
-    std::signal(other, SIG_DFL);
+    std::signal(other, other == SIGXCPU ? SIG_IGN : SIG_DFL);
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ void remove_old_run(const fs::path& folder) {
   remove_checkpoints(folder);
   for (const char* name : {"run.json", "history.csv", "scene.toml"})
     remove_file(folder / name);
-  cut_back(FrameSeries{folder});
+  cut_back(folder, {});
 }
 
 void remove_checkpoints(const fs::path& folder) {

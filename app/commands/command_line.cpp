@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -21,6 +23,7 @@
 #include "core/output/output_error.hpp"
 #include "core/output/version.hpp"
 #include "core/scene/scene_error.hpp"
+#include "text/plain_text.hpp"
 
 namespace voussoir {
 namespace {
@@ -52,12 +55,48 @@ std::string version_text() {
   return text;
 }
 
+// Within the range, and finite: nan would pass every comparison.
+CLI::Validator finite(double low, double high) {
+  const CLI::Range range(low, high);
+  return {[range](std::string& text) {
+            double number = 0;
+            const char* const end = text.data() + text.size();
+            const auto [stop, error] = std::from_chars(text.data(), end, number);
+            const bool is_number = error == std::errc() && stop == end && std::isfinite(number);
+            return is_number ? range(text) : "must be a finite decimal number, not '" + text + "'";
+          },
+          range.get_description()};
+}
+
+constexpr double least_positive = 1e-9, largest = 1e12;
+
+// What is printed or becomes part of a file's name, and never nothing: an empty name is a variable that was not set.
+CLI::Validator plain_text() {
+  return {[](std::string& text) -> std::string {
+            if (text.empty()) return "must not be empty";
+            const auto fault = text_fault(text);
+            return fault ? "must not contain " + fault->what : "";
+          },
+          ""};
+}
+
+void add_out(CLI::App* command, std::filesystem::path& out, const std::string& meaning, bool required = false) {
+  command->add_option("--out", out, meaning)->check(plain_text())->required(required);
+}
+
+void add_overwrite(CLI::App* command, bool& overwrite) {
+  command->add_flag("--overwrite", overwrite,
+                    "remove the results that the folder holds, and replace files of the names that are written; what "
+                    "this command reads is never replaced");
+}
+
 void add_scene(CLI::App* command, SceneArguments& arguments) {
-  command->add_option("scene", arguments.scene, "scene file (TOML)")->required();
+  command->add_option("scene", arguments.scene, "scene file (TOML)")->required()->check(plain_text());
   command
       ->add_option("--set", arguments.overrides,
                    "key=value: replaces a value of the scene; tables of a list by their name, e.g. joints.A.dip=65")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->check(plain_text());
 }
 
 void add_threads(CLI::App* command, int& threads) {
@@ -68,24 +107,24 @@ void add_threads(CLI::App* command, int& threads) {
 void add_run(CLI::App& program, RunArguments& arguments, Action& action) {
   CLI::App* command = program.add_subcommand("run", "run a scene and write its results");
   add_scene(command, arguments.scene);
-  command->add_option("--out", arguments.out, "folder of the results (default: results/<scene>)");
+  add_out(command, arguments.out, "folder of the results (default: results/<scene>)");
   add_threads(command, arguments.threads);
   command
       ->add_option("--checkpoint-steps", arguments.checkpoint_steps,
                    "steps between checkpoints (default: by time alone)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(finite(0, largest));
   command
       ->add_option("--checkpoint-seconds", arguments.checkpoint_seconds,
                    "wall clock between checkpoints; 0: none (default: 300)")
-      ->check(CLI::NonNegativeNumber);
-  command->add_flag("--overwrite", arguments.overwrite, "replace the results that the folder holds");
+      ->check(finite(0, largest));
+  add_overwrite(command, arguments.overwrite);
   command->add_flag("--quiet", arguments.quiet, "no progress and no summary");
   command->callback([&] { action = [&] { return run_command(arguments); }; });
 }
 
 void add_resume(CLI::App& program, ResumeArguments& arguments, Action& action) {
   CLI::App* command = program.add_subcommand("resume", "go on with a run that was interrupted");
-  command->add_option("folder", arguments.folder, "the folder of its results")->required();
+  command->add_option("folder", arguments.folder, "the folder of its results")->required()->check(plain_text());
   command->add_option("--threads", arguments.threads, "number of threads (default: as before)")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--quiet", arguments.quiet, "no progress and no summary");
@@ -101,7 +140,7 @@ void add_check(CLI::App& program, SceneArguments& arguments, Action& action) {
 void add_slice(CLI::App& program, SliceArguments& arguments, Action& action) {
   CLI::App* command = program.add_subcommand("slice", "cut the blocks and write them, without running");
   add_scene(command, arguments.scene);
-  command->add_option("--out", arguments.out, "folder of blocks.vtp and blocks.csv")->required();
+  add_out(command, arguments.out, "folder of blocks.vtp and blocks.csv", true);
   command->add_flag(
       "--report", arguments.report,
       "hold the joint sets against what was stated: report.md, joints.csv, stereonet, spacings, block sizes");
@@ -109,6 +148,7 @@ void add_slice(CLI::App& program, SliceArguments& arguments, Action& action) {
                     "the planes of the blocks: block_planes.csv, readable as blocks_file");
   command->add_flag("--stl", arguments.stl, "the blocks as blocks.stl (ASCII; 3-D)");
   command->add_flag("--obj", arguments.obj, "the blocks as blocks.obj (3-D), readable as blocks_file");
+  add_overwrite(command, arguments.overwrite);
   command->callback([&] { action = [&] { return slice_command(arguments); }; });
 }
 
@@ -116,7 +156,7 @@ void add_limit(CLI::App& program, LimitArguments& arguments, Action& action) {
   CLI::App* command = program.add_subcommand(
       "limit", "critical friction angle, or collapse load, of blocks in the plane by rigid-block limit analysis");
   add_scene(command, arguments.scene);
-  command->add_option("--out", arguments.out, "folder of the results (default: results/<scene>_limit)");
+  add_out(command, arguments.out, "folder of the results (default: results/<scene>_limit)");
   CLI::Option* load =
       command
           ->add_option(
@@ -130,8 +170,9 @@ void add_limit(CLI::App& program, LimitArguments& arguments, Action& action) {
           "name of joint_properties whose critical friction is sought, the others keep theirs; may be repeated "
           "(default: all)")
       ->allow_extra_args(false)
+      ->check(plain_text())
       ->excludes(load);
-  command->add_flag("--overwrite", arguments.overwrite, "replace the results that the folder holds");
+  add_overwrite(command, arguments.overwrite);
   command->callback([&] { action = [&] { return limit_command(arguments); }; });
 }
 
@@ -139,9 +180,10 @@ void add_joint_test(CLI::App& program, JointTestArguments& arguments, Action& ac
   CLI::App* command =
       program.add_subcommand("joint-test", "take the joint laws of a scene along laboratory paths, without any block");
   add_scene(command, arguments.scene);
-  command->add_option("--out", arguments.out, "folder of the results (default: results/<scene>_joint_test)");
+  add_out(command, arguments.out, "folder of the results (default: results/<scene>_joint_test)");
   command->add_option("--joint", arguments.properties, "name of joint_properties; may be repeated (default: all)")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->check(plain_text());
   command
       ->add_option("--path", arguments.path,
                    "normal: compression and back; shear: at constant normal stress; stiffness: in surroundings of "
@@ -151,31 +193,32 @@ void add_joint_test(CLI::App& program, JointTestArguments& arguments, Action& ac
       ->add_option("--stress", arguments.stresses,
                    "normal stress in Pa; may be repeated (default: 0.1, 0.5, 1, 2, 5 MPa)")
       ->allow_extra_args(false)
-      ->check(CLI::Range(1e-9, 1e12));
-  command->add_option("--slip", arguments.slip, "in m (default: 1e-3)")->check(CLI::Range(1e-9, 1e12));
+      ->check(finite(least_positive, largest));
+  command->add_option("--slip", arguments.slip, "in m (default: 1e-3)")->check(finite(least_positive, largest));
   command->add_option("--surroundings", arguments.surroundings, "of path stiffness, in Pa/m (default: 1e9)")
-      ->check(CLI::Range(1e-9, 1e12));
+      ->check(finite(least_positive, largest));
   command->add_option("--dilation", arguments.dilation, "of path stiffness: rise over slip (default: 0.05)")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(finite(0, 1));
   command->add_option("--cycles", arguments.cycles, "of path cyclic (default: 2)")->check(CLI::Range(1, 1000));
   command->add_option("--steps", arguments.steps, "points along each leg of a path (default: 200)")
       ->check(CLI::Range(1, 1000000));
   command->add_flag("--bonded", arguments.bonded, "tension and cohesion are intact when shear begins");
-  command->add_flag("--overwrite", arguments.overwrite, "replace the results that the folder holds");
+  add_overwrite(command, arguments.overwrite);
   command->callback([&] { action = [&] { return joint_test_command(arguments); }; });
 }
 
 void add_study(CLI::App& program, StudyArguments& arguments, Action& action) {
   CLI::App* command = program.add_subcommand("study", "run a scene with one setting changed at a time");
-  command->add_option("plan", arguments.plan, "study.toml")->required();
-  command->add_option("--out", arguments.out, "folder of study.csv; what it holds of this study is kept")->required();
+  command->add_option("plan", arguments.plan, "study.toml")->required()->check(plain_text());
+  add_out(command, arguments.out, "folder of study.csv; what it holds of this study is kept", true);
   command->add_option("--jobs", arguments.jobs, "runs at the same time (default: as many as there are cores)")
       ->check(CLI::Range(1, 1024));
   command
       ->add_option("--time-limit", arguments.time_limit,
                    "seconds of wall clock after which a run counts as failed (default: none)")
-      ->check(CLI::PositiveNumber);
+      ->check(finite(least_positive, largest));
   add_threads(command, arguments.threads);
+  command->add_flag("--overwrite", arguments.overwrite, "replace what the folder holds of anything but a study");
   command->add_flag("--quiet", arguments.quiet, "no progress");
   command->callback([&] { action = [&] { return study_command(arguments); }; });
 }
@@ -259,8 +302,12 @@ int parse_and_act(int argument_count, char** arguments) {
     program.parse(argument_count, arguments);
   } catch (const CLI::ParseError& error) {
     // help and version are no errors; anything else is bad input, whatever number the parser has for it
-    const int code = program.exit(error);
-    return code == 0 ? guarded([] { return ExitCode::done; }) : static_cast<int>(ExitCode::bad_input);
+    if (error.get_exit_code() != 0) {
+      tell("voussoir: {}; 'voussoir --help' and 'voussoir <command> --help' list what there is\n", error.what());
+      return static_cast<int>(ExitCode::bad_input);
+    }
+    program.exit(error);
+    return guarded([] { return ExitCode::done; });
   }
   return guarded(action);
 }

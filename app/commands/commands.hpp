@@ -52,6 +52,7 @@ struct SliceArguments {
   std::filesystem::path out;
   bool report = false;                            // on the joint sets, and joints.csv
   bool planes = false, stl = false, obj = false;  // further formats of the blocks
+  bool overwrite = false;
 };
 
 struct LimitArguments {
@@ -83,6 +84,7 @@ struct StudyArguments {
   int jobs = 0;           // runs at the same time; 0: as many as there are cores
   int threads = 1;        // of each run
   double time_limit = 0;  // s of wall clock for each run; 0: none
+  bool overwrite = false;
   bool quiet = false;
 };
 

@@ -106,9 +106,8 @@ class CheckpointClock {
 
 // the run goes on from where `progress` stands; false: a signal stopped it, with a checkpoint
 template <int Dim>
-bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const Errand& errand,
-           Progress<Dim>& progress) {
-  FrameSeries frames{errand.folder, progress.frames};
+bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const Errand& errand, Progress<Dim>& progress,
+           FrameSeries& frames) {
   ProgressLine line(!errand.quiet);
   CheckpointClock clock(errand.conduct, progress.state.counters.steps, progress.results.seconds);
   Watcher<Dim> watcher;
@@ -131,8 +130,11 @@ bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const E
 
 // what the run so far has written beyond its checkpoint is cut off
 template <int Dim>
-void cut_back_to(const Progress<Dim>& progress, const fs::path& folder) {
-  cut_back(FrameSeries{folder, progress.frames});
+FrameSeries cut_back_to(const Progress<Dim>& progress, const fs::path& folder) {
+  FrameSeries frames = cut_back(folder, progress.frames);
+  if (!frames.lost.empty())
+    print_warnings({fmt::format("{} files of frames are gone, {} the first: blocks.pvd and contacts.pvd leave them out",
+                                frames.lost.size(), *frames.lost.begin())});
   write_history_csv(folder / "history.csv", history_so_far(progress));
 }
 
@@ -142,10 +144,10 @@ ExitCode carry_out_prepared(const LoadedScene& scene, const Prepared<Dim>& prepa
   std::vector<std::string> remarks;
   Progress<Dim> progress = last_progress(errand.folder, prepared, scene.hash, remarks);
   print_warnings(remarks);
-  cut_back_to(progress, errand.folder);
+  FrameSeries frames = cut_back_to(progress, errand.folder);
 
   note_interruptions();
-  if (!go_on(prepared, scene.hash, errand, progress)) {
+  if (!go_on(prepared, scene.hash, errand, progress, frames)) {
     tell("voussoir: interrupted after step {} (t = {:.6g} s): go on with 'voussoir resume {}'\n",
          progress.state.counters.steps, progress.state.time, errand.folder.string());
     return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + interruption());

@@ -82,6 +82,29 @@ RunFound found_in_json(const nlohmann::json& results, const fs::path& folder, co
 
 }  // namespace
 
+std::optional<std::string> missing_quantity(const fs::path& folder, const StudyPlan& plan) {
+  const std::string& wanted = plan.history ? plan.history->column : plan.quantity;
+  std::vector<std::string> names;
+  try {
+    const nlohmann::json results = nlohmann::json::parse(read_file(folder / "results.json", largest_results));
+    if (results.at("status") != "done") return std::nullopt;
+    if (plan.history) {
+      const std::string text = read_file(folder / "history.csv", largest_history);
+      const CsvReader reader(text, most_columns);
+      for (const CsvCell& cell : reader.header())
+        names.push_back(cell.text);
+    } else {
+      for (const auto& [name, value] : results.at("values").items())
+        names.push_back(name);
+    }
+  } catch (const std::exception&) {
+    return std::nullopt;  // damaged: its row says so
+  }
+  if (std::find(names.begin(), names.end(), wanted) != names.end()) return "";
+  return fmt::format("no run has {} '{}'; {}", plan.history ? "a column of history.csv" : "a value of results.json",
+                     wanted, suggestion(wanted, names));
+}
+
 RunFound found_in(const fs::path& folder, const StudyPlan& plan) {
   const auto damaged = [&](const char* name) {
     return RunFound{.status = fmt::format("'{}' is damaged: remove it and study again", (folder / name).string())};

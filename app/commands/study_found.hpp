@@ -20,4 +20,8 @@ struct RunFound {
 // reads results.json, and history.csv where the plan takes the quantity from there
 RunFound found_in(const std::filesystem::path& folder, const StudyPlan& plan);
 
+// Whether a run has what the plan asks for: empty where it has, a sentence with the names that there are where it has
+// not; nothing where the run did not reach its end, so that neither is known.
+std::optional<std::string> missing_quantity(const std::filesystem::path& folder, const StudyPlan& plan);
+
 }  // namespace voussoir

@@ -55,10 +55,12 @@ class Runs {
   Runs(const std::vector<StudyRun>& runs, const RunsConduct& conduct) : conduct_(conduct) {
     for (const StudyRun& run : runs)
       if (failures_.try_emplace(run.name).second) {
-        if (holds_results(folder_of(run)))
+        if (holds_results(folder_of(run))) {
           ++kept_;
-        else
+          require_worth(run);
+        } else {
           waiting_.push_back(&run);
+        }
       }
     total_ = waiting_.size();
   }
@@ -106,6 +108,14 @@ class Runs {
     going_.push_back({&run, std::make_unique<ChildProcess>(arguments, messages_of(run)), resume, false, {}});
   }
 
+  // a study of something that no run yields ends with its first run instead of its last
+  void require_worth(const StudyRun& run) {
+    if (worth_ || !conduct_.doubt) return;
+    const std::optional<std::string> doubt = conduct_.doubt(folder_of(run));
+    if (doubt && !doubt->empty()) throw BadInput(*doubt);
+    worth_ = doubt.has_value();
+  }
+
   // true: it has ended
   bool look_after(Going& going) {
     ChildProcess& process = *going.process;
@@ -118,6 +128,7 @@ class Runs {
         return true;
       }
       ++done_;
+      if (holds_results(folder_of(*going.run))) require_worth(*going.run);
       failures_.at(going.run->name) = reason(going, *end);
       return true;
     }
@@ -160,7 +171,8 @@ class Runs {
   std::vector<Going> going_;
   std::size_t total_ = 0, done_ = 0;
   int kept_ = 0;
-  double took_ = 0;  // s, of all that are done
+  bool worth_ = false;  // some run has what is sought
+  double took_ = 0;     // s, of all that are done
   bool watched_ = !conduct_.quiet && ::isatty(STDERR_FILENO);
   Clock::time_point shown_{};
 };

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,9 @@ struct RunsConduct {
   int threads = 1;               // of each run
   double time_limit = 0;         // s of wall clock for each run; 0: none
   bool quiet = false;
+  // Asked about the folder of each run that has results, until one is found good: empty for a good one, nothing for one
+  // that tells nothing, else why no run is worth its time.
+  std::function<std::optional<std::string>(const std::filesystem::path&)> doubt = {};
 };
 
 struct RunsEnded {
@@ -27,8 +32,8 @@ struct RunsEnded {
   bool interrupted = false;           // by a signal: what is done is kept, what was going on has a checkpoint
 };
 
-// Does what is not done yet and forgets folders of other runs. A failure is repeated at the next call, a run that was
-// interrupted goes on from its checkpoint.
+// Does what is not done yet. A failure is repeated at the next call, a run that was interrupted goes on from its
+// checkpoint. Throws BadInput with the doubt about the first run that ended.
 RunsEnded carry_out_runs(const std::vector<StudyRun>& runs, const RunsConduct& conduct);
 
 }  // namespace voussoir

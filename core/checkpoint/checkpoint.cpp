@@ -41,6 +41,14 @@ struct Bytes : std::streambuf {
   std::size_t consumed() const { return static_cast<std::size_t>(gptr() - eback()); }
 };
 
+void require_format(std::uint32_t format) {
+  if (format != checkpoint_format)
+    throw CheckpointError(
+        fmt::format("has format {}, this program reads format {}: resume it with the program that "
+                    "wrote it",
+                    format, checkpoint_format));
+}
+
 // the bytes between magic and seal, once the seal has proved them whole
 std::string_view unseal(std::string_view bytes) {
   if (!bytes.starts_with(magic)) throw CheckpointError("is not a checkpoint of this program");
@@ -62,11 +70,7 @@ Header read_header(std::string_view& content) {
   cereal::BinaryInputArchive archive(stream);
   Header header;
   archive(header.format);
-  if (header.format != checkpoint_format)
-    throw CheckpointError(
-        fmt::format("has format {}, this program reads format {}: resume it with the program that "
-                    "wrote it",
-                    header.format, checkpoint_format));
+  require_format(header.format);
   archive(header.dimension, header.step, header.scene_hash, header.build, header.payload);
   content.remove_prefix(source.consumed());
   if (header.payload != content.size()) throw CheckpointError("does not have the size it states");
@@ -95,6 +99,31 @@ CheckpointRecord checkpoint_record(std::string_view bytes) {
   std::string_view content = unseal(bytes);
   const Header header = read_header(content);
   return {header.scene_hash, header.build, static_cast<int>(header.dimension), header.step};
+}
+
+std::uintmax_t checkpoint_size(std::string_view head) {
+  // by hand: nothing has proved these bytes yet, and a library would take memory for any length that they state
+  constexpr std::uint64_t longest_text = 2000;
+  std::string_view rest = head;
+  const auto take = [&rest]<class T>(T number) {
+    if (rest.size() < sizeof number) throw CheckpointError("is damaged or cut short");
+    std::memcpy(&number, rest.data(), sizeof number);
+    rest.remove_prefix(sizeof number);
+    return number;
+  };
+  if (!head.starts_with(magic)) throw CheckpointError("is not a checkpoint of this program");
+  rest.remove_prefix(magic.size());
+  if (take(std::uint32_t{}) != order_mark) return head.size();  // the reader says why
+  require_format(take(std::uint32_t{}));
+  take(std::uint32_t{});  // dimension
+  take(std::int64_t{});   // step
+  for (int text = 0; text < 2; ++text) {
+    const auto length = take(std::uint64_t{});
+    if (length > longest_text || length > rest.size()) throw CheckpointError("is damaged or cut short");
+    rest.remove_prefix(length);
+  }
+  const auto payload = take(std::uint64_t{});
+  return (head.size() - rest.size()) + payload + seal_size;
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 //   fingerprint (FNV-1a, 64 bits) of all bytes before it: no change of one byte leaves it as it was
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -36,7 +37,11 @@ std::string checkpoint_bytes(const Progress<Dim>& progress, const std::string& s
 // or damaged.
 CheckpointRecord checkpoint_record(std::string_view bytes);
 
-// as above, and refuses another scene's or dimension's progress
+// The size that a checkpoint must have of which these are the first bytes, at least 4096 of a longer one: what is
+// larger or smaller need not be read. Throws CheckpointError as checkpoint_record does.
+std::uintmax_t checkpoint_size(std::string_view head);
+
+// as checkpoint_record, and refuses another scene's or dimension's progress
 template <int Dim>
 Progress<Dim> read_checkpoint(std::string_view bytes, const std::string& scene_hash);
 

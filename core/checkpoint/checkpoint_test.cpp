@@ -164,6 +164,25 @@ TEST(Checkpoint, SaysWhatIsWrong) {
   EXPECT_NE(refusal(turned, scene_hash).find("byte order"), std::string::npos);
 }
 
+TEST(Checkpoint, ItsFirstBytesTellItsSize) {
+  const std::string bytes = checkpoint_bytes(small_progress(small_scene()), scene_hash);
+  ASSERT_GT(bytes.size(), 4096u);
+  EXPECT_EQ(checkpoint_size(bytes.substr(0, 4096)), bytes.size());
+  EXPECT_THROW(checkpoint_size(std::string(4096, '\0')), CheckpointError);
+  EXPECT_THROW(checkpoint_size(""), CheckpointError);
+  for (std::size_t i = 0; i < 120; ++i)
+    EXPECT_THROW(checkpoint_size(bytes.substr(0, i)), CheckpointError) << i;
+  // whatever a damaged one states, nothing is allocated for it
+  for (std::size_t i = 0; i < 200; ++i) {
+    std::string damaged = bytes.substr(0, 4096);
+    damaged[i] = static_cast<char>(damaged[i] ^ 0xff);
+    try {
+      checkpoint_size(damaged);
+    } catch (const CheckpointError&) {
+    }
+  }
+}
+
 TEST(Checkpoint, TellsWhatItHoldsBeforeItIsRead) {
   const CheckpointRecord record = checkpoint_record(checkpoint_bytes(small_progress(small_scene()), scene_hash));
   EXPECT_EQ(record.scene_hash, scene_hash);

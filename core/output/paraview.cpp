@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -80,16 +81,18 @@ std::string frame_file(const char* kind, std::size_t number) {
   return fmt::format("frames/{}_{:04}.vtp", kind, number);
 }
 
+std::string collection_file(const char* kind) {
+  return fmt::format("{}.pvd", kind);
+}
+
 // the number in the name of one of our frames
 std::optional<std::size_t> frame_number(const std::filesystem::path& path) {
-  if (path.extension() != ".vtp") return {};
-  const std::string name = path.stem().string();
+  const std::string name = path.filename().string();
   for (const std::string kind : kinds) {
     if (!name.starts_with(kind + "_")) continue;
-    const std::string digits = name.substr(kind.size() + 1);
     std::size_t number = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (error == std::errc{} && end == digits.data() + digits.size()) return number;
+    std::from_chars(name.data() + kind.size() + 1, name.data() + name.size(), number);
+    if (frame_file(kind.c_str(), number) == "frames/" + name) return number;
   }
   return {};
 }
@@ -98,8 +101,9 @@ void write_collections(const FrameSeries& series) {
   for (const char* kind : kinds) {
     std::vector<TimedFile> files;
     for (std::size_t k = 0; k < series.times.size(); ++k)
-      files.push_back({series.times[k], frame_file(kind, k)});
-    write_file(series.folder / fmt::format("{}.pvd", kind), pvd(files));
+      if (const std::string file = frame_file(kind, k); !series.lost.contains(file))
+        files.push_back({series.times[k], file});
+    write_file(series.folder / collection_file(kind), pvd(files));
   }
 }
 
@@ -158,17 +162,32 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
   return data;
 }
 
-void cut_back(const FrameSeries& series) {
+std::vector<std::filesystem::path> series_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(series.folder / "frames", error)) {
-    const std::optional<std::size_t> number = frame_number(entry.path());
-    if (number && *number >= series.times.size()) remove_file(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "frames", error))
+    if (frame_number(entry.path())) files.push_back("frames" / entry.path().filename());
+  for (const char* kind : kinds)
+    if (std::filesystem::is_symlink(folder / collection_file(kind), error) ||
+        std::filesystem::exists(folder / collection_file(kind), error))
+      files.emplace_back(collection_file(kind));
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+FrameSeries cut_back(const std::filesystem::path& folder, const std::vector<double>& times) {
+  FrameSeries series{folder, times, {}};
+  for (const std::filesystem::path& file : series_files(folder)) {
+    const std::optional<std::size_t> number = frame_number(file);
+    if (number ? *number >= times.size() : times.empty()) remove_file(folder / file);
   }
-  if (!series.times.empty())
-    write_collections(series);
-  else
-    for (const char* kind : kinds)
-      remove_file(series.folder / fmt::format("{}.pvd", kind));
+  if (times.empty()) return series;
+  prepare_folder(folder / "frames");
+  for (const char* kind : kinds)
+    for (std::size_t k = 0; k < times.size(); ++k)
+      if (!std::filesystem::exists(folder / frame_file(kind, k))) series.lost.insert(frame_file(kind, k));
+  write_collections(series);
+  return series;
 }
 
 template <int Dim>

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "core/model.hpp"
@@ -26,12 +28,16 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
 // contacts.pvd.
 struct FrameSeries {
   std::filesystem::path folder;
-  std::vector<double> times = {};  // s, of the frames written
+  std::vector<double> times = {};   // s, of the frames written
+  std::set<std::string> lost = {};  // names of those frames that somebody removed; no collection names them
 };
 
-// Removes frames beyond the series and lets the collections name what is left: a run that goes on from a checkpoint
-// writes the later ones again. Throws OutputError.
-void cut_back(const FrameSeries& series);
+// The files of a series that are there, whichever run wrote them: frames and collections, relative to the folder.
+std::vector<std::filesystem::path> series_files(const std::filesystem::path& folder);
+
+// The series of a run that goes on from a checkpoint with frames at these times: frames beyond it, which will be
+// written again, are removed, and the collections name what is left. Throws OutputError.
+FrameSeries cut_back(const std::filesystem::path& folder, const std::vector<double>& times);
 
 // Adds a frame and renews the collections, so that a run that is cut short can be opened too. Throws OutputError.
 template <int Dim>
