@@ -1,18 +1,14 @@
 #include "app/run_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/output/atomic_file.hpp"
-#include "core/output/paraview.hpp"
 #include "core/simulate.hpp"
+#include "text/read_file.hpp"
 
 namespace voussoir {
 namespace {
@@ -29,53 +25,31 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, error);
 }
 
-// whole or refused: streams would end quietly where reading fails
-std::string content_of(const fs::path& path) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(path, error);
-  std::string content(error ? 0 : size, '\0');
-  std::ifstream file(path, std::ios::binary);
-  if (error || !file.read(content.data(), static_cast<std::streamsize>(size)))
-    throw BadInput(fmt::format("cannot read '{}'", path.string()));
-  return content;
+// bytes of run.json; that its head suffices to tell a checkpoint's size
+constexpr std::uintmax_t largest_conduct = 16 << 20, checkpoint_head = 4096;
+
+std::string content_of(const fs::path& path, std::uintmax_t most) {
+  try {
+    return read_file(path, most);
+  } catch (const ReadFault& fault) {
+    throw BadInput(fmt::format("'{}': {}", path.string(), fault.what()));
+  }
 }
 
-std::string host() {
-  char name[256] = {};
-  return ::gethostname(name, sizeof name - 1) == 0 ? name : "unknown host";
+// nothing is read, and no memory taken, for a file that cannot be a checkpoint
+std::string checkpoint_content(const fs::path& path) {
+  try {
+    std::uintmax_t size = 0;
+    const std::string head = read_head(path, checkpoint_head, size);
+    if (const std::uintmax_t stated = checkpoint_size(head); size > checkpoint_head && size != stated)
+      throw CheckpointError("is damaged or cut short");
+  } catch (const ReadFault& fault) {
+    throw BadInput(fmt::format("'{}': {}", path.string(), fault.what()));
+  }
+  return content_of(path, std::numeric_limits<std::uintmax_t>::max());
 }
 
 }  // namespace
-
-FolderLock::FolderLock(const fs::path& folder) {
-  prepare_folder(folder);
-  const fs::path path = folder / ".lock";
-  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) throw output_error(path, errno);
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
-    const int error = errno;
-    ::close(file_);
-    if (error != EWOULDBLOCK) throw output_error(path, error);
-    const std::string holder = content_of(path);
-    throw FolderInUse(fmt::format("'{}' is in use by {}: wait for it, or choose another folder with --out",
-                                  folder.string(), holder.empty() ? "another process" : holder));
-  }
-  // for whom it may concern; the lock itself is the kernel's
-  const std::string holder = fmt::format("process {} on {}", ::getpid(), host());
-  if (::ftruncate(file_, 0) != 0 || ::pwrite(file_, holder.data(), holder.size(), 0) < 0) {
-    const int error = errno;
-    ::close(file_);
-    throw output_error(path, error);
-  }
-
-  // nobody else writes here now
-  remove_unfinished_files(folder);
-  remove_unfinished_files(folder / "frames");
-}
-
-FolderLock::~FolderLock() {
-  ::close(file_);
-}
 
 void write_conduct(const fs::path& folder, const RunConduct& conduct) {
   const nlohmann::ordered_json json = {{"schema", "voussoir.run"},
@@ -92,7 +66,7 @@ void write_conduct(const fs::path& folder, const RunConduct& conduct) {
 RunConduct read_conduct(const fs::path& folder) {
   const fs::path path = folder / "run.json";
   try {
-    const nlohmann::json json = nlohmann::json::parse(content_of(path));
+    const nlohmann::json json = nlohmann::json::parse(content_of(path, largest_conduct));
     if (json.at("schema") != "voussoir.run" || json.at("schema_version") != conduct_version)
       throw BadInput(fmt::format("'{}' was written by another version of this program", path.string()));
     const RunConduct conduct{json.at("scene_hash"), json.at("threads"), json.at("checkpoint_steps"),
@@ -110,9 +84,15 @@ RunConduct read_conduct(const fs::path& folder) {
   }
 }
 
-BadInput folder_is_taken(const fs::path& folder) {
-  return BadInput(
-      fmt::format("'{}' holds results: choose another folder with --out, or add --overwrite", folder.string()));
+Outputs run_outputs() {
+  return {"run", {"results.json", "run.json", newest, previous, "history.csv", "scene.toml"}, true};
+}
+
+Outputs resume_outputs() {
+  Outputs outputs = run_outputs();
+  std::erase(outputs.files, "run.json");
+  std::erase(outputs.files, "scene.toml");
+  return outputs;
 }
 
 bool holds_results(const fs::path& folder) {
@@ -125,14 +105,6 @@ bool holds_unfinished_run(const fs::path& folder) {
 
 bool holds_checkpoints(const fs::path& folder) {
   return is_there(folder / newest) || is_there(folder / previous);
-}
-
-void remove_old_run(const fs::path& folder) {
-  remove_file(folder / "results.json");
-  remove_checkpoints(folder);
-  for (const char* name : {"run.json", "history.csv", "scene.toml"})
-    remove_file(folder / name);
-  cut_back(folder, {});
 }
 
 void remove_checkpoints(const fs::path& folder) {
@@ -153,7 +125,7 @@ Progress<Dim> last_progress(const fs::path& folder, const Prepared<Dim>& scene, 
     const fs::path path = folder / name;
     if (!is_there(path)) continue;
     try {
-      const std::string bytes = content_of(path);
+      const std::string bytes = checkpoint_content(path);
       Progress<Dim> progress = read_checkpoint<Dim>(bytes, scene_hash);
       if (const std::string build = checkpoint_record(bytes).build; build != build_name())
         remarks.push_back(fmt::format("'{}' was written by {}, this is {}: the last bits may differ", path.string(),

@@ -1,6 +1,6 @@
-// The folder of a run: what a later `voussoir resume` needs, and the lock that keeps a second run out.
+// The folder of a run: what a later `voussoir resume` needs.
 //
-//   .lock                      held while a run writes here; dies with the process
+//   .lock, .voussoir-made      app/claimed_folder.hpp
 //   scene.toml, run.json       what is run and how, written before the first step
 //   checkpoint, checkpoint.previous
 //   history.csv, frames/, *.pvd
@@ -8,32 +8,14 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "app/bad_input.hpp"
+#include "app/claimed_folder.hpp"
 #include "core/checkpoint/checkpoint.hpp"
 
 namespace voussoir {
-
-// the folder is in use; the program ends with exit code 3
-struct FolderInUse : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-// Makes the folder if need be, holds its lock and removes what killed programs left half-written. Throws OutputError,
-// or FolderInUse with the holder's name.
-class FolderLock {
- public:
-  explicit FolderLock(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int file_;
-};
 
 // what is run, and how: the results depend on the scene alone
 struct RunConduct {
@@ -49,14 +31,14 @@ void write_conduct(const std::filesystem::path& folder, const RunConduct& conduc
 // throws BadInput with the file's name when it cannot be understood
 RunConduct read_conduct(const std::filesystem::path& folder);
 
-// what a command says that would replace results
-BadInput folder_is_taken(const std::filesystem::path& folder);
+// what a run writes, and what of it a run that goes on writes again
+Outputs run_outputs();
+Outputs resume_outputs();
+
 bool holds_results(const std::filesystem::path& folder);
 bool holds_unfinished_run(const std::filesystem::path& folder);
 bool holds_checkpoints(const std::filesystem::path& folder);
 
-// removes what a run writes, and nothing else; results.json first, so that a folder without it holds nothing complete
-void remove_old_run(const std::filesystem::path& folder);
 void remove_checkpoints(const std::filesystem::path& folder);
 
 // keeps the one before

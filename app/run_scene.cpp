@@ -72,6 +72,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std:
   LoadedScene loaded;
   loaded.dimension = scene.dimension;
   loaded.text = toml_text(*scene.tree);
+  loaded.files = scene.files;
   loaded.from_level = scene.from_level;
   loaded.hash = fingerprint(canonical_text(scene));
   if (scene.dimension == 2)

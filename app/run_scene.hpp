@@ -18,10 +18,11 @@ using AnyPrepared = std::variant<Prepared<2>, Prepared<3>>;
 struct LoadedScene {
   std::string title;
   int dimension = 3;
-  std::string text;                     // the effective scene: the file with its overrides, as TOML
-  std::string hash;                     // fingerprint of its canonical form, which layout and comments do not change
-  std::vector<std::string> from_level;  // what accuracy.level set: "key = value"
-  std::vector<std::string> warnings;    // stated values that look like mistakes, one line each
+  std::string text;  // the effective scene: the file with its overrides, as TOML
+  std::string hash;  // fingerprint of its canonical form, which layout and comments do not change
+  std::vector<std::filesystem::path> files;  // that were read
+  std::vector<std::string> from_level;       // what accuracy.level set: "key = value"
+  std::vector<std::string> warnings;         // stated values that look like mistakes, one line each
   AnyPrepared prepared;
 };
 

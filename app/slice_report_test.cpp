@@ -63,7 +63,7 @@ TEST_F(SliceReport, WritesTablesFiguresAndFormats) {
   for (const char* name : {"block_planes.csv", "blocks.obj", "blocks.stl"}) {
     fs::copy_file(folder_ / "out" / name, folder_ / name);
     write("blocks.toml", fmt::format("blocks_file = \"{}\"\n", name) + without_domain);
-    const Ended back = run("slice blocks.toml --out back");
+    const Ended back = run("slice blocks.toml --out back --overwrite");
     ASSERT_EQ(back.code, 0) << name << back.err;
     const auto ours = lines_of(blocks), theirs = lines_of(read(folder_ / "back/blocks.csv"));
     ASSERT_EQ(theirs.size(), ours.size()) << name;

@@ -148,12 +148,70 @@ TEST_F(Study, TakesAQuantityOutOfTheHistory) {
   ASSERT_EQ(run("study study.toml --out out").code, 0);
   EXPECT_NE(rows()[1].find(",top_displacement_z,-0.000"), std::string::npos) << rows()[1];
   EXPECT_NE(rows()[1].find(",m,ok,"), std::string::npos) << rows()[1];
+}
 
-  text.replace(text.find("_z_m"), 4, "_w_m");
+TEST_F(Study, AColumnIsFoundByItsWholeName) {
+  std::string scene = read(folder_ / "scene.toml");
+  scene += "[[monitors]]\nname = \"left,upper\"\nquantities = [\"displacement\"]\nabove = [\"bed\"]\n";
+  write("scene.toml", scene);
+  const std::string column = "history = { column = \"left,upper_displacement_z_m\", take = \"last\", unit = \"m\" }\n";
+  std::string text = plan;
   write("study.toml", text);
-  const Ended ended = run("study study.toml --out out");
-  EXPECT_EQ(ended.code, 1);
-  EXPECT_NE(ended.out.find("no column top_displacement_w_m with numbers"), std::string::npos) << ended.out;
+  ASSERT_EQ(run("study study.toml --out plain").code, 0);
+  text.replace(text.find("[[sweep]]"), 0, column);
+  write("study.toml", text);
+  ASSERT_EQ(run("study study.toml --out out").code, 0);
+  // the same block under two names
+  EXPECT_EQ(without_seconds("out"), without_seconds("plain"));
+}
+
+TEST_F(Study, OfWhatNoRunYieldsEndsWithItsFirstRun) {
+  std::string text = plan;
+  text.replace(text.find("top_displacement_z"), 18, "top_displacement_w");
+  text.replace(text.find("[1e8, 2e8]"), 10, "[1.1e8, 1.2e8, 1.3e8, 1.4e8, 1.5e8, 1.6e8]");
+  write("study.toml", text);
+  const auto runs_done = [&] {
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/runs"))
+      count += fs::exists(entry.path() / "results.json");
+    return count;
+  };
+  for (int k = 0; k < 2; ++k) {  // the second time the run is kept from before
+    expect_one_line(run("study study.toml --jobs 1 --out out"), 2,
+                    "study.toml: no run has a value of results.json 'top_displacement_w'; did you mean "
+                    "'top_displacement_x'? there are: top_displacement_x, top_displacement_y, top_displacement_z");
+    EXPECT_EQ(runs_done(), 1);
+    EXPECT_FALSE(fs::exists(folder_ / "out/study.csv"));
+  }
+  text.replace(text.find("[[sweep]]"), 0, "history = { column = \"w\", take = \"last\", unit = \"m\" }\n");
+  write("study.toml", text);
+  expect_one_line(run("study study.toml --jobs 1 --out out"), 2,
+                  "no run has a column of history.csv 'w'; there are: time_s, ");
+}
+
+TEST_F(Study, ForgetsOnlyWhatAStudyMade) {
+  std::string text = plan;
+  write("study.toml", text);
+  fs::create_directories(folder_ / "out/runs/thesis");
+  write("out/runs/thesis/data.csv", "mine");
+  write("out/runs/notes.txt", "mine");
+  ASSERT_EQ(run("study study.toml --out out").code, 0);
+  std::vector<fs::path> made;
+  for (const auto& entry : fs::directory_iterator(folder_ / "out/runs"))
+    if (entry.path().filename().string().starts_with("fnv")) made.push_back(entry.path());
+  ASSERT_EQ(made.size(), 2u);
+  std::ofstream(made[0] / "remarks.txt") << "mine";
+  std::ofstream(made[1] / "remarks.txt") << "mine";
+
+  // another scene: both runs are forgotten, but not what lies beside them
+  write("scene.toml", read(folder_ / "scene.toml") + "[output]\nhistory_interval_s = 1\n");
+  ASSERT_EQ(run("study study.toml --out out").code, 0);
+  for (const fs::path& folder : made) {
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1) << folder;
+    EXPECT_EQ(read(folder / "remarks.txt"), "mine");
+  }
+  EXPECT_EQ(read(folder_ / "out/runs/thesis/data.csv"), "mine");
+  EXPECT_EQ(read(folder_ / "out/runs/notes.txt"), "mine");
 }
 
 // the first never rests; what ends it must not end the others

@@ -28,7 +28,7 @@ for plan in "$source"/cases/*/study.toml; do
     failures+=("study of $name (the program voussoir is not built)")
     continue
   fi
-  rm -f "$out/study.md" "$out/study.json"
+  rm -f "$out/study.md" "$out/study.json" "$out/study.csv"
   if [ ! -x "$build/cases/case_$name" ]; then
     echo "study of $name: not run, its case is not built"
     continue

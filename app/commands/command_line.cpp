@@ -15,10 +15,10 @@
 #include <system_error>
 
 #include "app/bad_input.hpp"
+#include "app/claimed_folder.hpp"
 #include "app/commands/commands.hpp"
 #include "app/interruption.hpp"
 #include "app/message.hpp"
-#include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/output_error.hpp"
 #include "core/output/version.hpp"

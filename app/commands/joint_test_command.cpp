@@ -5,9 +5,9 @@
 #include <cstdlib>
 
 #include "app/bad_input.hpp"
+#include "app/claimed_folder.hpp"
 #include "app/commands/commands.hpp"
 #include "app/message.hpp"
-#include "app/run_folder.hpp"
 #include "core/law/joint_path.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/scene/scene.hpp"
@@ -153,7 +153,7 @@ ExitCode joint_test_command(const JointTestArguments& arguments) {
   if (snapped > 0)
     tell(
         "voussoir: warning: {} steps snap back: friction falls faster than the shear spring unloads, so that a stiffer "
-        "spring or a longer softening_slip_m is needed for a curve that a test could follow\n",
+        "spring or a longer softening_slip_m is needed for a curve that a test could follow",
         snapped);
   fmt::print("table and figure: {}\n", folder.string());
   return ExitCode::done;

@@ -5,9 +5,9 @@
 #ifdef VOUSSOIR_HAS_GLPK
 #include <algorithm>
 
+#include "app/claimed_folder.hpp"
 #include "app/limit/limit_files.hpp"
 #include "app/message.hpp"
-#include "app/run_folder.hpp"
 #endif
 
 namespace voussoir {
@@ -98,11 +98,10 @@ ExitCode exit_code(const LimitAnalysis& analysis) {
 
 ExitCode limit_command(const LimitArguments& arguments) {
   const fs::path folder = results_folder(arguments);
-  const LimitAnalysis analysis =
-      analyse_limit(load_scene(arguments.scene.scene, arguments.scene.overrides), request_of(arguments));
-  const FolderLock lock(folder);
-  if (!arguments.overwrite && (holds_results(folder) || holds_unfinished_run(folder))) throw folder_is_taken(folder);
-  remove_old_run(folder);
+  const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides);
+  const LimitAnalysis analysis = analyse_limit(scene, request_of(arguments));
+  const Outputs outputs{"limit", {"results.json", "limit.svg", "blocks.vtp", "mechanism.vtp", "forces.vtp"}};
+  const ClaimedFolder claim(folder, outputs, scene.files, arguments.overwrite);
   for (const std::string& warning : analysis.warnings)
     tell("voussoir: warning: {}\n", warning);
   write_limit_files(analysis, folder);

@@ -27,15 +27,6 @@ fs::path results_folder(const RunArguments& arguments) {
   return fs::path("results") / arguments.scene.scene.stem();
 }
 
-void refuse_to_overwrite(const fs::path& folder) {
-  if (holds_results(folder)) throw folder_is_taken(folder);
-  if (holds_unfinished_run(folder))
-    throw BadInput(
-        fmt::format("'{0}' holds a run that was interrupted: go on with 'voussoir resume {0}', or add "
-                    "--overwrite to start again",
-                    folder.string()));
-}
-
 RunRecord record_of(const LoadedScene& scene, const RunConduct& conduct) {
   RunRecord record;
   record.warnings = conduct.warnings;
@@ -136,6 +127,7 @@ FrameSeries cut_back_to(const Progress<Dim>& progress, const fs::path& folder) {
     print_warnings({fmt::format("{} files of frames are gone, {} the first: blocks.pvd and contacts.pvd leave them out",
                                 frames.lost.size(), *frames.lost.begin())});
   write_history_csv(folder / "history.csv", history_so_far(progress));
+  return frames;
 }
 
 // begins or goes on, and writes the results
@@ -204,9 +196,7 @@ ExitCode run_command(const RunArguments& arguments) {
 
   // the folder is ours alone, and says what is run before the first step
   const fs::path folder = results_folder(arguments);
-  const FolderLock lock(folder);
-  if (!arguments.overwrite) refuse_to_overwrite(folder);
-  remove_old_run(folder);
+  const ClaimedFolder claim(folder, run_outputs(), scene.files, arguments.overwrite);
   write_file(folder / "scene.toml", scene.text);
   write_conduct(folder, conduct);
   return carry_out(scene, {folder, conduct, arguments.quiet});
@@ -235,6 +225,7 @@ ExitCode resume_command(const ResumeArguments& arguments) {
         fmt::format("'{}' is not the scene that this run began with: put it back, or start again with "
                     "'voussoir run'",
                     (folder / "scene.toml").string()));
+  refuse_inputs(folder, resume_outputs(), scene.files);
   return carry_out(scene, {folder, conduct, arguments.quiet});
 }
 

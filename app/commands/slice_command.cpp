@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include "app/bad_input.hpp"
+#include "app/claimed_folder.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/slice_report.hpp"
-#include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/exchange/mesh.hpp"
 #include "core/exchange/tables.hpp"
@@ -82,10 +82,20 @@ void write_formats(const Model<Dim>& model, const SliceArguments& arguments) {
   if constexpr (Dim == 3) {
     if (arguments.stl) write_file(arguments.out / "blocks.stl", stl_text(meshes(model)));
     if (arguments.obj) write_file(arguments.out / "blocks.obj", obj_text(meshes(model)));
-  } else {
-    if (arguments.stl || arguments.obj)
-      throw BadInput("--stl and --obj write blocks in space but the scene has dimension = 2; use --planes");
   }
+}
+
+Outputs outputs_of(const SliceArguments& arguments, int dimension) {
+  Outputs outputs{"slice", {"blocks.csv", "blocks.vtp"}};
+  const auto add = [&](bool wanted, std::initializer_list<const char*> names) {
+    if (wanted) outputs.files.insert(outputs.files.end(), names.begin(), names.end());
+  };
+  add(arguments.planes, {"block_planes.csv"});
+  add(arguments.stl, {"blocks.stl"});
+  add(arguments.obj, {"blocks.obj"});
+  add(arguments.report, {"report.md", "joints.csv", "spacing.svg", "block_sizes.svg"});
+  add(arguments.report && dimension == 3, {"stereonet.svg"});
+  return outputs;
 }
 
 template <int Dim>
@@ -102,7 +112,9 @@ void write_blocks(const Prepared<Dim>& prepared, const SliceArguments& arguments
 
 ExitCode slice_command(const SliceArguments& arguments) {
   const LoadedScene loaded = load_scene(arguments.scene.scene, arguments.scene.overrides);
-  const FolderLock lock(arguments.out);
+  if (loaded.dimension == 2 && (arguments.stl || arguments.obj))
+    throw BadInput("--stl and --obj write blocks in space but the scene has dimension = 2; use --planes");
+  const ClaimedFolder claim(arguments.out, outputs_of(arguments, loaded.dimension), loaded.files, arguments.overwrite);
   std::visit([&](const auto& prepared) { write_blocks(prepared, arguments); }, loaded.prepared);
   if (arguments.report) {
     const Scene scene = read_scene(arguments.scene.scene, arguments.scene.overrides);

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <thread>
 
 #include "app/child_process.hpp"
+#include "app/claimed_folder.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/study_found.hpp"
 #include "app/commands/study_plan.hpp"
 #include "app/commands/study_runs.hpp"
 #include "app/interruption.hpp"
 #include "app/message.hpp"
-#include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/fingerprint.hpp"
@@ -51,12 +52,31 @@ std::vector<StudyRun> runs_of(const StudyPlan& plan) {
   std::vector<StudyRun> runs;
   for (const Sweep& sweep : plan.sweeps)
     for (const std::string& value : sweep.values) {
-      StudyRun run{sweep.scene, overrides_of(sweep, value), ""};
-      run.name = fingerprint(load_scene(run.scene, run.overrides).hash + program);
+      StudyRun run{sweep.scene, overrides_of(sweep, value), {}, ""};
+      const LoadedScene scene = load_scene(run.scene, run.overrides);
+      run.files = scene.files;
+      run.name = fingerprint(scene.hash + program);
       std::replace(run.name.begin(), run.name.end(), ':', '-');
       runs.push_back(std::move(run));
     }
   return runs;
+}
+
+// a folder for each different run, by its name
+Outputs outputs_of(const std::vector<StudyRun>& runs) {
+  Outputs outputs{"study", {"study.csv"}, false, {}, true};
+  for (const StudyRun& run : runs)
+    outputs.folders.push_back("runs/" + run.name);
+  std::sort(outputs.folders.begin(), outputs.folders.end());
+  outputs.folders.erase(std::unique(outputs.folders.begin(), outputs.folders.end()), outputs.folders.end());
+  return outputs;
+}
+
+std::vector<fs::path> inputs_of(const fs::path& plan, const std::vector<StudyRun>& runs) {
+  std::set<fs::path> inputs{plan};
+  for (const StudyRun& run : runs)
+    inputs.insert(run.files.begin(), run.files.end());
+  return {inputs.begin(), inputs.end()};
 }
 
 StudyRow row_of(const StudyPlan& plan, const Sweep& sweep, const std::string& value, const fs::path& folder,
@@ -152,9 +172,14 @@ ExitCode tell_end(const std::vector<StudyRow>& rows, const RunsEnded& ended, con
 ExitCode study_command(const StudyArguments& arguments) {
   const StudyPlan plan = read_study_plan(arguments.plan);
   const std::vector<StudyRun> runs = runs_of(plan);
-  const FolderLock lock(arguments.out);
+  const ClaimedFolder claim(arguments.out, outputs_of(runs), inputs_of(arguments.plan, runs), arguments.overwrite);
 
   RunsConduct conduct{arguments.out / "runs", arguments.jobs, arguments.threads, arguments.time_limit, arguments.quiet};
+  conduct.doubt = [&](const fs::path& folder) {
+    std::optional<std::string> missing = missing_quantity(folder, plan);
+    if (missing && !missing->empty()) missing = arguments.plan.string() + ": " + *missing;
+    return missing;
+  };
   if (conduct.jobs == 0) conduct.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const RunsEnded ended = carry_out_runs(runs, conduct);
   if (ended.interrupted) {

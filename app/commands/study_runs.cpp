@@ -90,7 +90,7 @@ class Runs {
 
  private:
   fs::path folder_of(const StudyRun& run) const { return conduct_.folder / run.name; }
-  fs::path messages_of(const StudyRun& run) const { return folder_of(run) / "messages.txt"; }
+  fs::path messages_of(const StudyRun& run) const { return folder_of(run) / messages_file; }
 
   void start(const StudyRun& run) {
     const fs::path folder = folder_of(run);
@@ -123,7 +123,7 @@ class Runs {
       took_ += process.seconds();
       // a checkpoint that cannot be used is no reason to have no result
       if (going.resumed && end->code == bad_input) {
-        remove_old_run(folder_of(*going.run));
+        remove_checkpoints(folder_of(*going.run));
         waiting_.push_front(going.run);
         return true;
       }
@@ -177,19 +177,10 @@ class Runs {
   Clock::time_point shown_{};
 };
 
-void forget_others(const std::vector<StudyRun>& runs, const fs::path& folder) {
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (std::none_of(runs.begin(), runs.end(), [&](const StudyRun& run) { return run.name == name; }))
-      fs::remove_all(entry.path());
-  }
-}
-
 }  // namespace
 
 RunsEnded carry_out_runs(const std::vector<StudyRun>& study, const RunsConduct& conduct) {
   prepare_folder(conduct.folder);
-  forget_others(study, conduct.folder);
   note_interruptions();
   Runs runs(study, conduct);
   RunsEnded ended;

@@ -75,9 +75,9 @@ void forget(Node& scene, std::initializer_list<std::string_view> keys) {
 namespace fs = std::filesystem;
 
 // `chain` holds the bases that led here
-Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain) {
+Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain, std::vector<fs::path>& read) {
   // what files of joints and blocks state lies below the scene that names them, as a base does
-  Node files = tables_of_files(scene, folder);
+  Node files = tables_of_files(scene, folder, read);
   lay_over(files, scene);
   scene = std::move(files);
   forget(scene, {"joints_file", "blocks_file"});
@@ -90,10 +90,11 @@ Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain) {
   if (chain.size() == most_bases)
     refuse(*stated, "base", "more than 16 bases in a row; state this scene's differences from one nearer to the first");
   chain.push_back(file);
+  read.push_back(file);
   // messages name the file as the user would find it
   const fs::path shown = folder / fs::path(stated->text);
   const auto source = std::make_shared<const std::string>(shown.string());
-  Node base = load(parse_toml(file_text(file), source), shown.parent_path(), chain);
+  Node base = load(parse_toml(file_text(file), source), shown.parent_path(), chain, read);
   lay_over(base, scene);
   forget(base, {"base"});
   return base;
@@ -101,9 +102,9 @@ Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain) {
 
 }  // namespace
 
-Node with_base(Node scene, const fs::path& folder) {
+Node with_base(Node scene, const fs::path& folder, std::vector<fs::path>& files) {
   std::vector<fs::path> chain;
-  return load(std::move(scene), folder, chain);
+  return load(std::move(scene), folder, chain, files);
 }
 
 }  // namespace voussoir

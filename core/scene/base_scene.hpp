@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "core/scene/node.hpp"
 
@@ -9,7 +10,7 @@ namespace voussoir {
 
 // The scene's tree laid over its base's, and that over its own base's. Tables are merged key by key, tables of a list
 // by their name (one that states another kind or method replaces the base's); every other value replaces the base's.
-// The base lies in the scene's folder or below.
-Node with_base(Node scene, const std::filesystem::path& folder);
+// The base lies in the scene's folder or below. `files` gains every file that was read.
+Node with_base(Node scene, const std::filesystem::path& folder, std::vector<std::filesystem::path>& files);
 
 }  // namespace voussoir

@@ -156,15 +156,15 @@ std::vector<InitialVelocitySpec> read_initial_velocity(const Subject& scene) {
 Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& overrides) {
   const auto source = std::make_shared<const std::string>(one_line(name, 1000));
   // the tree: parsed, laid over its base, overridden, held against the key table
-  const auto tree =
-      std::make_shared<Node>(with_base(parse_toml(text, source), std::filesystem::path(name).parent_path()));
+  Scene scene;
+  const auto tree = std::make_shared<Node>(
+      with_base(parse_toml(text, source), std::filesystem::path(name).parent_path(), scene.files));
   for (const std::string& text_of_override : overrides)
     apply_override(*tree, text_of_override, *source);
   const std::vector<std::string> from_level = apply_accuracy_level(*tree);
   check_keys(*tree);
 
   // from here on every value has the right type and lies in its range
-  Scene scene;
   scene.file = *source;
   scene.tree = tree;
   scene.from_level = from_level;
@@ -194,7 +194,9 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return parse_scene(file_text(file), file.string(), overrides);
+  Scene scene = parse_scene(file_text(file), file.string(), overrides);
+  scene.files.insert(scene.files.begin(), file);
+  return scene;
 }
 
 }  // namespace voussoir

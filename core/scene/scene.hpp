@@ -182,8 +182,9 @@ struct Scene {
   std::vector<StageSpec> stages;
   std::vector<MonitorSpec> monitors;
   OutputPlan output;
-  std::vector<std::string> from_level;  // what accuracy.level set: "key = value"
-  std::shared_ptr<const Node> tree;     // the effective file, overrides applied; subjects point into it
+  std::vector<std::string> from_level;       // what accuracy.level set: "key = value"
+  std::vector<std::filesystem::path> files;  // that were read: the scene's own, if it is one, and whatever it names
+  std::shared_ptr<const Node> tree;          // the effective file, overrides applied; subjects point into it
 };
 
 // Reads and checks a scene. Overrides are "key=value", applied in order. Throws SceneError (bad input, or a file that

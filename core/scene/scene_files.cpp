@@ -128,10 +128,11 @@ Node block_tables(const std::string& bytes, const Source& source, const Node& st
 // a table under `key` read from the file that the scene names under `file_key`
 template <class Read>
 void add_tables(const Node& scene, const fs::path& folder, const char* file_key, const char* key, Node& tables,
-                const Read& read) {
+                std::vector<fs::path>& files, const Read& read) {
   const Node* stated = scene.find(file_key);
   if (!stated) return;
   const fs::path file = file_beside(*stated, file_key, folder);
+  files.push_back(file);
   const std::string shown = (folder / fs::path(stated->text)).string();
   const Source source{std::make_shared<const std::string>(shown), scene_dimension(scene)};
   try {
@@ -161,12 +162,12 @@ fs::path file_beside(const Node& stated, std::string_view key_view, const fs::pa
   return file;
 }
 
-Node tables_of_files(const Node& scene, const fs::path& folder) {
+Node tables_of_files(const Node& scene, const fs::path& folder, std::vector<fs::path>& files) {
   Node tables;
   tables.place = scene.place;
-  add_tables(scene, folder, "joints_file", "joints", tables,
+  add_tables(scene, folder, "joints_file", "joints", tables, files,
              [](const std::string& text, const Source& source, const Node&) { return joint_tables(text, source); });
-  add_tables(scene, folder, "blocks_file", "blocks", tables, block_tables);
+  add_tables(scene, folder, "blocks_file", "blocks", tables, files, block_tables);
   return tables;
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 #include "core/scene/node.hpp"
 
@@ -13,7 +14,7 @@ namespace voussoir {
 std::filesystem::path file_beside(const Node& stated, std::string_view key, const std::filesystem::path& folder);
 
 // [[joints]] of `joints_file` (CSV) and [[blocks]] of `blocks_file` (CSV of planes, STL, OBJ); every value has its
-// place in the file. SceneError names file, line, column and reason.
-Node tables_of_files(const Node& scene, const std::filesystem::path& folder);
+// place in the file. SceneError names file, line, column and reason. `files` gains every file that was read.
+Node tables_of_files(const Node& scene, const std::filesystem::path& folder, std::vector<std::filesystem::path>& files);
 
 }  // namespace voussoir

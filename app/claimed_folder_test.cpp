@@ -1,0 +1,134 @@
+// What a command leaves in its folder, and what it takes away again: all that an older one made, and nothing else.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "app/testing/program.hpp"
+
+namespace voussoir {
+namespace {
+
+using namespace program;
+
+class Claimed : public Program {
+ protected:
+  // every file but the program's own notes
+  std::set<std::string> names(const std::string& where) const {
+    std::set<std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / where))
+      if (!entry.is_directory() && !entry.path().filename().string().starts_with('.'))
+        all.insert(entry.path().lexically_relative(folder_ / where).string());
+    return all;
+  }
+};
+
+using Names = std::set<std::string>;
+
+TEST_F(Claimed, OverwritingLeavesNoFileOfAnOlderCommand) {
+  fs::create_directories(folder_ / "out/frames");
+  write("out/notes.txt", "mine");
+  write("out/frames/picture.png", "mine");
+  write("out/frames/blocks_7.vtp", "mine");  // not as we number them
+  const Names mine{"notes.txt", "frames/picture.png", "frames/blocks_7.vtp"};
+  const auto with_mine = [&](Names names) {
+    names.insert(mine.begin(), mine.end());
+    return names;
+  };
+  ASSERT_EQ(run("slice " + cubes_ + "--out out --planes --obj --stl").code, 0);
+  ASSERT_EQ(names("out"), with_mine({"blocks.csv", "blocks.vtp", "block_planes.csv", "blocks.obj", "blocks.stl"}));
+  ASSERT_EQ(run("slice " + cubes_ + "--out out --overwrite").code, 0);
+  EXPECT_EQ(names("out"), with_mine({"blocks.csv", "blocks.vtp"}));
+
+  const Names of_run{"results.json", "run.json", "scene.toml", "history.csv"};
+  ASSERT_EQ(run("run " + cubes_ + "--out out --overwrite").code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/blocks.pvd") && fs::exists(folder_ / "out/frames/blocks_0000.vtp"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/blocks.csv"));
+  ASSERT_EQ(run("run " + cubes_ + "--out out --overwrite --set output.frames=false").code, 0);
+  EXPECT_EQ(names("out"), with_mine(of_run)) << "no collection that names frames of the older run";
+
+  ASSERT_EQ(run("joint-test " + cubes_ + "--out out --overwrite").code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/joint_test.csv"));
+  for (const std::string& name : of_run)
+    EXPECT_FALSE(fs::exists(folder_ / "out" / name)) << name;
+  for (const std::string& name : mine)
+    EXPECT_EQ(read(folder_ / "out" / name), "mine") << name;
+}
+
+TEST_F(Claimed, OverwritingReplacesOthersFilesOfTheSameNames) {
+  write("history.csv", "mine");
+  write("results.json", "mine");
+  write("data.csv", "mine");
+  ASSERT_EQ(run("run " + cubes_ + "--out . --overwrite").code, 0);
+  EXPECT_TRUE(read(folder_ / "history.csv").starts_with("time_s,"));
+  EXPECT_EQ(read(folder_ / "data.csv"), "mine");
+}
+
+// slicing writes joints.csv; a scene in the same folder that reads it keeps it
+TEST_F(Claimed, WhatIsReadIsKeptEvenIfWeMadeIt) {
+  const std::string scene = read(scenes / "two_cubes.toml");
+  write("scene.toml", scene);
+  ASSERT_EQ(run("slice scene.toml --report --out out").code, 0);
+  const std::string joints = read(folder_ / "out/joints.csv");
+  std::string text = scene;
+  text.erase(text.find("[[joints]]"), text.find("[[joint_properties]]") - text.find("[[joints]]"));
+  write("out/again.toml", "joints_file = \"joints.csv\"\n" + text);
+  const Ended ended = run("slice out/again.toml --out out --overwrite");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(read(folder_ / "out/joints.csv"), joints);
+  EXPECT_FALSE(fs::exists(folder_ / "out/report.md"));
+  expect_one_line(run("slice out/again.toml --report --out out --overwrite"), 2, "out/joints.csv' is read by");
+}
+
+TEST_F(Claimed, ARefusedFolderIsLeftAsItWas) {
+  write("history.csv", "mine");
+  EXPECT_EQ(run("run " + cubes_ + "--out .").code, 2);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "no lock, no list";
+}
+
+TEST_F(Claimed, WhatACommandThatWasKilledLeftIsNoResult) {
+  ASSERT_EQ(run("run " + cubes_ + "--out out --quiet").code, 0);
+  for (const char* name : {"results.json", "run.json"})
+    fs::remove(folder_ / "out" / name);
+  EXPECT_EQ(run("run " + cubes_ + "--out out --quiet").code, 0);
+}
+
+// ---- names that were accepted come back ---------------------------------------------------------------------------
+
+const char* const odd_names[] = {"plain",          "two words", " blanks ",      "Gewölbe", "岩盤",
+                                 "say \\\"so\\\"", "a, b; c",   "it's",          "-45°",    "+x",
+                                 "@home",          "<b>&",      "back\\\\slash", "#1",      "[x]"};
+
+TEST_F(Claimed, OddNamesComeBackFromEveryFile) {
+  const std::string scene = read(scenes / "two_cubes.toml");
+  for (const char* name : odd_names) {
+    SCOPED_TRACE(name);
+    std::string text = scene;
+    for (const std::string old :
+         {"name = \"bed\"", "[\"bed\"]", "name = \"rock\"", "name = \"settle\"", "name = \"top\""})
+      for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; ++at)
+        text.replace(at + old.find('"'), old.rfind('"') - old.find('"') + 1, fmt::format("\"{}\"", name));
+    text.replace(text.find("One cube"), 8, "= 1+1 " + std::string(name));
+    write("scene.toml", text);
+    ASSERT_EQ(run("run scene.toml --quiet --overwrite --out out").code, 0);
+    const std::string first = results("out")["state_hash"];
+    // as if it had been killed before its first checkpoint, and run again from what it wrote
+    fs::remove(folder_ / "out/results.json");
+    const Ended resumed = run("resume out --quiet");
+    EXPECT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_EQ(results("out")["state_hash"], first);
+    EXPECT_EQ(results("out")["title"].get<std::string>().find("= 1+1"), 0u);
+
+    // as a table of joints, to the same bits
+    ASSERT_EQ(run("slice scene.toml --report --overwrite --out sliced").code, 0);
+    fs::copy_file(folder_ / "sliced/joints.csv", folder_ / "joints.csv", fs::copy_options::overwrite_existing);
+    text.erase(text.find("[[joints]]"), text.find("[[joint_properties]]") - text.find("[[joints]]"));
+    write("table.toml", "joints_file = \"joints.csv\"\n" + text);
+    const Ended table = run("run table.toml --quiet --overwrite --out table");
+    ASSERT_EQ(table.code, 0) << table.err;
+    EXPECT_EQ(results("table")["state_hash"], first);
+    EXPECT_EQ(read(folder_ / "table/history.csv"), read(folder_ / "out/history.csv"));
+  }
+}
+
+}  // namespace
+}  // namespace voussoir
