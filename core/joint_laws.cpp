@@ -93,9 +93,9 @@ template <int Dim>
   k.area = at.area;
   k.firmness = at.firmness;
   k.closing_speed = -velocity.dot(n);
-  k.slip.setZero();
 
-  // a new contact has no shear yet; a standing one carries its own to the new plane
+  // a new contact has no shear yet, and slips as long as it has been closed; a standing one carries its shear to the
+  // new plane
   const bool standing = !history.normal.isZero(0);
   double closing_before = 0;
   if (standing) {
@@ -114,6 +114,9 @@ template <int Dim>
       history.shear_force *= left;
     }
     history.shear_force = carried(history.shear_force, history.normal, n, k.turn);
+  } else {
+    const double closed = k.closing_speed * dt, since = closed > k.overlap ? k.overlap / closed : 1;
+    k.slip = since * dt * (velocity + k.closing_speed * n);
   }
 
   // the dashpot over the root of the normal stiffness; between two immobile bodies there is nothing to damp

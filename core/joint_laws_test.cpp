@@ -121,6 +121,35 @@ TEST(SubContacts, SpinStiffnessConvergesWithTheSquareOfTheirNumber) {
   }
 }
 
+// A block comes down aslant: whenever within a step it meets the plate, the shear is that of the slip since then.
+TEST(NewContacts, CountTheSlipOfTheirFirstStep) {
+  constexpr double down = 2e-2, along = 1e-2, time_step = 1e-3;
+  const auto sheared = [&](double gap, int steps) {
+    Model<2> model = block_on_plate<2>(0, 40 * degree);
+    model.gravity.setZero();
+    const int block = index_of(model, "block");
+    model.bodies[block].free_rotation.fill(false);
+    MovePlan move;
+    move.bodies.names = {"block"};
+    move.velocity = {along, -down};
+    move.translation.fill(true);
+    Change change;
+    change.move = {move};
+    model = apply(std::move(model), change);
+    State<2> state = initial_state(model);
+    state.motions[block].displacement[1] = gap;
+    Settings settings;
+    settings.time.step = time_step;
+    for (int i = 0; i <= steps; ++i)  // the forces that a step finds are those before it
+      step(model, settings, state);
+    return -state.loads[block].force[0] / model.properties[0].shear_stiffness;
+  };
+  // on the way of the first step, 20 µm: from the start, after a quarter, just before its end; then the next
+  for (const double gap : {0.0, 5e-6, 19e-6})
+    for (const int steps : {1, 2, 7})
+      EXPECT_NEAR(sheared(gap, steps), along * (steps * time_step - gap / down), 1e-8 * along) << gap << " " << steps;
+}
+
 // What a linear distribution stores is counted whole, so that a rocking block keeps its energy; with one point the
 // contact has no potential. At a fiftieth of the stable step the elastic energy is known to some 1e-7.
 constexpr double conserved = 1e-6, not_conserved = 1e-3;

@@ -13,10 +13,6 @@
 namespace voussoir {
 namespace {
 
-// A duration is over when less than this share of a step is left of it: the sum of a million steps may miss it by a
-// ten-thousandth of one.
-constexpr double last_step = 1e-3;
-
 // sets the scheduled values to those of the time of the positions; true while they still change
 template <int Dim>
 bool follow(const RunSchedule& plan, State<Dim>& state) {
@@ -109,6 +105,7 @@ RunProgress<Dim> begin_run(const RunGoal& goal, bool relaxing, State<Dim>& state
     begin_relaxation(state);
   else
     begin_motion(state);
+  state.schedule.ends = goal.end_time;
   RunProgress<Dim> progress;
   progress.under_way = true;
   progress.unconverged = state.counters.unconverged;
@@ -155,6 +152,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
   const auto stop = [&](StopReason reason, const std::string& detail = {}) {
     progress.under_way = reason == StopReason::interrupted;
     if (relaxing && !progress.under_way) end_relaxation(state);
+    if (!progress.under_way) state.schedule.ends = RunGoal{}.end_time;
     report.reason = reason;
     report.detail = detail;
     report.steps = progress.steps;
@@ -183,7 +181,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
     if (goal.moved_away > 0 && farthest(model, state, progress.begin) > goal.moved_away)
       return stop(StopReason::moved_away);
-    if (state.time >= goal.end_time - last_step * state.time_step) return stop(StopReason::end_time);
+    if (state.time >= goal.end_time) return stop(StopReason::end_time);
     if (state.time >= goal.time_limit) return stop(StopReason::time_limit);
     if (goal.step_limit > 0 && progress.steps >= goal.step_limit) return stop(StopReason::step_limit);
   }

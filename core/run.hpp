@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,9 @@ enum class StopReason {
 
 // what a run aims at; anything left out does not stop it
 struct RunGoal {
-  bool rest = false;          // stop at equilibrium
-  double end_time = 1e300;    // s: simulated time at which the run is complete
+  bool rest = false;  // stop at equilibrium
+  // s: simulated time at which the run is complete: its steps, as long as each other, end there
+  double end_time = std::numeric_limits<double>::infinity();
   double time_limit = 1e300;  // s: simulated time at which it is given up
   long long step_limit = 0;   // of this run; 0: none
   double moved_away = 0;      // m: stop when a free body is this far from RunProgress::begin; 0: never

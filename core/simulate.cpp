@@ -112,7 +112,7 @@ struct Simulation {
                     progress.next_frame = (std::floor(now.time / interval) + 1) * interval;
                   }
                   if (now.counters.steps % steps_between_reports == 0)
-                    tell(now, "", unbalanced, end < 1e299 ? (now.time - begin) / (end - begin) : -1);
+                    tell(now, "", unbalanced, std::isfinite(end) ? (now.time - begin) / (end - begin) : -1);
                 },
             .pause = pause()};
   }
@@ -184,7 +184,7 @@ struct Simulation {
       if (outcome == Trial::failed) frame(now);
     };
     const ReductionReport report = reduce(model, settings, reduction, state, progress.reduction,
-                                          continuous ? record_run(1e300) : tell_trials(), on_trial);
+                                          continuous ? record_run(RunGoal{}.end_time) : tell_trials(), on_trial);
     if (report.last.reason == StopReason::interrupted) return {};
     finish_rows();
     judge(report.last, true);

@@ -267,6 +267,15 @@ void push(const Model<Dim>& model, const State<Dim>& state, int place, int body,
   load.moment += sign * turn;
 }
 
+// The next step of a motion: as long as allowed, or as much shorter as lets equal steps end the run when it shall end.
+template <int Dim>
+double next_step(const State<Dim>& state) {
+  if (!std::isfinite(state.schedule.ends)) return state.step_allowed;
+  constexpr double rounding = 1e-6;  // of a step: a million steps do not sum up to one more
+  const double left = state.schedule.ends - state.time;
+  return left / std::max(1.0, std::ceil(left / state.step_allowed - rounding));
+}
+
 // gravity that grows lifts or lowers the potential energy of what has already moved
 template <int Dim>
 void book_gravity_ramp(const Model<Dim>& model, State<Dim>& state) {
@@ -415,7 +424,7 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
     state.step_allowed = state.step_allowed > 0 ? std::min(state.step_allowed, renewed->step) : renewed->step;
     demand_time_step(state);
   }
-  state.time_step = state.step_allowed;
+  state.time_step = next_step(state);
 
   book_gravity_ramp(model, state);
   const StepTimes times{0.5 * (last + state.time_step), state.time_step};
@@ -436,7 +445,8 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   }
   balance(energy);
   add(energy.flows, after);
-  state.time += state.time_step;
+  const bool ends = state.time_step == state.schedule.ends - state.time;
+  state.time = ends ? state.schedule.ends : state.time + state.time_step;
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                      \

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -65,9 +66,11 @@ struct Relaxation {
 // values that vary within a stage
 struct Schedule {
   double gravity_factor = 1;
-  double last_gravity_factor = 1;  // of the step before
-  std::vector<double> friction;    // rad, for each of Model::properties
-  double started = 0;              // s: when the schedules began to run
+  double last_gravity_factor = 1;                         // of the step before
+  std::vector<double> friction;                           // rad, for each of Model::properties
+  double started = 0;                                     // s: when the schedules began to run
+  double ends = std::numeric_limits<double>::infinity();  // s: when the run that is under way is complete; its last
+                                                          // step ends there
 };
 
 struct Counters {

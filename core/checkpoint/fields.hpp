@@ -97,8 +97,8 @@ void serialize(Archive& archive, Relaxation<Dim>& r) {
 
 template <class Archive>
 void serialize(Archive& archive, Schedule& s) {
-  auto& [gravity_factor, last_gravity_factor, friction, started] = s;
-  archive(gravity_factor, last_gravity_factor, friction, started);
+  auto& [gravity_factor, last_gravity_factor, friction, started, ends] = s;
+  archive(gravity_factor, last_gravity_factor, friction, started, ends);
 }
 
 template <class Archive>

@@ -198,6 +198,22 @@ TEST(Prescribed, TurnsABlockInSpace) {
   EXPECT_NEAR(angular_velocity(model.bodies[block], end.state.motions[block])[2], 2, rounding);
 }
 
+// whatever the step: the stage ends when it shall
+TEST(Prescribed, GoesAsFarAsItsSpeedAndDurationSay) {
+  Model<2> model = block_on_plate<2>(0, 35 * degree);
+  model.gravity.setZero();
+  const int block = index_of(model, "block");
+  for (const double step : {1.0, 0.1, 0.03, 0.007, 1e-4}) {
+    const std::vector<MovePlan> lift = {move_of<2>("block", 1, 0.5)};
+    const Progress<2> end = whole_run(scene_of(model, {run_of("up", 0.1, lift), run_of("on", 0.3, lift)}, step));
+    EXPECT_EQ(end.results.stages[0].time, 0.1) << step;
+    EXPECT_EQ(end.state.time, 0.1 + 0.3) << step;
+    EXPECT_NEAR(end.state.motions[block].displacement[1], 0.5 * 0.4, rounding) << step;
+    const double steps = std::ceil(0.1 / step - 1e-6) + std::ceil(0.3 / step - 1e-6);
+    EXPECT_EQ(end.state.counters.steps, static_cast<long long>(steps)) << step;
+  }
+}
+
 TEST(Prescribed, EndsWithItsStage) {
   Model<2> model = block_on_plate<2>(0, 35 * degree);
   model.gravity.setZero();
