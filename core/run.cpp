@@ -163,7 +163,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
   bool changing = follow(schedule, state);
   while (true) {
     if (hooks.pause && hooks.pause()) return stop(StopReason::interrupted);
-    step(model, settings, state);
+    step(model, settings, state, hooks.with_forces);
     const bool changed = std::exchange(changing, follow(schedule, state));
     ++progress.steps;
     report.unbalanced = goal.rest ? unbalanced_ratio(model, settings.threads, state) : -1;

@@ -62,6 +62,9 @@ struct RunProgress {
 // Callbacks; each may be empty. Neither can change the run.
 template <int Dim>
 struct RunHooks {
+  // within every step, when its forces are found and its bodies not yet moved: all is of one time but velocities, which
+  // stand half a step before
+  std::function<void(const State<Dim>&)> with_forces;
   // after every step, with the equilibrium measure (negative when the goal needs none)
   std::function<void(const State<Dim>&, double unbalanced)> after_step;
   // before every step, when everything that the next steps need lies in state and progress; true stops the run

@@ -13,6 +13,7 @@
 #include "core/motion/relaxation.hpp"
 #include "core/stages.hpp"
 #include "core/state_hash.hpp"
+#include "core/step.hpp"
 
 namespace voussoir {
 namespace {
@@ -72,6 +73,16 @@ struct Simulation {
     if (!scene.output.frames) return;
     if (watcher.frame) watcher.frame(model, now, now.time);
     progress.frames.push_back(now.time);
+    const double interval = scene.output.frame_interval;
+    if (interval > 0) progress.next_frame = (std::floor(now.time / interval) + 1) * interval;
+  }
+
+  // The state with the forces at its positions, which a step leaves at those before: rows and frames are of one time.
+  // Where a run failed, its forces are what there is to see.
+  State<Dim> with_forces(const State<Dim>& now, bool failed) const {
+    State<Dim> copy = now;
+    if (!failed) find_forces(model, settings, copy);
+    return copy;
   }
 
   void tell(const State<Dim>& now, const std::string& detail, double unbalanced, double done) {
@@ -103,14 +114,13 @@ struct Simulation {
   // rows, frames and progress while a run goes on; `end` is its end time if known
   RunHooks<Dim> record_run(double end) {
     const double begin = progress.stage_began;
-    return {.after_step =
-                [this, begin, end](const State<Dim>& now, double unbalanced) {
+    return {.with_forces =
+                [this](const State<Dim>& now) {
                   if (progress.record.due(now.time)) progress.record.add(row(now));
-                  const double interval = scene.output.frame_interval;
-                  if (interval > 0 && now.time >= progress.next_frame) {
-                    frame(now);
-                    progress.next_frame = (std::floor(now.time / interval) + 1) * interval;
-                  }
+                  if (scene.output.frame_interval > 0 && now.time >= progress.next_frame) frame(now);
+                },
+            .after_step =
+                [this, begin, end](const State<Dim>& now, double unbalanced) {
                   if (now.counters.steps % steps_between_reports == 0)
                     tell(now, "", unbalanced, std::isfinite(end) ? (now.time - begin) / (end - begin) : -1);
                 },
@@ -119,7 +129,8 @@ struct Simulation {
 
   // a search records the end of each trial
   RunHooks<Dim> tell_trials() {
-    return {.after_step =
+    return {.with_forces = {},
+            .after_step =
                 [this](const State<Dim>& now, double unbalanced) {
                   if (now.counters.steps % steps_between_reports == 0)
                     tell(now, fmt::format("trial at {:.4f} deg", progress.reduction.target * degrees), unbalanced, -1);
@@ -127,11 +138,11 @@ struct Simulation {
             .pause = pause()};
   }
 
-  void finish_rows() {
+  void finish_rows(const State<Dim>& now) {
     for (std::vector<double>& r : progress.record.rows)
       results.history.rows.push_back(std::move(r));
     progress.record.rows.clear();
-    std::vector<double> last = row(state);
+    std::vector<double> last = row(now);
     if (results.history.rows.empty() || results.history.rows.back() != last)
       results.history.rows.push_back(std::move(last));
   }
@@ -171,7 +182,6 @@ struct Simulation {
     const RunSchedule schedule{.gravity = gravity, .properties = {}};
     const RunReport report = run(model, settings, goal, schedule, state, progress.run, record_run(goal.end_time));
     if (report.reason == StopReason::interrupted) return {};
-    finish_rows();
     judge(report, report.reason == wanted);
     return Executed{kind, describe(report.reason), report};
   }
@@ -179,14 +189,14 @@ struct Simulation {
   // a search has its trials recorded; at constant rate, where the trial is the whole stage, all that happens
   std::optional<Executed> execute(const ReducePlan& reduction) {
     const bool continuous = reduction.method == ReductionMethod::rate;
-    const TrialHook<Dim> on_trial = [&](const State<Dim>& now, double, Trial outcome) {
+    const TrialHook<Dim> on_trial = [&](const State<Dim>& moved, double, Trial outcome) {
+      const State<Dim> now = with_forces(moved, outcome == Trial::broken);
       if (!continuous) results.history.rows.push_back(row(now));
       if (outcome == Trial::failed) frame(now);
     };
     const ReductionReport report = reduce(model, settings, reduction, state, progress.reduction,
                                           continuous ? record_run(RunGoal{}.end_time) : tell_trials(), on_trial);
     if (report.last.reason == StopReason::interrupted) return {};
-    finish_rows();
     judge(report.last, true);
     if (report.bracketed) {
       const bool unique = !results.find("critical_friction");
@@ -238,7 +248,9 @@ struct Simulation {
     results.stages.push_back(r);
     progress.steps_before = state.counters.steps;
     progress.stage_under_way = false;
-    frame(state);
+    const State<Dim> now = with_forces(state, results.outcome == Outcome::failed);
+    finish_rows(now);
+    frame(now);
     tell(state, r.ended, r.unbalanced, 1);
   }
 
@@ -255,7 +267,8 @@ struct Simulation {
   void add_final_results() {
     judge_level();
     const std::vector<Column> columns = monitor_columns<Dim>(scene.monitors);
-    const std::vector<double> values = monitor_values<Dim>(scene.monitors, model, state);
+    const std::vector<double> values =
+        monitor_values<Dim>(scene.monitors, model, with_forces(state, results.outcome == Outcome::failed));
     for (std::size_t k = 0; k < columns.size(); ++k)
       results.values.push_back({columns[k].name, {values[k], columns[k].unit, {}, "at the end"}});
     results.counters = state.counters;

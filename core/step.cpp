@@ -5,7 +5,7 @@
 namespace voussoir {
 
 template <int Dim>
-void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   // who may touch whom: bounding boxes with a skin, renewed only when a body has left it
   find_neighbours(model, settings, state);
 
@@ -17,13 +17,22 @@ void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state) 
 
   // what acts on each body: joint forces in the order of the contacts, then gravity
   sum_loads(model, settings, state);
+}
+
+template <int Dim>
+void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
+          const std::function<void(const State<Dim>&)>& with_forces) {
+  find_forces(model, settings, state);
+  if (with_forces) with_forces(state);
 
   // where that takes it: velocities, then positions and rotations
   move_bodies(model, settings, state);
   ++state.counters.steps;
 }
 
-template void step<2>(const Model<2>&, const Settings&, State<2>&);
-template void step<3>(const Model<3>&, const Settings&, State<3>&);
+template void find_forces<2>(const Model<2>&, const Settings&, State<2>&);
+template void find_forces<3>(const Model<3>&, const Settings&, State<3>&);
+template void step<2>(const Model<2>&, const Settings&, State<2>&, const std::function<void(const State<2>&)>&);
+template void step<3>(const Model<3>&, const Settings&, State<3>&, const std::function<void(const State<3>&)>&);
 
 }  // namespace voussoir

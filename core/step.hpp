@@ -1,15 +1,23 @@
 // One time step: the whole method in five lines.
 #pragma once
 
+#include <functional>
+
 #include "core/model.hpp"
 #include "core/settings.hpp"
 #include "core/state.hpp"
 
 namespace voussoir {
 
-// Advances the state by one step. Contacts that found no answer are counted in state.counters.unconverged; the caller
-// stops.
+// The forces at the positions of now, all but the last stage of a step: afterwards positions, forces and time are those
+// of one moment. Whoever wants them without a step takes a copy of the state, for histories go on.
 template <int Dim>
-void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+
+// Advances the state by one step; `with_forces`, which may be empty, sees it between its forces and its motion.
+// Contacts that found no answer are counted in state.counters.unconverged; the caller stops.
+template <int Dim>
+void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
+          const std::function<void(const State<Dim>&)>& with_forces = {});
 
 }  // namespace voussoir

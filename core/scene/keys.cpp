@@ -467,8 +467,8 @@ const KeyRow rows[] = {
     {.table = "monitors", .key = "quantities", .type = choices, .example = "[\"displacement\", \"rotation\"]",
      .required = true, .choices = {"displacement", "velocity", "rotation", "angular_velocity", "contact_load",
                                   "contact_force"},
-     .meaning = "contact_force: resultant over the contacts of a joint, which `joint` names; the others: of one block, "
-         "which a selector chooses; contact_load: what all contacts exert on the block"},
+     .meaning = "contact_force: resultant over the contacts of a joint, which `joint` names; the others: of one block that a "
+         "selector chooses; contact_load: what all contacts exert on it; velocities are those of half a step before"},
     {.table = "monitors", .key = "joint", .type = name, .example = "\"A\"",
      .meaning = "joint of contact_force"},
     {.table = "output", .key = "history_interval_s", .unit = "s", .range = {0, 1e9},

@@ -1,0 +1,75 @@
+// Whole scenes with closed forms: a row of the history is of one time.
+#include "core/simulate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "core/scene/scene.hpp"
+
+namespace voussoir {
+namespace {
+
+Progress<2> whole_run(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const Prepared<2> scene = prepare<2>(parse_scene(text, "scene.toml", overrides));
+  Progress<2> progress = begin(scene);
+  EXPECT_TRUE(simulate(scene, progress, {}));
+  EXPECT_EQ(progress.results.outcome, Outcome::done) << progress.results.message;
+  return progress;
+}
+
+// a column of the history, over the rows of one stage (numbered from 1)
+std::vector<double> column(const Progress<2>& run, const std::string& name, int stage) {
+  const History& h = run.results.history;
+  const auto place = std::find(h.columns.begin(), h.columns.end(), name) - h.columns.begin();
+  EXPECT_LT(place, static_cast<long>(h.columns.size())) << name;
+  std::vector<double> values;
+  for (const std::vector<double>& row : h.rows)
+    if (row[1] == stage) values.push_back(row[place]);
+  return values;
+}
+
+// a block is pressed into the ground at constant speed: every row's force is that of its displacement
+TEST(History, HoldsRowsOfOneTime) {
+  const std::string text = R"(dimension = 2
+density = 2600
+blocks = [{ name = "ground", box = { min = [-5, -1], max = [5, 0] }, fixed = true },
+          { name = "block", box = { min = [0, 0], max = [1, 1] } }]
+restrain = [{ bodies = ["block"], rotation = true }]
+monitors = [{ name = "block", bodies = ["block"], quantities = ["displacement", "contact_load"] }]
+[[joint_properties]]
+name = "rock"
+normal_stiffness = 1e8
+shear_stiffness = 1e7
+friction_deg = 35
+constant_stiffness = true
+[time]
+step_s = 1e-3
+[[stage]]
+name = "press"
+kind = "run"
+duration_s = 0.0295
+move = [{ bodies = ["block"], velocity = [0, -0.01] }]
+[[stage]]
+name = "lift"
+kind = "run"
+duration_s = 0.0195
+move = [{ bodies = ["block"], velocity = [0, 0.01] }]
+)";
+  const Progress<2> run = whole_run(text);
+  const double duration[] = {0.0295, 0.0195};
+  for (const int stage : {1, 2}) {
+    const std::vector<double> time = column(run, "time_s", stage), load = column(run, "block_contact_load_y_N", stage),
+                              moved = column(run, "block_displacement_y_m", stage);
+    EXPECT_NEAR(time.back() - time.front(), duration[stage - 1], 1e-15);
+    for (std::size_t i = 0; i < time.size(); ++i)
+      EXPECT_NEAR(load[i], std::max(0.0, -1e8 * moved[i]), 1e-4) << "stage " << stage << ", row " << i;
+  }
+  EXPECT_NEAR(column(run, "block_displacement_y_m", 2).back(), -0.01 * (0.0295 - 0.0195), 1e-15);
+  EXPECT_NEAR(run.results.find("block_contact_load_y")->value, 1e4, 1e-4);
+}
+
+}  // namespace
+}  // namespace voussoir
