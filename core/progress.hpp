@@ -21,6 +21,7 @@ struct Progress {
   StageRecord record;                // rows of the stage under way
   double next_frame = 0;             // s
   std::vector<double> frames;        // s: of the frames written
+  std::vector<double> trial_frames;  // of those of trials that were taken back: the trials, counted from 1
   Results results;                   // of what has ended
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -38,6 +39,15 @@ std::vector<int> properties_followed(const Prepared<Dim>& scene) {
   return {followed.begin(), followed.end()};
 }
 
+// whether some stage searches by trials that are taken back: then the history has a column for them
+template <int Dim>
+bool has_trials(const Prepared<Dim>& scene) {
+  return std::any_of(scene.stages.begin(), scene.stages.end(), [](const StagePlan& stage) {
+    const auto* reduction = std::get_if<ReducePlan>(&stage.plan);
+    return reduction && reduction->method != ReductionMethod::rate;
+  });
+}
+
 // a stage that has ended
 struct Executed {
   std::string kind, ended;
@@ -59,9 +69,10 @@ struct Simulation {
 
   const StagePlan& plan() const { return scene.stages[progress.stage]; }
 
-  // a row of the history: time, stage, friction angles that change, monitors
-  std::vector<double> row(const State<Dim>& now) const {
+  // a row of the history: time, stage, trial (0: the path to the answer), friction angles that change, monitors
+  std::vector<double> row(const State<Dim>& now, int trial = 0) const {
     std::vector<double> values{now.time, static_cast<double>(progress.stage + 1)};
+    if (has_trials(scene)) values.push_back(trial);
     for (const int p : followed)
       values.push_back(now.schedule.friction[p] * degrees);
     const std::vector<double> monitored = monitor_values<Dim>(scene.monitors, model, now);
@@ -83,6 +94,12 @@ struct Simulation {
     State<Dim> copy = now;
     if (!failed) find_forces(model, settings, copy);
     return copy;
+  }
+
+  void trial_frame(const State<Dim>& now, int trial) {
+    if (!scene.output.frames) return;
+    if (watcher.trial_frame) watcher.trial_frame(model, now, trial);
+    progress.trial_frames.push_back(trial);
   }
 
   void tell(const State<Dim>& now, const std::string& detail, double unbalanced, double done) {
@@ -186,13 +203,17 @@ struct Simulation {
     return Executed{kind, describe(report.reason), report};
   }
 
-  // a search has its trials recorded; at constant rate, where the trial is the whole stage, all that happens
+  // A search has the ends of its trials recorded, the detours with their number; at constant rate, where the trial is
+  // the whole stage, all that happens.
   std::optional<Executed> execute(const ReducePlan& reduction) {
     const bool continuous = reduction.method == ReductionMethod::rate;
     const TrialHook<Dim> on_trial = [&](const State<Dim>& moved, double, Trial outcome) {
+      if (continuous) return;
       const State<Dim> now = with_forces(moved, outcome == Trial::broken);
-      if (!continuous) results.history.rows.push_back(row(now));
-      if (outcome == Trial::failed) frame(now);
+      const int number = progress.reduction.trial + 1;
+      const bool detour = is_detour(reduction.method, progress.reduction.trial, outcome);
+      results.history.rows.push_back(row(now, detour ? number : 0));
+      if (detour) trial_frame(now, number);
     };
     const ReductionReport report = reduce(model, settings, reduction, state, progress.reduction,
                                           continuous ? record_run(RunGoal{}.end_time) : tell_trials(), on_trial);
@@ -306,6 +327,7 @@ Progress<Dim> begin(const Prepared<Dim>& scene) {
   Progress<Dim> progress;
   progress.state = scene.state;
   progress.results.history.columns = {"time_s", "stage"};
+  if (has_trials(scene)) progress.results.history.columns.push_back("trial");
   for (const int p : properties_followed(scene))
     progress.results.history.columns.push_back("friction_" + scene.model.properties[p].name + "_deg");
   for (const Column& c : monitor_columns<Dim>(scene.monitors))

@@ -21,8 +21,11 @@ struct ProgressReport {
 // Callbacks; each may be empty. None can change the simulation.
 template <int Dim>
 struct Watcher {
-  std::function<void(const ProgressReport&)> progress;                           // every thousand steps or so
-  std::function<void(const Model<Dim>&, const State<Dim>&, double time)> frame;  // as the output plan asks
+  std::function<void(const ProgressReport&)> progress;  // every thousand steps or so
+  // as the output plan asks; time never goes back
+  std::function<void(const Model<Dim>&, const State<Dim>&, double time)> frame;
+  // the end of a search's trial, counted from 1, that is taken back
+  std::function<void(const Model<Dim>&, const State<Dim>&, int trial)> trial_frame;
   // before every step, with all that a later `simulate` needs to go on; true stops here
   std::function<bool(const Progress<Dim>&)> pause;
 };

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -70,7 +71,7 @@ std::vector<double> column_of(const History& history, const std::string& name) {
 TEST(Simulate, TheHistoryShowsEveryFrictionThatChangesAndNoOther) {
   const auto settled = stage_of("settle", SettlePlan{});
   const Results results = results_of(block_on_slope({settled, stage_of("reduce", reduction_to(27 * degree))}));
-  EXPECT_EQ(results.history.columns, (std::vector<std::string>{"time_s", "stage", "friction_joint_deg"}));
+  EXPECT_EQ(results.history.columns, (std::vector<std::string>{"time_s", "stage", "trial", "friction_joint_deg"}));
   const std::vector<double> friction = column_of(results.history, "friction_joint_deg");
   ASSERT_FALSE(friction.empty());
   EXPECT_NEAR(friction.front(), 40, 1e-9);
@@ -100,6 +101,36 @@ TEST(Simulate, AStageIsMarkedRelaxedWhereItEndsByRelaxation) {
   // a fall at constant rate is true motion, though the search begins at rest
   EXPECT_FALSE(relaxed(reduction_to(10 * degree, ReductionMethod::rate), Statics::adaptive));
   EXPECT_FALSE(relaxed(reduction_to(10 * degree, ReductionMethod::two_rates), Statics::adaptive));
+}
+
+// What was taken back stands beside the path: whatever is left when it is put aside ends on the answer.
+TEST(Simulate, TimeNeverGoesBackOnThePathToTheAnswer) {
+  for (const ReductionMethod method :
+       {ReductionMethod::bisection, ReductionMethod::steps, ReductionMethod::two_rates}) {
+    const double to = method == ReductionMethod::two_rates ? 10 : 27;
+    const Prepared<2> scene =
+        block_on_slope({stage_of("settle", SettlePlan{}), stage_of("reduce", reduction_to(to * degree, method)),
+                        stage_of("after", SettlePlan{.step_limit = 100})});
+    std::vector<double> frames;
+    std::vector<int> trials;
+    Watcher<2> watcher;
+    watcher.frame = [&](const Model<2>&, const State<2>&, double time) { frames.push_back(time); };
+    watcher.trial_frame = [&](const Model<2>&, const State<2>&, int trial) { trials.push_back(trial); };
+    const Results results = results_of(scene, watcher);
+
+    const std::vector<double> time = column_of(results.history, "time_s"), trial = column_of(results.history, "trial");
+    std::vector<double> path;
+    std::vector<int> detours;
+    for (std::size_t i = 0; i < time.size(); ++i)
+      trial[i] == 0 ? path.push_back(time[i]) : detours.push_back(static_cast<int>(trial[i]));
+    EXPECT_TRUE(std::is_sorted(path.begin(), path.end()));
+    EXPECT_EQ(trial.back(), 0) << "the history ends on the path";
+    EXPECT_FALSE(detours.empty());
+    EXPECT_TRUE(std::is_sorted(detours.begin(), detours.end()));
+    EXPECT_EQ(detours, trials) << "each has its row and its frame";
+    EXPECT_GE(frames.size(), 2u);
+    EXPECT_TRUE(std::is_sorted(frames.begin(), frames.end()));
+  }
 }
 
 }  // namespace

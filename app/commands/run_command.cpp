@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "app/bad_input.hpp"
 #include "app/commands/commands.hpp"
@@ -95,16 +96,24 @@ class CheckpointClock {
   double seconds_ = 0;
 };
 
+// the path to the answer, and the trials that were taken back
+struct WrittenSeries {
+  FrameSeries frames, trials;
+};
+
 // the run goes on from where `progress` stands; false: a signal stopped it, with a checkpoint
 template <int Dim>
 bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const Errand& errand, Progress<Dim>& progress,
-           FrameSeries& frames) {
+           WrittenSeries& written) {
   ProgressLine line(!errand.quiet);
   CheckpointClock clock(errand.conduct, progress.state.counters.steps, progress.results.seconds);
   Watcher<Dim> watcher;
   watcher.progress = [&](const ProgressReport& report) { line.show(report); };
   watcher.frame = [&](const Model<Dim>& model, const State<Dim>& state, double time) {
-    write_frame(frames, model, state, time);
+    write_frame(written.frames, model, state, time);
+  };
+  watcher.trial_frame = [&](const Model<Dim>& model, const State<Dim>& state, int trial) {
+    write_frame(written.trials, model, state, trial);
   };
   watcher.pause = [&](const Progress<Dim>& now) {
     const bool stop = interruption() != 0;
@@ -121,13 +130,15 @@ bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const E
 
 // what the run so far has written beyond its checkpoint is cut off
 template <int Dim>
-FrameSeries cut_back_to(const Progress<Dim>& progress, const fs::path& folder) {
-  FrameSeries frames = cut_back(folder, progress.frames);
-  if (!frames.lost.empty())
-    print_warnings({fmt::format("{} files of frames are gone, {} the first: blocks.pvd and contacts.pvd leave them out",
-                                frames.lost.size(), *frames.lost.begin())});
+WrittenSeries cut_back_to(const Progress<Dim>& progress, const fs::path& folder) {
+  WrittenSeries written{cut_back(folder, progress.frames), cut_back(folder, progress.trial_frames, trial_series)};
+  std::set<std::string> lost = written.frames.lost;
+  lost.insert(written.trials.lost.begin(), written.trials.lost.end());
+  if (!lost.empty())
+    print_warnings({fmt::format("{} files of frames are gone, {} the first: the .pvd files leave them out", lost.size(),
+                                *lost.begin())});
   write_history_csv(folder / "history.csv", history_so_far(progress));
-  return frames;
+  return written;
 }
 
 // begins or goes on, and writes the results
@@ -136,10 +147,10 @@ ExitCode carry_out_prepared(const LoadedScene& scene, const Prepared<Dim>& prepa
   std::vector<std::string> remarks;
   Progress<Dim> progress = last_progress(errand.folder, prepared, scene.hash, remarks);
   print_warnings(remarks);
-  FrameSeries frames = cut_back_to(progress, errand.folder);
+  WrittenSeries written = cut_back_to(progress, errand.folder);
 
   note_interruptions();
-  if (!go_on(prepared, scene.hash, errand, progress, frames)) {
+  if (!go_on(prepared, scene.hash, errand, progress, written)) {
     tell("voussoir: interrupted after step {} (t = {:.6g} s): go on with 'voussoir resume {}'\n",
          progress.state.counters.steps, progress.state.time, errand.folder.string());
     return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + interruption());

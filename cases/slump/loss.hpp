@@ -26,16 +26,17 @@ Loss<Dim> lose(const std::filesystem::path& scene, const std::vector<std::string
   Loss<Dim> loss;
   loss.run.scene = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides);
   const auto& prepared = std::get<Prepared<Dim>>(loss.run.scene.prepared);
-  std::vector<State<Dim>> frames;  // end of the settling, each trial that failed, end of the search
+  std::vector<State<Dim>> ends, trials;  // of the stages, of the trials that failed
   Watcher<Dim> watcher;
-  watcher.frame = [&](const Model<Dim>&, const State<Dim>& state, double) { frames.push_back(state); };
+  watcher.frame = [&](const Model<Dim>&, const State<Dim>& state, double) { ends.push_back(state); };
+  watcher.trial_frame = [&](const Model<Dim>&, const State<Dim>& state, int) { trials.push_back(state); };
   Progress<Dim> progress = begin(prepared);
   simulate(prepared, progress, watcher);
   loss.run.results = std::move(progress.results);
   if (loss.run.results.outcome != Outcome::done)
     throw std::runtime_error(scene.string() + ": " + loss.run.results.message);
-  loss.settled = frames.front();
-  loss.lost = frames.at(frames.size() - 2);
+  loss.settled = ends.front();
+  loss.lost = trials.at(trials.size() - 1);
   return loss;
 }
 

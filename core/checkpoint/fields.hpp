@@ -179,9 +179,9 @@ void serialize(Archive& archive, Results& r) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, Progress<Dim>& p) {
   auto& [state, stage, stage_under_way, stage_began, steps_before, run, reduction, record, next_frame, frames,
-         results] = p;
+         trial_frames, results] = p;
   archive(state, stage, stage_under_way, stage_began, steps_before, run, reduction, record, next_frame, frames,
-          results);
+          trial_frames, results);
 }
 
 // every bit of it: two objects are the same when these are equal

@@ -355,5 +355,30 @@ TEST(Paraview, CollectionsNameFilesThatExist) {
   }
 }
 
+TEST(Paraview, TrialsAreASeriesOfTheirOwn) {
+  const TemporaryFolder folder;
+  const Model<2> model = row_of_blocks<2>(2);
+  FrameSeries series{folder.path}, trials{folder.path, {}, trial_series};
+  write_frame(series, model, moved_state(model), 0.1);
+  for (const int trial : {2, 3})
+    write_frame(trials, model, moved_state(model), trial);
+  const auto entries_of = [&](const char* name) {
+    return XmlReader(read(folder.path / name)).read().child("Collection").children;
+  };
+  EXPECT_EQ(entries_of("blocks.pvd").size(), 1u);
+  const std::vector<Element> tried = entries_of("trial_blocks.pvd");
+  ASSERT_EQ(tried.size(), 2u);
+  EXPECT_EQ(tried[1].number("timestep"), 3);
+  EXPECT_EQ(tried[1].attributes.at("file"), "frames/trial_blocks_0001.vtp");
+
+  // neither takes the other's frames away
+  cut_back(folder.path, {});
+  EXPECT_TRUE(fs::exists(folder.path / "frames/trial_contacts_0001.vtp"));
+  EXPECT_FALSE(fs::exists(folder.path / "frames/blocks_0000.vtp"));
+  cut_back(folder.path, {2}, trial_series);
+  EXPECT_FALSE(fs::exists(folder.path / "frames/trial_contacts_0001.vtp"));
+  EXPECT_EQ(entries_of("trial_blocks.pvd").size(), 1u);
+}
+
 }  // namespace
 }  // namespace voussoir

@@ -77,33 +77,48 @@ std::vector<std::string> names_of(const std::vector<Named>& list) {
 
 constexpr std::array kinds{"blocks", "contacts"};
 
-std::string frame_file(const char* kind, std::size_t number) {
-  return fmt::format("frames/{}_{:04}.vtp", kind, number);
+std::string frame_file(const std::string& series, const char* kind, std::size_t number) {
+  return fmt::format("frames/{}{}_{:04}.vtp", series, kind, number);
 }
 
-std::string collection_file(const char* kind) {
-  return fmt::format("{}.pvd", kind);
+std::string collection_file(const std::string& series, const char* kind) {
+  return fmt::format("{}{}.pvd", series, kind);
 }
 
-// the number in the name of one of our frames
-std::optional<std::size_t> frame_number(const std::filesystem::path& path) {
+// the number in the name of one of the series' frames
+std::optional<std::size_t> frame_number(const std::string& series, const std::filesystem::path& path) {
   const std::string name = path.filename().string();
-  for (const std::string kind : kinds) {
-    if (!name.starts_with(kind + "_")) continue;
+  for (const char* kind : kinds) {
+    const std::string before = series + kind + "_";
+    if (!name.starts_with(before)) continue;
     std::size_t number = 0;
-    std::from_chars(name.data() + kind.size() + 1, name.data() + name.size(), number);
-    if (frame_file(kind.c_str(), number) == "frames/" + name) return number;
+    std::from_chars(name.data() + before.size(), name.data() + name.size(), number);
+    if (frame_file(series, kind, number) == "frames/" + name) return number;
   }
   return {};
+}
+
+// the files of one series that are there, relative to the folder
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder, const std::string& series) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "frames", error))
+    if (frame_number(series, entry.path())) files.push_back("frames" / entry.path().filename());
+  for (const char* kind : kinds) {
+    const std::filesystem::path collection = folder / collection_file(series, kind);
+    if (std::filesystem::is_symlink(collection, error) || std::filesystem::exists(collection, error))
+      files.push_back(collection.filename());
+  }
+  return files;
 }
 
 void write_collections(const FrameSeries& series) {
   for (const char* kind : kinds) {
     std::vector<TimedFile> files;
     for (std::size_t k = 0; k < series.times.size(); ++k)
-      if (const std::string file = frame_file(kind, k); !series.lost.contains(file))
+      if (const std::string file = frame_file(series.name, kind, k); !series.lost.contains(file))
         files.push_back({series.times[k], file});
-    write_file(series.folder / collection_file(kind), pvd(files));
+    write_file(series.folder / collection_file(series.name, kind), pvd(files));
   }
 }
 
@@ -163,29 +178,24 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
 }
 
 std::vector<std::filesystem::path> series_files(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "frames", error))
-    if (frame_number(entry.path())) files.push_back("frames" / entry.path().filename());
-  for (const char* kind : kinds)
-    if (std::filesystem::is_symlink(folder / collection_file(kind), error) ||
-        std::filesystem::exists(folder / collection_file(kind), error))
-      files.emplace_back(collection_file(kind));
+  std::vector<std::filesystem::path> files = files_of(folder, {}), trials = files_of(folder, trial_series);
+  files.insert(files.end(), trials.begin(), trials.end());
   std::sort(files.begin(), files.end());
   return files;
 }
 
-FrameSeries cut_back(const std::filesystem::path& folder, const std::vector<double>& times) {
-  FrameSeries series{folder, times, {}};
-  for (const std::filesystem::path& file : series_files(folder)) {
-    const std::optional<std::size_t> number = frame_number(file);
+FrameSeries cut_back(const std::filesystem::path& folder, const std::vector<double>& times, const std::string& name) {
+  FrameSeries series{folder, times, name};
+  for (const std::filesystem::path& file : files_of(folder, name)) {
+    const std::optional<std::size_t> number = frame_number(name, file);
     if (number ? *number >= times.size() : times.empty()) remove_file(folder / file);
   }
   if (times.empty()) return series;
   prepare_folder(folder / "frames");
   for (const char* kind : kinds)
     for (std::size_t k = 0; k < times.size(); ++k)
-      if (!std::filesystem::exists(folder / frame_file(kind, k))) series.lost.insert(frame_file(kind, k));
+      if (const std::string file = frame_file(name, kind, k); !std::filesystem::exists(folder / file))
+        series.lost.insert(file);
   write_collections(series);
   return series;
 }
@@ -194,8 +204,8 @@ template <int Dim>
 void write_frame(FrameSeries& series, const Model<Dim>& model, const State<Dim>& state, double time) {
   if (series.times.empty()) prepare_folder(series.folder / "frames");
   const std::size_t frame = series.times.size();
-  write_file(series.folder / frame_file("blocks", frame), vtp(block_faces(model, state, time)));
-  write_file(series.folder / frame_file("contacts", frame), vtp(contact_points(model, state, time)));
+  write_file(series.folder / frame_file(series.name, "blocks", frame), vtp(block_faces(model, state, time)));
+  write_file(series.folder / frame_file(series.name, "contacts", frame), vtp(contact_points(model, state, time)));
   series.times.push_back(time);
   write_collections(series);  // last: they never name a file that is not there
 }

@@ -25,19 +25,24 @@ template <int Dim>
 PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double time);
 
 // A growing series of frames in `folder`: frames/blocks_0000.vtp …, frames/contacts_0000.vtp …, blocks.pvd,
-// contacts.pvd.
+// contacts.pvd; the name of the series stands before each of them.
 struct FrameSeries {
   std::filesystem::path folder;
-  std::vector<double> times = {};   // s, of the frames written
+  std::vector<double> times = {};   // of the frames written: s, or the numbers of trials
+  std::string name = {};            // empty, or trial_series
   std::set<std::string> lost = {};  // names of those frames that somebody removed; no collection names them
 };
 
-// The files of a series that are there, whichever run wrote them: frames and collections, relative to the folder.
+// the trials of a search that were taken back, by their numbers: frames/trial_blocks_0000.vtp …, trial_blocks.pvd …
+inline constexpr const char* trial_series = "trial_";
+
+// The files of both series that are there, whichever run wrote them: frames and collections, relative to the folder.
 std::vector<std::filesystem::path> series_files(const std::filesystem::path& folder);
 
 // The series of a run that goes on from a checkpoint with frames at these times: frames beyond it, which will be
 // written again, are removed, and the collections name what is left. Throws OutputError.
-FrameSeries cut_back(const std::filesystem::path& folder, const std::vector<double>& times);
+FrameSeries cut_back(const std::filesystem::path& folder, const std::vector<double>& times,
+                     const std::string& name = {});
 
 // Adds a frame and renews the collections, so that a run that is cut short can be opened too. Throws OutputError.
 template <int Dim>

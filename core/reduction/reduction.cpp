@@ -22,6 +22,9 @@ constexpr double bias_power = 2.0 / 3;
 // two rates: the slower fall starts this many of the faster's lags above where that failed; one would do on a plane
 constexpr double nearer_by_lags = 1.5;
 
+// two rates: the trials after the one at rest
+constexpr int faster_fall = 1, coming_nearer = 2, slower_fall = 3;
+
 // The share of a trial's step limit that relaxation gets before true motion takes over: 20,000 steps by default, which
 // is what a column of 1,000 blocks takes to come to rest.
 constexpr long long relaxation_share = 50;
@@ -61,9 +64,9 @@ struct Search {
   }
 
   // two rates: fall, come to rest nearer to where the first fall began to move, fall from there
-  bool falls_faster() const { return two_rates() && progress.trial == 1; }
-  bool comes_nearer() const { return two_rates() && progress.trial == 2; }
-  bool falls_slower() const { return two_rates() && progress.trial == 3; }
+  bool falls_faster() const { return two_rates() && progress.trial == faster_fall; }
+  bool comes_nearer() const { return two_rates() && progress.trial == coming_nearer; }
+  bool falls_slower() const { return two_rates() && progress.trial == slower_fall; }
   bool two_rates() const { return plan.method == ReductionMethod::two_rates; }
 
   double rate() const { return falls_slower() ? plan.slower_rate : plan.rate; }
@@ -246,6 +249,19 @@ double default_failure_displacement(const Model<Dim>& model) {
 }
 
 }  // namespace
+
+bool is_detour(ReductionMethod method, int trial, Trial outcome) {
+  switch (method) {
+    case ReductionMethod::bisection:
+    case ReductionMethod::steps:
+      return outcome != Trial::stable;
+    case ReductionMethod::rate:
+      return false;
+    case ReductionMethod::two_rates:
+      return trial == faster_fall || (trial == coming_nearer && outcome != Trial::stable);
+  }
+  return false;
+}
 
 template <int Dim>
 std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& plan) {

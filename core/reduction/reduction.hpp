@@ -36,6 +36,10 @@ struct ReductionProgress {
   State<Dim> base;                              // the last stable state
 };
 
+// Whether a trial, counted from 0, is a detour: what it did is taken back, or was only to show that it fails. The
+// others are the path to the answer, whose time never goes back.
+bool is_detour(ReductionMethod method, int trial, Trial outcome);
+
 // what happened at an angle; called at the end of each trial, with the state it left
 template <int Dim>
 using TrialHook = std::function<void(const State<Dim>&, double friction, Trial outcome)>;
