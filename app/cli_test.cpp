@@ -113,6 +113,18 @@ TEST_F(Program, AGoalNotReachedIsOne) {
   EXPECT_NE(ended.out.find("incomplete"), std::string::npos);
 }
 
+TEST_F(Program, AStageThatRemovesTheLastFreeBlockLeavesTheOnesBefore) {
+  write("dig.toml", read(scenes / "two_cubes.toml") +
+                        "[[stage]]\nname = \"dig\"\nkind = \"settle\"\n[[stage.remove]]\nabove = [\"bed\"]\n");
+  const Ended ended = run("run dig.toml --out out");
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  EXPECT_EQ(ended.err.find("unexpected"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.out.find("no block is free to move"), std::string::npos) << ended.out;
+  EXPECT_EQ(results("out")["status"], "incomplete");
+  EXPECT_EQ(results("out")["stages"].size(), 2u);
+  EXPECT_EQ(results("out")["stages"][0]["ended"], "equilibrium");
+}
+
 TEST_F(Program, ANumericalFailureIsFour) {
   const Ended ended = run("run " + cubes_ + "--out out --set contact.newton_limit=1");
   EXPECT_EQ(ended.code, 4) << ended.err;

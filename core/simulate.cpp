@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <stdexcept>
 
 #include "core/accuracy.hpp"
 #include "core/motion/prescribed.hpp"
@@ -48,9 +49,20 @@ bool has_trials(const Prepared<Dim>& scene) {
   });
 }
 
+template <int Dim>
+bool anything_moves(const Model<Dim>& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const Body<Dim>& body) { return body.present && !body.still(); });
+}
+
+const char* kind_of(const StagePlan& stage) {
+  constexpr const char* kinds[] = {"settle", "run", "reduce"};  // in the order of the variant
+  return kinds[stage.plan.index()];
+}
+
 // a stage that has ended
 struct Executed {
-  std::string kind, ended;
+  std::string ended;
   RunReport report;
 };
 
@@ -185,22 +197,21 @@ struct Simulation {
     goal.rest = true;
     goal.time_limit = progress.stage_began + settle.time_limit;
     goal.step_limit = settle.step_limit;
-    return go("settle", goal, settle.gravity, StopReason::equilibrium);
+    return go(goal, settle.gravity, StopReason::equilibrium);
   }
 
   std::optional<Executed> execute(const RunPlan& timed) {
     RunGoal goal;
     goal.end_time = progress.stage_began + timed.duration;
-    return go("run", goal, timed.gravity, StopReason::end_time);
+    return go(goal, timed.gravity, StopReason::end_time);
   }
 
-  std::optional<Executed> go(const std::string& kind, const RunGoal& goal, const GravityPlan& gravity,
-                             StopReason wanted) {
+  std::optional<Executed> go(const RunGoal& goal, const GravityPlan& gravity, StopReason wanted) {
     const RunSchedule schedule{.gravity = gravity, .properties = {}};
     const RunReport report = run(model, settings, goal, schedule, state, progress.run, record_run(goal.end_time));
     if (report.reason == StopReason::interrupted) return {};
     judge(report, report.reason == wanted);
-    return Executed{kind, describe(report.reason), report};
+    return Executed{describe(report.reason), report};
   }
 
   // A search has the ends of its trials recorded, the detours with their number; at constant rate, where the trial is
@@ -226,7 +237,27 @@ struct Simulation {
     } else if (results.outcome != Outcome::failed) {
       fail(Outcome::incomplete, "no bracket: " + report.message);
     }
-    return Executed{"reduce", report.bracketed ? "critical friction found" : describe(report.last.reason), report.last};
+    return Executed{report.bracketed ? "critical friction found" : describe(report.last.reason), report.last};
+  }
+
+  // A stage that cannot be done ends here: what was done before it is kept.
+  std::optional<Executed> execute_stage() {
+    RunReport none;
+    none.unbalanced = -1;
+    if (!anything_moves(model)) {
+      finish_rows();
+      fail(Outcome::incomplete,
+           "no block is free to move: this stage, or one before it, fixed or removed the last; leave one free, or "
+           "end with the stage before");
+      return Executed{"no block is free to move", none};
+    }
+    try {
+      return std::visit([this](const auto& p) { return execute(p); }, plan().plan);
+    } catch (const std::logic_error& error) {  // the kernels' word for what makes no sense; files fail otherwise
+      finish_rows();
+      fail(Outcome::failed, error.what());
+      return Executed{error.what(), none};
+    }
   }
 
   // model and settings of the stage, whether it begins or goes on
@@ -259,7 +290,7 @@ struct Simulation {
   void end_stage(const Executed& done) {
     StageResult r;
     r.name = plan().name;
-    r.kind = done.kind;
+    r.kind = kind_of(plan());
     r.ended = done.ended;
     r.relaxed = ends_relaxed(plan(), settings.damping);
     r.steps = state.counters.steps - progress.steps_before;
@@ -309,7 +340,7 @@ struct Simulation {
     while (progress.stage < static_cast<int>(scene.stages.size())) {
       enter_stage();
       if (!progress.stage_under_way) begin_stage();
-      const std::optional<Executed> done = std::visit([this](const auto& p) { return execute(p); }, plan().plan);
+      const std::optional<Executed> done = execute_stage();
       if (!done) return false;
       end_stage(*done);
       if (results.outcome != Outcome::done) break;

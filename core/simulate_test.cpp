@@ -133,5 +133,37 @@ TEST(Simulate, TimeNeverGoesBackOnThePathToTheAnswer) {
   }
 }
 
+// ---- what ends a run early, and what is kept then -------------------------------------------------------------------
+
+TEST(Simulate, AStageWithoutAFreeBlockEndsTheRunAndKeepsWhatWasDone) {
+  StagePlan excavate = stage_of("excavate", SettlePlan{});
+  excavate.change.remove.push_back({.names = {"block"}, .above = {}, .below = {}, .inside = {}});
+  const Results results =
+      results_of(block_on_slope({stage_of("settle", SettlePlan{}), stage_of("reduce", reduction_to(27 * degree)),
+                                 excavate, stage_of("after", SettlePlan{})}));
+  EXPECT_EQ(results.outcome, Outcome::incomplete);
+  EXPECT_TRUE(results.message.starts_with("stage excavate: no block is free to move")) << results.message;
+  ASSERT_EQ(results.stages.size(), 3u);
+  EXPECT_EQ(results.stages[0].ended, "equilibrium");
+  EXPECT_EQ(results.stages[2].steps, 0);
+  ASSERT_NE(results.find("critical_friction"), nullptr);
+  EXPECT_NEAR(results.find("critical_friction")->value, 30, 0.5);
+}
+
+TEST(Simulate, AStageThatCannotBeDoneEndsTheRunInASentence) {
+  // a block alone, of no joint, and no time step stated
+  Prepared<2> scene;
+  scene.model = shapes::model_of<2>({shapes::body_of<2>(shapes::box<2>({0, 0}, {1, 1}))});
+  scene.model.properties.clear();
+  scene.state = initial_state(scene.model);
+  scene.stages = {stage_of("wait", RunPlan{.duration = 1}), stage_of("after", SettlePlan{})};
+  const Results results = results_of(scene);
+  EXPECT_EQ(results.outcome, Outcome::failed);
+  EXPECT_TRUE(results.message.starts_with("stage wait: no contact and no joint property determines the time step"))
+      << results.message;
+  EXPECT_EQ(results.stages.size(), 1u);
+  EXPECT_FALSE(results.history.rows.empty());
+}
+
 }  // namespace
 }  // namespace voussoir
