@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/commands/progress_line.hpp"
 #include "app/run_scene.hpp"
 #include "app/testing/program.hpp"
 
@@ -16,6 +17,25 @@ bool is_built_in(const std::string& part) {
   for (const auto& [name, is_there] : features())
     if (name == part) return is_there;
   return true;
+}
+
+TEST(ProgressLine, WithoutATerminalItAddsALineAtTimes) {
+  ProgressReport report;
+  report.stage = "settle";
+  report.stage_number = report.stage_count = 1;
+  const auto shown = [&](bool wanted, std::chrono::milliseconds between) {
+    testing::internal::CaptureStderr();
+    ProgressLine line(wanted, false, between);
+    for (report.steps = 1000; report.steps <= 3000; report.steps += 1000)
+      line.show(report);
+    line.clear();
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(shown(true, std::chrono::hours(1)), "");
+  EXPECT_EQ(shown(false, std::chrono::milliseconds(0)), "");
+  const std::vector<std::string> lines = lines_of(shown(true, std::chrono::milliseconds(0)));
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines.front(), "voussoir: stage 1/1 settle: 1000 steps, t = 0 s");
 }
 
 // ---- run ----------------------------------------------------------------------------------------------------------

@@ -6,12 +6,16 @@
 #include <cmath>
 #include <utility>
 
+#include "core/motion/free_fall.hpp"
 #include "core/motion/integrate.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/step.hpp"
 
 namespace voussoir {
 namespace {
+
+// steps between two looks for bodies that fall free; a look costs less than a step
+constexpr long long steps_between_falls = 100;
 
 // sets the scheduled values to those of the time of the positions; true while they still change
 template <int Dim>
@@ -57,10 +61,13 @@ int first_not_finite(const State<Dim>& state) {
   return -1;
 }
 
+// the body to blame that there is no rest; to be asked while it moves
 template <int Dim>
-std::string name_of(const Model<Dim>& model, int body) {
-  const std::string& name = model.bodies[body].name;
-  return name.empty() ? fmt::format("body {}", body) : fmt::format("body {} ({})", body, name);
+std::string restless(const Model<Dim>& model, const State<Dim>& state) {
+  const int body = fastest(model, state);
+  if (body < 0) return {};
+  return fmt::format("{} moves most, {:.3g} m from where it began", label_of(model, body),
+                     state.motions[body].displacement.norm());
 }
 
 template <int Dim>
@@ -94,8 +101,8 @@ template <int Dim>
 std::string first_unanswered(const Model<Dim>& model, const State<Dim>& state) {
   for (const Contact<Dim>& c : state.contacts)
     if (c.unanswered())
-      return fmt::format("contact of {} and {} at {}: {}", name_of(model, model.parts[c.part_a].body),
-                         name_of(model, model.parts[c.part_b].body), moment_of(state), name(c.status));
+      return fmt::format("contact of {} and {} at {}: {}", label_of(model, model.parts[c.part_a].body),
+                         label_of(model, model.parts[c.part_b].body), moment_of(state), name(c.status));
   return {};
 }
 
@@ -133,10 +140,18 @@ std::string describe(StopReason reason) {
       return "a contact found no answer";
     case StopReason::not_finite:
       return "a number is not finite";
+    case StopReason::falls_free:
+      return "a body falls free";
     case StopReason::interrupted:
       return "interrupted";
   }
   return "unknown";
+}
+
+template <int Dim>
+std::string label_of(const Model<Dim>& model, int body) {
+  const std::string& name = model.bodies[body].name;
+  return name.empty() ? fmt::format("body {}", body) : fmt::format("body {} ({})", body, name);
 }
 
 template <int Dim>
@@ -173,7 +188,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     if (state.counters.unconverged > progress.unconverged)
       return stop(StopReason::no_contact_answer, first_unanswered(model, state));
     if (const int body = first_not_finite(state); body >= 0)
-      return stop(StopReason::not_finite, name_of(model, body) + " at " + moment_of(state));
+      return stop(StopReason::not_finite, label_of(model, body) + " at " + moment_of(state));
 
     // rest must last, and cannot come while gravity or friction still changes
     const bool settled = goal.rest && !changed && report.unbalanced <= settings.equilibrium.unbalanced;
@@ -182,11 +197,19 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     if (goal.moved_away > 0 && farthest(model, state, progress.begin) > goal.moved_away)
       return stop(StopReason::moved_away);
     if (state.time >= goal.end_time) return stop(StopReason::end_time);
-    if (state.time >= goal.time_limit) return stop(StopReason::time_limit);
-    if (goal.step_limit > 0 && progress.steps >= goal.step_limit) return stop(StopReason::step_limit);
+    if (goal.rest && goal.moved_away == 0 && !changing && progress.steps % steps_between_falls == 0)
+      if (const int body = falling_free(model, state); body >= 0)
+        return stop(StopReason::falls_free,
+                    fmt::format("{} has left all others behind, {:.3g} m from where it began", label_of(model, body),
+                                state.motions[body].displacement.norm()));
+    if (state.time >= goal.time_limit) return stop(StopReason::time_limit, goal.rest ? restless(model, state) : "");
+    if (goal.step_limit > 0 && progress.steps >= goal.step_limit)
+      return stop(StopReason::step_limit, goal.rest ? restless(model, state) : "");
   }
 }
 
+template std::string label_of<2>(const Model<2>&, int);
+template std::string label_of<3>(const Model<3>&, int);
 template RunReport run<2>(const Model<2>&, const Settings&, const RunGoal&, const RunSchedule&, State<2>&,
                           RunProgress<2>&, const RunHooks<2>&);
 template RunReport run<3>(const Model<3>&, const Settings&, const RunGoal&, const RunSchedule&, State<3>&,

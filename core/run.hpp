@@ -20,6 +20,7 @@ enum class StopReason {
   time_limit,
   no_contact_answer,
   not_finite,
+  falls_free,  // a body that nothing can catch: there will be no rest
   interrupted  // the hooks asked for a pause: the run goes on when it is called again
 };
 
@@ -43,7 +44,7 @@ struct RunSchedule {
 
 struct RunReport {
   StopReason reason = StopReason::step_limit;
-  std::string detail;  // which contact or body, for failures
+  std::string detail;  // which contact or body, for failures and where rest was not found
   long long steps = 0;
   double unbalanced = 0;  // the equilibrium measure at the end
 };
@@ -86,5 +87,9 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
 
 // a sentence for people
 std::string describe(StopReason reason);
+
+// how messages name a body: "body 3 (left)"
+template <int Dim>
+std::string label_of(const Model<Dim>& model, int body);
 
 }  // namespace voussoir

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "core/accuracy.hpp"
+#include "core/motion/free_fall.hpp"
 #include "core/motion/prescribed.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/stages.hpp"
@@ -58,6 +59,10 @@ bool anything_moves(const Model<Dim>& model) {
 const char* kind_of(const StagePlan& stage) {
   constexpr const char* kinds[] = {"settle", "run", "reduce"};  // in the order of the variant
   return kinds[stage.plan.index()];
+}
+
+std::string and_more(const std::string& detail) {
+  return detail.empty() ? "" : "; " + detail;
 }
 
 // a stage that has ended
@@ -186,8 +191,8 @@ struct Simulation {
       fail(Outcome::failed, describe(report.reason) + "; " + report.detail);
     else if (!goal_reached)
       fail(Outcome::incomplete,
-           fmt::format("no equilibrium: {} (unbalanced {:.2g}, wanted {:.2g})", describe(report.reason),
-                       report.unbalanced, settings.equilibrium.unbalanced));
+           fmt::format("no equilibrium: {} (unbalanced {:.2g}, wanted {:.2g}){}", describe(report.reason),
+                       report.unbalanced, settings.equilibrium.unbalanced, and_more(report.detail)));
   }
 
   // each `execute` goes on with the stage under way; nothing: interrupted
@@ -235,7 +240,7 @@ struct Simulation {
       const std::string name = unique ? "critical_friction" : plan().name + "_critical_friction";
       results.values.push_back({name, {report.critical * degrees, "deg", report.error_bar * degrees, report.rule}});
     } else if (results.outcome != Outcome::failed) {
-      fail(Outcome::incomplete, "no bracket: " + report.message);
+      fail(Outcome::incomplete, "no bracket: " + report.message + and_more(report.last.detail));
     }
     return Executed{report.bracketed ? "critical friction found" : describe(report.last.reason), report.last};
   }
@@ -298,6 +303,11 @@ struct Simulation {
     r.time_step = state.time_step;
     r.unbalanced = done.report.unbalanced;
     results.stages.push_back(r);
+    // a stage that lasts for a time is not ended by blocks that have left, but they are hardly what was wanted
+    if (const int body = falling_free(model, state); body >= 0 && std::holds_alternative<RunPlan>(plan().plan))
+      results.warnings.push_back(
+          fmt::format("stage {}: {} falls free, {:.3g} m from where it began: nothing lies below", r.name,
+                      label_of(model, body), state.motions[body].displacement.norm()));
     progress.steps_before = state.counters.steps;
     progress.stage_under_way = false;
     const State<Dim> now = with_forces(state, results.outcome == Outcome::failed);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/motion/free_fall.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir {
@@ -163,6 +164,59 @@ TEST(Simulate, AStageThatCannotBeDoneEndsTheRunInASentence) {
       << results.message;
   EXPECT_EQ(results.stages.size(), 1u);
   EXPECT_FALSE(results.history.rows.empty());
+}
+
+TEST(Simulate, WithoutRestTheBlockThatMovesMostIsNamed) {
+  Prepared<2> scene = block_on_slope({stage_of("settle", SettlePlan{.step_limit = 300})});
+  for (double& friction : scene.state.schedule.friction)
+    friction = 20 * degree;
+  const Results results = results_of(scene);
+  EXPECT_EQ(results.outcome, Outcome::incomplete);
+  EXPECT_NE(results.message.find("(block) moves most"), std::string::npos) << results.message;
+}
+
+// A block that slides off its plate ends a stage that waits for rest, and no stage that lasts for a time.
+TEST(Simulate, ABlockThatFallsFreeEndsTheWaitForRest) {
+  for (const Statics statics : {Statics::adaptive, Statics::local}) {
+    Prepared<2> scene = block_on_slope({stage_of("settle", SettlePlan{})});
+    scene.settings.damping.statics = statics;
+    for (double& friction : scene.state.schedule.friction)
+      friction = 5 * degree;
+    const Results results = results_of(scene);
+    EXPECT_EQ(results.outcome, Outcome::incomplete);
+    EXPECT_EQ(results.stages.at(0).ended, "a body falls free");
+    EXPECT_NE(results.message.find("(block) has left all others behind"), std::string::npos) << results.message;
+    EXPECT_LT(results.stages.at(0).steps, 200'000);
+  }
+  Prepared<2> timed = block_on_slope({stage_of("fall", RunPlan{.duration = 5})});
+  timed.settings.damping.local = 0;
+  for (double& friction : timed.state.schedule.friction)
+    friction = 5 * degree;
+  const Results results = results_of(timed);
+  EXPECT_EQ(results.outcome, Outcome::done);
+  ASSERT_EQ(results.warnings.size(), 1u);
+  EXPECT_NE(results.warnings[0].find("(block) falls free"), std::string::npos) << results.warnings[0];
+}
+
+TEST(FreeFall, IsNotSeenWhereSomethingMayCatchTheBlock) {
+  Model<2> model = block_on_plate<2>(0, 40 * degree);
+  const int block = shapes::index_of(model, "block"), plate = shapes::index_of(model, "plate");
+  State<2> state = initial_state(model);
+  state.motions[block].displacement = {0, -50};
+  EXPECT_EQ(falling_free(model, state), block);
+  EXPECT_EQ(fastest(model, state), -1);
+  state.motions[block].velocity = {0, 1};
+  EXPECT_EQ(falling_free(model, state), -1) << "it comes back";
+  EXPECT_EQ(fastest(model, state), block);
+  state.motions[block].velocity.setZero();
+  model.bodies[plate].reference[1] -= 100;
+  EXPECT_EQ(falling_free(model, state), -1) << "the plate lies below";
+  model.bodies[plate].reference[1] += 100;
+  state.motions[block].displacement = {0, -5};
+  EXPECT_EQ(falling_free(model, state), -1) << "less far than the model is wide";
+  state.motions[block].displacement = {0, -50};
+  state.schedule.gravity_factor = 0;
+  EXPECT_EQ(falling_free(model, state), -1) << "nothing pulls";
 }
 
 }  // namespace

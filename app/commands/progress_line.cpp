@@ -26,17 +26,23 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }
 
-ProgressLine::ProgressLine(bool wanted) : active_(wanted && ::isatty(STDERR_FILENO)) {}
+bool is_terminal() {
+  return ::isatty(STDERR_FILENO);
+}
+
+ProgressLine::ProgressLine(bool wanted, bool terminal, std::chrono::milliseconds between_added)
+    : wanted_(wanted), terminal_(terminal), between_(terminal ? time_between_lines : between_added) {}
 
 void ProgressLine::show(const ProgressReport& report) {
-  if (!active_) return;
+  if (!wanted_) return;
   const Clock::time_point now = Clock::now();
   if (report.stage_number != stage_) {
     stage_ = report.stage_number;
     stage_began_ = now;
   }
-  if (shown_ && now - last_shown_ < time_between_lines) return;
+  if (now - last_shown_ < between_) return;
   last_shown_ = now;
+  if (!terminal_) return tell("voussoir: {}\n", text(report, now));
   shown_ = true;
   rewrite_line(text(report, now));
 }

@@ -11,10 +11,15 @@ namespace voussoir {
 // "12 s", "3 min 20 s", "2 h 05 min"
 std::string duration_text(double seconds);
 
-// Rewrites its line a few times a second, and only where someone can see it: not when stderr is a file or a pipe.
+// whether stderr is one
+bool is_terminal();
+
+// On a terminal it rewrites its line a few times a second. Elsewhere, in a file or a pipe, it adds a line once a
+// minute: nothing of a short run, and of a long one enough to see that it goes on.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool wanted);
+  explicit ProgressLine(bool wanted, bool terminal = is_terminal(),
+                        std::chrono::milliseconds between_added = std::chrono::minutes(1));
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -27,8 +32,9 @@ class ProgressLine {
 
   std::string text(const ProgressReport& report, Clock::time_point now) const;
 
-  bool active_, shown_ = false;
-  Clock::time_point stage_began_ = Clock::now(), last_shown_{};
+  bool wanted_, terminal_, shown_ = false;
+  std::chrono::milliseconds between_;
+  Clock::time_point stage_began_ = Clock::now(), last_shown_ = Clock::now();
   int stage_ = 0;
 };
 
