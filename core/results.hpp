@@ -26,9 +26,11 @@ struct StageResult {
   std::string ended;       // why it stopped, e.g. "equilibrium", "end time", "bracket closed"
   bool relaxed = false;    // ended by relaxation: its time and velocities are fictitious (ends_relaxed)
   long long steps = 0;
-  double time = 0;        // s simulated within the stage
-  double time_step = 0;   // s at its end
-  double unbalanced = 0;  // the equilibrium measure at its end
+  double time = 0;       // s simulated within the stage
+  double time_step = 0;  // s at its end
+  // the equilibrium measure of the state at its end, which after a search is the last stable one; infinite where no
+  // contact carries a force against what is unbalanced, negative where rest was not sought
+  double unbalanced = 0;
 };
 
 // column names carry their unit: time_s, wedge_displacement_x_m, friction_rock_deg …

@@ -68,7 +68,7 @@ std::string and_more(const std::string& detail) {
 // a stage that has ended
 struct Executed {
   std::string ended;
-  RunReport report;
+  double unbalanced = -1;  // StageResult::unbalanced
 };
 
 template <int Dim>
@@ -216,7 +216,7 @@ struct Simulation {
     const RunReport report = run(model, settings, goal, schedule, state, progress.run, record_run(goal.end_time));
     if (report.reason == StopReason::interrupted) return {};
     judge(report, report.reason == wanted);
-    return Executed{describe(report.reason), report};
+    return Executed{describe(report.reason), report.unbalanced};
   }
 
   // A search has the ends of its trials recorded, the detours with their number; at constant rate, where the trial is
@@ -242,26 +242,24 @@ struct Simulation {
     } else if (results.outcome != Outcome::failed) {
       fail(Outcome::incomplete, "no bracket: " + report.message + and_more(report.last.detail));
     }
-    return Executed{report.bracketed ? "critical friction found" : describe(report.last.reason), report.last};
+    return Executed{report.bracketed ? "critical friction found" : describe(report.last.reason), report.unbalanced};
   }
 
   // A stage that cannot be done ends here: what was done before it is kept.
   std::optional<Executed> execute_stage() {
-    RunReport none;
-    none.unbalanced = -1;
     if (!anything_moves(model)) {
       finish_rows();
       fail(Outcome::incomplete,
            "no block is free to move: this stage, or one before it, fixed or removed the last; leave one free, or "
            "end with the stage before");
-      return Executed{"no block is free to move", none};
+      return Executed{"no block is free to move"};
     }
     try {
       return std::visit([this](const auto& p) { return execute(p); }, plan().plan);
     } catch (const std::logic_error& error) {  // the kernels' word for what makes no sense; files fail otherwise
       finish_rows();
       fail(Outcome::failed, error.what());
-      return Executed{error.what(), none};
+      return Executed{error.what()};
     }
   }
 
@@ -301,7 +299,7 @@ struct Simulation {
     r.steps = state.counters.steps - progress.steps_before;
     r.time = state.time - progress.stage_began;
     r.time_step = state.time_step;
-    r.unbalanced = done.report.unbalanced;
+    r.unbalanced = done.unbalanced;
     results.stages.push_back(r);
     // a stage that lasts for a time is not ended by blocks that have left, but they are hardly what was wanted
     if (const int body = falling_free(model, state); body >= 0 && std::holds_alternative<RunPlan>(plan().plan))

@@ -134,6 +134,22 @@ TEST(Simulate, TimeNeverGoesBackOnThePathToTheAnswer) {
   }
 }
 
+// The state that a search leaves is the last stable one, whichever trial came last: a wedge that fell out of its roof
+// has no contact left to measure by.
+TEST(Simulate, TheMeasureOfEquilibriumIsThatOfTheStateLeft) {
+  ReducePlan plan = reduction_to(10 * degree);
+  plan.failure_displacement = 6;  // beyond the edge of the plate
+  plan.tolerance = 40 * degree;   // so that the last trial is the one that fails
+  Prepared<2> scene = block_on_slope({stage_of("reduce", plan), stage_of("slide", RunPlan{.duration = 1e-3}),
+                                      stage_of("fall", reduction_to(10 * degree, ReductionMethod::rate))});
+  const Results results = results_of(scene);
+  ASSERT_EQ(results.stages.size(), 3u);
+  EXPECT_GE(results.stages[0].unbalanced, 0);
+  EXPECT_LE(results.stages[0].unbalanced, scene.settings.equilibrium.unbalanced);
+  EXPECT_EQ(results.stages[1].unbalanced, -1);
+  EXPECT_EQ(results.stages[2].unbalanced, -1);
+}
+
 // ---- what ends a run early, and what is kept then -------------------------------------------------------------------
 
 TEST(Simulate, AStageWithoutAFreeBlockEndsTheRunAndKeepsWhatWasDone) {

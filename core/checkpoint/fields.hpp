@@ -140,10 +140,10 @@ void serialize(Archive& archive, RunProgress<Dim>& r) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, ReductionProgress<Dim>& r) {
-  auto& [trial, target, friction_from, friction_rate, time_limit, stable, failed, failed_faster, true_motion, run,
-         begin, base] = r;
-  archive(trial, target, friction_from, friction_rate, time_limit, stable, failed, failed_faster, true_motion, run,
-          begin, base);
+  auto& [trial, target, friction_from, friction_rate, time_limit, stable, failed, failed_faster, unbalanced,
+         true_motion, run, begin, base] = r;
+  archive(trial, target, friction_from, friction_rate, time_limit, stable, failed, failed_faster, unbalanced,
+          true_motion, run, begin, base);
 }
 
 template <class Archive>

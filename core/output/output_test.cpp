@@ -141,12 +141,27 @@ TEST(ResultsJson, HoldsWhatTheRunFound) {
 TEST(ResultsJson, NamesTheNumbersItCannotHold) {
   Results results = some_results();
   results.values[1].second.value = std::numeric_limits<double>::quiet_NaN();
-  results.stages[0].unbalanced = std::numeric_limits<double>::infinity();
+  results.stages[0].time = std::numeric_limits<double>::infinity();
   const auto json = nlohmann::json::parse(results_json(results, {}));
   EXPECT_TRUE(json["values"]["height"]["value"].is_null());
-  EXPECT_TRUE(json["stages"][0]["unbalanced"].is_null());
-  EXPECT_EQ(json["message"],
-            "no bracket; height is not a finite number; stage settle.unbalanced is not a finite number");
+  EXPECT_TRUE(json["stages"][0]["time_s"].is_null());
+  EXPECT_EQ(json["message"], "no bracket; height is not a finite number; stage settle.time_s is not a finite number");
+}
+
+TEST(ResultsJson, SaysWhyAStageHasNoMeasureOfEquilibrium) {
+  Results results = some_results();
+  const auto stage = [&](double unbalanced) {
+    results.stages[0].unbalanced = unbalanced;
+    const auto json = nlohmann::json::parse(results_json(results, {}));
+    EXPECT_EQ(json["message"], "no bracket") << unbalanced;
+    return json["stages"][0];
+  };
+  EXPECT_EQ(stage(1e-7)["unbalanced"], 1e-7);
+  EXPECT_FALSE(stage(1e-7).contains("unbalanced_note"));
+  EXPECT_TRUE(stage(std::numeric_limits<double>::infinity())["unbalanced"].is_null());
+  EXPECT_EQ(stage(std::numeric_limits<double>::infinity())["unbalanced_note"], "no contact carries a force");
+  EXPECT_TRUE(stage(-1)["unbalanced"].is_null());
+  EXPECT_EQ(stage(-1)["unbalanced_note"], "rest was not sought");
 }
 
 TEST(HistoryCsv, NumbersReadBackExactly) {

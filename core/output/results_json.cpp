@@ -34,18 +34,27 @@ Json values_json(const Results& results, NumberWriter& number) {
   return values;
 }
 
+// a number, or why there is none: neither of the two reasons is a failure
+void add_unbalanced(Json& entry, double unbalanced, NumberWriter& number, const std::string& name) {
+  const bool no_contact = std::isinf(unbalanced), not_sought = unbalanced < 0;
+  entry["unbalanced"] = no_contact || not_sought ? Json() : number(unbalanced, name);
+  if (no_contact) entry["unbalanced_note"] = "no contact carries a force";
+  if (not_sought) entry["unbalanced_note"] = "rest was not sought";
+}
+
 Json stages_json(const Results& results, NumberWriter& number) {
   Json stages = Json::array();
   for (const StageResult& stage : results.stages) {
     const std::string prefix = "stage " + stage.name + ".";
-    stages.push_back({{"name", stage.name},
-                      {"kind", stage.kind},
-                      {"ended", stage.ended},
-                      {"relaxed", stage.relaxed},
-                      {"steps", stage.steps},
-                      {"time_s", number(stage.time, prefix + "time_s")},
-                      {"time_step_s", number(stage.time_step, prefix + "time_step_s")},
-                      {"unbalanced", number(stage.unbalanced, prefix + "unbalanced")}});
+    Json& entry = stages.emplace_back();
+    entry = {{"name", stage.name},
+             {"kind", stage.kind},
+             {"ended", stage.ended},
+             {"relaxed", stage.relaxed},
+             {"steps", stage.steps},
+             {"time_s", number(stage.time, prefix + "time_s")},
+             {"time_step_s", number(stage.time_step, prefix + "time_step_s")}};
+    add_unbalanced(entry, stage.unbalanced, number, prefix + "unbalanced");
   }
   return stages;
 }

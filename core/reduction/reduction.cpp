@@ -141,6 +141,7 @@ struct Search {
     Settings own = settings;
     if (progress.true_motion) own.damping.statics = Statics::local;
     report.last = run(model, own, goal, schedule, state, progress.run, hooks);
+    report.unbalanced = report.last.unbalanced;
     return judge(report.last.reason);
   }
 
@@ -151,6 +152,7 @@ struct Search {
   }
   void close_bracket() {
     go_back_to_base();
+    report.unbalanced = progress.unbalanced;
     close(0.5 * (progress.stable + progress.failed), 0.5 * (progress.stable - progress.failed));
   }
 
@@ -192,6 +194,7 @@ struct Search {
       return give_up(fmt::format("fails already at from_deg = {:.6g}: start higher", plan.from / degree));
     if (outcome == Trial::stable) {
       progress.stable = friction;
+      progress.unbalanced = report.last.unbalanced;
       if (plan.method != ReductionMethod::rate) progress.base = state;
       if (progress.trial > 0 && friction == plan.to)
         return give_up(fmt::format("still stable at to_deg = {:.6g}: end lower", plan.to / degree));

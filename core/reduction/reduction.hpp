@@ -19,6 +19,7 @@ struct ReductionReport {
   std::string rule;               // how failure was told
   std::string message;            // why there is no answer
   RunReport last;                 // the last run
+  double unbalanced = -1;  // the equilibrium measure of the state that is left; negative where no rest was sought
 };
 
 // Where a search stands: with it an interrupted one goes on as if nothing had happened.
@@ -30,6 +31,7 @@ struct ReductionProgress {
   double time_limit = 0;                        // s, constant rate: when the angle reaches `to`
   double stable = 0, failed = 0;                // rad: the bracket so far
   double failed_faster = 0;                     // rad, two rates: found at the faster
+  double unbalanced = -1;                       // the equilibrium measure of the last stable state
   bool true_motion = false;                     // the trial under way is one that relaxation could not decide
   RunProgress<Dim> run;                         // of the trial under way
   std::vector<Vector<Dim>> begin;               // m: displacements when the search began
