@@ -145,6 +145,29 @@ TEST_F(Program, AStageThatRemovesTheLastFreeBlockLeavesTheOnesBefore) {
   EXPECT_EQ(results("out")["stages"][0]["ended"], "equilibrium");
 }
 
+TEST_F(Program, StrengthCountsWhereJointsAreBondedAndTheResultsCountTheBonds) {
+  const std::string strong = cubes_ + "--set joint_properties.rock.cohesion=1e5 ",
+                    bonded = strong + "--set stage.settle.bond=true ";
+  EXPECT_NE(run("check " + strong).out.find("no stage bonds any"), std::string::npos);
+  const Ended doubted = run("run " + strong + "--out doubted");
+  EXPECT_NE(doubted.err.find("no stage bonds any"), std::string::npos) << doubted.err;
+  EXPECT_FALSE(results("doubted").contains("bonds"));
+
+  const Ended checked = run("check " + bonded);
+  EXPECT_EQ(checked.out.find("no stage bonds any"), std::string::npos) << checked.out;
+  EXPECT_NE(checked.out.find("0 closed joints press and can be bonded, 1 when they first press"), std::string::npos)
+      << checked.out;
+  const Ended done = run("run " + bonded + "--out done");
+  EXPECT_NE(done.out.find("bonds: 1 made, 1 whole, 0 broken"), std::string::npos) << done.out;
+  EXPECT_EQ(results("done")["bonds"]["made"], 1);
+  EXPECT_EQ(results("done")["bonds"]["whole"], 1);
+
+  EXPECT_NE(run("check " + cubes_ + "--set stage.settle.bond=true").out.find("bonds nothing"), std::string::npos);
+  if (!is_built_in("glpk")) return;
+  const Ended limit = run("limit " + squares_ + "--out limit --set joint_properties.rock.cohesion=1e5");
+  EXPECT_NE(limit.err.find("leaves both out"), std::string::npos) << limit.err;
+}
+
 TEST_F(Program, ANumericalFailureIsFour) {
   const Ended ended = run("run " + cubes_ + "--out out --set contact.newton_limit=1");
   EXPECT_EQ(ended.code, 4) << ended.err;

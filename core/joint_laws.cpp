@@ -56,7 +56,7 @@ struct Bearing {
 // what the books get from some contacts, J
 struct Booked {
   double elastic = 0, friction = 0, dashpots = 0, stiffening = 0;
-  long long snap_backs = 0;
+  long long snap_backs = 0, bonds_made = 0;
 };
 
 // the answer of a joint with laws of its own
@@ -141,6 +141,26 @@ template <int Dim>
   return answer.force;
 }
 
+// Bonds what presses of a contact whose bond is due.
+template <int Dim>
+void bond_what_presses(const JointProperties& properties, std::size_t place, State<Dim>& state, long long& made) {
+  Contact<Dim>& c = state.contacts[place];
+  const auto bond = [&](double overlap, JointState<Dim>& history) {
+    if (history.bonded || !(normal_answer(properties, overlap, false).stress > 0)) return;
+    history.bonded = true;
+    ++made;
+  };
+  if (!properties.bonds()) {
+    c.bond_due = false;
+  } else if (c.cells == 0) {
+    bond(c.geometry.overlap, c.history);
+    c.bond_due = !c.history.bonded;
+  } else {
+    for (SubContact<Dim>& s : subs_of(state, place))
+      if (s.area > 0) bond(s.overlap, s.history);
+  }
+}
+
 // The joint of one contact, or of each of its cells; inlined as above.
 template <int Dim>
 [[gnu::always_inline]] inline void answer(const Model<Dim>& model, const Settings& settings, std::size_t place,
@@ -148,6 +168,8 @@ template <int Dim>
   Contact<Dim>& c = state.contacts[place];
   if (!c.touching()) return;
   const JointProperties& properties = model.properties[c.properties];
+  if (c.bond_due) [[unlikely]]
+    bond_what_presses(properties, place, state, booked.bonds_made);
   const PairMotion<Dim> motion = motion_of(model, state, c);
   if (c.cells == 0) {
     Bearing<Dim> at{c.geometry.point, c.geometry.normal, c.geometry.overlap, c.geometry.area};
@@ -167,9 +189,11 @@ template <int Dim>
   c.history.normal = c.geometry.normal;
   c.history.point = c.geometry.point;
   c.history.area = properties.constant_stiffness ? 1 : whole;
+  c.history.bonded = whole > 0;
   for (SubContact<Dim>& s : subs_of(state, place)) {
     if (!(s.area > 0)) continue;
     const double area = properties.constant_stiffness ? s.area / whole : s.area;
+    const bool bonded = s.history.bonded;
     s.force = joint_force<Dim>(properties, settings, state, motion,
                                {s.point, c.geometry.normal, s.overlap, area, s.spread, s.area / whole}, c.properties,
                                s.history, booked);
@@ -177,6 +201,8 @@ template <int Dim>
     c.history.shear_force += s.history.shear_force;
     c.history.plastic_slip += s.area / whole * s.history.plastic_slip;
     c.history.dashpot += s.history.dashpot;
+    c.history.bonded = c.history.bonded && s.history.bonded;
+    if (bonded && !s.history.bonded) c.bond_due = false;  // where one breaks, none is made any more
   }
 }
 
@@ -192,26 +218,53 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
     state.energy.flows.dashpots += b.dashpots;
     state.energy.flows.stiffening += b.stiffening;
     state.counters.snap_backs += b.snap_backs;
+    state.bonds.made += b.bonds_made;
   }
 }
 
 template <int Dim>
-void make_bonds(const Model<Dim>& model, State<Dim>& state) {
-  const auto bond = [](const JointProperties& p, double overlap, JointState<Dim>& history) {
-    history.bonded = normal_answer(p, overlap, false).stress > 0;
-  };
+void make_bonds(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  if (std::ranges::none_of(model.properties, [](const JointProperties& p) { return p.bonds(); })) return;
+  // which of the pairs that are near are closed shows as each is looked at
+  find_neighbours(model, settings, state);
+  for (Contact<Dim>& c : state.contacts)
+    c.bond_due = true;
+  find_contacts(model, settings, state);
+  for (std::size_t i = 0; i < state.contacts.size(); ++i)
+    if (const Contact<Dim>& c = state.contacts[i]; c.bond_due && c.touching())
+      bond_what_presses(model.properties[c.properties], i, state, state.bonds.made);
+}
+
+template <int Dim>
+void remove_bonds(const Model<Dim>& model, State<Dim>& state) {
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     Contact<Dim>& c = state.contacts[i];
-    const JointProperties& properties = model.properties[c.properties];
-    if (!c.touching() || !(properties.laws & (tension_bond | cohesion_bond))) continue;
-    bond(properties, c.geometry.overlap, c.history);
+    if (model.bodies[model.parts[c.part_a].body].present && model.bodies[model.parts[c.part_b].body].present) continue;
+    state.bonds.removed += whole_bonds(state, i);
+    c.history.bonded = false;
     for (SubContact<Dim>& s : subs_of(state, i))
-      if (s.area > 0) bond(properties, s.overlap, s.history);
+      s.history.bonded = false;
   }
 }
 
-template void make_bonds<2>(const Model<2>&, State<2>&);
-template void make_bonds<3>(const Model<3>&, State<3>&);
+template <int Dim>
+BondCount count_bonds(const State<Dim>& state) {
+  BondCount count{.made = state.bonds.made, .removed = state.bonds.removed};
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    const long long whole = whole_bonds(state, i);
+    count.whole += whole;
+    count.due += state.contacts[i].bond_due && whole == 0;
+  }
+  count.broken = count.made - count.removed - count.whole;
+  return count;
+}
+
+template void remove_bonds<2>(const Model<2>&, State<2>&);
+template void remove_bonds<3>(const Model<3>&, State<3>&);
+template BondCount count_bonds<2>(const State<2>&);
+template BondCount count_bonds<3>(const State<3>&);
+template void make_bonds<2>(const Model<2>&, const Settings&, State<2>&);
+template void make_bonds<3>(const Model<3>&, const Settings&, State<3>&);
 template void apply_joint_laws<2>(const Model<2>&, const Settings&, State<2>&);
 template void apply_joint_laws<3>(const Model<3>&, const Settings&, State<3>&);
 

@@ -192,7 +192,7 @@ double force_at(Pressed<Dim>& pressed, double depth) {
   return pressed.force();
 }
 
-TEST(Bonds, HoldUntilTheyBreakAndAreMadeUnderCompressionOnly) {
+TEST(Bonds, AreMadeWhereAClosedJointPressesAndHoldUntilTheyBreak) {
   for (const int along : {1, 4}) {
     Pressed<2> pressed(along, 1e-4, 0);
     JointProperties& joint = pressed.model.properties[0];
@@ -200,17 +200,46 @@ TEST(Bonds, HoldUntilTheyBreakAndAreMadeUnderCompressionOnly) {
     joint.tension = 2e4;  // an offset of 20 µm
     joint.cohesion = 1e5;
     EXPECT_NEAR(force_at(pressed, 1e-5), 0, 1e-6);  // never bonded: nothing below the offset
-    make_bonds(pressed.model, pressed.state);
-    EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6) << "nothing was under compression";
+    make_bonds(pressed.model, pressed.settings, pressed.state);
+    EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6) << "nothing is under compression";
+    EXPECT_EQ(count_bonds(pressed.state).made, 0);
+    EXPECT_EQ(count_bonds(pressed.state).due, 1);
 
     EXPECT_NEAR(force_at(pressed, 1e-4), 8e4, 1);
-    make_bonds(pressed.model, pressed.state);
+    EXPECT_EQ(count_bonds(pressed.state).whole, along);
+    make_bonds(pressed.model, pressed.settings, pressed.state);
+    EXPECT_EQ(count_bonds(pressed.state).made, along) << "none is made twice";
     EXPECT_NEAR(force_at(pressed, 1e-4), 8e4, 1) << "a bond changes no force";
     EXPECT_NEAR(force_at(pressed, 5e-6), -1.5e4, 1);
     force_at(pressed, -1e-6);  // apart: the bond is lost with the contact
     EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6);
     EXPECT_NEAR(force_at(pressed, 1e-4), 8e4, 1) << "the offset stays";
+    EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6) << "what is broken stays so";
+    EXPECT_EQ(count_bonds(pressed.state).broken, along);
   }
+}
+
+// Blocks that only touch have no contact yet; how far they may part before they press is a thousandth of their size.
+TEST(Bonds, WaitForAClosedJointToPressUnlessItOpens) {
+  for (const int along : {1, 4})
+    for (const double gap : {0.0, 1e-12, 2e-4, 3e-4}) {
+      Pressed<2> pressed(along, 0, 0);
+      JointProperties& joint = pressed.model.properties[0];
+      joint.laws = cohesion_bond;
+      joint.cohesion = 1e5;
+      pressed.state = initial_state(pressed.model);
+      make_bonds(pressed.model, pressed.settings, pressed.state);
+      EXPECT_EQ(count_bonds(pressed.state).due, 1);
+      force_at(pressed, -gap);
+      const bool open = gap > 2.5e-4;  // the block's inscribed radius is a quarter of a metre
+      EXPECT_EQ(count_bonds(pressed.state).due, open ? 0 : 1) << gap;
+      force_at(pressed, 1e-5);
+      EXPECT_EQ(count_bonds(pressed.state).whole, open ? 0 : along) << gap;
+      pressed.model.bodies[pressed.block].present = false;
+      remove_bonds(pressed.model, pressed.state);
+      EXPECT_EQ(count_bonds(pressed.state).broken, 0);
+      EXPECT_EQ(count_bonds(pressed.state).whole, 0);
+    }
 }
 
 TEST(StressDependentStiffness, IsTheSameThroughAnyNumberOfPointsAndShortensTheStep) {

@@ -46,6 +46,7 @@ struct Results {
   std::vector<StageResult> stages;
   History history;
   Counters counters;
+  std::optional<BondCount> bonds;  // where a stage makes some
   EnergyLedger energy;
   std::string state_hash;             // of the last state (core/state_hash.hpp)
   std::vector<std::string> warnings;  // one line each: what the run itself showed to be doubtful

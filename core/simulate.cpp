@@ -275,7 +275,8 @@ struct Simulation {
     if (plan().change.friction)
       for (std::size_t p = 0; p < model.properties.size(); ++p)
         state.schedule.friction[p] = model.properties[p].friction;
-    if (plan().change.bond) make_bonds(model, state);
+    remove_bonds(model, state);
+    if (plan().change.bond) make_bonds(model, settings, state);
     // candidates and time step belong to the stage
     state.built.clear();
     state.frequency.clear();
@@ -324,6 +325,15 @@ struct Simulation {
             scene.accuracy_level, least_promised_angle, name, value.value, value.error_bar.value_or(0)));
   }
 
+  void count_whole_bonds() {
+    if (std::none_of(scene.stages.begin(), scene.stages.end(), [](const StagePlan& s) { return s.change.bond; }))
+      return;
+    results.bonds = count_bonds(state);
+    if (results.bonds->made == 0)
+      results.warnings.push_back(
+          "stage.bond has made no bond: no joint with tension or cohesion was closed and pressed");
+  }
+
   void add_final_results() {
     judge_level();
     const std::vector<Column> columns = monitor_columns<Dim>(scene.monitors);
@@ -332,6 +342,7 @@ struct Simulation {
     for (std::size_t k = 0; k < columns.size(); ++k)
       results.values.push_back({columns[k].name, {values[k], columns[k].unit, {}, "at the end"}});
     results.counters = state.counters;
+    count_whole_bonds();
     results.state_hash = state_hash(model, state);
     results.energy = state.energy;
     if (state.energy.closure() > energy_left_open)

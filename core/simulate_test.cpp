@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "core/checkpoint/checkpoint.hpp"
 #include "core/motion/free_fall.hpp"
 #include "core/testing/models.hpp"
 
@@ -148,6 +150,108 @@ TEST(Simulate, TheMeasureOfEquilibriumIsThatOfTheStateLeft) {
   EXPECT_LE(results.stages[0].unbalanced, scene.settings.equilibrium.unbalanced);
   EXPECT_EQ(results.stages[1].unbalanced, -1);
   EXPECT_EQ(results.stages[2].unbalanced, -1);
+}
+
+// ---- bonds made in the first stage, before any block has moved ------------------------------------------------------
+
+// the block's weight over its base of 1 x 1 m
+constexpr double weight = shapes::density * 0.5 * shapes::gravity;
+
+Prepared<2> bonded_block(double slope, double tension, double cohesion, const std::vector<StagePlan>& stages) {
+  Prepared<2> scene;
+  scene.model = block_on_plate<2>(slope, 30 * degree);
+  // a block that leans on its lower edge is bonded there alone
+  scene.model.bodies[shapes::index_of(scene.model, "block")].free_rotation.fill(false);
+  JointProperties& joint = scene.model.properties.front();
+  joint.tension = tension;
+  joint.cohesion = cohesion;
+  joint.laws = (tension > 0 ? tension_bond : 0u) | (cohesion > 0 ? cohesion_bond : 0u);
+  scene.state = initial_state(scene.model);
+  scene.stages = stages;
+  scene.stages.front().change.bond = true;
+  return scene;
+}
+
+// Under its weight, then lifted by a factor of it: a bond holds while the lift is below its strength. It has cohesion,
+// too: without any, what little shear there is breaks it as soon as it is pulled.
+TEST(Bonds, OfTheFirstStageHoldABlockThatIsPulled) {
+  for (const double share : {0.995, 1.005}) {
+    const GravityPlan lift{.ramp = 1, .from = 1, .to = -share};
+    const Results results = results_of(bonded_block(
+        0, weight, weight,
+        {stage_of("settle", SettlePlan{.gravity = {.ramp = 0.5}}), stage_of("lift", SettlePlan{.gravity = lift})}));
+    ASSERT_EQ(results.stages.size(), 2u) << results.message;
+    EXPECT_EQ(results.stages[0].ended, "equilibrium");
+    EXPECT_EQ(results.stages[1].ended, share < 1 ? "equilibrium" : "a body falls free") << results.message;
+    ASSERT_TRUE(results.bonds.has_value());
+    EXPECT_EQ(results.bonds->made, 1);
+    EXPECT_EQ(results.bonds->whole, share < 1 ? 1 : 0);
+    EXPECT_EQ(results.bonds->broken, share < 1 ? 0 : 1);
+  }
+}
+
+// c A + W cos a tan f against W sin a
+TEST(Bonds, OfTheFirstStageHoldABlockBeyondItsFrictionAngle) {
+  const double friction = std::tan(30 * degree);
+  for (const double slope : {40 * degree, 50 * degree}) {
+    const double needed = weight * (std::sin(slope) - std::cos(slope) * friction);
+    for (const double share : {0.98, 1.02}) {
+      const Results results =
+          results_of(bonded_block(slope, 0, share * needed, {stage_of("settle", SettlePlan{.gravity = {.ramp = 1}})}));
+      EXPECT_EQ(results.stages.at(0).ended, share > 1 ? "equilibrium" : "a body falls free") << results.message;
+      EXPECT_EQ(results.bonds->made, 1);
+      EXPECT_EQ(results.bonds->whole, share > 1 ? 1 : 0);
+    }
+  }
+  // the slope at which a cohesion of half the block's weight is just enough, by 0.5 = sin a - cos a tan f
+  const double critical = 30 * degree + std::asin(0.5 * std::cos(30 * degree));
+  for (const double away : {-0.3 * degree, 0.3 * degree}) {
+    const Results results = results_of(
+        bonded_block(critical + away, 0, 0.5 * weight, {stage_of("settle", SettlePlan{.gravity = {.ramp = 1}})}));
+    EXPECT_EQ(results.stages.at(0).ended, away < 0 ? "equilibrium" : "a body falls free") << results.message;
+  }
+}
+
+// What is due when a run is interrupted is due when it goes on; neither threads nor the candidates' skin show.
+TEST(Bonds, ThatAreDueSurviveAnInterruption) {
+  for (const int along : {1, 2}) {
+    Prepared<3> scene;
+    scene.model = shapes::model_of<3>(shapes::jointed_box({-0.3, 0.4}));
+    JointProperties& joint = scene.model.properties.front();
+    joint.tension = 2e4;
+    joint.cohesion = 5e4;
+    joint.laws = tension_bond | cohesion_bond;
+    joint.sub_contacts = along;
+    scene.state = initial_state(scene.model);
+    scene.stages = {stage_of("load", RunPlan{.duration = 6e-3, .gravity = {.ramp = 4e-3}})};
+    scene.stages.front().change.bond = true;
+    scene.settings.time.step = 5e-5;
+    const Results whole = results_of(scene);
+    ASSERT_GT(whole.bonds->made, 0);
+    ASSERT_GT(whole.bonds->due, 0) << "else nothing is due at the end";
+    for (const long long stop : {0, 1, 5, 17, 60, 110}) {
+      Watcher<3> watcher;
+      watcher.pause = [&](const Progress<3>& now) { return now.state.counters.steps == stop; };
+      Progress<3> first = begin(scene);
+      ASSERT_FALSE(simulate(scene, first, watcher));
+      Progress<3> second = read_checkpoint<3>(checkpoint_bytes(first, "hash"), "hash");
+      ASSERT_TRUE(simulate(scene, second, {}));
+      EXPECT_EQ(second.results.state_hash, whole.state_hash) << stop;
+      EXPECT_EQ(second.results.bonds->made, whole.bonds->made) << stop;
+    }
+    scene.settings.threads = 3;
+    for (const double skin : {0.01, 0.5}) {
+      scene.settings.contact.skin = skin;
+      EXPECT_EQ(results_of(scene).state_hash, whole.state_hash) << skin;
+    }
+  }
+}
+
+TEST(Bonds, AreNotSpokenOfWhereNoStageMakesAny) {
+  EXPECT_FALSE(results_of(block_on_slope({stage_of("settle", SettlePlan{})})).bonds.has_value());
+  const Results none = results_of(bonded_block(0, 0, 0, {stage_of("settle", SettlePlan{})}));
+  ASSERT_EQ(none.warnings.size(), 1u);
+  EXPECT_NE(none.warnings[0].find("no bond"), std::string::npos);
 }
 
 // ---- what ends a run early, and what is kept then -------------------------------------------------------------------

@@ -22,6 +22,9 @@ namespace {
 // candidates are those within half a skin of either part, and a little: enough until one has moved that far
 constexpr double candidate_reach = 0.5 * (1 + 1e-9);
 
+// faces that part by less than this times the smallest inscribed radius are a closed joint still, for make_bonds
+constexpr double closed_share = 1e-3;
+
 // a few roundings: what is multiplied by these is a lower, an upper bound of what it would be without any
 constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
 constexpr double upwards = 1 + 4 * std::numeric_limits<double>::epsilon();
@@ -138,18 +141,27 @@ double travelled(const Model<Dim>& model, const State<Dim>& state, const Contact
   return state.travels[model.parts[c.part_a].body] + state.travels[model.parts[c.part_b].body];
 }
 
-// Whether the boxes of a contact's parts meet. They go on to, or not to, until their bodies have moved by as much as
-// they overlap, or are apart, along the decisive axis.
+// m: a joint that is to be bonded must not open by more before it presses
 template <int Dim>
-bool boxes_meet(const Model<Dim>& model, const State<Dim>& state, Contact<Dim>& c) {
+double closed_gap(const Model<Dim>& model) {
+  const bool bonds = std::ranges::any_of(model.properties, [](const JointProperties& p) { return p.bonds(); });
+  return bonds ? closed_share * smallest_size(model) : 0;
+}
+
+// Whether the boxes of a contact's parts meet. They go on to, or not to, until their bodies have moved by as much as
+// they overlap, or are apart, along the decisive axis. Where a bond is due, how far they are apart is asked at each
+// step.
+template <int Dim>
+bool boxes_meet(const Model<Dim>& model, const State<Dim>& state, double gap, Contact<Dim>& c) {
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
   const double way = travelled(model, state, c);
-  if (way < c.boxes_until) return c.status != ContactStatus::apart;
+  if (way < c.boxes_until && !c.bond_due) return c.status != ContactStatus::apart;
   const Box<Dim> a = bounds(model, state, c.part_a, 0), b = bounds(model, state, c.part_b, 0);
   const double depth = (a.high.cwiseMin(b.high) - a.low.cwiseMax(b.low)).minCoeff();
   const double size = std::max({a.low.cwiseAbs().maxCoeff(), a.high.cwiseAbs().maxCoeff(), b.low.cwiseAbs().maxCoeff(),
                                 b.high.cwiseAbs().maxCoeff()});
   c.boxes_until = downwards * (way + (std::abs(depth) - rounding * size));
+  if (-depth > gap) c.bond_due = false;
   return meet(a, b);
 }
 
@@ -181,19 +193,21 @@ struct Tally {
 
 // the contacts [first, last) of the list, in one batch
 template <int Dim>
-void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& state, Stage stage, int first, int last,
-             Tally& tally) {
+void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& state, Stage stage, double gap, int first,
+             int last, Tally& tally) {
   static thread_local std::vector<Pair<Dim>> pairs;
   static thread_local std::vector<Contact<Dim>*> waiting;
   pairs.clear();
   waiting.clear();
   for (int i = first; i < last; ++i) {
     Contact<Dim>& c = state.contacts[i];
-    if (!boxes_meet(model, state, c)) {
+    if (!boxes_meet(model, state, gap, c)) {
+      if (c.bond_due && whole_bonds(state, static_cast<std::size_t>(i)) > 0)
+        c.bond_due = false;  // lost, not to be made again
       set_apart(c);
       continue;
     }
-    if (c.status == ContactStatus::separated && travelled(model, state, c) < c.free_until) {
+    if (c.status == ContactStatus::separated && !c.bond_due && travelled(model, state, c) < c.free_until) {
       ++tally.kernel.motion_skips;
       continue;
     }
@@ -208,18 +222,21 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
   const std::size_t stride = state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
   for (std::size_t i = 0; i < waiting.size(); ++i) {
     Contact<Dim>* const c = waiting[i];
+    const std::size_t place = c - state.contacts.data();
+    const long long bonds = c->bond_due ? whole_bonds(state, place) : 0;
     if (c->unanswered()) ++tally.unconverged;
     if (c->touching()) {
       c->joint = joint_of(model, *c);
       c->properties = c->joint == no_joint ? model.default_properties : model.joints[c->joint].properties;
       const int along = model.properties[c->properties].sub_contacts;
-      const std::size_t place = c - state.contacts.data();
       if (const int cells = sub_contact_count<Dim>(along); cells > 0)
         divide<Dim>(pairs[i], along, *c, std::span(state.subs).subspan(place * stride, cells));
       else
         c->cells = 0;
+      if (bonds > 0 && whole_bonds(state, place) < bonds) c->bond_due = false;
       continue;
     }
+    if (bonds > 0 || (c->status == ContactStatus::separated && c->proof.margin > gap)) c->bond_due = false;
     forget(*c);
     c->free_until =
         c->status == ContactStatus::separated ? (travelled(model, state, *c) + c->proof.margin) * downwards : 0;
@@ -329,7 +346,8 @@ void book(const Model<Dim>& model, const State<Dim>& state, const std::vector<Ki
 
 template <int Dim>
 void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  const double skin = settings.contact.skin * smallest_size(model);
+  // no less than what a joint may open before it is bonded
+  const double skin = std::max(settings.contact.skin * smallest_size(model), closed_gap(model));
   if (!outdated(model, settings, state, skin)) {
     if (state.by_body.first.empty()) list_by_body(model, state);  // read from a checkpoint
     return;
@@ -385,6 +403,7 @@ template <int Dim>
 void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const int count = static_cast<int>(state.contacts.size());
   const Stage stage = needs_area(model) ? Stage::area : Stage::overlap;
+  const double gap = closed_gap(model);
   find_stances(model, settings.threads, state);
   count_travels(model, settings, state);
   // batches that stay in the cache, and enough of them for every thread
@@ -393,7 +412,7 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
   std::vector<Tally>& tallies = own;  // this thread's, filled by all
   tallies.assign(batches, {});
   on_threads(settings.threads, batches, [&](int i) {
-    resolve(model, settings, state, stage, i * batch, std::min(count, (i + 1) * batch), tallies[i]);
+    resolve(model, settings, state, stage, gap, i * batch, std::min(count, (i + 1) * batch), tallies[i]);
   });
   for (const Tally& tally : tallies)
     add(state.counters, tally);

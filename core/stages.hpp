@@ -19,9 +19,18 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
 template <int Dim>
 void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 
-// bonds every joint under compression that has tensile strength or cohesion; no force changes
+// Bonds every closed joint that has tensile strength or cohesion: where it presses at once, elsewhere as soon as it
+// first does, unless its faces part by more than a thousandth of the smallest inscribed radius before. No force
+// changes.
 template <int Dim>
-void make_bonds(const Model<Dim>& model, State<Dim>& state);
+void make_bonds(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+
+// takes the bonds of bodies that the model no longer has out of the count of those whole
+template <int Dim>
+void remove_bonds(const Model<Dim>& model, State<Dim>& state);
+
+template <int Dim>
+BondCount count_bonds(const State<Dim>& state);
 
 // gravity, boundary stress and contact forces summed on each body, in the order of the contacts
 template <int Dim>

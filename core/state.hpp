@@ -73,6 +73,17 @@ struct Schedule {
                                                           // step ends there
 };
 
+// Bonds, each contact or sub-contact that carries one counted: what led to this state. Those whole are in the contacts.
+struct BondTally {
+  long long made = 0, removed = 0;  // removed: whole when a block of theirs was
+};
+
+// the tally, and what has become of the bonds
+struct BondCount {
+  long long made = 0, whole = 0, broken = 0, removed = 0;
+  long long due = 0;  // contacts whose joint is to be bonded where it first presses, and has not pressed yet
+};
+
 struct Counters {
   long long steps = 0;
   long long contact_evaluations = 0;  // pairs that went through the narrow phase
@@ -106,6 +117,7 @@ struct State {
   std::vector<double> frequency;        // rad/s, by body: stiffest mode of the last time-step estimate
   Relaxation<Dim> relaxation;
   Schedule schedule;
+  BondTally bonds;
   double time = 0;          // s
   double time_step = 0;     // s: of the last step; 0 at the start
   double step_allowed = 0;  // s: of the next; 0: to be estimated
@@ -118,6 +130,15 @@ template <class AnyState>
 auto subs_of(AnyState& state, std::size_t place) {
   const std::size_t stride = state.subs.size() / std::max<std::size_t>(state.contacts.size(), 1);
   return std::span(state.subs).subspan(place * stride, std::min<std::size_t>(stride, state.contacts[place].cells));
+}
+
+// how many of a contact's bonds are whole: its own, or those of its sub-contacts
+template <int Dim>
+long long whole_bonds(const State<Dim>& state, std::size_t place) {
+  const Contact<Dim>& c = state.contacts[place];
+  if (c.cells == 0) return c.history.bonded;
+  const auto whole = [](const SubContact<Dim>& s) { return s.area > 0 && s.history.bonded; };
+  return std::ranges::count_if(subs_of(state, place), whole);
 }
 
 // the places of a body's contacts in State::contacts

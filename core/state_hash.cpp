@@ -50,6 +50,10 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
   };
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     const Contact<Dim>& c = state.contacts[i];
+    if (c.bond_due) {
+      bytes.add(c.part_a);
+      bytes.add(c.part_b);
+    }
     if (!c.touching()) continue;
     for (const int key : {c.part_a, c.part_b, c.cells})
       bytes.add(key);

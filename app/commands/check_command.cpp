@@ -205,6 +205,7 @@ std::string change_text(const Change& change) {
   if (!change.fix.empty()) text += "; fixes blocks";
   if (!change.release.empty()) text += "; releases blocks";
   if (!change.remove.empty()) text += "; removes blocks";
+  if (change.bond) text += "; bonds closed joints";
   if (change.friction) text += fmt::format("; friction {:g} deg", *change.friction * degrees);
   return text;
 }
@@ -315,6 +316,9 @@ void print_derived(const Plausibility& plausibility) {
   fmt::print("derived\n");
   line("contacts",
        fmt::format("{} pairs near each other, {} of them touch", plausibility.candidates, plausibility.touching));
+  if (const auto& bonds = plausibility.bonds)
+    line("bonds", fmt::format("at the start {} closed joints press and can be bonded, {} when they first press",
+                              bonds->made, bonds->due));
   if (plausibility.overlap > 0)
     line("overlap", fmt::format("about {:.2g} m under a block's own weight, {:.1g} of its inscribed radius",
                                 plausibility.overlap, plausibility.overlap_share));

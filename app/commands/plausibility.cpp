@@ -410,6 +410,12 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
   result.touching = static_cast<int>(std::count_if(state.contacts.begin(), state.contacts.end(),
                                                    [](const Contact<Dim>& contact) { return contact.touching(); }));
 
+  if (std::any_of(prepared.stages.begin(), prepared.stages.end(), [](const StagePlan& s) { return s.change.bond; })) {
+    State<Dim> bonded = state;
+    make_bonds(model, prepared.settings, bonded);
+    result.bonds = count_bonds(bonded);
+  }
+
   // numbers
   find_overlaps(model, result);
   forecast_stages(prepared, model, state, result);

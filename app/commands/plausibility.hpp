@@ -2,6 +2,7 @@
 // what looks wrong. Estimates for people, within a factor of a few.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,12 @@ struct StageForecast {
 };
 
 struct Plausibility {
-  int candidates = 0;        // pairs of parts near each other at the start
-  int touching = 0;          // of them
-  double step_limit = 0;     // s: stability limit; infinite when no contact is near
-  double overlap = 0;        // m: largest over the free bodies, each carrying its own weight; 0 without gravity
-  double overlap_share = 0;  // the same over the body's smallest inscribed radius
+  int candidates = 0;              // pairs of parts near each other at the start
+  int touching = 0;                // of them
+  double step_limit = 0;           // s: stability limit; infinite when no contact is near
+  double overlap = 0;              // m: largest over the free bodies, each carrying its own weight; 0 without gravity
+  double overlap_share = 0;        // the same over the body's smallest inscribed radius
+  std::optional<BondCount> bonds;  // as a stage would make them at the start, where one makes some
   std::vector<StageForecast> stages;
   std::vector<std::string> warnings;  // one line each, with the repair
 };

@@ -58,6 +58,9 @@ void print_summary(const LoadedScene& scene, const Results& results, const fs::p
     fmt::print("  {:<{}}  {}{}\n", name, width, value_text(value), value.rule.empty() ? "" : "  (" + value.rule + ")");
   for (const StageResult& stage : results.stages)
     fmt::print("  stage {}: {} after {} steps, {:.4g} s simulated\n", stage.name, stage.ended, stage.steps, stage.time);
+  if (const auto& bonds = results.bonds)
+    fmt::print("  bonds: {} made, {} whole, {} broken, {} removed with their blocks; {} joints have not pressed yet\n",
+               bonds->made, bonds->whole, bonds->broken, bonds->removed, bonds->due);
   const Counters& counters = results.counters;
   fmt::print("  {} steps, {} contact evaluations, {}\n", counters.steps, counters.contact_evaluations,
              duration_text(results.seconds));

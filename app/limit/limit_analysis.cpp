@@ -36,6 +36,16 @@ std::vector<std::string> unsupported(const LimitAnalysis& analysis) {
   return warnings;
 }
 
+// strength beside friction has no place in the linear programs
+void warn_of_strengths(const std::vector<JointProperties>& properties, std::vector<std::string>& warnings) {
+  for (const JointProperties& p : properties)
+    if (p.bonds())
+      warnings.push_back(
+          fmt::format("joint_properties '{}' state tension {:.4g} Pa and cohesion {:.4g} Pa; limit analysis "
+                      "leaves both out: its joints have friction alone",
+                      p.name, p.tension, p.cohesion));
+}
+
 // what a stage would change is not looked at
 void warn_of_changes(const std::vector<StagePlan>& stages, std::vector<std::string>& warnings) {
   for (const StagePlan& stage : stages) {
@@ -135,6 +145,7 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
   analysis.model = prepared->model;
   analysis.interfaces = find_interfaces(analysis.model);
   analysis.warnings = unsupported(analysis);
+  warn_of_strengths(analysis.model.properties, analysis.warnings);
   warn_of_changes(prepared->stages, analysis.warnings);
 
   request.load ? seek_factor(*request.load, analysis) : seek_friction(request.properties, analysis);

@@ -77,10 +77,10 @@ void serialize(Archive& archive, Proof<Dim>& p) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, Contact<Dim>& c) {
   // boxes are looked at anew
-  auto& [part_a, part_b, joint, properties, cells, divided_face, status, boxes_until, free_until, area_rated, force,
-         geometry, history, proof] = c;
-  archive(part_a, part_b, joint, properties, cells, divided_face, status, force, geometry, history, proof, free_until,
-          area_rated);
+  auto& [part_a, part_b, joint, properties, cells, divided_face, status, bond_due, boxes_until, free_until, area_rated,
+         force, geometry, history, proof] = c;
+  archive(part_a, part_b, joint, properties, cells, divided_face, status, bond_due, force, geometry, history, proof,
+          free_until, area_rated);
 }
 
 template <class Archive, int Dim>
@@ -99,6 +99,18 @@ template <class Archive>
 void serialize(Archive& archive, Schedule& s) {
   auto& [gravity_factor, last_gravity_factor, friction, started, ends] = s;
   archive(gravity_factor, last_gravity_factor, friction, started, ends);
+}
+
+template <class Archive>
+void serialize(Archive& archive, BondTally& b) {
+  auto& [made, removed] = b;
+  archive(made, removed);
+}
+
+template <class Archive>
+void serialize(Archive& archive, BondCount& b) {
+  auto& [made, whole, broken, removed, due] = b;
+  archive(made, whole, broken, removed, due);
 }
 
 template <class Archive>
@@ -127,9 +139,9 @@ template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
   // stances and lists by body are rebuilt before they are read
   auto& [motions, loads, contacts, subs, built, counted, travels, stances, by_body, frequency, relaxation, schedule,
-         time, time_step, step_allowed, energy, counters] = s;
-  archive(motions, loads, contacts, subs, built, counted, travels, frequency, relaxation, schedule, time, time_step,
-          step_allowed, energy, counters);
+         bonds, time, time_step, step_allowed, energy, counters] = s;
+  archive(motions, loads, contacts, subs, built, counted, travels, frequency, relaxation, schedule, bonds, time,
+          time_step, step_allowed, energy, counters);
 }
 
 template <class Archive, int Dim>
@@ -172,8 +184,8 @@ void serialize(Archive& archive, History& h) {
 
 template <class Archive>
 void serialize(Archive& archive, Results& r) {
-  auto& [outcome, message, values, stages, history, counters, energy, state_hash, warnings, seconds] = r;
-  archive(outcome, message, values, stages, history, counters, energy, state_hash, warnings, seconds);
+  auto& [outcome, message, values, stages, history, counters, bonds, energy, state_hash, warnings, seconds] = r;
+  archive(outcome, message, values, stages, history, counters, bonds, energy, state_hash, warnings, seconds);
 }
 
 template <class Archive, int Dim>

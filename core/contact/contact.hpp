@@ -85,6 +85,7 @@ struct Contact {
   int cells = 0;               // sub-contacts that carry it, in State::subs; 0: it carries itself
   int divided_face = -1;       // theirs: of the first part, or, counted on behind its faces, of the second
   ContactStatus status = ContactStatus::apart;
+  bool bond_due = false;  // its joint is closed, and is bonded where it first presses (make_bonds)
   // m: what was found of the pair holds until its bodies' travels add up to this
   double boxes_until = 0;  // whether its boxes meet
   double free_until = 0;   // that it is separated

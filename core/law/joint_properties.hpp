@@ -34,6 +34,8 @@ struct JointProperties {
   double hardening_slip = 0, hardening_exponent = 0;  // m at 1 Pa; 1
   double softening_drop = 0, softening_slip = 0;      // 1; m
   double tension = 0, cohesion = 0;                   // Pa
+
+  bool bonds() const { return laws & (tension_bond | cohesion_bond); }
 };
 
 }  // namespace voussoir

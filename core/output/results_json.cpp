@@ -78,6 +78,14 @@ Json counters_json(const Counters& counters) {
           {"neighbour_builds", counters.neighbour_builds}};
 }
 
+Json bonds_json(const BondCount& bonds) {
+  return {{"made", bonds.made},
+          {"whole", bonds.whole},
+          {"broken", bonds.broken},
+          {"removed_with_blocks", bonds.removed},
+          {"joints_not_pressed_yet", bonds.due}};
+}
+
 Json energy_json(const EnergyLedger& energy, NumberWriter& number) {
   const std::pair<const char*, double> entries[] = {
       {"kinetic", energy.kinetic},
@@ -145,6 +153,7 @@ std::string results_json(const Results& results, const RunRecord& record) {
   json["stages"] = stages;
   json["energy"] = energy;
   json["counters"] = counters_json(results.counters);
+  if (results.bonds) json["bonds"] = bonds_json(*results.bonds);
   json["state_hash"] = results.state_hash;
   json["timing"] = {{"seconds", std::isfinite(results.seconds) ? Json(results.seconds) : Json()},
                     {"threads", record.threads}};

@@ -438,8 +438,8 @@ const KeyRow rows[] = {
      .example = "30",
      .meaning = "friction angle of every joint from this stage on", .slip = friction_slip},
     {.table = "stage", .key = "bond", .type = boolean, .fallback = "false", .example = "true",
-     .meaning = "before the stage begins, all joints under compression whose properties state tension or cohesion are "
-         "bonded; a bond breaks once, by tension or slip"},
+     .meaning = "bonds joints that are closed and state tension or cohesion: where they press, or first do before they "
+         "part by a thousandth of the smallest inscribed radius; a bond breaks once, by tension or slip"},
 
     {.table = "boundary", .key = "stress", .type = numbers, .unit = "Pa", .range = sane,
      .example = "[50e3, 50e3, 0, 0, 0, 0]", .required = true,

@@ -168,6 +168,29 @@ void judge_properties(const PropertiesSpec& spec, Warnings& warnings) {
                   "is tiny beside" + other + ", 0.01 to 1 times it is usual; is the unit of one wrong?"));
 }
 
+// strengths and bonds count only together
+void judge_bonds(const Scene& scene, Warnings& warnings) {
+  const bool made = std::any_of(scene.stages.begin(), scene.stages.end(),
+                                [](const StageSpec& stage) { return stage.plan.change.bond; });
+  bool strong = false;
+  for (const PropertiesSpec& spec : scene.properties) {
+    const JointProperties& p = spec.properties;
+    strong |= p.bonds();
+    if (p.tension * std::tan(p.friction) > p.cohesion)
+      warnings.push_back(complaint(spec.subject, "tension",
+                                   "exceeds cohesion / tan(friction_deg) = " + text(p.cohesion / std::tan(p.friction)) +
+                                       " Pa, beyond which a pulled joint has no strength in shear: it breaks there"));
+    if (made || scene.stages.empty() || !p.bonds()) continue;
+    warnings.push_back(complaint(spec.subject, p.cohesion > 0 ? "cohesion" : "tension",
+                                 "counts only where joints are bonded, and no stage bonds any: write bond = true into "
+                                 "the stage from which it is to count"));
+  }
+  for (const StageSpec& stage : scene.stages)
+    if (stage.plan.change.bond && !strong)
+      warnings.push_back(
+          complaint(stage.subject, "bond", "bonds nothing: no joint_properties state tension or cohesion"));
+}
+
 // where nobody said which of several serves; the outer faces of one domain do not meet, those of blocks given directly
 // do
 void judge_default(const Scene& scene, Warnings& warnings) {
@@ -321,6 +344,7 @@ std::vector<std::string> implausible_values(const Scene& scene, const Prepared<D
   for (std::size_t p = 0; p < scene.properties.size(); ++p)
     if (used[p]) judge_properties(scene.properties[p], warnings);
   judge_default(scene, warnings);
+  judge_bonds(scene, warnings);
   for (const StageSpec& stage : scene.stages)
     judge_moves(stage, warnings);
   judge_domain<Dim>(scene, prepared.model, warnings);
