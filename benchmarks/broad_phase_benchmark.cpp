@@ -1,10 +1,13 @@
-// The broad phase on boxes at constant density: the time per box shall not depend on how many there are.
+// The broad phase on boxes at constant density: the time per box shall not depend on how many there are. And the whole
+// list of neighbours of parallel slabs: their number and its time shall depend little on the dip.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "benchmarks/shapes.hpp"
 #include "core/contact/broad_phase.hpp"
+#include "core/stages.hpp"
 
 namespace voussoir::benchmarks {
 namespace {
@@ -36,7 +39,7 @@ void broad_phase(benchmark::State& state, bool mixed) {
   const std::vector<Box<3>> boxes = scattered(count, mixed);
   std::vector<std::pair<int, int>> pairs;
   for (auto _ : state) {
-    overlapping_pairs(boxes, 1, pairs);
+    overlapping_pairs(boxes, 1, {}, pairs);
     benchmark::DoNotOptimize(pairs.data());
   }
   state.counters["ns_per_box"] = benchmark::Counter(static_cast<double>(state.iterations()) * count * 1e-9,
@@ -51,6 +54,31 @@ void mixed(benchmark::State& state) {
   broad_phase(state, true);
 }
 
+// slabs of 30 m by 30 m by 3 mm, one upon the other
+void slabs(benchmark::State& state) {
+  const int count = static_cast<int>(state.range(0));
+  const double dip = static_cast<double>(state.range(1)) * std::numbers::pi / 180;
+  const double thickness = 0.003, half = 15;  // m
+  const Matrix<3> turn = Eigen::AngleAxisd(dip, Vector<3>::UnitY()).toRotationMatrix();
+  const HalfSpaces<3> slab = shapes::box<3>({-half, -half, -0.5 * thickness}, {half, half, 0.5 * thickness});
+  const Polytope<3> part = shapes::block<3>(shapes::placed<3>(slab, turn, Vector<3>::Zero()));
+  Model<3> model;
+  for (int i = 0; i < count; ++i) {
+    model.bodies.push_back(make_body<3>({part}, 2600));
+    model.bodies.back().reference += turn * Vector<3>(0, 0, i * thickness);
+  }
+  number_bodies(model);
+  State<3> now = initial_state(model);
+  for (auto _ : state) {
+    now.built.clear();
+    find_neighbours(model, {}, now);
+  }
+  state.counters["ns_per_slab"] = benchmark::Counter(static_cast<double>(state.iterations()) * count * 1e-9,
+                                                     benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["pairs_per_slab"] = static_cast<double>(now.contacts.size()) / count;
+}
+
+BENCHMARK(slabs)->ArgsProduct({{1000, 10'000}, {0, 30, 45, 89}})->Unit(benchmark::kMillisecond);
 BENCHMARK(equal)->RangeMultiplier(10)->Range(1000, 100'000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(mixed)->RangeMultiplier(10)->Range(1000, 100'000)->Unit(benchmark::kMicrosecond);
 

@@ -1,88 +1,24 @@
 #include "core/stages.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
-#include "core/contact/broad_phase.hpp"
 #include "core/contact/narrow_phase.hpp"
 #include "core/contact/sub_contacts.hpp"
 #include "core/motion/integrate.hpp"
 #include "core/motion/prescribed.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/motion/time_step.hpp"
+#include "core/neighbours.hpp"
 #include "core/on_threads.hpp"
 
 namespace voussoir {
 namespace {
 
-// candidates are those within half a skin of either part, and a little: enough until one has moved that far
-constexpr double candidate_reach = 0.5 * (1 + 1e-9);
-
-// faces that part by less than this times the smallest inscribed radius are a closed joint still, for make_bonds
-constexpr double closed_share = 1e-3;
-
-// a few roundings: what is multiplied by these is a lower, an upper bound of what it would be without any
+// a few roundings: what is multiplied by this is a lower bound of what it would be without any
 constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
-constexpr double upwards = 1 + 4 * std::numeric_limits<double>::epsilon();
-
-template <int Dim>
-double smallest_size(const Model<Dim>& model) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const Body<Dim>& b : model.bodies)
-    if (!b.fixed) smallest = std::min(smallest, b.size);
-  return std::isfinite(smallest) ? smallest : 0;
-}
-
-// bounds on how far a rotation has turned, rad
-double turned_by(const Rotation<2>& from, const Rotation<2>& to) {
-  return std::abs(to.angle - from.angle);
-}
-double turned_by(const Rotation<3>& from, const Rotation<3>& to) {
-  // |Δq| = 2 sin(angle/4); beyond a quarter of a turn the bound is only the longest way round
-  constexpr double longest = 2 * std::numbers::pi;
-  const double chord = (to.quaternion.coeffs() - from.quaternion.coeffs()).norm();
-  return chord < 0.5 ? 2.1 * chord : longest;
-}
-
-// where the bodies stand; the list keeps its memory
-template <int Dim>
-void note_placements(const State<Dim>& state, std::vector<Placement<Dim>>& placements) {
-  placements.clear();
-  for (const Motion<Dim>& m : state.motions)
-    placements.push_back({m.displacement, m.rotation});
-}
-
-// how far any point of a body may have moved, at most
-template <int Dim>
-double moved(const Body<Dim>& body, const Placement<Dim>& then, const Motion<Dim>& now) {
-  return (now.displacement - then.displacement).norm() + body.radius * turned_by(then.rotation, now.rotation);
-}
-
-// the box around a part, widened by `margin` and by what rounding may have cut off
-template <int Dim>
-Box<Dim> bounds(const Model<Dim>& model, const State<Dim>& state, int part, double margin) {
-  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const PartId id = model.parts[part];
-  const Body<Dim>& body = model.bodies[id.body];
-  Box<Dim> box{Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity), id.body, body.still()};
-  if (!body.present) return box;
-  const Stance<Dim>& at = state.stances[id.body];
-  for (const Vector<Dim>& v : body.parts[id.part].vertices) {
-    const Vector<Dim> x = at.axes * v;
-    box.low = box.low.cwiseMin(x);
-    box.high = box.high.cwiseMax(x);
-  }
-  const Vector<Dim> centroid = at.reference + at.displacement;
-  const Vector<Dim> reach = Vector<Dim>::Constant(margin + rounding * body.radius) + rounding * centroid.cwiseAbs();
-  box.low += centroid - reach;
-  box.high += centroid + reach;
-  return box;
-}
 
 // the joint a contact lies on: of the two faces' joints the later cut
 template <int Dim>
@@ -96,73 +32,6 @@ template <int Dim>
 bool needs_area(const Model<Dim>& model) {
   return std::any_of(model.properties.begin(), model.properties.end(),
                      [](const JointProperties& p) { return !p.constant_stiffness || p.sub_contacts > 1; });
-}
-
-// places that State::subs has for each contact
-template <int Dim>
-std::size_t most_cells(const Model<Dim>& model) {
-  int most = 0;
-  for (const JointProperties& p : model.properties)
-    most = std::max(most, sub_contact_count<Dim>(p.sub_contacts));
-  return static_cast<std::size_t>(most);
-}
-
-// whether a body may have left its half of the skin
-template <int Dim>
-bool outdated(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, double skin) {
-  if (state.built.size() != model.bodies.size()) return true;
-  std::atomic<bool> left = false;
-  each_on_threads(settings.threads, model.bodies.size(), [&](int b) {
-    if (!model.bodies[b].still() && moved(model.bodies[b], state.built[b], state.motions[b]) > 0.5 * skin)
-      left.store(true, std::memory_order_relaxed);
-  });
-  return left;
-}
-
-// adds what each body has moved since the last step; rounded upwards, so that it bounds
-template <int Dim>
-void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  if (state.travels.size() != model.bodies.size()) {
-    note_placements(state, state.counted);
-    state.travels.assign(state.motions.size(), 0);
-  }
-  each_on_threads(settings.threads, state.travels.size(), [&](int b) {
-    if (model.bodies[b].still()) return;
-    const Motion<Dim>& now = state.motions[b];
-    double& travel = state.travels[b];
-    const double way = moved(model.bodies[b], state.counted[b], now);
-    if (way > 0) travel = (travel + upwards * way) * upwards;
-    state.counted[b] = {now.displacement, now.rotation};
-  });
-}
-
-template <int Dim>
-double travelled(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
-  return state.travels[model.parts[c.part_a].body] + state.travels[model.parts[c.part_b].body];
-}
-
-// m: a joint that is to be bonded must not open by more before it presses
-template <int Dim>
-double closed_gap(const Model<Dim>& model) {
-  const bool bonds = std::ranges::any_of(model.properties, [](const JointProperties& p) { return p.bonds(); });
-  return bonds ? closed_share * smallest_size(model) : 0;
-}
-
-// Whether the boxes of a contact's parts meet. They go on to, or not to, until their bodies have moved by as much as
-// they overlap, or are apart, along the decisive axis. Where a bond is due, how far they are apart is asked at each
-// step.
-template <int Dim>
-bool boxes_meet(const Model<Dim>& model, const State<Dim>& state, double gap, Contact<Dim>& c) {
-  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-  const double way = travelled(model, state, c);
-  if (way < c.boxes_until && !c.bond_due) return c.status != ContactStatus::apart;
-  const Box<Dim> a = bounds(model, state, c.part_a, 0), b = bounds(model, state, c.part_b, 0);
-  const double depth = (a.high.cwiseMin(b.high) - a.low.cwiseMax(b.low)).minCoeff();
-  const double size = std::max({a.low.cwiseAbs().maxCoeff(), a.high.cwiseAbs().maxCoeff(), b.low.cwiseAbs().maxCoeff(),
-                                b.high.cwiseAbs().maxCoeff()});
-  c.boxes_until = downwards * (way + (std::abs(depth) - rounding * size));
-  if (-depth > gap) c.bond_due = false;
-  return meet(a, b);
 }
 
 // nor do its sub-contacts count any more
@@ -197,11 +66,13 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
              int last, Tally& tally) {
   static thread_local std::vector<Pair<Dim>> pairs;
   static thread_local std::vector<Contact<Dim>*> waiting;
+  static thread_local std::vector<char> touched;  // of those that wait, before
   pairs.clear();
   waiting.clear();
+  touched.clear();
   for (int i = first; i < last; ++i) {
     Contact<Dim>& c = state.contacts[i];
-    if (!boxes_meet(model, state, gap, c)) {
+    if (!is_near(model, state, gap, c)) {
       if (c.bond_due && whole_bonds(state, static_cast<std::size_t>(i)) > 0)
         c.bond_due = false;  // lost, not to be made again
       set_apart(c);
@@ -211,11 +82,9 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
       ++tally.kernel.motion_skips;
       continue;
     }
-    const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
-    const Stance<Dim>&at_a = state.stances[a], &at_b = state.stances[b];
-    pairs.push_back({&model.polytope(c.part_a), &model.polytope(c.part_b), at_a.axes, at_a.axes.transpose() * at_b.axes,
-                     at_a.axes.transpose() * between(at_a, at_b), stage});
+    pairs.push_back(pair_of(model, state, c.part_a, c.part_b, stage));
     waiting.push_back(&c);
+    touched.push_back(c.touching());
   }
   narrow_phase<Dim>(pairs, settings.contact, model.solvers, waiting, tally.kernel);
 
@@ -237,6 +106,13 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
       continue;
     }
     if (bonds > 0 || (c->status == ContactStatus::separated && c->proof.margin > gap)) c->bond_due = false;
+    if (touched[i]) {
+      c->near_until = 0;  // only its boxes were looked at
+      if (!is_near(model, state, gap, *c)) {
+        set_apart(*c);
+        continue;
+      }
+    }
     forget(*c);
     c->free_until =
         c->status == ContactStatus::separated ? (travelled(model, state, *c) + c->proof.margin) * downwards : 0;
@@ -345,61 +221,6 @@ void book(const Model<Dim>& model, const State<Dim>& state, const std::vector<Ki
 }  // namespace
 
 template <int Dim>
-void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  // no less than what a joint may open before it is bonded
-  const double skin = std::max(settings.contact.skin * smallest_size(model), closed_gap(model));
-  if (!outdated(model, settings, state, skin)) {
-    if (state.by_body.first.empty()) list_by_body(model, state);  // read from a checkpoint
-    return;
-  }
-
-  // lists that keep their memory: this thread's, filled by all
-  static thread_local std::vector<Box<Dim>> own_boxes;
-  static thread_local std::vector<std::pair<int, int>> own_pairs;
-  static thread_local std::vector<Contact<Dim>> own_renewed;
-  static thread_local std::vector<SubContact<Dim>> own_subs;
-  static thread_local std::vector<int> own_origin;
-  std::vector<Box<Dim>>& boxes = own_boxes;
-  std::vector<std::pair<int, int>>& pairs = own_pairs;
-  std::vector<Contact<Dim>>& renewed = own_renewed;
-  std::vector<SubContact<Dim>>& renewed_subs = own_subs;
-  std::vector<int>& origin = own_origin;  // of each pair: its place in the old list, or -1
-  find_stances(model, settings.threads, state);
-  boxes.resize(model.parts.size());
-  each_on_threads(settings.threads, boxes.size(),
-                  [&](int part) { boxes[part] = bounds(model, state, part, candidate_reach * skin); });
-  overlapping_pairs(boxes, settings.threads, pairs);
-
-  // standing candidates keep their record: both lists are in ascending order
-  const std::size_t stride = most_cells(model);
-  origin.assign(pairs.size(), -1);
-  auto old = state.contacts.begin();
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    while (old != state.contacts.end() && std::pair(old->part_a, old->part_b) < pairs[i])
-      ++old;
-    if (old != state.contacts.end() && std::pair(old->part_a, old->part_b) == pairs[i])
-      origin[i] = static_cast<int>(old - state.contacts.begin());
-  }
-  renewed.resize(pairs.size());
-  renewed_subs.assign(pairs.size() * stride, {});
-  each_on_threads(settings.threads, pairs.size(), [&](int i) {
-    if (origin[i] >= 0) {
-      renewed[i] = state.contacts[origin[i]];
-      std::ranges::copy(subs_of(state, origin[i]), renewed_subs.begin() + i * static_cast<std::ptrdiff_t>(stride));
-      return;
-    }
-    renewed[i] = {};
-    renewed[i].part_a = pairs[i].first;
-    renewed[i].part_b = pairs[i].second;
-  });
-  std::swap(state.contacts, renewed);
-  std::swap(state.subs, renewed_subs);
-  list_by_body(model, state);
-  note_placements(state, state.built);
-  ++state.counters.neighbour_builds;
-}
-
-template <int Dim>
 void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const int count = static_cast<int>(state.contacts.size());
   const Stage stage = needs_area(model) ? Stage::area : Stage::overlap;
@@ -468,10 +289,9 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   state.time = ends ? state.schedule.ends : state.time + state.time_step;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                      \
-  template void find_neighbours<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
-  template void find_contacts<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);   \
-  template void sum_loads<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);       \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                    \
+  template void find_contacts<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
+  template void sum_loads<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);     \
   template void move_bodies<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

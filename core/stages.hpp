@@ -2,14 +2,11 @@
 #pragma once
 
 #include "core/model.hpp"
+#include "core/neighbours.hpp"
 #include "core/settings.hpp"
 #include "core/state.hpp"
 
 namespace voussoir {
-
-// candidate pairs, listed anew when a body may have moved out of its skin
-template <int Dim>
-void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 
 // geometry of each candidate; one that separated forgets its history
 template <int Dim>

@@ -94,8 +94,7 @@ TEST(StateHash, BookkeepingDoesNotShow) {
   expect_that_bookkeeping_does_not_show<2>();
 }
 
-// The skin decides who is a candidate, never what happens. Disabled while the estimated time step still takes every
-// candidate for a possible impact: more candidates then give a smaller step.
+// The skin decides who is a candidate, never what happens.
 template <int Dim>
 void expect_no_skin(const probe::Scene<Dim>& scene) {
   std::set<std::string> hashes;

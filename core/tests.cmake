@@ -28,6 +28,8 @@ voussoir_test(unit.contact LABEL unit
     contact/multipliers_test.cpp contact/broad_phase_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
+voussoir_test(unit.neighbours LABEL unit SOURCES neighbours_test.cpp LIBS voussoir_core Boost::headers)
+
 voussoir_test(unit.scene LABEL unit
   SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
     scene/permuted_input_test.cpp scene/accuracy_level_test.cpp scene/slicing_scene_test.cpp

@@ -29,7 +29,7 @@ const std::vector<std::vector<std::string>> layers{
     {"contact", "slicing", "joint_sets", "model"},
     {"state", "limit"},
     {"results", "scene"},
-    {"motion", "monitor", "output"},
+    {"motion", "monitor", "output", "neighbours"},
     {"stages", "state_hash"},
     {"joint_laws"},
     {"step"},

@@ -20,6 +20,7 @@
 #include "app/interruption.hpp"
 #include "app/message.hpp"
 #include "app/run_scene.hpp"
+#include "core/neighbours.hpp"
 #include "core/output/output_error.hpp"
 #include "core/output/version.hpp"
 #include "core/scene/scene_error.hpp"
@@ -246,6 +247,9 @@ int guarded(const Action& action) {
     tell("voussoir: {}\n", error.what());
     return static_cast<int>(ExitCode::bad_input);
   } catch (const BadInput& error) {
+    tell("voussoir: {}\n", error.what());
+    return static_cast<int>(ExitCode::bad_input);
+  } catch (const TooManyNeighbours& error) {
     tell("voussoir: {}\n", error.what());
     return static_cast<int>(ExitCode::bad_input);
   } catch (const FolderInUse& error) {

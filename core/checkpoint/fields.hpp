@@ -76,8 +76,8 @@ void serialize(Archive& archive, Proof<Dim>& p) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, Contact<Dim>& c) {
-  // boxes are looked at anew
-  auto& [part_a, part_b, joint, properties, cells, divided_face, status, bond_due, boxes_until, free_until, area_rated,
+  // whether it is near is found again
+  auto& [part_a, part_b, joint, properties, cells, divided_face, status, bond_due, near_until, free_until, area_rated,
          force, geometry, history, proof] = c;
   archive(part_a, part_b, joint, properties, cells, divided_face, status, bond_due, force, geometry, history, proof,
           free_until, area_rated);

@@ -59,6 +59,7 @@ struct PairSearch {
   std::vector<std::uint32_t> begin;  // of each bucket in the table, and the end
   std::vector<std::uint32_t> row;    // of each box's pairs
   std::vector<Pairs> found;          // by group of boxes that one thread searches at a time
+  const PairFilter* wanted = nullptr;
 };
 
 constexpr int absent = std::numeric_limits<int>::min();
@@ -213,8 +214,10 @@ void fill_table(const std::vector<Box<Dim>>& boxes, PairSearch<Dim>& s) {
 }
 
 template <int Dim>
-void try_pair(int i, const Box<Dim>& a, int j, const Box<Dim>& b, Pairs& found) {
-  if (a.body != b.body && !(a.fixed && b.fixed) && meet(a, b)) found.push_back(std::minmax(i, j));
+void try_pair(const PairSearch<Dim>& s, int i, const Box<Dim>& a, int j, const Box<Dim>& b, Pairs& found) {
+  if (a.body == b.body || (a.fixed && b.fixed) || !meet(a, b)) return;
+  const std::pair<int, int> pair = std::minmax(i, j);
+  if (!*s.wanted || (*s.wanted)(pair.first, pair.second)) found.push_back(pair);
 }
 
 // the boxes of some neighbouring buckets; within a grid each pair is met from both sides
@@ -224,7 +227,7 @@ void try_buckets(const PairSearch<Dim>& s, const Entry<Dim>& e, int g, std::uint
   for (std::uint32_t i = s.begin[first]; i < s.begin[last + 1]; ++i) {
     const Entry<Dim>& other = s.table[i];
     if (other.grid == g && (g != e.grid || other.number > e.number))
-      try_pair(e.number, e.box, other.number, other.box, found);
+      try_pair(s, e.number, e.box, other.number, other.box, found);
   }
 }
 
@@ -263,9 +266,9 @@ void try_alone(const std::vector<Box<Dim>>& boxes, const PairSearch<Dim>& s, Pai
   for (std::size_t i = 0; i < s.alone.size(); ++i) {
     const int a = s.alone[i];
     for (std::size_t j = i + 1; j < s.alone.size(); ++j)
-      try_pair(a, boxes[a], s.alone[j], boxes[s.alone[j]], found);
+      try_pair(s, a, boxes[a], s.alone[j], boxes[s.alone[j]], found);
     for (const Entry<Dim>& e : s.filed)
-      try_pair(a, boxes[a], e.number, e.box, found);
+      try_pair(s, a, boxes[a], e.number, e.box, found);
   }
 }
 
@@ -294,9 +297,11 @@ void sort_pairs(PairSearch<Dim>& s, std::size_t boxes, std::vector<std::pair<int
 }  // namespace
 
 template <int Dim>
-void overlapping_pairs(const std::vector<Box<Dim>>& boxes, int threads, std::vector<std::pair<int, int>>& pairs) {
+void overlapping_pairs(const std::vector<Box<Dim>>& boxes, int threads, const PairFilter& wanted,
+                       std::vector<std::pair<int, int>>& pairs) {
   static thread_local PairSearch<Dim> own;
   PairSearch<Dim>& s = own;  // this thread's, searched by all
+  s.wanted = &wanted;
   choose_cells(boxes, s);
   choose_grids(boxes, s);
   fill_table(boxes, s);
@@ -315,7 +320,9 @@ void overlapping_pairs(const std::vector<Box<Dim>>& boxes, int threads, std::vec
   sort_pairs(s, boxes.size(), pairs);
 }
 
-template void overlapping_pairs<2>(const std::vector<Box<2>>&, int, std::vector<std::pair<int, int>>&);
-template void overlapping_pairs<3>(const std::vector<Box<3>>&, int, std::vector<std::pair<int, int>>&);
+template void overlapping_pairs<2>(const std::vector<Box<2>>&, int, const PairFilter&,
+                                   std::vector<std::pair<int, int>>&);
+template void overlapping_pairs<3>(const std::vector<Box<3>>&, int, const PairFilter&,
+                                   std::vector<std::pair<int, int>>&);
 
 }  // namespace voussoir

@@ -1,6 +1,7 @@
 // Candidate pairs by bounding boxes: a hierarchy of grids, so that a box costs the same however many there are.
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -21,10 +22,14 @@ bool meet(const Box<Dim>& a, const Box<Dim>& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
-// All pairs (i, j), i < j, whose boxes meet and that may touch, in ascending order whatever the number of
-// threads; `pairs` keeps its memory.
+// whether a pair (i, j), i < j, whose boxes meet is wanted; any thread asks, and more than once perhaps
+using PairFilter = std::function<bool(int, int)>;
+
+// All pairs (i, j), i < j, whose boxes meet, that may touch and that the filter wants (an empty one wants all), in
+// ascending order whatever the number of threads; `pairs` keeps its memory, of which what is not wanted takes none.
 // O(boxes + pairs) for each power of two between the smallest and the largest boxes that occur in numbers.
 template <int Dim>
-void overlapping_pairs(const std::vector<Box<Dim>>& boxes, int threads, std::vector<std::pair<int, int>>& pairs);
+void overlapping_pairs(const std::vector<Box<Dim>>& boxes, int threads, const PairFilter& wanted,
+                       std::vector<std::pair<int, int>>& pairs);
 
 }  // namespace voussoir

@@ -32,7 +32,7 @@ Pairs by_brute_force(const std::vector<Box<Dim>>& boxes) {
 template <int Dim>
 int expect_all_pairs(const std::vector<Box<Dim>>& boxes, int threads = 1) {
   Pairs found;
-  overlapping_pairs(boxes, threads, found);
+  overlapping_pairs(boxes, threads, {}, found);
   const Pairs expected = by_brute_force(boxes);
   EXPECT_EQ(found.size(), expected.size());
   EXPECT_TRUE(found == expected);

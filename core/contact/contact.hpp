@@ -9,7 +9,7 @@
 namespace voussoir {
 
 enum class ContactStatus {
-  apart,                 // their boxes do not meet: not looked at
+  apart,                 // not near each other (core/neighbours): not looked at
   separated,             // proven
   undecided,             // nearer to touching than rounding can tell, at most 64 ulp of the pair's size: no contact
   touching,              // proven
@@ -87,8 +87,8 @@ struct Contact {
   ContactStatus status = ContactStatus::apart;
   bool bond_due = false;  // its joint is closed, and is bonded where it first presses (make_bonds)
   // m: what was found of the pair holds until its bodies' travels add up to this
-  double boxes_until = 0;  // whether its boxes meet
-  double free_until = 0;   // that it is separated
+  double near_until = 0;  // whether it is near
+  double free_until = 0;  // that it is separated
   // m²: the area the time step was last chosen for, times what stress stiffened it; negative: not yet
   double area_rated = -1;
   // most steps ask the above and no more of most pairs, a cache line; a body's loads ask the force and the point

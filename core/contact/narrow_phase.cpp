@@ -16,16 +16,8 @@ namespace {
 // rounding of a vertex's projection on an axis, as a share of the coordinates: two rotations and a sum
 constexpr double projection_rounding = 8 * std::numeric_limits<double>::epsilon();
 
-// nothing of the part lies beyond this along the axis
-template <int Dim>
-double support(const Polytope<Dim>& part, const Vector<Dim>& axis) {
-  double most = -std::numeric_limits<double>::max();
-  for (const Vector<Dim>& v : part.vertices)
-    most = std::max(most, v.dot(axis));
-  return most + part.vertex_error + projection_rounding * part.radius;
-}
+}  // namespace
 
-// how far the second part stays behind a plane of the first's frame, rounding included
 template <int Dim>
 double gap_behind(const Pair<Dim>& pair, const Vector<Dim>& axis, double support_a) {
   const Polytope<Dim>& b = *pair.b;
@@ -36,6 +28,17 @@ double gap_behind(const Pair<Dim>& pair, const Vector<Dim>& axis, double support
   const double distance = pair.offset.dot(axis);
   return (least + distance - support_a) - b.vertex_error -
          projection_rounding * (b.radius + std::abs(distance) + pair.offset.norm() + std::abs(support_a));
+}
+
+namespace {
+
+// nothing of the part lies beyond this along the axis
+template <int Dim>
+double support(const Polytope<Dim>& part, const Vector<Dim>& axis) {
+  double most = -std::numeric_limits<double>::max();
+  for (const Vector<Dim>& v : part.vertices)
+    most = std::max(most, v.dot(axis));
+  return most + part.vertex_error + projection_rounding * part.radius;
 }
 
 // whether the axis, unit and in the first body's frame, separates the parts
@@ -184,6 +187,8 @@ void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
   }
 }
 
+template double gap_behind<2>(const Pair<2>&, const Vector<2>&, double);
+template double gap_behind<3>(const Pair<3>&, const Vector<3>&, double);
 template void narrow_phase<2>(std::span<const Pair<2>>, const ContactSettings&, const Solvers<2>&,
                               std::span<Contact<2>* const>, KernelCounters&);
 template void narrow_phase<3>(std::span<const Pair<3>>, const ContactSettings&, const Solvers<3>&,

@@ -1,0 +1,59 @@
+// Which parts may touch: pairs of neighbours, and how near each is.
+#pragma once
+
+#include <stdexcept>
+
+#include "core/contact/narrow_phase.hpp"
+#include "core/model.hpp"
+#include "core/settings.hpp"
+#include "core/state.hpp"
+
+namespace voussoir {
+
+// No rock has so many pairs: in one line where so many blocks meet, and the repair.
+class TooManyNeighbours : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Pairs that are listed at most, whatever the machine: two million (2 GB), or two hundred for each part where that is
+// more. Blocks have some twenty neighbours; joints through one point bring all of theirs together there.
+std::size_t most_candidates(std::size_t parts);
+
+// Candidate pairs, listed anew when a body may have moved out of its skin: all that may come near each other until
+// then. Throws TooManyNeighbours before it asks for memory for them.
+template <int Dim>
+void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+
+// adds what each body has moved since the last step; rounded upwards, so that it bounds
+template <int Dim>
+void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+
+// m, of the bodies of a contact together
+template <int Dim>
+double travelled(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
+  return state.travels[model.parts[c.part_a].body] + state.travels[model.parts[c.part_b].body];
+}
+
+// two parts as the kernel sees them, where their bodies stand
+template <int Dim>
+Pair<Dim> pair_of(const Model<Dim>& model, const State<Dim>& state, int part_a, int part_b, Stage stage) {
+  const Stance<Dim>&at_a = state.stances[model.parts[part_a].body], &at_b = state.stances[model.parts[part_b].body];
+  return {&model.polytope(part_a),
+          &model.polytope(part_b),
+          at_a.axes,
+          at_a.axes.transpose() * at_b.axes,
+          at_a.axes.transpose() * between(at_a, at_b),
+          stage};
+}
+
+// m: a joint that is to be bonded (make_bonds) must not open by more before it presses; 0 where no joint has strength
+template <int Dim>
+double closed_gap(const Model<Dim>& model);
+
+// Whether a pair is near: its boxes meet and, unless it touched the step before, no face keeps it apart
+// (contact/nearness). Looked at only when its bodies have moved by as much as decided it, and at every step where a
+// bond is due: it is no more when the pair is farther apart than `gap`, closed_gap.
+template <int Dim>
+bool is_near(const Model<Dim>& model, const State<Dim>& state, double gap, Contact<Dim>& c);
+
+}  // namespace voussoir
