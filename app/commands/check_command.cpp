@@ -316,6 +316,9 @@ void print_derived(const Plausibility& plausibility) {
   fmt::print("derived\n");
   line("contacts",
        fmt::format("{} pairs near each other, {} of them touch", plausibility.candidates, plausibility.touching));
+  if (plausibility.candidates > 0)
+    line("", fmt::format("most, {}, of block {}; a run takes about {:.0f} MB", plausibility.most_candidates,
+                         plausibility.crowded, 1e-6 * plausibility.memory));
   if (const auto& bonds = plausibility.bonds)
     line("bonds", fmt::format("at the start {} closed joints press and can be bonded, {} when they first press",
                               bonds->made, bonds->due));

@@ -185,6 +185,23 @@ void judge_overlaps(const Prepared<Dim>& prepared, Plausibility& result) {
         result.overlap, units));
 }
 
+// the block with most neighbours, and the memory of a run: a step keeps two lists of pairs while one is renewed
+template <int Dim>
+void find_crowd(const Model<Dim>& model, const State<Dim>& state, Plausibility& result) {
+  constexpr double memory_of_a_block = 10e3;  // bytes, measured over whole runs
+  result.memory = memory_of_a_block * static_cast<double>(model.bodies.size()) +
+                  2.0 * static_cast<double>(state.contacts.size() * sizeof(Contact<Dim>) +
+                                            state.subs.size() * sizeof(SubContact<Dim>));
+  std::size_t most = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const std::size_t count = contacts_of(state, static_cast<int>(b)).size();
+    if (count <= most) continue;
+    most = count;
+    result.crowded = name_of(model, static_cast<int>(b));
+  }
+  result.most_candidates = static_cast<int>(most);
+}
+
 // blocks that were stated into each other fly apart
 template <int Dim>
 void judge_first_contacts(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
@@ -417,6 +434,7 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
   }
 
   // numbers
+  find_crowd(model, state, result);
   find_overlaps(model, result);
   forecast_stages(prepared, model, state, result);
 

@@ -27,6 +27,9 @@ struct StageForecast {
 struct Plausibility {
   int candidates = 0;              // pairs of parts near each other at the start
   int touching = 0;                // of them
+  int most_candidates = 0;         // of one block
+  std::string crowded;             // the block that has them
+  double memory = 0;               // bytes that a run asks for, at most
   double step_limit = 0;           // s: stability limit; infinite when no contact is near
   double overlap = 0;              // m: largest over the free bodies, each carrying its own weight; 0 without gravity
   double overlap_share = 0;        // the same over the body's smallest inscribed radius
