@@ -239,16 +239,17 @@ struct Simulation {
       const bool unique = !results.find("critical_friction");
       const std::string name = unique ? "critical_friction" : plan().name + "_critical_friction";
       results.values.push_back({name, {report.critical * degrees, "deg", report.error_bar * degrees, report.rule}});
-    } else if (results.outcome != Outcome::failed) {
-      fail(Outcome::incomplete, "no bracket: " + report.message + and_more(report.last.detail));
     }
-    return Executed{report.bracketed ? "critical friction found" : describe(report.last.reason), report.unbalanced};
+    const bool found = report.message.empty();
+    if (!found && results.outcome != Outcome::failed)
+      fail(Outcome::incomplete,
+           (report.bracketed ? "the bracket is wider than asked: " : "no bracket: ") + report.message);
+    return Executed{found ? "critical friction found" : describe(report.last.reason), report.unbalanced};
   }
 
   // A stage that cannot be done ends here: what was done before it is kept.
   std::optional<Executed> execute_stage() {
     if (!anything_moves(model)) {
-      finish_rows();
       fail(Outcome::incomplete,
            "no block is free to move: this stage, or one before it, fixed or removed the last; leave one free, or "
            "end with the stage before");
@@ -257,7 +258,6 @@ struct Simulation {
     try {
       return std::visit([this](const auto& p) { return execute(p); }, plan().plan);
     } catch (const std::logic_error& error) {  // the kernels' word for what makes no sense; files fail otherwise
-      finish_rows();
       fail(Outcome::failed, error.what());
       return Executed{error.what()};
     }

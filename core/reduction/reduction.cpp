@@ -171,13 +171,40 @@ struct Search {
     return false;
   }
 
-  // what a trial that neither rested nor failed leaves to say; always false
+  // The body that is farthest from where the search began, as a clause: what an undecided trial shows. The trial ended
+  // in true motion, so the velocity is one.
+  std::string farthest_mover() const {
+    int body = -1;
+    double most = 0;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      const double moved = (state.motions[b].displacement - progress.begin[b]).norm();
+      if (model.bodies[b].fixed || moved <= most) continue;
+      most = moved;
+      body = static_cast<int>(b);
+    }
+    if (body < 0) return "no body has moved";
+    const Vector<Dim>& velocity = state.motions[body].velocity;
+    const double away = velocity.dot(state.motions[body].displacement - progress.begin[body]) / most;
+    return fmt::format("{} has moved by {:.3g} m of the {:.3g} m that are failure and {} at {:.2g} m/s",
+                       label_of(model, body), most, failure_displacement,
+                       away > 0.5 * velocity.norm() ? "creeps on" : "swings", velocity.norm());
+  }
+
+  // what a trial that neither came to rest nor failed leaves of the search; always false
   bool give_up_undecided(double friction) {
     if (falls())
-      return give_up(
-          fmt::format("no failure down to {:.6g} deg ({})", friction / degree, describe(report.last.reason)));
-    return give_up(fmt::format("neither rest nor failure at {:.6g} deg within {} steps (unbalanced {:.2g})",
-                               friction / degree, report.last.steps, report.last.unbalanced));
+      return give_up(fmt::format("no failure down to {:.6g} deg ({}), stable at {:.6g} deg", friction / degree,
+                                 describe(report.last.reason), progress.stable / degree));
+    const std::string why =
+        fmt::format("neither rest nor failure at {:.6g} deg within {} steps (unbalanced {:.2g}): {}", friction / degree,
+                    report.last.steps, report.last.unbalanced, farthest_mover());
+    if (progress.trial == 0) return give_up(why + "; neither a stable nor a failed angle is known");
+    // the first trial of a bisection is at `from`, the second at `to`
+    if (plan.method != ReductionMethod::bisection || progress.trial == 1)
+      return give_up(fmt::format("{}; stable at {:.6g} deg, no failed angle is known", why, progress.stable / degree));
+    close_bracket();
+    return give_up(fmt::format("{}; stable at {:.6g} deg, failed at {:.6g} deg", why, progress.stable / degree,
+                               progress.failed / degree));
   }
 
   // draws the trial's consequences; false: the search is over
@@ -305,6 +332,8 @@ ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const 
                            failed;
       break;
   }
+  if (search.report.bracketed && !search.report.message.empty())
+    search.report.rule += "; the search ended early: " + search.report.message;
   return search.report;
 }
 

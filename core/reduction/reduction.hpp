@@ -12,12 +12,12 @@ namespace voussoir {
 enum class Trial { stable, failed, undecided, broken };  // broken: a numerical failure
 
 struct ReductionReport {
-  bool bracketed = false;         // both a stable and a failed angle are known
+  bool bracketed = false;         // both a stable and a failed angle are known; `critical` lies between
   double stable = 0, failed = 0;  // rad: lowest stable, highest failed
   double critical = 0;            // rad
   double error_bar = 0;           // rad: what the search leaves open
   std::string rule;               // how failure was told
-  std::string message;            // why there is no answer
+  std::string message;            // why there is no answer, or none within the tolerance; empty: the search is complete
   RunReport last;                 // the last run
   double unbalanced = -1;  // the equilibrium measure of the state that is left; negative where no rest was sought
 };
@@ -64,7 +64,8 @@ std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& pl
 // the smaller the steps. A fall at constant rate counts from its beginning. A trial that relaxation cannot decide goes
 // on in true motion under local damping: near the critical angle a block that slides on a single contact point
 // flutters, and critical damping of the flutter holds up the slide. Afterwards the state is the last stable one (rates:
-// the failed one). A search that the hooks interrupted
+// the failed one). A bisection with a trial that
+// stays undecided ends there, with the bracket that it has and a message. A search that the hooks interrupted
 // (`last.reason`) goes on when it is called again with its progress.
 template <int Dim>
 ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "core/simulate.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir {
@@ -108,6 +109,60 @@ TEST(Reduction, TwoRatesTellWhatNoRateWouldFind) {
   EXPECT_NEAR(report.critical, slope, bias_tolerance * bias);
   EXPECT_LT(std::abs(report.critical - slope), report.error_bar);
   EXPECT_NEAR(report.error_bar, 0.25 * (report.critical - report.failed), 1e-12);
+}
+
+// Steps that suffice far from the critical angle, not near it: what is known then is the answer, with the bar that is
+// left.
+TEST(Reduction, ATrialThatStaysUndecidedLeavesTheBracketKnownSoFar) {
+  const double slope = 30 * degree;
+  const Model<2> model = block_on_plate<2>(slope, 40 * degree);
+  ReducePlan plan;
+  plan.from = 35 * degree;
+  plan.to = 20 * degree;
+  plan.tolerance = 1e-4 * degree;
+  plan.failure_displacement = 0.01;
+  plan.step_limit = 3000;
+  State<2> state = initial_state(model);
+  const ReductionReport report = reduce_from_scratch(model, plan, state);
+  ASSERT_TRUE(report.bracketed) << report.message;
+  EXPECT_EQ(report.critical, 0.5 * (report.stable + report.failed));
+  EXPECT_EQ(report.error_bar, 0.5 * (report.stable - report.failed));
+  EXPECT_GT(report.error_bar, plan.tolerance);
+  EXPECT_NEAR(report.critical, slope, report.error_bar);
+  for (const char* part : {"neither rest nor failure at", "within 3000 steps", "unbalanced", "block) has moved by",
+                           "m/s", "stable at", "failed at"})
+    EXPECT_NE(report.message.find(part), std::string::npos) << part << ": " << report.message;
+  EXPECT_NE(report.rule.find("neither rest nor failure"), std::string::npos) << report.rule;
+
+  // the simulation has the value and is incomplete
+  Prepared<2> scene;
+  scene.model = model;
+  scene.state = initial_state(model);
+  scene.stages.resize(1);
+  scene.stages[0].name = "critical";
+  scene.stages[0].plan = plan;
+  Progress<2> progress = begin(scene);
+  ASSERT_TRUE(simulate(scene, progress, {}));
+  EXPECT_EQ(progress.results.outcome, Outcome::incomplete);
+  EXPECT_NE(progress.results.message.find("neither rest nor failure"), std::string::npos) << progress.results.message;
+  const Value* found = progress.results.find("critical_friction");
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->value, report.critical / degree, 1e-12);
+  EXPECT_NEAR(*found->error_bar, report.error_bar / degree, 1e-12);
+}
+
+TEST(Reduction, WithOneSideKnownItSaysWhichOne) {
+  const Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);
+  ReducePlan plan;
+  plan.from = 35 * degree;
+  plan.to = 29.9 * degree;  // slides, but not by the failure displacement within the steps
+  plan.tolerance = 0.1 * degree;
+  plan.failure_displacement = 1;
+  plan.step_limit = 3000;
+  State<2> state = initial_state(model);
+  const ReductionReport report = reduce_from_scratch(model, plan, state);
+  EXPECT_FALSE(report.bracketed);
+  EXPECT_NE(report.message.find("stable at 35 deg, no failed angle is known"), std::string::npos) << report.message;
 }
 
 TEST(Reduction, SaysWhenTheSearchIsInTheWrongPlace) {
