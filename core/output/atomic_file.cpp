@@ -59,7 +59,7 @@ void flush_folder(const fs::path& file) {
 // a temporary file with the whole content on the disk; errors name the file that was meant
 fs::path write_temporary(const fs::path& path, std::string_view content) {
   const fs::path temporary = temporary_name(path);
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (file < 0) throw output_error(path, errno);
 
   // a full disk may show only when the data is flushed or the file closed; a close that was interrupted has closed
@@ -122,7 +122,7 @@ void prepare_folder(const fs::path& folder) {
 
   // hours of computing should not end at a folder that refuses files
   const fs::path probe = temporary_name(folder / "probe");
-  const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (file < 0) throw output_error(folder, errno);
   ::close(file);
   remove_file(probe);
