@@ -165,5 +165,33 @@ TEST(TopplingMap, IsNotThatOfStatics) {
   EXPECT_GE(apart, 3) << "the points tell the two maps apart";
 }
 
+// Goodman & Bray's slope: an angle at which it is known to stand, one at which it is known to fall, and a bracket
+SceneRun judge_columns(const std::string& which, const std::vector<std::string>& overrides) {
+  CaseReport report("toppling");
+  const double expected = degrees * reference::stepped_columns_friction({});
+  report.reference("stepped columns, critical friction", expected, "deg");
+  SceneRun done = run("columns.toml", overrides);
+  const double bar = *done.results.find("critical_friction")->error_bar;
+  report.record({"critical friction of columns on steps" + which,
+                 "deg",
+                 Kind::limit,
+                 "limit equilibrium (Goodman & Bray 1976)",
+                 expected,
+                 {bar + 0.1, 0},
+                 "half the bracket, and what 0.14 m of way and elastic corners are worth: 0.05 at a bracket of 0.08"},
+                value(done, "critical_friction"), cost(done));
+  EXPECT_LE(bar, 0.3);
+  return done;
+}
+
+TEST(SteppedColumns, ColumnsOnASteppedBaseFallWhereLimitEquilibriumSays) {
+  judge_columns("", {"stage.critical.from_deg=40", "stage.critical.to_deg=36", "stage.critical.tolerance_deg=0.51"});
+}
+
+// the scene as it stands
+TEST(SteppedColumnsLong, ColumnsOnASteppedBaseFallByTheWholeSearch) {
+  judge_columns(", whole search", {});
+}
+
 }  // namespace
 }  // namespace voussoir::cases

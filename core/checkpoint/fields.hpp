@@ -153,9 +153,9 @@ void serialize(Archive& archive, RunProgress<Dim>& r) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, ReductionProgress<Dim>& r) {
   auto& [trial, target, friction_from, friction_rate, time_limit, stable, failed, failed_faster, unbalanced,
-         true_motion, run, begin, base] = r;
+         true_motion, trial_steps, run, begin, base] = r;
   archive(trial, target, friction_from, friction_rate, time_limit, stable, failed, failed_faster, unbalanced,
-          true_motion, run, begin, base);
+          true_motion, trial_steps, run, begin, base);
 }
 
 template <class Archive>

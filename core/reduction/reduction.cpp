@@ -25,9 +25,12 @@ constexpr double nearer_by_lags = 1.5;
 // two rates: the trials after the one at rest
 constexpr int faster_fall = 1, coming_nearer = 2, slower_fall = 3;
 
-// The share of a trial's step limit that relaxation gets before true motion takes over: 20,000 steps by default, which
-// is what a column of 1,000 blocks takes to come to rest.
-constexpr long long relaxation_share = 50;
+// A trial's steps are shared out in rounds, the step limit over these: relaxation has 20,000 steps by default, which is
+// what a column of 1,000 blocks takes to come to rest, then true motion 100,000, then relaxation again. Relaxation is
+// slow where a slope slides far before it rests, for the damping of what flutters as it slides holds up the slide; true
+// motion is slow at the end, for local damping takes nothing from a slide whose forces are nearly in balance. Either
+// begins at rest.
+constexpr long long relaxation_round = 50, motion_round = 10;
 
 // 1.25 times Richardson's estimate covers what the slower rate leaves open (Roache's grid convergence index, order
 // known), so a quarter of it covers what the extrapolation leaves
@@ -108,6 +111,7 @@ struct Search {
   void begin_trial() {
     if (starts_from_base()) go_back_to_base();
     progress.true_motion = false;
+    progress.trial_steps = 0;
     progress.run.begin = falls() ? std::vector<Vector<Dim>>{} : progress.begin;
     progress.target = next_target();
     state.schedule.started = state.time;
@@ -129,13 +133,27 @@ struct Search {
         state.schedule.friction[p] = progress.target;
   }
 
-  bool relaxes_now() const { return relaxes(!falls() && !progress.true_motion, settings.damping); }
+  // relaxation and true motion take turns
+  bool relaxes_first() const { return relaxes(!falls(), settings.damping); }
+  long long round() const {
+    return std::max(1LL, plan.step_limit / (progress.true_motion ? motion_round : relaxation_round));
+  }
+
+  // true: the trial goes on by the other way
+  bool takes_turn() {
+    if (report.last.reason != StopReason::interrupted) progress.trial_steps += report.last.steps;
+    if (!relaxes_first() || report.last.reason != StopReason::step_limit || progress.trial_steps >= plan.step_limit)
+      return false;
+    progress.true_motion = !progress.true_motion;
+    return true;
+  }
 
   Trial go_on(const RunHooks<Dim>& hooks) {
     RunGoal goal;
     goal.rest = !falls();
     goal.moved_away = failure_displacement;
-    goal.step_limit = relaxes_now() ? std::max(1LL, plan.step_limit / relaxation_share) : plan.step_limit;
+    goal.step_limit = plan.step_limit - progress.trial_steps;
+    if (relaxes_first()) goal.step_limit = std::min(goal.step_limit, round());
     if (falls()) goal.time_limit = progress.time_limit;
     const RunSchedule schedule{{}, progress.friction_rate, progress.friction_from, progress.target, properties};
     Settings own = settings;
@@ -197,7 +215,7 @@ struct Search {
                                  describe(report.last.reason), progress.stable / degree));
     const std::string why =
         fmt::format("neither rest nor failure at {:.6g} deg within {} steps (unbalanced {:.2g}): {}", friction / degree,
-                    report.last.steps, report.last.unbalanced, farthest_mover());
+                    progress.trial_steps, report.last.unbalanced, farthest_mover());
     if (progress.trial == 0) return give_up(why + "; neither a stable nor a failed angle is known");
     // the first trial of a bisection is at `from`, the second at `to`
     if (plan.method != ReductionMethod::bisection || progress.trial == 1)
@@ -255,10 +273,8 @@ struct Search {
     while (true) {
       if (!progress.run.under_way) begin_trial();
       Trial outcome = go_on(hooks);
-      if (report.last.reason == StopReason::step_limit && relaxes_now()) {
-        progress.true_motion = true;
+      while (takes_turn())
         outcome = go_on(hooks);
-      }
       if (report.last.reason == StopReason::interrupted) return;
       const double friction = falls() ? state.schedule.friction[properties.front()] : progress.target;
       if (on_trial) on_trial(state, friction, outcome);

@@ -32,7 +32,8 @@ struct ReductionProgress {
   double stable = 0, failed = 0;                // rad: the bracket so far
   double failed_faster = 0;                     // rad, two rates: found at the faster
   double unbalanced = -1;                       // the equilibrium measure of the last stable state
-  bool true_motion = false;                     // the trial under way is one that relaxation could not decide
+  bool true_motion = false;                     // whose turn it is in the trial: true motion's or relaxation's
+  long long trial_steps = 0;                    // of the trial up to this turn
   RunProgress<Dim> run;                         // of the trial under way
   std::vector<Vector<Dim>> begin;               // m: displacements when the search began
   State<Dim> base;                              // the last stable state
@@ -61,9 +62,10 @@ std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& pl
 //              a grid convergence index whose order is known. It is not, where the joints soften
 // Trials to rest have failed where a body has moved by the failure displacement since the search began, however many
 // trials it took: counted from each trial's own beginning, a slope that yields a little in each would seem the stronger
-// the smaller the steps. A fall at constant rate counts from its beginning. A trial that relaxation cannot decide goes
-// on in true motion under local damping: near the critical angle a block that slides on a single contact point
-// flutters, and critical damping of the flutter holds up the slide. Afterwards the state is the last stable one (rates:
+// the smaller the steps. A fall at constant rate counts from its beginning. In a trial that relaxation
+// cannot decide, true motion under local damping and relaxation take turns: near the critical angle what slides
+// flutters, and critical damping of the flutter holds up the slide, while local damping does not end a slide whose
+// forces are nearly in balance. Afterwards the state is the last stable one (rates:
 // the failed one). A bisection with a trial that
 // stays undecided ends there, with the bracket that it has and a message. A search that the hooks interrupted
 // (`last.reason`) goes on when it is called again with its progress.

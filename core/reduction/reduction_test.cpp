@@ -151,6 +151,33 @@ TEST(Reduction, ATrialThatStaysUndecidedLeavesTheBracketKnownSoFar) {
   EXPECT_NEAR(*found->error_bar, report.error_bar / degree, 1e-12);
 }
 
+// A trial that relaxation cannot decide: true motion and relaxation take turns until its steps are used up.
+TEST(Reduction, RelaxationAndTrueMotionTakeTurns) {
+  const Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);
+  ReducePlan plan;
+  plan.from = 35 * degree;
+  plan.to = 29.9 * degree;  // slides, but not by the failure displacement within the steps
+  plan.tolerance = 0.1 * degree;
+  plan.failure_displacement = 1;
+  plan.step_limit = 3000;
+  State<2> state = initial_state(model);
+  ReductionProgress<2> progress;
+  std::vector<int> turns;  // steps of each turn of the second trial
+  bool relaxed = false;
+  RunHooks<2> hooks;
+  hooks.after_step = [&](const State<2>& now, double) {
+    if (progress.trial != 1) return;
+    if (turns.empty() || now.relaxation.under_way != relaxed) turns.push_back(0);
+    relaxed = now.relaxation.under_way;
+    ++turns.back();
+  };
+  reduce<2>(model, {}, plan, state, progress, hooks);
+  ASSERT_EQ(turns.size(), 18u) << "eight times 60 and 300 steps, then 60 and 60";
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    EXPECT_EQ(turns[i], i % 2 == 0 || i == 17 ? 60 : 300) << "turn " << i;
+  EXPECT_EQ(progress.trial_steps, plan.step_limit);
+}
+
 TEST(Reduction, WithOneSideKnownItSaysWhichOne) {
   const Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);
   ReducePlan plan;

@@ -1,5 +1,6 @@
 #include "reference/small/toppling.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -55,6 +56,36 @@ double overturning_angle(double breadth, double height, double normal_force, dou
     if (6 * inside > breadth) throw std::invalid_argument("overturning_angle: the joint is too soft");
   }
   return std::atan(tangent);
+}
+
+double SteppedColumns::height(int column) const {
+  const double at_crest = crest * (shortening_below - step);
+  return column <= crest ? column * (shortening_below - step) : at_crest - (column - crest) * (shortening_above + step);
+}
+
+double stepped_columns_friction(const SteppedColumns& slope) {
+  // the force that the lowest column still needs at its foot, in units of weight per area
+  const auto toe_force = [&](double friction) {
+    const double mu = std::tan(friction), s = std::sin(slope.base_dip), c = std::cos(slope.base_dip);
+    double push = 0;
+    for (int n = slope.columns; n >= 1; --n) {
+      const double h = slope.height(n), weight = h * slope.thickness;
+      const double from_above = n < slope.crest ? h : h - slope.shortening_above;
+      const double to_below = n <= slope.crest ? h - slope.shortening_below : h;
+      const double slides = push - weight * (c * mu - s) / (1 - mu * mu);
+      const double topples =
+          n > 1 ? (push * (from_above - slope.thickness * mu) + weight / 2 * (h * s - slope.thickness * c)) / to_below
+                : 0;
+      push = std::max({0.0, topples, slides});
+    }
+    return push;
+  };
+  double fails = slope.base_dip, stands = 0.78;  // 1 - mu^2 stays positive
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (fails + stands);
+    (toe_force(middle) > 0 ? fails : stands) = middle;
+  }
+  return stands;
 }
 
 }  // namespace voussoir::reference

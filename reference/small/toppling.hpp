@@ -35,4 +35,20 @@ double least_toppling_friction(const InclinedBlock& block);
 // angle itself; `normal_force` (N/m) is its part into the plane.
 double overturning_angle(double breadth, double height, double normal_force, double normal_stiffness);
 
+// Columns on a stepped base (Goodman & Bray 1976), numbered from the toe: each is `shortening_below` less its step
+// higher than the one before up to the crest, and `shortening_above` and its step lower above it.
+struct SteppedColumns {
+  int columns = 16, crest = 10;
+  double thickness = 10, step = 1;                      // m
+  double shortening_below = 5, shortening_above = 5.2;  // m
+  double base_dip = 0.52359877559829887308;             // 30 degrees
+
+  double height(int column) const;  // m
+};
+
+// The friction angle of base and columns, equal, at which the toe needs no help: limit equilibrium, each column
+// toppling or sliding, whichever pushes more on the one below. 38.15 degrees for the slope above (Hoek & Bray 1981,
+// chapter 9).
+double stepped_columns_friction(const SteppedColumns& slope);
+
 }  // namespace voussoir::reference

@@ -74,5 +74,14 @@ TEST(Toppling, ComesEarlierOnElasticJoints) {
   EXPECT_THROW(overturning_angle(b, h, force, 1e5), std::invalid_argument);
 }
 
+// Hoek & Bray (1981, chapter 9): the heights of their table, and limiting equilibrium near tan = 0.7855
+TEST(SteppedColumns, HaveThePublishedHeightsAndFriction) {
+  const SteppedColumns slope;
+  EXPECT_DOUBLE_EQ(slope.height(1), 4);
+  EXPECT_DOUBLE_EQ(slope.height(10), 40);
+  EXPECT_NEAR(slope.height(16), 2.8, 1e-12);
+  EXPECT_NEAR(std::tan(stepped_columns_friction(slope)), 0.7855, 0.0005);
+}
+
 }  // namespace
 }  // namespace voussoir::reference
