@@ -167,6 +167,13 @@ TEST_F(Check, CallsNoPartOfAWeldedBlockASliver) {
   silent(scene, "wrong unit");
 }
 
+TEST_F(Check, JudgesASceneWithoutJointProperties) {
+  silent("dimension = 2\ndensity = 2000\n" + box("stone", 0, 0) +
+             "velocity = [0.1, 0]\n[time]\nstep_s = 0.01\n"
+             "[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = 1\n[damping]\nlocal = 0\n",
+         "is unusual");
+}
+
 // The steps that check announces beside those that are taken.
 TEST_F(Check, PromisesStepsThatAreTaken) {
   const std::string scene = ground + box("stone", 0, 0) + rock +

@@ -325,7 +325,7 @@ std::vector<bool> properties_of_faces(const Model<Dim>& model) {
       for (const int joint : part.joints)
         if (joint != no_joint) used[model.joints[joint].properties] = by_joint = true;
     // the outer faces of blocks that joints cut meet nothing; a block given directly has no others
-    if (!by_joint) used[model.default_properties] = true;
+    if (!by_joint && !used.empty()) used[model.default_properties] = true;
   }
   return used;
 }
