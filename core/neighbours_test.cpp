@@ -266,6 +266,20 @@ TEST(Neighbours, HowNearAPairIsLastsAsLongAsItSays) {
   expect_that_it_lasts<2>(407);
 }
 
+// a sliver whose vertices may lie anywhere: nothing keeps it apart
+TEST(Neighbours, WhatItsVerticesDoNotTellIsNear) {
+  Random random(408);
+  Model<3> model = pack<3>(random, 2, false);
+  for (Body<3>& body : model.bodies)
+    body.parts[0].vertex_error = std::numeric_limits<double>::infinity();
+  State<3> state = initial_state(model);
+  state.motions[1].displacement = {100, 0, 0};
+  find_stances(model, 1, state);
+  const Pair<3> pair = pair_of(model, state, 0, 1, Stage::decision);
+  EXPECT_TRUE(nearness(pair, model.bodies[0].radius, model.bodies[1].radius).near);
+  EXPECT_TRUE(may_come_near(pair, model.bodies[0].radius, model.bodies[1].radius, 0.1));
+}
+
 // ---- too many -------------------------------------------------------------------------------------------------------
 
 // joints in all directions through one point

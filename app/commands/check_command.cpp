@@ -317,8 +317,9 @@ void print_derived(const Plausibility& plausibility) {
   line("contacts",
        fmt::format("{} pairs near each other, {} of them touch", plausibility.candidates, plausibility.touching));
   if (plausibility.candidates > 0)
-    line("", fmt::format("most, {}, of block {}; a run takes about {:.0f} MB", plausibility.most_candidates,
-                         plausibility.crowded, 1e-6 * plausibility.memory));
+    line("", fmt::format("most, {}, of block {}; {:.0f} pairs in all are allowed; a run takes about {:.0f} MB",
+                         plausibility.most_candidates, plausibility.crowded, plausibility.candidates_allowed,
+                         1e-6 * plausibility.memory));
   if (const auto& bonds = plausibility.bonds)
     line("bonds", fmt::format("at the start {} closed joints press and can be bonded, {} when they first press",
                               bonds->made, bonds->due));

@@ -192,6 +192,7 @@ void find_crowd(const Model<Dim>& model, const State<Dim>& state, Plausibility& 
   result.memory = memory_of_a_block * static_cast<double>(model.bodies.size()) +
                   2.0 * static_cast<double>(state.contacts.size() * sizeof(Contact<Dim>) +
                                             state.subs.size() * sizeof(SubContact<Dim>));
+  result.candidates_allowed = static_cast<double>(most_candidates(model.parts.size()));
   std::size_t most = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const std::size_t count = contacts_of(state, static_cast<int>(b)).size();

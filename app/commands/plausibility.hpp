@@ -29,6 +29,7 @@ struct Plausibility {
   int touching = 0;                // of them
   int most_candidates = 0;         // of one block
   std::string crowded;             // the block that has them
+  double candidates_allowed = 0;   // pairs, beyond which a scene is refused
   double memory = 0;               // bytes that a run asks for, at most
   double step_limit = 0;           // s: stability limit; infinite when no contact is near
   double overlap = 0;              // m: largest over the free bodies, each carrying its own weight; 0 without gravity

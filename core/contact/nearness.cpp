@@ -64,10 +64,12 @@ double lever(const Pair<Dim>& pair, double radius_a, double way) {
   return std::max(1.0, (pair.offset.norm() + pair.b->radius + way) / radius_a) / downwards;
 }
 
-// what bodies may move before the widest gap behind a face of the first part crosses the bound
+// What bodies may move before the widest gap behind a face of the first part, `distance` away from a bound, crosses it.
+// A sliver's vertices may tell nothing, so that the distance is infinite.
 template <int Dim>
 double way_to_bound(const Pair<Dim>& pair, double radius_a, double distance) {
-  return std::max(0.0, distance - gap_rounding * pair_size(pair)) / lever(pair, radius_a, distance) * downwards;
+  const double way = std::min(distance, pair_size(pair));
+  return std::max(0.0, way - gap_rounding * pair_size(pair)) / lever(pair, radius_a, way) * downwards;
 }
 
 }  // namespace
