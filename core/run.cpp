@@ -8,6 +8,7 @@
 
 #include "core/motion/free_fall.hpp"
 #include "core/motion/integrate.hpp"
+#include "core/motion/prescribed.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/step.hpp"
 
@@ -106,12 +107,19 @@ std::string first_unanswered(const Model<Dim>& model, const State<Dim>& state) {
   return {};
 }
 
+// Stops what is not to move. The forces have been found: until then velocities are those that led here, by which the
+// joints slip.
 template <int Dim>
-RunProgress<Dim> begin_run(const RunGoal& goal, bool relaxing, State<Dim>& state) {
+void stop_bodies(const Model<Dim>& model, bool relaxing, State<Dim>& state) {
+  stop_held(model, state);
   if (relaxing)
     begin_relaxation(state);
   else
     begin_motion(state);
+}
+
+template <int Dim>
+RunProgress<Dim> begin_run(const RunGoal& goal, State<Dim>& state) {
   state.schedule.ends = goal.end_time;
   RunProgress<Dim> progress;
   progress.under_way = true;
@@ -160,7 +168,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
   const bool relaxing = relaxes(goal.rest, settings.damping);
   if (!progress.under_way) {
     std::vector<Vector<Dim>> stated = std::move(progress.begin);
-    progress = begin_run(goal, relaxing, state);
+    progress = begin_run(goal, state);
     if (!stated.empty()) progress.begin = std::move(stated);
   }
   RunReport report;
@@ -178,7 +186,10 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
   bool changing = follow(schedule, state);
   while (true) {
     if (hooks.pause && hooks.pause()) return stop(StopReason::interrupted);
-    step(model, settings, state, hooks.with_forces);
+    step<Dim>(model, settings, state, [&](State<Dim>& now) {
+      if (progress.steps == 0) stop_bodies(model, relaxing, now);
+      if (hooks.with_forces) hooks.with_forces(now);
+    });
     const bool changed = std::exchange(changing, follow(schedule, state));
     ++progress.steps;
     report.unbalanced = goal.rest ? unbalanced_ratio(model, settings.threads, state) : -1;

@@ -12,7 +12,6 @@
 
 #include "core/accuracy.hpp"
 #include "core/motion/free_fall.hpp"
-#include "core/motion/prescribed.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/stages.hpp"
 #include "core/state_hash.hpp"
@@ -271,7 +270,6 @@ struct Simulation {
   }
 
   void begin_stage() {
-    stop_held(model, state);
     if (plan().change.friction)
       for (std::size_t p = 0; p < model.properties.size(); ++p)
         state.schedule.friction[p] = model.properties[p].friction;

@@ -21,7 +21,7 @@ void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& 
 
 template <int Dim>
 void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
-          const std::function<void(const State<Dim>&)>& with_forces) {
+          const std::function<void(State<Dim>&)>& with_forces) {
   find_forces(model, settings, state);
   if (with_forces) with_forces(state);
 
@@ -32,7 +32,7 @@ void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
 
 template void find_forces<2>(const Model<2>&, const Settings&, State<2>&);
 template void find_forces<3>(const Model<3>&, const Settings&, State<3>&);
-template void step<2>(const Model<2>&, const Settings&, State<2>&, const std::function<void(const State<2>&)>&);
-template void step<3>(const Model<3>&, const Settings&, State<3>&, const std::function<void(const State<3>&)>&);
+template void step<2>(const Model<2>&, const Settings&, State<2>&, const std::function<void(State<2>&)>&);
+template void step<3>(const Model<3>&, const Settings&, State<3>&, const std::function<void(State<3>&)>&);
 
 }  // namespace voussoir

@@ -14,10 +14,10 @@ namespace voussoir {
 template <int Dim>
 void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 
-// Advances the state by one step; `with_forces`, which may be empty, sees it between its forces and its motion.
+// Advances the state by one step; `with_forces`, which may be empty, is called between its forces and its motion.
 // Contacts that found no answer are counted in state.counters.unconverged; the caller stops.
 template <int Dim>
 void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
-          const std::function<void(const State<Dim>&)>& with_forces = {});
+          const std::function<void(State<Dim>&)>& with_forces = {});
 
 }  // namespace voussoir

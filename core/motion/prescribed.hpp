@@ -18,7 +18,7 @@ template <int Dim>
 void force(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const Load<Dim>& load, double middle,
            StepTimes times, Motion<Dim>& motion, KickEnergy<Dim>& energy);
 
-// When a stage begins: stops whatever is held and not forced, also what a motion that has ended left moving.
+// When a run begins: stops whatever is held and not forced, also what a motion that has ended left moving.
 template <int Dim>
 void stop_held(const Model<Dim>& model, State<Dim>& state);
 

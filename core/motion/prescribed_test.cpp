@@ -214,6 +214,21 @@ TEST(Prescribed, GoesAsFarAsItsSpeedAndDurationSay) {
   }
 }
 
+// being held in the next stage does not take back the slip of the last step
+TEST(Prescribed, LeavesAllItsSlipInTheJoint) {
+  Model<2> model = block_on_plate<2>(0, 40 * degree);
+  model.gravity.setZero();
+  const int block = index_of(model, "block");
+  model.bodies[block].free_translation.fill(false);
+  model.bodies[block].free_rotation.fill(false);
+  MovePlan move = move_of<2>("block", 1, -2e-3);
+  move.velocity[0] = 1e-3;
+  const Progress<2> end = whole_run(scene_of(model, {run_of("press", 0.0095, {move}), run_of("hold", 1e-3)}, 1e-3));
+  const double way = 1e-3 * 0.0095;
+  EXPECT_NEAR(end.state.motions[block].displacement[0], way, rounding);
+  EXPECT_NEAR(end.state.loads[block].force[0], -model.properties[0].shear_stiffness * way, 1e-6 * 5e8 * way);
+}
+
 TEST(Prescribed, EndsWithItsStage) {
   Model<2> model = block_on_plate<2>(0, 35 * degree);
   model.gravity.setZero();
