@@ -1,10 +1,10 @@
-// Whole scenes with closed forms: a row of the history is of one time.
+// Whole scenes with closed forms: what stages of kind run do by themselves, and that a row is of one time.
 #include "core/simulate.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "core/scene/scene.hpp"
@@ -29,6 +29,34 @@ std::vector<double> column(const Progress<2>& run, const std::string& name, int 
   for (const std::vector<double>& row : h.rows)
     if (row[1] == stage) values.push_back(row[place]);
   return values;
+}
+
+constexpr const char* stone = R"(dimension = 2
+gravity = [0, -9.81]
+density = 2600
+joint_properties = [{ name = "rock", normal_stiffness = 1e10, shear_stiffness = 1e9, friction_deg = 35 }]
+blocks = [{ name = "ground", box = { min = [-5, -1], max = [5, 0] }, fixed = true },
+          { name = "stone", box = { min = [0, 2], max = [1, 3] } }]
+stage = [{ name = "fall", kind = "run", duration_s = 0.5 }]
+monitors = [{ name = "stone", bodies = ["stone"], quantities = ["displacement"] }]
+)";
+
+TEST(RunStage, LetsAStoneFallAtG) {
+  const Progress<2> run = whole_run(stone);
+  const std::vector<double> time = column(run, "time_s", 1), fallen = column(run, "stone_displacement_y_m", 1);
+  EXPECT_EQ(time.front(), 0);
+  EXPECT_EQ(time.back(), 0.5);
+  for (std::size_t i = 0; i < time.size(); ++i)
+    EXPECT_NEAR(fallen[i], -0.5 * 9.81 * time[i] * time[i], 1e-11);
+}
+
+TEST(RunStage, IsDampedAsStated) {
+  for (const char* stated : {"damping.local=0.3", "stage.fall.damping.local=0.3"}) {
+    const Progress<2> run = whole_run(stone, {stated});
+    EXPECT_NEAR(run.state.motions[1].displacement[1] + run.state.motions[0].displacement[1],
+                -0.7 * 0.5 * 9.81 * 0.5 * 0.5, 1e-3)
+        << stated;
+  }
 }
 
 // a block is pressed into the ground at constant speed: every row's force is that of its displacement
@@ -69,6 +97,25 @@ move = [{ bodies = ["block"], velocity = [0, 0.01] }]
   }
   EXPECT_NEAR(column(run, "block_displacement_y_m", 2).back(), -0.01 * (0.0295 - 0.0195), 1e-15);
   EXPECT_NEAR(run.results.find("block_contact_load_y")->value, 1e4, 1e-4);
+}
+
+// a column of two blocks on a slope of 20 degrees, which local damping holds up: not the time step opens its ledger
+TEST(EnergyLedger, SaysWhatOpensIt) {
+  const std::string text = R"(dimension = 2
+gravity = [3.35521761, -9.21838466]
+density = 2500
+joint_properties = [{ name = "rock", normal_stiffness = 1e10, shear_stiffness = 1e9, friction_deg = 40 }]
+blocks = [{ name = "ground", box = { min = [-2, -1], max = [4, 0] }, fixed = true },
+          { name = "lower", box = { min = [0, 0], max = [1, 1.5] } },
+          { name = "upper", box = { min = [0, 1.5], max = [1, 3] } }]
+stage = [{ name = "topple", kind = "run", duration_s = 0.5, damping = { local = 0.7 } }]
+)";
+  const Progress<2> run = whole_run(text);
+  ASSERT_EQ(run.results.warnings.size(), 1u);
+  const std::string& warning = run.results.warnings.front();
+  EXPECT_NE(warning.find("in the balance of the contacts"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("local damping took"), std::string::npos) << warning;
+  EXPECT_EQ(warning.find("time.fraction"), std::string::npos) << warning;
 }
 
 }  // namespace

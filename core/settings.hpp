@@ -61,7 +61,7 @@ struct DampingSettings {
   Statics statics = Statics::adaptive;
 
   // Cundall's non-viscous damping: each force component is lessened by this share when it drives the motion; 0..<1.
-  // Reaches rest, but delays failure; 0 for dynamics
+  // Reaches rest, but delays failure; 0 for dynamics, and in a scene's stages of kind run unless it is stated
   double local = 0.7;
 
   // ratio to critical of the dashpot in every contact's normal direction; 0..; lowers the stable time step
@@ -69,8 +69,10 @@ struct DampingSettings {
 };
 
 struct TimeSettings {
-  // time step as a share of the limit 2/sqrt(lambda); one-sided contacts gain energy above 0.2 (0.1 without damping)
-  double fraction = 0.2;
+  // time step as a share of the limit 2/sqrt(lambda); one-sided contacts gain energy above 0.2 (0.1 without damping,
+  // which is what a scene's stages of kind run take unless it is stated)
+  static constexpr double most_damped = 0.2, most_undamped = 0.1;
+  double fraction = most_damped;
 
   // s; replaces the estimate, for scenes whose step no contact determines
   std::optional<double> step;
@@ -177,7 +179,15 @@ struct StagePlan {
   std::variant<SettlePlan, RunPlan, ReducePlan> plan;
   Change change;                           // applied before the stage begins
   std::optional<DampingSettings> damping;  // replaces the scene's within this stage
+  std::optional<double> time_fraction;     // the same of TimeSettings::fraction
 };
+
+// what is in force within a stage
+inline Settings settings_of(const StagePlan& stage, Settings scene) {
+  scene.damping = stage.damping.value_or(scene.damping);
+  scene.time.fraction = stage.time_fraction.value_or(scene.time.fraction);
+  return scene;
+}
 
 enum class Quantity { displacement, velocity, rotation, angular_velocity, contact_load, contact_force };
 

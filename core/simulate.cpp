@@ -26,6 +26,9 @@ constexpr long long steps_between_reports = 1000;
 // what the ledger may leave unexplained, as a share of the largest energy, before a run is doubted
 constexpr double energy_left_open = 0.05;
 
+// the share of that energy from which local damping shapes a motion
+constexpr double much_damped = 0.1;
+
 // the joint properties whose friction some stage changes: each has a column in the history
 template <int Dim>
 std::vector<int> properties_followed(const Prepared<Dim>& scene) {
@@ -264,8 +267,7 @@ struct Simulation {
 
   // model and settings of the stage, whether it begins or goes on
   void enter_stage() {
-    settings = scene.settings;
-    if (plan().damping) settings.damping = *plan().damping;
+    settings = settings_of(plan(), scene.settings);
     model = apply(std::move(model), plan().change);
   }
 
@@ -332,6 +334,39 @@ struct Simulation {
           "stage.bond has made no bond: no joint with tension or cohesion was closed and pressed");
   }
 
+  // the first stage of true motion whose step is longer than impacts allow
+  const StagePlan* long_step() const {
+    for (int s = 0; s < std::min(progress.stage + 1, static_cast<int>(scene.stages.size())); ++s) {
+      const StagePlan& stage = scene.stages[s];
+      const Settings in_force = settings_of(stage, scene.settings);
+      const double most = in_force.damping.local > 0 ? TimeSettings::most_damped : TimeSettings::most_undamped;
+      if (std::holds_alternative<RunPlan>(stage.plan) && !in_force.time.step && in_force.time.fraction > most)
+        return &stage;
+    }
+    return nullptr;
+  }
+
+  // which of the two balances is open, and what of the run opens it
+  std::string open_balance() const {
+    const EnergyLedger& e = state.energy;
+    if (std::abs(e.motion_error) > std::abs(e.contact_error))
+      return "the motion, which only rounding opens: is the time step unstable (time.step_s)?";
+    std::string causes;
+    if (const StagePlan* stage = long_step())
+      causes += fmt::format("; steps are long for impacts (time.fraction = {:g} in stage {})",
+                            settings_of(*stage, scene.settings).time.fraction, stage->name);
+    if (e.flows.local > much_damped * e.turnover)
+      causes += fmt::format(
+          "; local damping took {:.2g} of that energy and holds the motion up, so that little energy is "
+          "left to compare with (damping.local = 0 shows the true motion)",
+          e.flows.local / e.turnover);
+    if (causes.empty())
+      causes =
+          "; areas and normals of contacts change as blocks rock or slide over edges (joint_properties sub_contacts, "
+          "contact.normal), or an impact lasts few steps (time.fraction, time.step_s)";
+    return "the contacts" + causes;
+  }
+
   void add_final_results() {
     judge_level();
     const std::vector<Column> columns = monitor_columns<Dim>(scene.monitors);
@@ -345,9 +380,9 @@ struct Simulation {
     results.energy = state.energy;
     if (state.energy.closure() > energy_left_open)
       results.warnings.push_back(fmt::format(
-          "the energy ledger does not close: {:.2g} J, {:.2g} of the largest energy of the run, is unexplained; the "
-          "time step may be too long for impacts (time.fraction), or areas and normals of contacts changed a lot",
-          state.energy.widest, state.energy.closure()));
+          "the energy ledger does not close: {:.2g} J, {:.2g} of the largest energy of the run, is unexplained, in the "
+          "balance of {}",
+          state.energy.widest, state.energy.closure(), open_balance()));
   }
 
   // false: interrupted

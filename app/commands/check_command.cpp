@@ -124,11 +124,11 @@ void print_properties(const Model<Dim>& model) {
   }
 }
 
-std::string damping_text(const DampingSettings& damping) {
+std::string damping_text(const DampingSettings& damping, bool seeks_rest = true) {
   std::string text;
   if (damping.local > 0) text = fmt::format("local {:g}", damping.local);
   if (damping.viscous_ratio > 0) text += fmt::format("{}viscous {:g}", text.empty() ? "" : ", ", damping.viscous_ratio);
-  const std::string rest = relaxes(true, damping) ? "; to rest by relaxation" : "";
+  const std::string rest = relaxes(seeks_rest, damping) ? "; to rest by relaxation" : "";
   return (text.empty() ? "none" : text) + rest;
 }
 
@@ -215,7 +215,8 @@ void print_stages(const std::vector<StagePlan>& stages) {
     const StagePlan& stage = stages[k];
     std::string text = fmt::format("{} {}: {}", k + 1, stage.name, std::visit(PlanText{}, stage.plan));
     text += change_text(stage.change);
-    if (stage.damping) text += "; damping " + damping_text(*stage.damping);
+    const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
+    if (stage.damping) text += "; damping " + damping_text(*stage.damping, seeks_rest);
     line(k == 0 ? "stages" : "", text);
   }
 }

@@ -17,9 +17,7 @@ namespace voussoir {
 namespace {
 
 // thresholds of warnings: where experience says "look again", not where anything breaks
-constexpr double large_overlap_share = 0.01;   // of the inscribed radius: blocks visibly sink into each other
-constexpr double large_fraction_damped = 0.2;  // of the stable time step
-constexpr double large_fraction_undamped = 0.1;
+constexpr double large_overlap_share = 0.01;  // of the inscribed radius: blocks visibly sink into each other
 constexpr double least_overlap_share = 1e-9;  // stiffer than rock can be: rounding becomes visible
 constexpr double large_overlap = 0.01;        // m: joints in rock close by a millimetre or so
 constexpr double many_steps = 1e6;            // hours
@@ -132,8 +130,9 @@ void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, Sta
   const double g = model.gravity.norm();
   const double smallest = smallest_size(model);
   for (const StagePlan& stage : prepared.stages) {
-    const DampingSettings damping = stage.damping.value_or(prepared.settings.damping);
-    const TimeStepEstimate estimate = estimate_time_step<Dim>(model, prepared.settings, damping, state);
+    const Settings settings = settings_of(stage, prepared.settings);
+    const DampingSettings& damping = settings.damping;
+    const TimeStepEstimate estimate = estimate_time_step<Dim>(model, settings, damping, state);
     if (&stage == &prepared.stages.front()) result.step_limit = estimate.limit;
     const bool relaxed = relaxes(stage, damping);
     StageForecast forecast{.name = stage.name, .time_step = estimate.step, .reckoning = reckoning_of(stage)};
@@ -262,11 +261,13 @@ void judge_velocities(const Prepared<Dim>& prepared, const Model<Dim>& model, Pl
   }
 }
 
-void judge_stage(const StagePlan& stage, const DampingSettings& damping, const TimeSettings& time, double overlap,
-                 double smallest, Plausibility& result) {
+void judge_stage(const StagePlan& stage, const Settings& settings, double overlap, double smallest,
+                 Plausibility& result) {
+  const DampingSettings& damping = settings.damping;
+  const TimeSettings& time = settings.time;
   const std::string where = "stage." + stage.name;
   const bool undamped = damping.local == 0 && damping.viscous_ratio == 0;
-  const double fraction = undamped ? large_fraction_undamped : large_fraction_damped;
+  const double fraction = undamped ? TimeSettings::most_undamped : TimeSettings::most_damped;
   if (!time.step && time.fraction > fraction)
     result.warnings.push_back(
         fmt::format("{}: time.fraction = {} is above {}{}: contacts that open and close gain energy", where,
@@ -443,8 +444,7 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
   judge_bodies(prepared, model, state, result);
   judge_assembly(prepared, model, state, result.warnings);
   for (const StagePlan& stage : prepared.stages)
-    judge_stage(stage, stage.damping.value_or(prepared.settings.damping), prepared.settings.time, result.overlap,
-                smallest_size(model), result);
+    judge_stage(stage, settings_of(stage, prepared.settings), result.overlap, smallest_size(model), result);
   judge_velocities(prepared, model, result);
   judge_overlaps(prepared, result);
   judge_first_contacts(prepared, model, state, result);

@@ -24,7 +24,7 @@ const double drop_speed = std::sqrt(2 * gravity * gap);
 const std::string first_order =
     "the dashpot takes the velocity of half a step before and starts up to half a step early or late";
 
-// A run seen step by step. Row i: force of the step's start, velocity of its middle, height of its end.
+// A run seen step by step. Row i: force and height when a step begins, the velocity of the middle of the step before.
 struct Flight {
   std::vector<double> time, height, velocity, force;
   double step;
@@ -46,7 +46,7 @@ struct Flight {
   }
 
   double overlap() const { return -*std::min_element(height.begin() + touch, height.begin() + release); }
-  double speed() const { return velocity[release - 1]; }
+  double speed() const { return velocity[release]; }
   double duration() const { return (release - touch) * step; }
 
   // largest heights between contacts, after the first

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cases/case_tools.hpp"
+#include "reference/small/small.hpp"
 #include "reference/small/toppling.hpp"
 
 namespace voussoir::cases {
@@ -163,6 +164,27 @@ TEST(TopplingMap, IsNotThatOfStatics) {
     apart += block_mode(block) != block_mode_of_statics(block);
   }
   EXPECT_GE(apart, 3) << "the points tell the two maps apart";
+}
+
+// A stage of kind run at its defaults: nothing holds the column up but its inertia.
+TEST(TopplingColumn, FallsAsFastAsARigidBlock) {
+  CaseReport report("toppling");
+  const SceneRun run = cases::run("two_blocks.toml");
+  constexpr double b = 1, h = 3, g = 9.81, slope = 20 / degrees, turn = 45 / degrees;
+  const double start = slope - std::atan(b / h);
+  const double expected =
+      reference::fall_over_time({1, (b * b + h * h) / 3, 0.5 * std::hypot(b, h), start, g}, start + turn);
+  const std::vector<double> time = column(run, "time_s"), rotation = column(run, "lower_rotation_deg");
+  const auto after = std::find_if(rotation.begin(), rotation.end(), [](double deg) { return deg < -turn * degrees; });
+  ASSERT_NE(after, rotation.end()) << "it does not topple";
+  report.record({"time in which a column of two blocks has turned by 45 deg",
+                 "s",
+                 Kind::limit,
+                 "a rigid block about its corner",
+                 expected,
+                 {0, 0.1},
+                 "the start leans by 1.6 deg only, which elastic joints and the weight that comes on at once change"},
+                time[after - rotation.begin()], cost(run));
 }
 
 // Goodman & Bray's slope: an angle at which it is known to stand, one at which it is known to fall, and a bracket

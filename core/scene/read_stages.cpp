@@ -92,6 +92,24 @@ void chain_gravity(std::vector<StageSpec>& stages) {
   }
 }
 
+bool states(const Subject& subject, std::string_view table, std::string_view key) {
+  const auto found = child(subject, table);
+  return found && found->node->find(key);
+}
+
+// A stage of kind run shows the true motion: what damps it, and how long its steps are, is otherwise for those to say
+// who state it.
+void free_runs(const Subject& scene, const DampingSettings& damping, std::vector<StageSpec>& stages) {
+  for (StageSpec& stage : stages) {
+    if (!std::holds_alternative<RunPlan>(stage.plan.plan)) continue;
+    if (!states(scene, "damping", "local") && !states(stage.subject, "damping", "local")) {
+      if (!stage.plan.damping) stage.plan.damping = damping;
+      stage.plan.damping->local = 0;
+    }
+    if (!states(scene, "time", "fraction")) stage.plan.time_fraction = TimeSettings::most_undamped;
+  }
+}
+
 SettlePlan read_settle(const Subject& table) {
   SettlePlan plan;
   plan.gravity = read_gravity(table);
@@ -304,6 +322,7 @@ std::vector<StageSpec> read_stages(const Subject& scene, const DampingSettings& 
   for (const Subject& item : children(scene, "stage"))
     stages.push_back(read_stage(item, damping, scene_dimension(*scene.node)));
   chain_gravity(stages);
+  free_runs(scene, damping, stages);
   if (stages.empty())
     refuse(scene, "stage",
            "nothing would happen; write for example [[stage]] with name = \"settle\" and kind = \"settle\"");

@@ -129,6 +129,7 @@ fix = [{ bodies = ["by planes"] }]
 name = "run"
 kind = "run"
 duration_s = 1
+damping = { local = 0 }
 release = [{ bodies = ["by planes"] }]
 remove = [{ bodies = ["by vertices"] }]
 move = [{ bodies = ["by planes"], velocity = [1, 0, 0], frequency_hz = 1 }]
