@@ -160,6 +160,11 @@ TEST(SlicingSettling, ACornerOfItComesToRest) {
   draw(settled);
 }
 
+TEST(SlicingSettling, ThreeHundredBlocksRestByRelaxation) {
+  CaseReport report("slicing");
+  check(report, ", 327 blocks by relaxation", settle("rock_mass.toml", {"damping.statics=\"adaptive\""}));
+}
+
 TEST(SlicingSettlingLong, TwentyFiveHundredBlocksComeToRest) {
   CaseReport report("slicing");
   const Film settled = settle("settling.toml");
