@@ -46,8 +46,8 @@ bool holds(const std::vector<std::string>& list, const std::string& name) {
 // ---- the lock
 
 BadInput no_lock(const fs::path& path) {
-  return BadInput(fmt::format("'{}' is no lock of this program: move it away, or choose another folder with --out",
-                              path.string()));
+  return BadInput(
+      fmt::format("'{}' is no lock of this program: move it away, or choose another folder with --out", path.string()));
 }
 
 int open_lock(const fs::path& path) {
@@ -97,9 +97,9 @@ std::optional<Outputs> made_in(const fs::path& folder) {
 }
 
 void write_made(const fs::path& folder, const Outputs& outputs) {
-  const nlohmann::ordered_json list = {{"schema", "voussoir.made"},   {"schema_version", 1},
-                                       {"command", outputs.command},  {"files", outputs.files},
-                                       {"frames", outputs.frames},    {"folders", outputs.folders}};
+  const nlohmann::ordered_json list = {{"schema", "voussoir.made"},  {"schema_version", 1},
+                                       {"command", outputs.command}, {"files", outputs.files},
+                                       {"frames", outputs.frames},   {"folders", outputs.folders}};
   write_file(folder / made_file, list.dump(2) + "\n");
 }
 
@@ -235,9 +235,10 @@ FolderLock::~FolderLock() {
 void refuse_inputs(const fs::path& folder, const Outputs& outputs, const std::vector<fs::path>& inputs) {
   for (const fs::path& name : standing(folder, outputs))
     if (is_input(folder / name, inputs))
-      throw BadInput(fmt::format("'{}' is read by this command, which would write over it: choose another folder with "
-                                 "--out",
-                                 (folder / name).string()));
+      throw BadInput(
+          fmt::format("'{}' is read by this command, which would write over it: choose another folder with "
+                      "--out",
+                      (folder / name).string()));
 }
 
 ClaimedFolder::ClaimedFolder(const fs::path& folder, const Outputs& outputs, const std::vector<fs::path>& inputs,

@@ -38,7 +38,7 @@ struct Outputs {
   std::vector<std::string> files;         // while the first is there, the folder holds results
   bool frames = false;                    // and a series of frames (core/output/paraview.hpp)
   std::vector<std::string> folders = {};  // of a study: one for every run
-  bool goes_on = false;                   // with what the same command left: only folders not named any more are removed
+  bool goes_on = false;  // with what the same command left: only folders not named any more are removed
 };
 
 // caught from a run of a study, in the run's folder
@@ -50,7 +50,8 @@ void refuse_inputs(const std::filesystem::path& folder, const Outputs& outputs,
 
 // Locks the folder, refuses what must not be replaced, removes what an older command made there but for `inputs`, and
 // lists what will be written. Refused: inputs always; without `overwrite` whatever stands under a name to be written,
-// and an older command's results. Throws BadInput, FolderInUse, OutputError; a folder that is refused is left as it was.
+// and an older command's results. Throws BadInput, FolderInUse, OutputError; a folder that is refused is left as it
+// was.
 class ClaimedFolder {
  public:
   ClaimedFolder(const std::filesystem::path& folder, const Outputs& outputs,

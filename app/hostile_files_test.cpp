@@ -62,8 +62,10 @@ std::map<std::string, std::string> stand(const fs::path& folder) {
   std::map<std::string, std::string> all;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     std::string& what = all[entry.path().lexically_relative(folder).string()];
-    if (entry.is_symlink()) what = "link to " + fs::read_symlink(entry.path()).string();
-    else if (entry.is_regular_file() && entry.file_size() < 100'000'000) what = read(entry.path());
+    if (entry.is_symlink())
+      what = "link to " + fs::read_symlink(entry.path()).string();
+    else if (entry.is_regular_file() && entry.file_size() < 100'000'000)
+      what = read(entry.path());
   }
   return all;
 }
@@ -126,14 +128,17 @@ std::vector<Trial> over_inputs() {
       fs::create_hard_link(folder / to, folder / from);
     };
   };
-  const auto base = [](const fs::path& folder) { put(folder / "variant.toml", "base = \"scene.toml\"\ntitle = \"v\"\n"); };
+  const auto base = [](const fs::path& folder) {
+    put(folder / "variant.toml", "base = \"scene.toml\"\ntitle = \"v\"\n");
+  };
   const auto as_tables = [](const fs::path& folder) {
     put(folder / "blocks.csv",
-        "block,normal_x,normal_y,normal_z,offset_m\na,1,0,0,1\na,-1,0,0,0\na,0,1,0,1\na,0,-1,0,0\na,0,0,1,1\na,0,0,-1,0\n");
-    put(folder / "cut.toml", "blocks_file = \"blocks.csv\"\n" +
-                                 scene.substr(0, scene.find("[domain.box]")) +
-                                 "joint_properties = [{ name = \"rock\", normal_stiffness = 1e8, shear_stiffness = 1e7, "
-                                 "friction_deg = 30 }]\nstage = [{ name = \"s\", kind = \"settle\" }]\n");
+        "block,normal_x,normal_y,normal_z,offset_m\na,1,0,0,1\na,-1,0,0,0\na,0,1,0,1\na,0,-1,0,0\na,0,0,1,1\na,0,0,-1,"
+        "0\n");
+    put(folder / "cut.toml",
+        "blocks_file = \"blocks.csv\"\n" + scene.substr(0, scene.find("[domain.box]")) +
+            "joint_properties = [{ name = \"rock\", normal_stiffness = 1e8, shear_stiffness = 1e7, "
+            "friction_deg = 30 }]\nstage = [{ name = \"s\", kind = \"settle\" }]\n");
     std::string text = scene;
     text.erase(text.find("[[joints]]"), text.find("[[joint_properties]]") - text.find("[[joints]]"));
     put(folder / "jointed.toml", "joints_file = \"joints.csv\"\n" + text);
@@ -209,8 +214,11 @@ std::vector<Trial> over_others() {
   trials.push_back({"slice twice", "slice scene.toml --out out", "'out' holds results", {}, sliced});
   trials.push_back({"slice, then run", "run scene.toml --out out", "'out' holds results", {}, sliced});
   for (const char* command : {"run", "slice"})
-    trials.push_back({"a study's folder", command + std::string(" scene.toml --out out --overwrite"),
-                      "'out' holds a study", {}, "study study.toml --quiet --out out"});
+    trials.push_back({"a study's folder",
+                      command + std::string(" scene.toml --out out --overwrite"),
+                      "'out' holds a study",
+                      {},
+                      "study study.toml --quiet --out out"});
   // a list that leads out of its folder is none
   const std::string lies =
       R"({"schema": "voussoir.made", "schema_version": 1, "command": "run", "files": ["../victim"], "frames": false,
@@ -236,8 +244,8 @@ TEST_F(HostileFiles, OnlyOurOwnLockIsWritten) {
     fs::create_symlink("../victim", folder / "out/.lock");
   };
   std::vector<Trial> trials;
-  for (const char* command : {"run scene.toml", "slice scene.toml", "limit plane.toml", "joint-test scene.toml",
-                              "study study.toml"})
+  for (const char* command :
+       {"run scene.toml", "slice scene.toml", "limit plane.toml", "joint-test scene.toml", "study study.toml"})
     trials.push_back({"a link", command + std::string(" --overwrite --out out"), no_lock, linked});
   trials.push_back({"a hard link", "run scene.toml --out out", no_lock, [](const fs::path& folder) {
                       fs::create_directories(folder / "out");
@@ -245,8 +253,8 @@ TEST_F(HostileFiles, OnlyOurOwnLockIsWritten) {
                     }});
   trials.push_back({"a text", "run scene.toml --out out", no_lock, file("out/.lock")});
   trials.push_back({"a folder", "run scene.toml --out out", no_lock, file("out/.lock/file")});
-  trials.push_back({"a pipe", "run scene.toml --out out", no_lock,
-                    [](const fs::path& folder) { make_pipe(folder / "out/.lock"); }});
+  trials.push_back(
+      {"a pipe", "run scene.toml --out out", no_lock, [](const fs::path& folder) { make_pipe(folder / "out/.lock"); }});
   trials.push_back({"a link, resumed", "resume out", no_lock,
                     [](const fs::path& folder) {
                       fs::remove(folder / "out/results.json");
@@ -302,17 +310,17 @@ std::vector<Trial> texts() {
               tail = scene.substr(scene.find("[[joint_properties]]"),
                                   scene.find("[[fix]]") - scene.find("[[joint_properties]]"))](const fs::path& folder) {
         put(folder / name, content);
-        put(folder / "bad.toml", std::string(key) + " = \"" + name + "\"\n" + head + tail +
-                                     "[[stage]]\nname = \"s\"\nkind = \"settle\"\n");
+        put(folder / "bad.toml",
+            std::string(key) + " = \"" + name + "\"\n" + head + tail + "[[stage]]\nname = \"s\"\nkind = \"settle\"\n");
       };
     };
-    trials.push_back({"CSV", "check bad.toml", "bad.csv:2:2: " ,
-                      named("joints_file", "bad.csv",
-                            "name,dip_deg,dip_direction_deg,x_m,y_m,z_m\nb" + bytes + ",0,0,0,0,0\n")});
-    trials.push_back({"OBJ", "check bad.toml", "bad.obj:1:4: ",
-                      named("blocks_file", "bad.obj", "o b" + bytes + "\n" + corners)});
-    trials.push_back({"STL", "check bad.toml", "bad.stl:1:8: ",
-                      named("blocks_file", "bad.stl", "solid b" + bytes + "\nendsolid\n")});
+    trials.push_back(
+        {"CSV", "check bad.toml", "bad.csv:2:2: ",
+         named("joints_file", "bad.csv", "name,dip_deg,dip_direction_deg,x_m,y_m,z_m\nb" + bytes + ",0,0,0,0,0\n")});
+    trials.push_back(
+        {"OBJ", "check bad.toml", "bad.obj:1:4: ", named("blocks_file", "bad.obj", "o b" + bytes + "\n" + corners)});
+    trials.push_back({"STL", "check bad.toml",
+                      "bad.stl:1:8: ", named("blocks_file", "bad.stl", "solid b" + bytes + "\nendsolid\n")});
   }
   return trials;
 }
@@ -328,8 +336,8 @@ TEST_F(HostileFiles, OptionsAreFiniteNumbersAndNamesAreNotEmpty) {
   std::vector<Trial> trials;
   for (const char* number : {"nan", "-nan", "NAN", "inf", "-inf", "1e999"}) {
     const std::pair<const char*, const char*> options[] = {
-        {"run scene.toml --out out", "--checkpoint-seconds"}, {"run scene.toml --out out", "--checkpoint-steps"},
-        {"joint-test scene.toml --out out", "--stress"},      {"joint-test scene.toml --out out", "--slip"},
+        {"run scene.toml --out out", "--checkpoint-seconds"},  {"run scene.toml --out out", "--checkpoint-steps"},
+        {"joint-test scene.toml --out out", "--stress"},       {"joint-test scene.toml --out out", "--slip"},
         {"joint-test scene.toml --out out", "--surroundings"}, {"joint-test scene.toml --out out", "--dilation"},
         {"study study.toml --out out", "--time-limit"}};
     for (const auto& [command, option] : options)
@@ -342,8 +350,8 @@ TEST_F(HostileFiles, OptionsAreFiniteNumbersAndNamesAreNotEmpty) {
                                                        {"joint-test scene.toml --out out", "--cycles"}};
   for (const auto& [command, option] : whole)
     trials.push_back({"a whole number", fmt::format("{} {} nan", command, option), option});
-  for (const char* command : {"run scene.toml", "slice scene.toml", "limit plane.toml", "joint-test scene.toml",
-                              "study study.toml"})
+  for (const char* command :
+       {"run scene.toml", "slice scene.toml", "limit plane.toml", "joint-test scene.toml", "study study.toml"})
     trials.push_back({"an empty folder", command + std::string(" --out ''"), "--out: must not be empty"});
   trials.push_back({"an empty scene", "check ''", "scene: must not be empty"});
   trials.push_back({"an empty run", "resume ''", "folder: must not be empty"});
@@ -372,10 +380,9 @@ TEST_F(HostileFiles, OnlyRegularFilesOfSaneSizeAreOpened) {
   for (const auto& [make, reason] : kinds) {
     trials.push_back({"plan", "study odd.toml --out out2", "odd.toml: " + reason, odd("odd.toml", make, false)});
     trials.push_back({"scene", "run odd.toml --out out2", "odd.toml: " + reason, odd("odd.toml", make, false)});
-    trials.push_back({"scene of a plan", "study study.toml --out out2", "scene.toml: " + reason,
-                      odd("scene.toml", make, false)});
     trials.push_back(
-        {"notes", "resume out", "'out/run.json': " + reason, odd("out/run.json", make, true), quiet_run});
+        {"scene of a plan", "study study.toml --out out2", "scene.toml: " + reason, odd("scene.toml", make, false)});
+    trials.push_back({"notes", "resume out", "'out/run.json': " + reason, odd("out/run.json", make, true), quiet_run});
     trials.push_back(
         {"effective scene", "resume out", "out/scene.toml: " + reason, odd("out/scene.toml", make, true), quiet_run});
     const std::string refusal = make == make_sparse ? "is not a checkpoint of this program" : reason;

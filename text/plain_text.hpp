@@ -15,8 +15,8 @@ struct TextFault {
   std::string what;
 };
 
-// Refused are bytes that are no UTF-8 (RFC 3629), control characters (C0, DEL, C1), line and paragraph separators, marks
-// that turn the direction of text, and noncharacters, which XML forbids. Tabs pass where a file may hold them.
+// Refused are bytes that are no UTF-8 (RFC 3629), control characters (C0, DEL, C1), line and paragraph separators,
+// marks that turn the direction of text, and noncharacters, which XML forbids. Tabs pass where a file may hold them.
 std::optional<TextFault> text_fault(std::string_view text, bool tabs_pass = false);
 
 // the same text with a blank for every C0 character and U+FFFD for whatever else is no plain text

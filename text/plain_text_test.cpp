@@ -14,22 +14,25 @@ void expect_fault(std::string_view text, std::size_t at, const std::string& part
 }
 
 TEST(PlainText, TakesEveryScript) {
-  for (const char* text : {"", "wedge 1", "Gewölbe – 45°", "岩盤", "скала", "πέτρα", "𝔻𝔼𝕄 🪨", "\"a\", 'b' & <c>", "ñ\u0303",
-                           "\u00A0", "\U0010FFFD"})
+  for (const char* text : {"", "wedge 1", "Gewölbe – 45°", "岩盤", "скала", "πέτρα", "𝔻𝔼𝕄 🪨",
+                           "\"a\", 'b' & <c>", "ñ\u0303", "\u00A0", "\U0010FFFD"})
     EXPECT_FALSE(text_fault(text)) << text;
   EXPECT_FALSE(text_fault("a\tb", true));
 }
 
 TEST(PlainText, RefusesWhatIsNoUtf8) {
-  expect_fault("S\xFC" "d", 1, "0xFC, which is not UTF-8");
+  expect_fault(
+      "S\xFC"
+      "d",
+      1, "0xFC, which is not UTF-8");
   expect_fault("\x80", 0, "0x80");
-  expect_fault("a\xC0\x80", 1, "0xC0");          // overlong
-  expect_fault("\xE0\x80\xAF", 0, "0xE0");       // overlong
-  expect_fault("\xF0\x80\x80\xAF", 0, "0xF0");   // overlong
-  expect_fault("\xED\xA0\x80", 0, "0xED");       // a surrogate
-  expect_fault("\xF4\x90\x80\x80", 0, "0xF4");   // beyond U+10FFFF
-  expect_fault("ab\xE2\x82", 2, "0xE2");         // cut short
-  expect_fault("\xFF\xFE", 0, "0xFF");           // UTF-16
+  expect_fault("a\xC0\x80", 1, "0xC0");         // overlong
+  expect_fault("\xE0\x80\xAF", 0, "0xE0");      // overlong
+  expect_fault("\xF0\x80\x80\xAF", 0, "0xF0");  // overlong
+  expect_fault("\xED\xA0\x80", 0, "0xED");      // a surrogate
+  expect_fault("\xF4\x90\x80\x80", 0, "0xF4");  // beyond U+10FFFF
+  expect_fault("ab\xE2\x82", 2, "0xE2");        // cut short
+  expect_fault("\xFF\xFE", 0, "0xFF");          // UTF-16
 }
 
 TEST(PlainText, RefusesWhatSteersATerminalOrTurnsText) {
@@ -52,7 +55,9 @@ TEST(PlainText, RefusesWhatSteersATerminalOrTurnsText) {
 
 TEST(PlainText, ShowsTheRestHarmlessly) {
   EXPECT_EQ(printable("a\x1b[31m\nb"), "a [31m b");
-  EXPECT_EQ(printable("S\xFC" "d\u009b"), "S�d�");
+  EXPECT_EQ(printable("S\xFC"
+                      "d\u009b"),
+            "S�d�");
   EXPECT_EQ(printable("Süd"), "Süd");
   EXPECT_EQ(one_line("abcdef", 6), "abcdef");
   EXPECT_EQ(one_line("abcdefg", 6), "abcdef…");
