@@ -22,6 +22,11 @@ constexpr double nudge = 1e-3;
 // thousand steps stop it. Less than the critical damping of a column of 2,000 blocks.
 constexpr double least_damping = 1e-3;
 
+// Steps between two renewals of every body's inertia; what outgrows its rating does not wait for them. Inertia kept
+// from a stiffer state lets a stack swing on its way to rest, and swings wear off shear: with a hundred steps the top
+// block of the case overhang turned by 0.16 % too little, with twenty by 0.04 %, with ten by 0.01 %.
+constexpr int steps_between_renewals = 10;
+
 template <int Dim>
 void stop_bodies(State<Dim>& state) {
   for (Motion<Dim>& m : state.motions) {
@@ -46,11 +51,11 @@ double share(const Body<Dim>& body) {
 }
 
 // The inertia with which a body's limit 2/ω times its share is the common step, stiffness having grown by the area
-// margin. A body keeps its own until one of its contacts outgrows its rating; at every hundredth step all are renewed.
+// margin. A body keeps its own until one of its contacts outgrows its rating; at every tenth step all are renewed.
 template <int Dim>
 void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   if (state.relaxation.until_renewal-- == 0) state.frequency.clear();
-  if (state.frequency.empty()) state.relaxation.until_renewal = steps_between_looks;
+  if (state.frequency.empty()) state.relaxation.until_renewal = steps_between_renewals;
   const auto renewed = renew_time_step(model, settings, {.viscous_ratio = 0}, state);
   if (!renewed) return;
   if (state.step_allowed == 0)
