@@ -48,9 +48,10 @@ void check(CaseReport& report, const std::string& name, double expected, double 
                 cost(run));
 }
 
+constexpr double tight = 0.005;
 constexpr const char* why =
-    "half the bracket is 0.003; the wedge sinks by 3 micrometres into overlaps of 40, and what its faces and stresses "
-    "change by that is below 0.02";
+    "half the bracket is 0.0004; the wedge sinks by 3 micrometres into overlaps of 40, and what its faces and stresses "
+    "change by that is below 0.002";
 
 TEST(RoofWedge, FallsWhereJointRelaxationSays) {
   CaseReport report("roofwedge", {"critical friction"});
@@ -66,7 +67,7 @@ TEST(RoofWedge, FallsWhereJointRelaxationSays) {
     const SceneRun run = cases::run(v.scene, v.overrides);
     const double expected = reference::first_slip(v.wedge).friction * degrees;
     if (&v == variants) report.reference("critical_friction", expected, "deg");
-    check(report, v.name, expected, 0.05, why, value(run, "critical_friction"), run);
+    check(report, v.name, expected, tight, why, value(run, "critical_friction"), run);
   }
 }
 
@@ -78,9 +79,9 @@ TEST(RoofWedge, OneOfUnequalJointsSlipsLongBefore) {
   double mobilised = 0;
   for (const char* joint : {"A", "B", "C"})
     mobilised = std::max(mobilised, column(run, std::string(joint) + "_mobilised_friction_deg", settle).back());
-  check(report, "first slip of unequal joints", reference::first_slip(wedge).friction * degrees, 0.1, why, mobilised,
+  check(report, "first slip of unequal joints", reference::first_slip(wedge).friction * degrees, tight, why, mobilised,
         run);
-  check(report, "critical friction of unequal joints", reference::collapse(wedge).friction * degrees, 0.1,
+  check(report, "critical friction of unequal joints", reference::collapse(wedge).friction * degrees, 0.04,
         "0.03 between the elastic-plastic wedge and a dynamic one of the same joints (reference/roofwedge), and as for "
         "equal joints",
         value(run, "critical_friction"), run);
@@ -95,7 +96,7 @@ TEST(RoofWedge, NeedsMoreFrictionTheHeavierItIs) {
     gravity.push_back(g / 9.81);
     expected.push_back(reference::first_slip(regular(g)).friction * degrees);
     found.push_back(value(run, "critical_friction"));
-    if (g == 20) check(report, "critical friction, twice the weight", expected.back(), 0.05, why, found.back(), run);
+    if (g == 20) check(report, "critical friction, twice the weight", expected.back(), tight, why, found.back(), run);
   }
   write_csv("roofwedge", "weight.csv", {"weight", "friction_deg"}, {gravity, found});
   std::vector<double> weights, curve;
@@ -161,8 +162,8 @@ double arrived_stress(const SceneRun& run) {
 }
 
 constexpr const char* why_of_arrived =
-    "half the bracket is 0.004; the rock has closed in by 0.1 mm on faces a metre high, up to 0.5 mm under the most "
-    "stress, which changes areas and shear by as much as 0.1 %: 0.02";
+    "half the bracket is 0.0005; the rock has closed in by 0.1 mm on faces a metre high, up to 0.5 mm under the most "
+    "stress, which changes areas and shear by as much as 0.03 %: 0.004";
 
 void judge_pressure(CaseReport& report, const std::string& name, const SceneRun& run) {
   const std::array<double, 3> pressure = arrived_pressure(run);
@@ -172,8 +173,7 @@ void judge_pressure(CaseReport& report, const std::string& name, const SceneRun&
                    Kind::limit,
                    "homogeneous stress: 0.75 of the 0.05 MPa applied",
                    share_across * applied,
-                   {0, 0.005},
-                   "a thousandth of the weight of the rock around, at most 13 t, is 0.3 % of the 43 kN on a joint; "
+                   {0, 0.0005},
                    "closures of 0.1 mm change faces by 0.02 %"},
                   pressure[i], cost(run));
 }
@@ -185,11 +185,11 @@ TEST(RoofWedge, FallsAtTheStressThatArrivesFromTheSides) {
   on_points.push_back("joint_properties.rock.sub_contacts=4");
   const SceneRun run = press(applied), free = press(applied, 1, stiffness, on_points);
   judge_pressure(report, "", run);
-  check(report, "critical friction, stress from the sides", slip_deg(under_stress(arrived_stress(run))), 0.05,
+  check(report, "critical friction, stress from the sides", slip_deg(under_stress(arrived_stress(run))), tight,
         why_of_arrived, value(run, "critical_friction"), run);
   judge_pressure(report, ", blocks free to turn on 16 points a face", free);
   check(report, "critical friction, stress from the sides, blocks free to turn on 16 points a face",
-        slip_deg(under_stress(arrived_stress(free))), 0.05, why_of_arrived, value(free, "critical_friction"), free);
+        slip_deg(under_stress(arrived_stress(free))), tight, why_of_arrived, value(free, "critical_friction"), free);
 
   // where a face bears no moment, or gives way by millimetres, what arrives is another stress
   const auto tell = [&](const std::string& name, const SceneRun& other) {
@@ -209,7 +209,7 @@ TEST(RoofWedge, DoesNotMindHowLongTheStressComesOn) {
   for (const double duration : {0.1, 2.0}) {
     const SceneRun run = press_for(duration, applied, 5);
     check(report, fmt::format("critical friction, ks = kn/5, stress from the sides for {:g} s", duration),
-          slip_deg(under_stress(applied, 5)), 0.01, why_of_arrived, value(run, "critical_friction"), run);
+          slip_deg(under_stress(applied, 5)), tight, why_of_arrived, value(run, "critical_friction"), run);
   }
 }
 
@@ -230,7 +230,7 @@ void try_ratios(CaseReport& report, const std::vector<double>& ratios) {
     sweep.expected.push_back(slip_deg(under_stress(arrived_stress(run), ratio)));
     sweep.found.push_back(value(run, "critical_friction"));
     check(report, fmt::format("critical friction, stress from the sides, kn/ks = {}", ratio), sweep.expected.back(),
-          0.05, why_of_arrived, sweep.found.back(), run);
+          tight, why_of_arrived, sweep.found.back(), run);
   }
   write_sweep(sweep, "ratio", "ratio");
 }
@@ -243,7 +243,7 @@ void try_stresses(CaseReport& report, const std::vector<double>& stresses) {
     sweep.expected.push_back(slip_deg(under_stress(arrived_stress(run))));
     sweep.found.push_back(value(run, "critical_friction"));
     check(report, fmt::format("critical friction, stress from the sides, {:.3g} MPa", 1e-6 * stress),
-          sweep.expected.back(), 0.05, why_of_arrived, sweep.found.back(), run);
+          sweep.expected.back(), tight, why_of_arrived, sweep.found.back(), run);
   }
   write_sweep(sweep, "stress", "stress_MPa");
 }
