@@ -269,8 +269,8 @@ TEST_F(Check, DocsHoldEveryColumnOfTheHistoryWithItsMeaning) {
   ASSERT_NE(begin, std::string::npos);
   for (const std::string& line : lines_of(docs.substr(begin)))
     EXPECT_EQ(line.find("|  |"), std::string::npos) << "a column without a meaning: " << line;
-  for (const char* part :
-       {"`m_normal_force_N`", "`m_mobilised_friction_deg`", "`m_angular_velocity_x_rad_per_s`", "from 15 deg on"})
+  for (const char* part : {"| `trial` |", "| `friction_rock_deg` |", "`m_normal_force_N`", "`m_mobilised_friction_deg`",
+                           "`m_angular_velocity_x_rad_per_s`", "from 15 deg on"})
     EXPECT_NE(docs.find(part), std::string::npos) << part;
 }
 

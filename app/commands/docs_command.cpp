@@ -19,8 +19,9 @@ struct Meaning {
 constexpr Meaning column_meanings[] = {
     {"time", "simulated time since the first stage began; in stages that come to rest by relaxation it is fictitious"},
     {"stage", "number of the stage, from 1"},
-    {"trial", "number of the trial within a strength reduction; 0: the path to the answer, or no reduction"},
-    {"friction", "friction angle in force, in degrees: the one that a reduction lowers"},
+    {"trial",
+     "where some stage searches by trials: the number of one that is taken back; 0: on the path to the answer"},
+    {"friction", "friction angle in force, of each of the joint properties whose friction some stage changes"},
 };
 
 constexpr Meaning quantity_meanings[] = {
@@ -48,7 +49,7 @@ std::string_view meaning_of(std::string_view name, const Meaning (&meanings)[Cou
 std::string history_documentation() {
   Prepared<3> example;
   example.model.properties.push_back({.name = "rock"});
-  example.stages.emplace_back().change.friction = 0;
+  example.stages.emplace_back().plan = ReducePlan{};
   std::string text = R"(
 # history.csv
 
