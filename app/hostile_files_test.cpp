@@ -87,7 +87,9 @@ class HostileFiles : public Program {
       write("plane.toml", plane_scene);
       write("study.toml", plan);
       write("victim", "precious\n");
-      if (!trial.before.empty()) ASSERT_EQ(run(trial.before).code, 0) << trial.before;
+      if (!trial.before.empty()) {
+        ASSERT_EQ(run(trial.before).code, 0) << trial.before;
+      }
       if (trial.arrange) trial.arrange(folder_);
       const auto before = stand(folder_);
       const Ended ended = run(trial.arguments, limits_);
@@ -100,7 +102,9 @@ class HostileFiles : public Program {
         EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20) << static_cast<int>(c);
       auto after = stand(folder_);
       for (const auto& [name, text] : before)
-        if (!trial.is_ours(name)) EXPECT_TRUE(after.contains(name) && after[name] == text) << name << " was changed";
+        if (!trial.is_ours(name)) {
+          EXPECT_TRUE(after.contains(name) && after[name] == text) << name << " was changed";
+        }
       ++count_;
     }
   }
