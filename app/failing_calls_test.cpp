@@ -214,7 +214,7 @@ TEST_F(FullDisk, ALimitOnTheSizeOfFilesIsSix) {
 }
 
 TEST_F(FullDisk, AFullStandardOutputIsSixAndTheResultsAreThere) {
-  const std::string scene = write("gentle.toml", cubes_scene(3, 3, 2, 0.04, 10));  // nothing to warn of
+  const std::string scene = write("gentle.toml", cubes_scene(1, 1, 3, 0.04, 10));  // nothing to warn of
   const Contents complete = undisturbed(scene, 10);
   std::vector<std::string> arguments = run_arguments(scene, at("out"), 10);
   std::erase(arguments, "--quiet");
