@@ -203,6 +203,15 @@ TEST(RoofWedge, FallsAtTheStressThatArrivesFromTheSides) {
   tell("the thesis' 10 MPa/m", press(applied, 1, thesis_stiffness));
 }
 
+// the thesis' gravity, as for the stress that is set on the joints
+TEST(RoofWedge, FallsAtTenMetresPerSecondSquaredByTheSidesToo) {
+  CaseReport report("roofwedge");
+  const SceneRun run = press(applied, 1, stiffness, {"gravity=[0,0,-10]"});
+  check(report, "critical friction at 10 m/s2, stress from the sides",
+        reference::first_slip(regular(10)).friction * degrees, tight, why_of_arrived, value(run, "critical_friction"),
+        run);
+}
+
 // Without weight nothing but the stress comes on, however long that takes.
 TEST(RoofWedge, DoesNotMindHowLongTheStressComesOn) {
   CaseReport report("roofwedge");
