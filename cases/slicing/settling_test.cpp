@@ -172,5 +172,12 @@ TEST(SlicingSettlingLong, TwentyFiveHundredBlocksComeToRest) {
   draw(settled);
 }
 
+// on four points a face: one point resists no twist, and a block that spins on it does not come to rest (README)
+TEST(SlicingSettlingLong, TwentyFiveHundredBlocksRestByRelaxation) {
+  CaseReport report("slicing");
+  check(report, ", 2500 blocks by relaxation",
+        settle("settling.toml", {"damping.statics=\"adaptive\"", "joint_properties.rock.sub_contacts=2"}));
+}
+
 }  // namespace
 }  // namespace voussoir::cases
