@@ -182,14 +182,16 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     return report;
   };
 
+  // made once: no step asks for memory
+  const std::function<void(State<Dim>&)> with_forces = [&](State<Dim>& now) {
+    if (progress.steps == 0) stop_bodies(model, relaxing, now);
+    if (hooks.with_forces) hooks.with_forces(now);
+  };
   // the forces of a step, and what comes after the run, stand under the schedule at the time of the positions
   bool changing = follow(schedule, state);
   while (true) {
     if (hooks.pause && hooks.pause()) return stop(StopReason::interrupted);
-    step<Dim>(model, settings, state, [&](State<Dim>& now) {
-      if (progress.steps == 0) stop_bodies(model, relaxing, now);
-      if (hooks.with_forces) hooks.with_forces(now);
-    });
+    step<Dim>(model, settings, state, with_forces);
     const bool changed = std::exchange(changing, follow(schedule, state));
     ++progress.steps;
     report.unbalanced = goal.rest ? unbalanced_ratio(model, settings.threads, state) : -1;
