@@ -150,6 +150,35 @@ TEST_F(Study, TakesAQuantityOutOfTheHistory) {
   EXPECT_NE(rows()[1].find(",m,ok,"), std::string::npos) << rows()[1];
 }
 
+TEST_F(Study, LeavesOutTheTrialsOfASearchThatWereTakenBack) {
+  write("scene.toml", read(VOUSSOIR_SOURCE_DIR "/cases/wedge/scene.toml"));
+  write("study.toml",
+        "scene = \"scene.toml\"\nquantity = \"lowest\"\n"
+        "history = { column = \"friction_rock_deg\", take = \"smallest\", unit = \"deg\" }\n"
+        "[[sweep]]\nname = \"newton\"\nkey = \"contact.newton_tolerance\"\nvalues = [1e-5]\nunit = \"1\"\n");
+  ASSERT_EQ(run("study study.toml --jobs 1 --out out").code, 0);
+  const auto entry = *fs::directory_iterator(folder_ / "out/runs");
+  double on_the_path = 90, anywhere = 90;
+  std::istringstream history(read(entry.path() / "history.csv"));
+  std::string line;
+  std::getline(history, line);
+  ASSERT_TRUE(line.starts_with("time_s,stage,trial,friction_rock_deg")) << line;
+  while (std::getline(history, line)) {
+    std::istringstream cells(line);
+    std::string time, stage, trial, friction;
+    for (std::string* cell : {&time, &stage, &trial, &friction})
+      std::getline(cells, *cell, ',');
+    anywhere = std::min(anywhere, std::stod(friction));
+    if (trial == "0") on_the_path = std::min(on_the_path, std::stod(friction));
+  }
+  EXPECT_LT(anywhere, on_the_path) << "no trial was taken back: the test shows nothing";
+  std::istringstream cells(rows()[1]);
+  std::string cell;
+  for (int i = 0; i < 6; ++i)
+    std::getline(cells, cell, ',');
+  EXPECT_EQ(std::stod(cell), on_the_path) << rows()[1];
+}
+
 TEST_F(Study, AColumnIsFoundByItsWholeName) {
   std::string scene = read(folder_ / "scene.toml");
   scene += "[[monitors]]\nname = \"left,upper\"\nquantities = [\"displacement\"]\nabove = [\"bed\"]\n";

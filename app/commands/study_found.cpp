@@ -23,13 +23,15 @@ constexpr std::size_t most_columns = 100'000;
 
 constexpr std::uintmax_t largest_results = 64 << 20, largest_history = 2ull << 30;  // bytes
 
-// the finite numbers of a column; empty where there is no such column
+// the finite numbers of a column on the path to the answer, without a search's trials that were taken back; empty where
+// there is no such column
 std::vector<double> column_of(const fs::path& history, const std::string& name) {
   const std::string text = read_file(history, largest_history);
   CsvReader reader(text, most_columns);
-  const std::optional<std::size_t> place = reader.find(name);
+  const std::optional<std::size_t> place = reader.find(name), trial = reader.find("trial");
   std::vector<double> column;
   for (CsvRow row; place && reader.next(row);) {
+    if (trial && row.cells[*trial].text != "0") continue;
     const std::string& cell = row.cells[*place].text;
     double number = 0;
     if (std::from_chars(cell.data(), cell.data() + cell.size(), number).ec == std::errc{} && std::isfinite(number))
