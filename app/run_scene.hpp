@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/scene/prepared.hpp"
+#include "core/prepared.hpp"
 #include "core/simulate.hpp"
 
 namespace voussoir {

@@ -7,7 +7,7 @@
 
 #include "benchmarks/shapes.hpp"
 #include "core/contact/broad_phase.hpp"
-#include "core/stages.hpp"
+#include "core/step/neighbours.hpp"
 
 namespace voussoir::benchmarks {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "core/law/elastic_coulomb.hpp"
-#include "core/stages.hpp"
 #include "core/step.hpp"
+#include "core/step/joint_forces.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir {

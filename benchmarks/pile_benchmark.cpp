@@ -16,8 +16,12 @@
 #include <functional>
 
 #include "core/scene/scene.hpp"
-#include "core/stages.hpp"
 #include "core/step.hpp"
+#include "core/step/contacts.hpp"
+#include "core/step/joint_forces.hpp"
+#include "core/step/loads.hpp"
+#include "core/step/motion.hpp"
+#include "core/step/neighbours.hpp"
 #include "core/testing/counted_allocations.hpp"
 #include "core/testing/fall_scene.hpp"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/prepared.hpp"
 #include "core/results.hpp"
-#include "core/scene/prepared.hpp"
 
 namespace voussoir {
 

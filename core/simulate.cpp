@@ -13,9 +13,9 @@
 #include "core/accuracy.hpp"
 #include "core/motion/free_fall.hpp"
 #include "core/motion/relaxation.hpp"
-#include "core/stages.hpp"
 #include "core/state_hash.hpp"
 #include "core/step.hpp"
+#include "core/step/joint_forces.hpp"
 
 namespace voussoir {
 namespace {

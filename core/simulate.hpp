@@ -3,8 +3,8 @@
 
 #include <functional>
 
+#include "core/prepared.hpp"
 #include "core/progress.hpp"
-#include "core/scene/prepared.hpp"
 
 namespace voussoir {
 

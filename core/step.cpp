@@ -1,6 +1,10 @@
 #include "core/step.hpp"
 
-#include "core/stages.hpp"
+#include "core/step/contacts.hpp"
+#include "core/step/joint_forces.hpp"
+#include "core/step/loads.hpp"
+#include "core/step/motion.hpp"
+#include "core/step/neighbours.hpp"
 
 namespace voussoir {
 

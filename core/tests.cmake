@@ -28,7 +28,7 @@ voussoir_test(unit.contact LABEL unit
     contact/multipliers_test.cpp contact/broad_phase_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
-voussoir_test(unit.neighbours LABEL unit SOURCES neighbours_test.cpp LIBS voussoir_core Boost::headers)
+voussoir_test(unit.neighbours LABEL unit SOURCES step/neighbours_test.cpp LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.scene LABEL unit
   SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
@@ -66,7 +66,7 @@ voussoir_test(unit.certainty LONG LABEL unit
   LIBS voussoir_exact_referee Boost::headers fmt::fmt hwy::hwy)
 
 voussoir_test(unit.step LABEL unit
-  SOURCES step_test.cpp simulate_test.cpp testing/whole_scenes_test.cpp joint_laws_test.cpp testing/step_memory_test.cpp energy_test.cpp motion/prescribed_test.cpp
+  SOURCES step_test.cpp simulate_test.cpp testing/whole_scenes_test.cpp step/joint_forces_test.cpp testing/step_memory_test.cpp energy_test.cpp motion/prescribed_test.cpp
     load/boundary_stress_test.cpp
     state_hash_test.cpp reduction/reduction_test.cpp motion/relaxation_test.cpp checkpoint/checkpoint_test.cpp
   LIBS voussoir_core cereal::cereal Boost::headers)

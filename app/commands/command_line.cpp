@@ -20,10 +20,10 @@
 #include "app/interruption.hpp"
 #include "app/message.hpp"
 #include "app/run_scene.hpp"
-#include "core/neighbours.hpp"
 #include "core/output/output_error.hpp"
 #include "core/output/version.hpp"
 #include "core/scene/scene_error.hpp"
+#include "core/step/neighbours.hpp"
 #include "text/plain_text.hpp"
 
 namespace voussoir {

@@ -11,7 +11,9 @@
 #include "core/motion/relaxation.hpp"
 #include "core/motion/time_step.hpp"
 #include "core/scene/plausibility.hpp"
-#include "core/stages.hpp"
+#include "core/step/contacts.hpp"
+#include "core/step/joint_forces.hpp"
+#include "core/step/neighbours.hpp"
 
 namespace voussoir {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/prepared.hpp"
+#include "core/prepared.hpp"
 
 namespace voussoir {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "cases/robustness/judges.hpp"
-#include "core/stages.hpp"
+#include "core/step/contacts.hpp"
 #include "core/testing/exact_referee.hpp"
 
 namespace voussoir::atlas {

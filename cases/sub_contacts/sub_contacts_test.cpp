@@ -11,8 +11,11 @@
 #include <numbers>
 
 #include "cases/case_tools.hpp"
-#include "core/stages.hpp"
 #include "core/step.hpp"
+#include "core/step/contacts.hpp"
+#include "core/step/joint_forces.hpp"
+#include "core/step/loads.hpp"
+#include "core/step/neighbours.hpp"
 
 namespace voussoir::cases {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "core/joint_sets/joint_set.hpp"
 #include "core/law/joint_properties.hpp"
+#include "core/prepared.hpp"
 #include "core/scene/node.hpp"
-#include "core/scene/prepared.hpp"
 #include "core/settings.hpp"
 #include "core/slicing/slice.hpp"
 

@@ -6,8 +6,11 @@
 #include "core/contact/sub_contacts.hpp"
 #include "core/law/joint_law.hpp"
 #include "core/motion/time_step.hpp"
-#include "core/stages.hpp"
 #include "core/step.hpp"
+#include "core/step/contacts.hpp"
+#include "core/step/joint_forces.hpp"
+#include "core/step/loads.hpp"
+#include "core/step/neighbours.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir {

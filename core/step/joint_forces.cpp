@@ -1,11 +1,13 @@
-// The step's third stage: what the joints answer (stages.hpp).
+#include "core/step/joint_forces.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "core/law/joint_law.hpp"
 #include "core/on_threads.hpp"
-#include "core/stages.hpp"
+#include "core/step/contacts.hpp"
+#include "core/step/neighbours.hpp"
 
 namespace voussoir {
 namespace {

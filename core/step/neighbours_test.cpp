@@ -1,5 +1,5 @@
 // Candidate pairs against an oracle that judges all pairs: none that may come near is missed, few others are listed.
-#include "core/neighbours.hpp"
+#include "core/step/neighbours.hpp"
 
 #include <gtest/gtest.h>
 

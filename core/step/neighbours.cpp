@@ -1,4 +1,4 @@
-#include "core/neighbours.hpp"
+#include "core/step/neighbours.hpp"
 
 #include <fmt/format.h>
 

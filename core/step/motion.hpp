@@ -1,0 +1,14 @@
+// The step's last line: where the loads take the bodies.
+#pragma once
+
+#include "core/model.hpp"
+#include "core/settings.hpp"
+#include "core/state.hpp"
+
+namespace voussoir {
+
+// a time step that today's contacts allow, then velocities, then positions
+template <int Dim>
+void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+
+}  // namespace voussoir
