@@ -101,7 +101,7 @@ void by_hand(const Model<3>& model, State<3>& state) {
       if (k.area < c.history.area) {
         const double left = k.area / c.history.area, stiffness = p.shear_stiffness * c.history.area;
         if (stiffness > 0)
-          state.energy.flows.friction += 0.5 * c.history.shear_force.squaredNorm() / stiffness * (1 - left);
+          state.energy.flows[Source::friction] += 0.5 * c.history.shear_force.squaredNorm() / stiffness * (1 - left);
         c.history.shear_force *= left;
       }
       c.history.shear_force = carried(c.history.shear_force, c.history.normal, n, k.turn);
@@ -109,7 +109,7 @@ void by_hand(const Model<3>& model, State<3>& state) {
     const JointForce<3> answer =
         elastic_coulomb<3>(p, state.schedule.friction[c.properties], 0, k, c.history.shear_force);
     state.energy.elastic += answer.elastic;
-    state.energy.flows.friction += answer.friction;
+    state.energy.flows[Source::friction] += answer.friction;
     c.history.plastic_slip += answer.plastic_slip;
     c.history.normal = n;
     c.history.point = c.geometry.point;

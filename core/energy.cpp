@@ -4,28 +4,45 @@
 #include <cmath>
 
 namespace voussoir {
+namespace {
+
+constexpr bool in_order() {
+  for (std::size_t i = 0; i < source_count; ++i)
+    if (static_cast<std::size_t>(source_table[i].source) != i) return false;
+  return true;
+}
+static_assert(in_order(), "the rows stand in the order of the enum");
+
+}  // namespace
+
+double EnergyLedger::sum(int SourceRow::*column) const {
+  double sum = 0;
+  for (const SourceRow& row : source_table)
+    if (row.*column != 0) sum += row.*column * flows[row.source];
+  return sum;
+}
 
 void balance(EnergyLedger& ledger) {
   EnergyFlows& f = ledger.flows;
   if (ledger.phase == LedgerPhase::not_begun) f = {};  // half a kick that belongs to the time before
-  const double to_motion = f.gravity + f.boundary + f.contacts + f.prescribed - f.local - f.relaxation;
-  const double from_contacts = f.friction + f.dashpots + f.stiffening + f.contacts;
+  const double to_motion = ledger.sum(&SourceRow::motion), from_springs = ledger.sum(&SourceRow::springs);
 
   // at the start, and where the model has changed, the errors stay what they were
   if (ledger.phase != LedgerPhase::running) {
     const double kinetic = ledger.kinetic - to_motion - ledger.motion_error;
-    const double elastic = ledger.elastic + from_contacts - ledger.contact_error;
+    const double elastic = ledger.elastic + from_springs - ledger.contact_error;
     if (ledger.phase == LedgerPhase::model_changed)
-      f.changes += (kinetic - ledger.kinetic_origin) + (elastic - ledger.elastic_origin);
+      f[Source::stage_changes] += (kinetic - ledger.kinetic_origin) + (elastic - ledger.elastic_origin);
     ledger.kinetic_origin = kinetic;
     ledger.elastic_origin = elastic;
     ledger.phase = LedgerPhase::running;
   }
   ledger.motion_error = (ledger.kinetic - ledger.kinetic_origin) - to_motion;
-  ledger.contact_error = (ledger.elastic - ledger.elastic_origin) + from_contacts;
+  ledger.contact_error = (ledger.elastic - ledger.elastic_origin) + from_springs;
   ledger.widest = std::max(ledger.widest, std::abs(ledger.unexplained()));
-  ledger.turnover = std::max({ledger.turnover, ledger.kinetic, ledger.elastic, std::abs(ledger.potential()), f.friction,
-                              ledger.damping(), std::abs(f.stiffening), std::abs(ledger.external())});
+  ledger.turnover =
+      std::max({ledger.turnover, ledger.kinetic, ledger.elastic, std::abs(ledger.potential()), f[Source::friction],
+                ledger.damping(), std::abs(f[Source::stiffening]), std::abs(ledger.external())});
 }
 
 }  // namespace voussoir

@@ -1,30 +1,76 @@
 // Where the energy of a simulation is and where it went, in J (2-D: J per metre). Two balances are kept apart: what all
-// forces did to the motion, which leapfrog closes to rounding; and what the contacts gave and took, which closes as far
-// as they are conservative: not where area, normal or point of a contact change on the way, nor where a step is long
-// for an impact.
+// forces did to the motion, which leapfrog closes to rounding; and what the springs of the contacts gave and took,
+// which closes as far as they are conservative: not where area, normal or point of a contact change on the way, nor
+// where a step is long for an impact.
 //
 // On the way to rest by relaxation, inertia and velocities are fictitious (motion/relaxation.hpp): there is no kinetic
-// energy, all work of the forces is booked as taken out by the relaxation, and the first balance says nothing. The
-// second one knows no inertia and holds as ever.
+// energy, all work of the forces counts as taken out by the relaxation, and the first balance says nothing. The second
+// one knows no inertia and holds as ever.
 #pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
 
 namespace voussoir {
 
-// Sums over the steps so far. Every force is credited with its work at the mean of the velocities before and after its
-// kick.
-struct EnergyFlows {
-  double gravity = 0;     // work of gravity on the bodies
-  double boundary = 0;    // work of the stress on outer faces
-  double contacts = 0;    // work of the contact forces on the bodies
-  double friction = 0;    // lost to slip
-  double dashpots = 0;    // lost to viscous damping
-  double stiffening = 0;  // lost by shear springs that grew stiffer with stress under their force; negative: made
-  double local = 0;       // lost to local damping
-  double relaxation = 0;  // taken out by relaxation
-  double ramp = 0;        // put in by gravity that grows
-  double changes = 0;     // put in by changes of the model between stages, and where a motion is stopped to relax
-  double prescribed = 0;  // put in by prescribed motions
+// What gives energy or takes it. The first ones are loads: forces and moments on bodies (State::loads_of), which work
+// along the bodies' paths; the others are counted where they arise.
+enum class Source {
+  contacts,
+  gravity,
+  boundary_stress,
+  prescribed_motion,
+  local_damping,
+  relaxation,
+  // no loads from here on
+  friction,
+  dashpots,
+  stiffening,
+  gravity_ramp,
+  stage_changes
 };
+inline constexpr std::size_t load_count = static_cast<std::size_t>(Source::friction);
+inline constexpr std::size_t source_count = static_cast<std::size_t>(Source::stage_changes) + 1;
+
+// A source's name in results, and how its flow enters each sum: +1, -1 or 0. A load's flow is its work on the bodies,
+// or, where it takes out of the motion (motion < 0), what it took.
+struct SourceRow {
+  Source source;
+  std::string_view name;
+  int motion;     // what the motion gets
+  int springs;    // what springs that store energy (EnergyLedger::elastic) lose; loads with a spring have 1 here
+  int potential;  // potential energy of gravity
+  int damping;    // lost to damping
+  int external;   // put in from outside
+};
+inline constexpr std::array<SourceRow, source_count> source_table{{
+    {Source::contacts, "contacts", 1, 1, 0, 0, 0},
+    {Source::gravity, "gravity", 1, 0, -1, 0, 0},
+    {Source::boundary_stress, "boundary_stress", 1, 0, 0, 0, 1},
+    {Source::prescribed_motion, "prescribed_motion", 1, 0, 0, 0, 1},
+    {Source::local_damping, "local_damping", -1, 0, 0, 1, 0},
+    {Source::relaxation, "relaxation", -1, 0, 0, 1, 0},
+    {Source::friction, "friction", 0, 1, 0, 0, 0},          // lost to slip
+    {Source::dashpots, "dashpots", 0, 1, 0, 1, 0},          // lost to viscous damping
+    {Source::stiffening, "stiffening", 0, 1, 0, 0, 0},      // lost by shear springs that grew stiffer with stress under
+                                                            // their force; negative: made
+    {Source::gravity_ramp, "gravity_ramp", 0, 0, 1, 0, 1},  // put in by gravity that grows
+    {Source::stage_changes, "stage_changes", 0, 0, 0, 0, 1},  // put in by changes of the model between stages, and
+                                                              // where a motion is stopped to relax
+}};
+
+// One number for each load, or for each source.
+template <class T, std::size_t Size>
+struct BySource {
+  std::array<T, Size> values{};
+  T& operator[](Source s) { return values[static_cast<std::size_t>(s)]; }
+  const T& operator[](Source s) const { return values[static_cast<std::size_t>(s)]; }
+};
+
+// Sums over the steps so far. Every load is credited with its work at the mean of the velocities before and after its
+// kick.
+using EnergyFlows = BySource<double, source_count>;
 
 enum class LedgerPhase { not_begun, model_changed, running };
 
@@ -38,11 +84,14 @@ struct EnergyLedger {
   double turnover = 0;                            // the largest entry so far
   LedgerPhase phase = LedgerPhase::not_begun;
 
-  double potential() const { return flows.ramp - flows.gravity; }  // of gravity, against the start
-  double damping() const { return flows.local + flows.dashpots + flows.relaxation; }
-  double external() const { return flows.boundary + flows.ramp + flows.changes + flows.prescribed; }
+  // the flows, each as often as its row says in that column
+  double sum(int SourceRow::*column) const;
 
-  // kinetic + elastic + potential + friction + damping - external, against the start
+  double potential() const { return sum(&SourceRow::potential); }  // of gravity, against the start
+  double damping() const { return sum(&SourceRow::damping); }
+  double external() const { return sum(&SourceRow::external); }
+
+  // kinetic + elastic + potential + friction + damping + stiffening - external, against the start
   double unexplained() const { return motion_error + contact_error; }
 
   // the unexplained at its worst as a share of the largest energy the ledger saw

@@ -70,7 +70,8 @@ void expect_sliding_books() {
   const EnergyLedger e = ledger_after(model, settings, 4000, state);
   const double slid = state.motions[block].displacement.norm();
   const double resistance = std::tan(friction) * model.bodies[block].mass * gravity * std::cos(slope);
-  EXPECT_NEAR(e.flows.friction, resistance * slid, 0.02 * resistance * slid);  // but for the elastic slip at first
+  EXPECT_NEAR(e.flows[Source::friction], resistance * slid,
+              0.02 * resistance * slid);  // but for the elastic slip at first
   EXPECT_NEAR(-e.potential(), model.bodies[block].mass * gravity * std::sin(slope) * slid, 0.02 * e.turnover);
   EXPECT_LT(std::abs(e.motion_error), rounding * e.turnover);
   EXPECT_LT(e.closure(), 1e-3);
@@ -137,7 +138,7 @@ TEST(Energy, AnAssemblyThatCollapsesKeepsItsBooks) {
     settings.damping.viscous_ratio = viscous ? 0.2 : 0;
     State<3> state = initial_state(model);
     const EnergyLedger e = ledger_after(model, settings, 3000, state);
-    EXPECT_GT(e.flows.friction, 0);
+    EXPECT_GT(e.flows[Source::friction], 0);
     EXPECT_GT(e.damping(), 0);
     EXPECT_LT(std::abs(e.motion_error), rounding * e.turnover);
     EXPECT_LT(e.closure(), 0.01);

@@ -106,12 +106,17 @@ void prescribe(Model<Dim>& model, const MovePlan& plan) {
   }
 }
 
+// replaces what the body bore before
 template <int Dim>
-void load_boundary(Body<Dim>& body, const Matrix<Dim>& stress) {
-  body.boundary.clear();
-  for (const Polytope<Dim>& part : body.parts)
+void load_boundary(Model<Dim>& model, int body, const Matrix<Dim>& stress) {
+  BoundaryForces<Dim> loaded{body, {}};
+  for (const Polytope<Dim>& part : model.bodies[body].parts)
     for (const DeadLoad<Dim>& load : boundary_loads<Dim>(part, stress))
-      body.boundary.push_back(load);
+      loaded.forces.push_back(load);
+  std::erase_if(model.boundary, [&](const BoundaryForces<Dim>& b) { return b.body == body; });
+  if (loaded.forces.empty()) return;
+  const auto after = std::ranges::upper_bound(model.boundary, body, {}, &BoundaryForces<Dim>::body);
+  model.boundary.insert(after, std::move(loaded));
 }
 
 }  // namespace
@@ -132,7 +137,7 @@ Model<Dim> apply(Model<Dim> model, const Change& change) {
     }
   for (const BoundaryPlan& plan : change.boundary)
     for (int b : select(model, plan.bodies))
-      load_boundary(model.bodies[b], stress_tensor<Dim>(plan.stress));
+      load_boundary(model, b, stress_tensor<Dim>(plan.stress));
   if (change.friction)
     for (JointProperties& p : model.properties)
       p.friction = *change.friction;

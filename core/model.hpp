@@ -29,7 +29,6 @@ struct Body {
   bool present = true;                                   // false once excavated: ids never change
   std::array<bool, Dim> free_translation;                // world axes; all true unless restrained
   std::array<bool, spin_freedoms<Dim>> free_rotation;
-  std::vector<DeadLoad<Dim>> boundary;  // of the stress on its outer faces
 
   bool still() const { return fixed && !prescribed; }
 };
@@ -45,6 +44,13 @@ struct PrescribedMotion {
   TimeFactor factor;                               // of the time since the stage began
   std::array<bool, Dim> free_translation{};        // of the body when the motion ends
   std::array<bool, spin_freedoms<Dim>> free_rotation{};
+};
+
+// the stress on a body's outer faces, as forces
+template <int Dim>
+struct BoundaryForces {
+  int body = 0;
+  std::vector<DeadLoad<Dim>> forces;
 };
 
 // a named discontinuity, in slicing order
@@ -68,6 +74,7 @@ struct Model {
   std::vector<Joint<Dim>> joints;
   std::vector<JointProperties> properties;
   std::vector<PrescribedMotion<Dim>> prescribed;  // of this stage, by ascending body, at most one for each
+  std::vector<BoundaryForces<Dim>> boundary;      // by ascending body, at most one for each
   int default_properties = 0;                     // of contacts between faces that no joint made
   Vector<Dim> gravity = Vector<Dim>::Zero();      // m/s²
   Solvers<Dim> solvers;                           // the two convex programs' solvers in use

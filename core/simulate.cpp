@@ -355,11 +355,11 @@ struct Simulation {
     if (const StagePlan* stage = long_step())
       causes += fmt::format("; steps are long for impacts (time.fraction = {:g} in stage {})",
                             settings_of(*stage, scene.settings).time.fraction, stage->name);
-    if (e.flows.local > much_damped * e.turnover)
+    if (e.flows[Source::local_damping] > much_damped * e.turnover)
       causes += fmt::format(
           "; local damping took {:.2g} of that energy and holds the motion up, so that little energy is "
           "left to compare with (damping.local = 0 shows the true motion)",
-          e.flows.local / e.turnover);
+          e.flows[Source::local_damping] / e.turnover);
     if (causes.empty())
       causes =
           "; areas and normals of contacts change as blocks rock or slide over edges (joint_properties sub_contacts, "

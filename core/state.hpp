@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <vector>
@@ -46,12 +47,9 @@ struct ContactsByBody {
   std::vector<int> first, places;
 };
 
-// what the last step did to a body; rebuilt every step
+// of bodies, by source
 template <int Dim>
-struct Load {
-  Vector<Dim> force = Vector<Dim>::Zero();  // N, before damping
-  Spin<Dim> moment = Spin<Dim>::Zero();     // N m about the centroid, before damping
-};
+using LoadsBySource = BySource<std::vector<Load<Dim>>, load_count>;
 
 // Adaptive dynamic relaxation (motion/relaxation.hpp): what it keeps from step to step.
 template <int Dim>
@@ -103,18 +101,45 @@ struct Counters {
   long long neighbour_builds = 0;
 };
 
+// their names in results
+struct CounterRow {
+  const char* name;
+  long long Counters::*value;
+};
+inline constexpr CounterRow counter_table[] = {
+    {"steps", &Counters::steps},
+    {"contact_evaluations", &Counters::contact_evaluations},
+    {"motion_skips", &Counters::motion_skips},
+    {"axis_hits", &Counters::axis_hits},
+    {"cold_starts", &Counters::cold_starts},
+    {"lp_solves", &Counters::lp_solves},
+    {"lp_pivots", &Counters::lp_pivots},
+    {"newton_iterations", &Counters::newton_iterations},
+    {"centre_fallbacks", &Counters::centre_fallbacks},
+    {"areas", &Counters::areas},
+    {"undecided", &Counters::undecided},
+    {"unconverged", &Counters::unconverged},
+    {"normal_fallbacks", &Counters::normal_fallbacks},
+    {"deep_overlaps", &Counters::deep_overlaps},
+    {"snap_backs", &Counters::snap_backs},
+    {"neighbour_builds", &Counters::neighbour_builds},
+};
+static_assert(std::size(counter_table) * sizeof(long long) == sizeof(Counters), "every counter has a row");
+
 template <int Dim>
 struct State {
-  std::vector<Motion<Dim>> motions;     // by body
-  std::vector<Load<Dim>> loads;         // by body
-  std::vector<Contact<Dim>> contacts;   // candidate pairs by (part a, part b); those that touch carry history
-  std::vector<SubContact<Dim>> subs;    // as many places for each contact, in their order; none where no joint has any
-  std::vector<Placement<Dim>> built;    // where the bodies stood when the candidates were last listed
-  std::vector<Placement<Dim>> counted;  // by body: up to where its travel is counted
-  std::vector<double> travels;          // m, by body: how far any of its points may have gone, all ways added up
-  std::vector<Stance<Dim>> stances;     // by body; rebuilt every step
-  ContactsByBody by_body;               // places in `contacts`; rebuilt with them
-  std::vector<double> frequency;        // rad/s, by body: stiffest mode of the last time-step estimate
+  std::vector<Motion<Dim>> motions;      // by body
+  std::vector<Load<Dim>> loads;          // by body: of all sources together, before damping
+  LoadsBySource<Dim> loads_of;           // by body; none of a source that the scene does not use
+  std::vector<BodyStiffness> stiffened;  // by body: what loads other than the contacts add; none where none does
+  std::vector<Contact<Dim>> contacts;    // candidate pairs by (part a, part b); those that touch carry history
+  std::vector<SubContact<Dim>> subs;     // as many places for each contact, in their order; none where no joint has any
+  std::vector<Placement<Dim>> built;     // where the bodies stood when the candidates were last listed
+  std::vector<Placement<Dim>> counted;   // by body: up to where its travel is counted
+  std::vector<double> travels;           // m, by body: how far any of its points may have gone, all ways added up
+  std::vector<Stance<Dim>> stances;      // by body; rebuilt every step
+  ContactsByBody by_body;                // places in `contacts`; rebuilt with them
+  std::vector<double> frequency;         // rad/s, by body: stiffest mode of the last time-step estimate
   Relaxation<Dim> relaxation;
   Schedule schedule;
   BondTally bonds;
@@ -172,17 +197,6 @@ void list_by_body(const Model<Dim>& model, State<Dim>& state);
 template <int Dim>
 Vector<Dim> weight(const Model<Dim>& model, const State<Dim>& state, std::size_t body) {
   return model.bodies[body].mass * state.schedule.gravity_factor * model.gravity;
-}
-
-// what the stress on its outer faces does to a body whose frame is `axes`
-template <int Dim>
-Load<Dim> boundary_load(const Body<Dim>& body, const Matrix<Dim>& axes) {
-  Load<Dim> sum;
-  for (const DeadLoad<Dim>& load : body.boundary) {
-    sum.force += load.force;
-    sum.moment += moment(Vector<Dim>(axes * load.place), load.force);
-  }
-  return sum;
 }
 
 // angular velocity in world axes, rad/s

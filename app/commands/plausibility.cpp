@@ -225,7 +225,7 @@ template <int Dim>
 void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
                   Plausibility& result) {
   double smallest = 1e300, largest = 0;
-  bool anything_moves = model.gravity.norm() > 0;
+  bool anything_moves = model.gravity.norm() > 0 || !model.boundary.empty();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
     anything_moves |= body.prescribed;
@@ -233,7 +233,7 @@ void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const 
     smallest = std::min(smallest, thickest_part(body));
     largest = std::max(largest, thickest_part(body));
     const Motion<Dim>& motion = prepared.state.motions[b];
-    anything_moves |= motion.velocity.norm() > 0 || motion.angular_momentum.norm() > 0 || !body.boundary.empty();
+    anything_moves |= motion.velocity.norm() > 0 || motion.angular_momentum.norm() > 0;
   }
   if (!anything_moves && state.contacts.empty())
     result.warnings.push_back("no gravity, no velocity and no contact: nothing will move");

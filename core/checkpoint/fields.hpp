@@ -115,16 +115,14 @@ void serialize(Archive& archive, BondCount& b) {
 
 template <class Archive>
 void serialize(Archive& archive, Counters& c) {
-  auto& [steps, evaluations, skips, hits, colds, solves, pivots, iterations, rescues, areas, undecided, unconverged,
-         fallbacks, deep, snaps, builds] = c;
-  archive(steps, evaluations, skips, hits, colds, solves, pivots, iterations, rescues, areas, undecided, unconverged,
-          fallbacks, deep, snaps, builds);
+  for (const CounterRow& row : counter_table)
+    archive(c.*row.value);
 }
 
 template <class Archive>
 void serialize(Archive& archive, EnergyFlows& f) {
-  auto& [gravity, boundary, contacts, friction, dashpots, stiffening, local, relaxation, ramp, changes, prescribed] = f;
-  archive(gravity, boundary, contacts, friction, dashpots, stiffening, local, relaxation, ramp, changes, prescribed);
+  for (double& flow : f.values)
+    archive(flow);
 }
 
 template <class Archive>
@@ -137,9 +135,9 @@ void serialize(Archive& archive, EnergyLedger& e) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
-  // stances and lists by body are rebuilt before they are read
-  auto& [motions, loads, contacts, subs, built, counted, travels, stances, by_body, frequency, relaxation, schedule,
-         bonds, time, time_step, step_allowed, energy, counters] = s;
+  // stances, loads by source with their stiffness, and lists by body are rebuilt before they are read
+  auto& [motions, loads, loads_of, stiffened, contacts, subs, built, counted, travels, stances, by_body, frequency,
+         relaxation, schedule, bonds, time, time_step, step_allowed, energy, counters] = s;
   archive(motions, loads, contacts, subs, built, counted, travels, frequency, relaxation, schedule, bonds, time,
           time_step, step_allowed, energy, counters);
 }

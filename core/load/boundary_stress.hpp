@@ -4,15 +4,9 @@
 #include <vector>
 
 #include "core/geometry/polytope.hpp"
+#include "core/load/load.hpp"
 
 namespace voussoir {
-
-// a force that keeps its size and direction while the body moves
-template <int Dim>
-struct DeadLoad {
-  Vector<Dim> place = Vector<Dim>::Zero();  // where it acts, body frame, m
-  Vector<Dim> force = Vector<Dim>::Zero();  // world axes, N (2-D: N/m)
-};
 
 // What a stress (Pa, compression positive, world axes) does to the faces of an unturned part that no joint made:
 // -stress n A at the centroid of each, n its outward normal. Faces that it does not load are left out.

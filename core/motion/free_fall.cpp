@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace voussoir {
@@ -25,12 +26,18 @@ std::vector<bool> under_weight_alone(const Model<Dim>& model, const State<Dim>& 
   std::vector<bool> alone;
   for (const Body<Dim>& body : model.bodies)
     alone.push_back(
-        body.present && !body.fixed && body.boundary.empty() &&
+        body.present && !body.fixed &&
         std::all_of(body.free_translation.begin(), body.free_translation.end(), [](bool free) { return free; }));
   for (const Contact<Dim>& contact : state.contacts)
     if (contact.touching())
       for (const int part : {contact.part_a, contact.part_b})
         alone[model.parts[part].body] = false;
+  for (const SourceRow& row : std::span(source_table).first(load_count)) {
+    if (row.source == Source::gravity || row.motion < 0) continue;
+    const std::vector<Load<Dim>>& loads = state.loads_of[row.source];
+    for (std::size_t b = 0; b < loads.size(); ++b)
+      if (!loads[b].force.isZero(0)) alone[b] = false;
+  }
   return alone;
 }
 

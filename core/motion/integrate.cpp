@@ -29,15 +29,6 @@ Spin<Dim> damped_moment(const Load<Dim>& load, double local_damping, const Spin<
   return moment;
 }
 
-// books one freedom's kick: `load` and what damping left of it act while the velocity goes from `before` to `after`
-template <int Dim>
-void book(KickEnergy<Dim>& energy, double kick, double load, double left, double before, double after) {
-  energy.load_before += 0.5 * kick * load * before;
-  energy.load_after += 0.5 * kick * load * after;
-  energy.damping_before += 0.5 * kick * (load - left) * before;
-  energy.damping_after += 0.5 * kick * (load - left) * after;
-}
-
 // the velocity before a kick: at the start half a step earlier than the given one
 template <class Velocity>
 Velocity velocity_before(StepTimes times, const Velocity& given, const Velocity& after) {
@@ -45,20 +36,20 @@ Velocity velocity_before(StepTimes times, const Velocity& given, const Velocity&
 }
 
 template <int Dim>
-void book_turn(StepTimes times, const Spin<Dim>& before, const Spin<Dim>& after, KickEnergy<Dim>& energy) {
-  energy.turn_before = 0.5 * times.booked() * before;
-  energy.turn_after = 0.5 * times.booked() * after;
+void note_turn(StepTimes times, const Spin<Dim>& before, const Spin<Dim>& after, Kick<Dim>& kick) {
+  kick.turn_before = 0.5 * times.worked() * before;
+  kick.turn_after = 0.5 * times.worked() * after;
 }
 
 void kick_spin(const Body<2>& body, const Load<2>& load, const KickRule& rule, StepTimes times, Motion<2>& motion,
-               KickEnergy<2>& energy) {
+               Kick<2>& kick) {
   const Spin<2> given = angular_velocity(body, motion);
   const Spin<2> left = damped_moment(load, rule.local_damping, given);
   motion.angular_momentum = rule.keeps * motion.angular_momentum + rule.gain * times.kick * left;
   const Spin<2> after = angular_velocity(body, motion), before = velocity_before(times, given, after);
-  book(energy, times.booked(), load.moment[0], left[0], before[0], after[0]);
-  book_turn(times, before, after, energy);
-  energy.kinetic += 0.5 * body.inertia[0] * before[0] * after[0];
+  kick.damping.moment = left - load.moment;
+  note_turn(times, before, after, kick);
+  kick.kinetic += 0.5 * body.inertia[0] * before[0] * after[0];
 }
 
 void drift_spin(const Body<2>& body, double dt, Motion<2>& motion) {
@@ -83,7 +74,7 @@ void kick_partly(const Body<3>& body, const Spin<3>& moment, double keeps, doubl
 }
 
 void kick_spin(const Body<3>& body, const Load<3>& load, const KickRule& rule, StepTimes times, Motion<3>& motion,
-               KickEnergy<3>& energy) {
+               Kick<3>& kick) {
   const Spin<3> given = angular_velocity(body, motion), given_momentum = motion.angular_momentum;
   const Spin<3> left = damped_moment(load, rule.local_damping, given);
   if (all_free<3>(body.free_rotation)) {
@@ -93,11 +84,10 @@ void kick_spin(const Body<3>& body, const Load<3>& load, const KickRule& rule, S
     kick_partly(body, left, rule.keeps, rule.gain * times.kick, motion);
   }
   const Spin<3> after = angular_velocity(body, motion), before = velocity_before(times, given, after);
-  for (int k = 0; k < 3; ++k)
-    if (body.free_rotation[k]) book(energy, times.booked(), load.moment[k], left[k], before[k], after[k]);
-  book_turn(times, before, after, energy);
+  kick.damping.moment = left - load.moment;
+  note_turn(times, before, after, kick);
   const Spin<3> momentum_before = velocity_before(times, given_momentum, motion.angular_momentum);
-  energy.kinetic += 0.5 * momentum_before.dot(motion.angular_momentum.cwiseQuotient(body.inertia));
+  kick.kinetic += 0.5 * momentum_before.dot(motion.angular_momentum.cwiseQuotient(body.inertia));
 }
 
 // turns the body about its principal axis k by the share of a step; the momentum seen from the body turns back
@@ -159,36 +149,35 @@ double damped(double force, double velocity, double local_damping) {
 }
 
 template <int Dim>
-KickEnergy<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, const KickRule& rule, StepTimes times,
-                        Motion<Dim>& motion) {
-  KickEnergy<Dim> energy;
-  const double booked = times.booked();
+Kick<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, const KickRule& rule, StepTimes times,
+                  Motion<Dim>& motion) {
+  Kick<Dim> kick;
   for (int k = 0; k < Dim; ++k) {
     if (!body.free_translation[k]) continue;
     const double given = motion.velocity[k], left = damped(load.force[k], given, rule.local_damping);
     motion.velocity[k] = rule.keeps * given + rule.gain * times.kick * left / body.mass;
     const double before = velocity_before(times, given, motion.velocity[k]);
-    book(energy, booked, load.force[k], left, before, motion.velocity[k]);
-    energy.kinetic += 0.5 * body.mass * before * motion.velocity[k];
-    energy.path_before[k] = 0.5 * booked * before;
-    energy.path_after[k] = 0.5 * booked * motion.velocity[k];
+    kick.damping.force[k] = left - load.force[k];
+    kick.kinetic += 0.5 * body.mass * before * motion.velocity[k];
+    kick.path_before[k] = 0.5 * times.worked() * before;
+    kick.path_after[k] = 0.5 * times.worked() * motion.velocity[k];
     motion.displacement[k] += times.drift * motion.velocity[k];
   }
   if (!none_free(body.free_rotation)) {
-    kick_spin(body, load, rule, times, motion, energy);
+    kick_spin(body, load, rule, times, motion, kick);
     drift_spin(body, times.drift, motion);
   }
-  return energy;
+  return kick;
 }
 
 template <int Dim>
-std::vector<KickEnergy<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std::span<const KickRule> rules,
-                                             StepTimes times, State<Dim>& state) {
-  static thread_local std::vector<KickEnergy<Dim>> own;
-  std::vector<KickEnergy<Dim>>& kicks = own;  // this thread's, filled by all
+std::vector<Kick<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std::span<const KickRule> rules,
+                                       StepTimes times, State<Dim>& state) {
+  static thread_local std::vector<Kick<Dim>> own;
+  std::vector<Kick<Dim>>& kicks = own;  // this thread's, filled by all
   kicks.resize(model.bodies.size());
   each_on_threads(threads, kicks.size(), [&](int b) {
-    kicks[b] = model.bodies[b].fixed ? KickEnergy<Dim>()
+    kicks[b] = model.bodies[b].fixed ? Kick<Dim>()
                                      : advance(model.bodies[b], state.loads[b], rules[rules.size() == 1 ? 0 : b], times,
                                                state.motions[b]);
   });
@@ -222,12 +211,10 @@ double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& 
   return mean > 0 ? largest / mean : std::numeric_limits<double>::infinity();
 }
 
-template KickEnergy<2> advance<2>(const Body<2>&, const Load<2>&, const KickRule&, StepTimes, Motion<2>&);
-template KickEnergy<3> advance<3>(const Body<3>&, const Load<3>&, const KickRule&, StepTimes, Motion<3>&);
-template std::vector<KickEnergy<2>>& advance_bodies<2>(const Model<2>&, int, std::span<const KickRule>, StepTimes,
-                                                       State<2>&);
-template std::vector<KickEnergy<3>>& advance_bodies<3>(const Model<3>&, int, std::span<const KickRule>, StepTimes,
-                                                       State<3>&);
+template Kick<2> advance<2>(const Body<2>&, const Load<2>&, const KickRule&, StepTimes, Motion<2>&);
+template Kick<3> advance<3>(const Body<3>&, const Load<3>&, const KickRule&, StepTimes, Motion<3>&);
+template std::vector<Kick<2>>& advance_bodies<2>(const Model<2>&, int, std::span<const KickRule>, StepTimes, State<2>&);
+template std::vector<Kick<3>>& advance_bodies<3>(const Model<3>&, int, std::span<const KickRule>, StepTimes, State<3>&);
 template double unbalanced_ratio<2>(const Model<2>&, int, const State<2>&);
 template double unbalanced_ratio<3>(const Model<3>&, int, const State<3>&);
 

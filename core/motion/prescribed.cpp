@@ -5,20 +5,6 @@
 #include <numbers>
 
 namespace voussoir {
-namespace {
-
-// books one freedom: the motion gives what the load takes, at the velocities before and after the kick
-template <int Dim>
-void book(KickEnergy<Dim>& energy, double kick, double load, double before, double after) {
-  const double work_before = 0.5 * kick * load * before, work_after = 0.5 * kick * load * after;
-  energy.load_before += work_before;
-  energy.load_after += work_after;
-  energy.prescribed_before -= work_before;
-  energy.prescribed_after -= work_after;
-}
-
-}  // namespace
-
 double value_at(const TimeFactor& factor, double time) {
   double value = 1;
   if (!factor.times.empty()) {
@@ -37,28 +23,29 @@ double value_at(const TimeFactor& factor, double time) {
 }
 
 template <int Dim>
-void force(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const Load<Dim>& load, double middle,
-           StepTimes times, Motion<Dim>& motion, KickEnergy<Dim>& energy) {
+Load<Dim> apply_prescribed_motion(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const Load<Dim>& load,
+                                  double middle, StepTimes times, Motion<Dim>& motion, Kick<Dim>& kick) {
+  Load<Dim> reaction;
   const double factor = value_at(prescribed.factor, middle);
   // at the start there is no velocity before: it counts as having moved so already
   for (int k = 0; k < Dim; ++k) {
     if (!prescribed.translation[k]) continue;
     const double after = factor * prescribed.velocity[k], before = times.at_start() ? after : motion.velocity[k];
-    book(energy, times.booked(), load.force[k], before, after);
-    energy.path_before[k] = 0.5 * times.booked() * before;
-    energy.path_after[k] = 0.5 * times.booked() * after;
+    reaction.force[k] = -load.force[k];
+    kick.path_before[k] = 0.5 * times.worked() * before;
+    kick.path_after[k] = 0.5 * times.worked() * after;
     motion.velocity[k] = after;
     motion.displacement[k] += times.drift * after;
   }
-  if (!prescribed.rotation) return;
+  if (!prescribed.rotation) return reaction;
   const Spin<Dim> after = factor * prescribed.angular_velocity;
   const Spin<Dim> before = times.at_start() ? after : angular_velocity(body, motion);
-  for (int k = 0; k < spin_freedoms<Dim>; ++k)
-    book(energy, times.booked(), load.moment[k], before[k], after[k]);
-  energy.turn_before = 0.5 * times.booked() * before;
-  energy.turn_after = 0.5 * times.booked() * after;
+  reaction.moment = -load.moment;
+  kick.turn_before = 0.5 * times.worked() * before;
+  kick.turn_after = 0.5 * times.worked() * after;
   motion.rotation = turned(motion.rotation, Spin<Dim>(times.drift * after));
   motion.angular_momentum = angular_momentum(body, motion.rotation, after);
+  return reaction;
 }
 
 template <int Dim>
@@ -76,9 +63,9 @@ void stop_held(const Model<Dim>& model, State<Dim>& state) {
   }
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                               \
-  template void force<Dim>(const Body<Dim>&, const PrescribedMotion<Dim>&, const Load<Dim>&, double, StepTimes, \
-                           Motion<Dim>&, KickEnergy<Dim>&);                                                     \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                   \
+  template Load<Dim> apply_prescribed_motion<Dim>(const Body<Dim>&, const PrescribedMotion<Dim>&, const Load<Dim>&, \
+                                                  double, StepTimes, Motion<Dim>&, Kick<Dim>&);                     \
   template void stop_held<Dim>(const Model<Dim>&, State<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

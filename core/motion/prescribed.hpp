@@ -12,11 +12,12 @@ namespace voussoir {
 double value_at(const TimeFactor& factor, double time);
 
 // Moves the forced freedoms of a body by one step at the velocity of the middle of the step, `middle` seconds after the
-// motion began. The books see what it costs: the work against the load. The body's own inertia along a forced freedom
-// is left out of them, with its kinetic energy, for a shaken base of any mass is the same base.
+// motion began. Returns what holds against the load along them, N and N m: its work is what the motion costs. The
+// body's own inertia along a forced freedom is left out, with its kinetic energy, for a shaken base of any mass is the
+// same base.
 template <int Dim>
-void force(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const Load<Dim>& load, double middle,
-           StepTimes times, Motion<Dim>& motion, KickEnergy<Dim>& energy);
+Load<Dim> apply_prescribed_motion(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const Load<Dim>& load,
+                                  double middle, StepTimes times, Motion<Dim>& motion, Kick<Dim>& kick);
 
 // When a run begins: stops whatever is held and not forced, also what a motion that has ended left moving.
 template <int Dim>

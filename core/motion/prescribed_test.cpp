@@ -90,7 +90,7 @@ void expect_press() {
   EXPECT_NEAR(state.loads[block].force[Dim - 1], stiffness * pressed, 1e-9 * stiffness * pressed);
   EXPECT_NEAR(state.energy.elastic, work, 1e-8 * work);
   const double half_a_step_on = 0.5 * state.time_step * speed * stiffness * pressed;
-  EXPECT_NEAR(state.energy.flows.prescribed, work + half_a_step_on, 1e-8 * work);
+  EXPECT_NEAR(state.energy.flows[Source::prescribed_motion], work + half_a_step_on, 1e-8 * work);
   EXPECT_LT(state.energy.closure(), overlap_rounding);
 }
 

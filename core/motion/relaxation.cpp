@@ -5,6 +5,8 @@
 
 #include "core/motion/integrate.hpp"
 #include "core/motion/time_step.hpp"
+#include "core/motion/work.hpp"
+#include "core/on_threads.hpp"
 
 namespace voussoir {
 namespace {
@@ -120,6 +122,8 @@ template <int Dim>
 void begin_relaxation(State<Dim>& state) {
   stop_bodies(state);
   change_ways(state);
+  for (const Source of_motion : {Source::local_damping, Source::prescribed_motion})
+    state.loads_of[of_motion].clear();
   state.relaxation = {};
   state.relaxation.under_way = true;
 }
@@ -127,6 +131,7 @@ void begin_relaxation(State<Dim>& state) {
 template <int Dim>
 void end_relaxation(State<Dim>& state) {
   stop_bodies(state);
+  state.loads_of[Source::relaxation].clear();
   change_ways(state);
   state.relaxation = {};
   state.relaxation.rested = true;
@@ -146,9 +151,6 @@ void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>&
   const double dt = state.step_allowed, half = 0.5 * dt * critical_damping(model, state);
 
   // the kick is central: damping acts at the mean of the velocities before and after it
-  EnergyLedger& energy = state.energy;
-  EnergyFlows after;
-  energy.kinetic = 0;
   static thread_local std::vector<KickRule> rules;
   rules.clear();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -156,26 +158,12 @@ void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>&
     rules.push_back({.keeps = (1 - half) / (1 + half), .gain = share / (r.inertia[b] * (1 + half))});
   }
   const auto& kicks = advance_bodies<Dim>(model, settings.threads, rules, {dt, dt}, state);
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].fixed) continue;
-    const KickEnergy<Dim>& kick = kicks[b];
-    const Vector<Dim> gravity = weight(model, state, b);
-    const double down_before = gravity.dot(kick.path_before), down_after = gravity.dot(kick.path_after);
-    const BoundaryWork push = boundary_work(model.bodies[b], state.stances[b].axes, kick);
-    energy.flows.gravity += down_before;
-    energy.flows.boundary += push.before;
-    energy.flows.contacts += kick.load_before - down_before - push.before;
-    energy.flows.relaxation += kick.load_before;
-    after.gravity += down_after;
-    after.boundary += push.after;
-    after.contacts += kick.load_after - down_after - push.after;
-    after.relaxation += kick.load_after;
-  }
-  balance(energy);
-  energy.flows.gravity += after.gravity;
-  energy.flows.boundary += after.boundary;
-  energy.flows.contacts += after.contacts;
-  energy.flows.relaxation += after.relaxation;
+  std::vector<Load<Dim>>& taken = state.loads_of[Source::relaxation];  // all that the loads do
+  taken.resize(model.bodies.size());
+  each_on_threads(settings.threads, taken.size(), [&](int b) {
+    taken[b] = {-state.loads[b].force, -state.loads[b].moment};
+  });
+  add_work(model, settings.threads, kicks, state);
   state.time_step = dt;
   state.time += dt;
 }

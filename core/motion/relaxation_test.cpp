@@ -129,13 +129,14 @@ TEST(Relaxation, TheLedgerSaysWhatItCan) {
   const Rest rest = rest_of(column(10), Statics::adaptive);
   const EnergyLedger& e = rest.state.energy;
   EXPECT_EQ(e.kinetic, 0);
-  EXPECT_EQ(e.flows.local, 0);
-  EXPECT_LT(e.flows.friction, 1e-30 * e.flows.gravity);  // none slips; areas round, and what is lost takes its shear
-  EXPECT_GT(e.flows.relaxation, 0);
+  EXPECT_EQ(e.flows[Source::local_damping], 0);
+  EXPECT_LT(e.flows[Source::friction],
+            1e-30 * e.flows[Source::gravity]);  // none slips; areas round, and what is lost takes its shear
+  EXPECT_GT(e.flows[Source::relaxation], 0);
   // springs under a weight hold half of what it gave; rest leaves its share, the touching faces' first step a little
   // more
-  EXPECT_NEAR(e.elastic, 0.5 * e.flows.gravity, 1e-3 * e.elastic);
-  EXPECT_NEAR(e.flows.relaxation, 0.5 * e.flows.gravity, 1e-3 * e.elastic);
+  EXPECT_NEAR(e.elastic, 0.5 * e.flows[Source::gravity], 1e-3 * e.elastic);
+  EXPECT_NEAR(e.flows[Source::relaxation], 0.5 * e.flows[Source::gravity], 1e-3 * e.elastic);
   EXPECT_LT(e.closure(), 1e-3);
 }
 

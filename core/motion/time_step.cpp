@@ -110,10 +110,10 @@ double largest_eigenvalue(const Body<Dim>& body, const Rotation<Dim>& rotation, 
   return largest_eigenvalue(stiffness, inertia);
 }
 
-// λ of a body: of what bears on it, and of what may strike it with the stiffness `impact`, N/m
+// λ of a body: of its contacts, of what may strike it with the stiffness `impact`, N/m, and of what its other loads add
 template <int Dim>
 double stiffest(const Model<Dim>& model, int i, const Rotation<Dim>& rotation, const Stiffness<Dim>& stiffness,
-                double impact) {
+                double impact, const BodyStiffness& loads) {
   const Body<Dim>& body = model.bodies[i];
   double eigenvalue = largest_eigenvalue<Dim>(body, rotation, stiffness);
   // a body in flight may hit something with its largest face
@@ -125,7 +125,7 @@ double stiffest(const Model<Dim>& model, int i, const Rotation<Dim>& rotation, c
     const bool turns = std::any_of(body.free_rotation.begin(), body.free_rotation.end(), [](bool f) { return f; });
     eigenvalue += impact * (1 / body.mass + (turns ? body.radius * body.radius / body.inertia.minCoeff() : 0));
   }
-  return eigenvalue;
+  return eigenvalue + loads.translation / body.mass + loads.rotation / body.inertia.minCoeff();
 }
 
 // adds one contact to a body at lever arm r
@@ -216,7 +216,8 @@ TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, con
     double impact = 0;  // N/m that may act at the radius
     for (const int place : contacts_of(state, body))
       bear(model, asked, state, place, body, stiffness, impact);
-    state.frequency[body] = std::sqrt(stiffest(model, body, state.motions[body].rotation, stiffness, impact));
+    state.frequency[body] = std::sqrt(stiffest(model, body, state.motions[body].rotation, stiffness, impact,
+                                               state.stiffened.empty() ? BodyStiffness() : state.stiffened[body]));
   });
   double largest = 0;
   for (const double frequency : state.frequency)

@@ -97,9 +97,9 @@ Results some_results() {
   results.values = {{"critical_friction", {33.35 + 1e-14, "deg", 0.01, "bisection"}}, {"height", {0.1, "m", {}, ""}}};
   results.stages.push_back({"settle", "settle", "equilibrium", true, 100, 0.5, 1e-3, 1e-7});
   results.counters.steps = 123'456'789'012;
-  results.energy.flows.gravity = 12;
-  results.energy.flows.local = 1;
-  results.energy.flows.dashpots = 2;
+  results.energy.flows[Source::gravity] = 12;
+  results.energy.flows[Source::local_damping] = 1;
+  results.energy.flows[Source::dashpots] = 2;
   results.energy.turnover = 12;
   results.energy.widest = 3;
   results.warnings = {"late doubt"};

@@ -60,22 +60,10 @@ Json stages_json(const Results& results, NumberWriter& number) {
 }
 
 Json counters_json(const Counters& counters) {
-  return {{"steps", counters.steps},
-          {"contact_evaluations", counters.contact_evaluations},
-          {"motion_skips", counters.motion_skips},
-          {"axis_hits", counters.axis_hits},
-          {"cold_starts", counters.cold_starts},
-          {"lp_solves", counters.lp_solves},
-          {"lp_pivots", counters.lp_pivots},
-          {"newton_iterations", counters.newton_iterations},
-          {"centre_fallbacks", counters.centre_fallbacks},
-          {"areas", counters.areas},
-          {"undecided", counters.undecided},
-          {"unconverged", counters.unconverged},
-          {"normal_fallbacks", counters.normal_fallbacks},
-          {"deep_overlaps", counters.deep_overlaps},
-          {"snap_backs", counters.snap_backs},
-          {"neighbour_builds", counters.neighbour_builds}};
+  Json json;
+  for (const CounterRow& row : counter_table)
+    json[row.name] = counters.*row.value;
+  return json;
 }
 
 Json bonds_json(const BondCount& bonds) {
@@ -91,16 +79,19 @@ Json energy_json(const EnergyLedger& energy, NumberWriter& number) {
       {"kinetic", energy.kinetic},
       {"elastic", energy.elastic},
       {"potential", energy.potential()},
-      {"friction", energy.flows.friction},
+      {"friction", energy.flows[Source::friction]},
       {"damping", energy.damping()},
       {"external", energy.external()},
-      {"stiffening", energy.flows.stiffening},
+      {"stiffening", energy.flows[Source::stiffening]},
       {"unexplained", energy.unexplained()},
       {"closure", energy.closure()},
   };
   Json json = {{"unit", "J"}};
   for (const auto& [name, value] : entries)
     json[name] = number(value, std::string("energy.") + name);
+  for (const SourceRow& row : source_table)
+    json["sources"][std::string(row.name)] =
+        number(energy.flows[row.source], "energy.sources." + std::string(row.name));
   return json;
 }
 

@@ -216,9 +216,9 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
   const auto work = [&](int i, Booked& sum) { answer(model, settings, static_cast<std::size_t>(i), state, sum); };
   for (const Booked& b : sums_in_groups<Booked>(settings.threads, state.contacts.size(), work)) {
     state.energy.elastic += b.elastic;
-    state.energy.flows.friction += b.friction;
-    state.energy.flows.dashpots += b.dashpots;
-    state.energy.flows.stiffening += b.stiffening;
+    state.energy.flows[Source::friction] += b.friction;
+    state.energy.flows[Source::dashpots] += b.dashpots;
+    state.energy.flows[Source::stiffening] += b.stiffening;
     state.counters.snap_backs += b.snap_backs;
     state.bonds.made += b.bonds_made;
   }

@@ -29,16 +29,68 @@ void push(const Model<Dim>& model, const State<Dim>& state, int place, int body,
   load.moment += sign * turn;
 }
 
+// Each finds what its source does to the bodies; the loads are zero before.
+template <int Dim>
+void contact_loads(const Model<Dim>& model, int threads, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
+  each_on_threads(threads, loads.size(), [&](int b) {
+    Load<Dim> load;
+    for (const int place : contacts_of(state, b))
+      push(model, state, place, b, load);
+    loads[b] = load;
+  });
+}
+
+template <int Dim>
+void gravity_loads(const Model<Dim>& model, int threads, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
+  each_on_threads(threads, loads.size(), [&](int b) { loads[b].force = weight(model, state, b); });
+}
+
+template <int Dim>
+void boundary_stress_loads(const Model<Dim>& model, int threads, const State<Dim>& state,
+                           std::vector<Load<Dim>>& loads) {
+  each_on_threads(threads, model.boundary.size(), [&](int i) {
+    const BoundaryForces<Dim>& loaded = model.boundary[i];
+    for (const DeadLoad<Dim>& load : loaded.forces)
+      loads[loaded.body] += load_of(load, state.stances[loaded.body].axes);
+  });
+}
+
+// A load: whether the model has any, what it does, and, where it changes with the body's pose, by how much at most.
+template <int Dim>
+struct LoadRow {
+  Source source;
+  bool (*acts)(const Model<Dim>&);
+  void (*find)(const Model<Dim>&, int threads, const State<Dim>&, std::vector<Load<Dim>>&);
+  void (*stiffen)(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&) = nullptr;
+};
+
+// those that are known before the bodies move, in the order in which they are summed
+template <int Dim>
+constexpr LoadRow<Dim> load_table[] = {
+    {Source::contacts, [](const Model<Dim>&) { return true; }, contact_loads<Dim>},
+    {Source::gravity, [](const Model<Dim>& m) { return !m.gravity.isZero(0); }, gravity_loads<Dim>},
+    {Source::boundary_stress, [](const Model<Dim>& m) { return !m.boundary.empty(); }, boundary_stress_loads<Dim>},
+};
+
 }  // namespace
 
 template <int Dim>
 void sum_loads(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  each_on_threads(settings.threads, state.loads.size(), [&](int b) {
-    Load<Dim> load = boundary_load(model.bodies[b], state.stances[b].axes);
-    load.force += weight(model, state, static_cast<std::size_t>(b));
-    for (const int place : contacts_of(state, b))
-      push(model, state, place, b, load);
-    state.loads[b] = load;
+  const std::size_t count = model.bodies.size();
+  state.stiffened.clear();
+  for (const LoadRow<Dim>& row : load_table<Dim>) {
+    std::vector<Load<Dim>>& loads = state.loads_of[row.source];
+    loads.assign(row.acts(model) ? count : 0, {});
+    if (loads.empty()) continue;
+    row.find(model, settings.threads, state, loads);
+    if (!row.stiffen) continue;
+    state.stiffened.resize(count);
+    row.stiffen(model, state, state.stiffened);
+  }
+  each_on_threads(settings.threads, count, [&](int b) {
+    state.loads[b] = {};
+    for (const LoadRow<Dim>& row : load_table<Dim>)
+      if (const std::vector<Load<Dim>>& loads = state.loads_of[row.source]; !loads.empty()) state.loads[b] += loads[b];
   });
 }
 
