@@ -119,11 +119,40 @@ void load_boundary(Model<Dim>& model, int body, const Matrix<Dim>& stress) {
   model.boundary.insert(after, std::move(loaded));
 }
 
+// those of earlier stages stay at their factor's last entry
+template <int Dim>
+void hold_forces(Model<Dim>& model) {
+  std::erase_if(model.applied, [](const AppliedForce<Dim>& f) { return f.factor.frequency > 0; });
+  for (AppliedForce<Dim>& f : model.applied) {
+    if (!f.factor.factors.empty()) f.force *= f.factor.factors.back();
+    f.factor = {};
+  }
+}
+
+template <int Dim>
+void apply_forces(Model<Dim>& model, const std::vector<ForcePlan>& plans) {
+  for (const ForcePlan& plan : plans)
+    std::erase_if(model.applied, [&](const AppliedForce<Dim>& f) { return f.name == plan.name; });
+  for (const ForcePlan& plan : plans)
+    for (const int b : select(model, plan.bodies)) {
+      AppliedForce<Dim> force{
+          .name = plan.name, .body = b, .turns_with_body = plan.turns_with_body, .factor = plan.factor};
+      force.force = Eigen::Map<const Vector<Dim>>(plan.force.data());
+      if (!plan.point.empty())
+        force.place = Eigen::Map<const Vector<Dim>>(plan.point.data()) - model.origin - model.bodies[b].reference;
+      model.applied.push_back(std::move(force));
+    }
+  std::erase_if(model.applied,
+                [&](const AppliedForce<Dim>& f) { return f.force.isZero(0) || !model.bodies[f.body].present; });
+  std::ranges::stable_sort(model.applied, {}, &AppliedForce<Dim>::body);
+}
+
 }  // namespace
 
 template <int Dim>
 Model<Dim> apply(Model<Dim> model, const Change& change) {
   end_prescribed(model);
+  hold_forces(model);
   for (const Selector& s : change.fix)
     for (int b : select(model, s))
       model.bodies[b].fixed = true;
@@ -138,6 +167,7 @@ Model<Dim> apply(Model<Dim> model, const Change& change) {
   for (const BoundaryPlan& plan : change.boundary)
     for (int b : select(model, plan.bodies))
       load_boundary(model, b, stress_tensor<Dim>(plan.stress));
+  apply_forces(model, change.force);
   if (change.friction)
     for (JointProperties& p : model.properties)
       p.friction = *change.friction;

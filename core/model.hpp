@@ -53,6 +53,17 @@ struct BoundaryForces {
   std::vector<DeadLoad<Dim>> forces;
 };
 
+// a force that the scene puts on a body
+template <int Dim>
+struct AppliedForce {
+  std::string name;
+  int body = 0;
+  Vector<Dim> place = Vector<Dim>::Zero();  // where it acts, body frame, m
+  Vector<Dim> force = Vector<Dim>::Zero();  // N, at a factor of 1; world axes, or the body's where it turns with it
+  bool turns_with_body = false;
+  TimeFactor factor;  // of the time since the stage began
+};
+
 // a named discontinuity, in slicing order
 template <int Dim>
 struct Joint {
@@ -75,6 +86,7 @@ struct Model {
   std::vector<JointProperties> properties;
   std::vector<PrescribedMotion<Dim>> prescribed;  // of this stage, by ascending body, at most one for each
   std::vector<BoundaryForces<Dim>> boundary;      // by ascending body, at most one for each
+  std::vector<AppliedForce<Dim>> applied;         // by ascending body
   int default_properties = 0;                     // of contacts between faces that no joint made
   Vector<Dim> gravity = Vector<Dim>::Zero();      // m/s²
   Solvers<Dim> solvers;                           // the two convex programs' solvers in use
@@ -106,7 +118,7 @@ template <int Dim>
 std::vector<int> select(const Model<Dim>& model, const Selector& selector);
 
 // The model of the next stage: prescribed motions ended, bodies fixed, released or removed, friction set, outer faces
-// stressed, motions prescribed. Two motions of one body are a mistake of the caller.
+// stressed, forces applied, motions prescribed. Two motions of one body are a mistake of the caller.
 template <int Dim>
 Model<Dim> apply(Model<Dim> model, const Change& change);
 

@@ -29,6 +29,12 @@ Vector<Dim> contact_load(int body, const Model<Dim>& model, const State<Dim>& st
   return sum;
 }
 
+template <int Dim>
+Vector<Dim> applied_load(int body, const State<Dim>& state) {
+  const std::vector<Load<Dim>>& loads = state.loads_of[Source::applied_forces];
+  return loads.empty() ? Vector<Dim>::Zero().eval() : loads[body].force;
+}
+
 // what all touching contacts of a joint carry together
 template <int Dim>
 void append_joint(std::vector<double>& values, int joint, const Model<Dim>& model, const State<Dim>& state) {
@@ -84,6 +90,9 @@ std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
       case Quantity::contact_load:
         append_vector<Dim>(columns, m.name + "_contact_load", "N");
         break;
+      case Quantity::applied_load:
+        append_vector<Dim>(columns, m.name + "_applied_load", "N");
+        break;
       case Quantity::contact_force:
         columns.push_back({m.name + "_normal_force", "N"});
         columns.push_back({m.name + "_shear_force", "N"});
@@ -118,6 +127,9 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
         break;
       case Quantity::contact_load:
         append(contact_load(m.subject, model, state));
+        break;
+      case Quantity::applied_load:
+        append(applied_load(m.subject, state));
         break;
       case Quantity::contact_force:
         append_joint(values, m.subject, model, state);

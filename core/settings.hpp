@@ -165,11 +165,24 @@ struct BoundaryPlan {
   std::vector<double> stress;  // Pa, compression positive: 2-D xx, yy, xy; 3-D xx, yy, zz, yz, zx, xy
 };
 
+// A force on bodies, from the stage on, until a later stage states one of the same name. Its factor runs while the
+// stage that states it lasts; afterwards the force stays at the factor's last entry, and one with a frequency has
+// ended.
+struct ForcePlan {
+  std::string name;
+  Selector bodies;
+  std::vector<double> force;     // N (2-D: N/m), on each body, as many entries as dimensions
+  std::vector<double> point;     // m: where it acts, world coordinates at the start; empty: at each body's centroid
+  bool turns_with_body = false;  // else it keeps its direction in space; its point always moves with the body
+  TimeFactor factor;             // of the time since the stage began
+};
+
 // what changes in the model between two stages
 struct Change {
   std::vector<Selector> fix, release, remove;
   std::vector<MovePlan> move;  // within the stage only
   std::vector<BoundaryPlan> boundary;
+  std::vector<ForcePlan> force{};
   std::optional<double> friction;  // rad: new friction angle of every joint
   bool bond = false;               // closed joints with tensile strength or cohesion are bonded
 };
@@ -189,7 +202,7 @@ inline Settings settings_of(const StagePlan& stage, Settings scene) {
   return scene;
 }
 
-enum class Quantity { displacement, velocity, rotation, angular_velocity, contact_load, contact_force };
+enum class Quantity { displacement, velocity, rotation, angular_velocity, contact_load, applied_load, contact_force };
 
 // a quantity followed in history.csv: of a body, or the resultant over the contacts of a joint
 struct MonitorPlan {

@@ -8,9 +8,6 @@
 
 namespace voussoir {
 
-// at a time since the motion began, s
-double value_at(const TimeFactor& factor, double time);
-
 // Moves the forced freedoms of a body by one step at the velocity of the middle of the step, `middle` seconds after the
 // motion began. Returns what holds against the load along them, N and N m: its work is what the motion costs. The
 // body's own inertia along a forced freedom is left out, with its kinetic energy, for a shaken base of any mass is the

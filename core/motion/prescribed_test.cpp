@@ -1,5 +1,6 @@
 // Prescribed motion: it goes where it is told, pays for it, ends with its stage and survives an interruption.
 #include "core/motion/prescribed.hpp"
+#include "core/load/time_factor.hpp"
 
 #include <gtest/gtest.h>
 

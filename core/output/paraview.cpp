@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <optional>
+#include <span>
 
 #include "core/output/atomic_file.hpp"
 
@@ -136,6 +137,16 @@ PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double ti
   data.cell_data = {arrays.body, arrays.part};
   if (Dim == 3) data.cell_data.push_back(arrays.joint);
   data.cell_data.insert(data.cell_data.end(), {arrays.fixed, arrays.displacement, arrays.velocity});
+
+  // what acts on each block from outside, by source; N
+  for (const SourceRow& row : std::span(source_table).first(load_count)) {
+    const std::vector<Load<Dim>>& loads = state.loads_of[row.source];
+    if (row.external == 0 || loads.empty()) continue;
+    DataArray array{fmt::format("{}_N", row.name), 3, false, {}};
+    for (const double body : arrays.body.values)
+      append<Dim>(array, loads[static_cast<std::size_t>(body)].force);
+    data.cell_data.push_back(std::move(array));
+  }
 
   data.names = {{"body_names", names_of(model.bodies)}};
   if (Dim == 3) data.names.emplace_back("joint_names", names_of(model.joints));

@@ -1,5 +1,6 @@
 #include "core/step/loads.hpp"
 
+#include "core/load/time_factor.hpp"
 #include "core/on_threads.hpp"
 
 namespace voussoir {
@@ -55,6 +56,28 @@ void boundary_stress_loads(const Model<Dim>& model, int threads, const State<Dim
   });
 }
 
+// at the time of the positions, N
+template <int Dim>
+Vector<Dim> force_of(const AppliedForce<Dim>& f, const State<Dim>& state) {
+  return value_at(f.factor, state.time - state.schedule.started) * f.force;
+}
+
+template <int Dim>
+void applied_loads(const Model<Dim>& model, int, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
+  for (const AppliedForce<Dim>& f : model.applied) {
+    const Matrix<Dim>& axes = state.stances[f.body].axes;
+    const Vector<Dim> force = force_of(f, state);
+    loads[f.body] += load_of<Dim>({f.place, f.turns_with_body ? Vector<Dim>(axes * force) : force}, axes);
+  }
+}
+
+// A force that keeps its direction acts at a point that turns with the body: like the weight of a pendulum.
+template <int Dim>
+void applied_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
+  for (const AppliedForce<Dim>& f : model.applied)
+    if (!f.turns_with_body) stiffness[f.body].rotation += force_of(f, state).norm() * f.place.norm();
+}
+
 // A load: whether the model has any, what it does, and, where it changes with the body's pose, by how much at most.
 template <int Dim>
 struct LoadRow {
@@ -70,6 +93,8 @@ constexpr LoadRow<Dim> load_table[] = {
     {Source::contacts, [](const Model<Dim>&) { return true; }, contact_loads<Dim>},
     {Source::gravity, [](const Model<Dim>& m) { return !m.gravity.isZero(0); }, gravity_loads<Dim>},
     {Source::boundary_stress, [](const Model<Dim>& m) { return !m.boundary.empty(); }, boundary_stress_loads<Dim>},
+    {Source::applied_forces, [](const Model<Dim>& m) { return !m.applied.empty(); }, applied_loads<Dim>,
+     applied_stiffness<Dim>},
 };
 
 }  // namespace
