@@ -110,7 +110,7 @@ TEST(AccuracyLevel, TableIsSound) {
     ASSERT_NE(row, nullptr) << setting.key;
     for (const double value : setting.values) {
       EXPECT_TRUE(row->range.holds(value)) << setting.key;
-      EXPECT_TRUE(row->usual.holds(value)) << setting.key << ": a level must not make a scene look implausible";
+      EXPECT_TRUE(row->plausible.holds(value)) << setting.key << ": a level must not make a scene look implausible";
     }
     const bool more_is_finer = setting.key == "ramp_steps";
     const auto& v = setting.values;

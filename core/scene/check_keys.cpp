@@ -69,7 +69,7 @@ bool key_applies(const Node& table, const Groups& groups, const KeyRow& row) {
   const KeyRow* decisive = find_row(groups, row.when.key);
   if (!decisive || !key_applies(table, groups, *decisive)) return false;
   const Node* stated = text_of(table, row.when.key);
-  const std::string word = stated ? '"' + stated->text + '"' : std::string(decisive->fallback);
+  const std::string word = stated ? '"' + stated->text + '"' : std::string(decisive->default_value);
   std::string_view allowed = row.when.value;
   while (true) {
     const std::size_t bar = allowed.find('|');
@@ -102,11 +102,11 @@ void refuse_inapplicable(const Node& table, const Groups& groups, const KeyRow& 
   const KeyRow& decisive = *find_row(groups, row.when.key);
   if (!key_applies(table, groups, decisive)) return refuse_inapplicable(table, groups, decisive, node, path);
   const Node* stated = text_of(table, row.when.key);
-  if (!stated && decisive.fallback.empty()) return;
+  if (!stated && decisive.default_value.empty()) return;
   std::string values = "\"" + std::string(row.when.value) + "\"";
   if (const std::size_t bar = values.find('|'); bar != std::string::npos) values.replace(bar, 1, "\" or \"");
   const std::string found =
-      stated ? '"' + one_line(stated->text, 40) + '"' : std::string(decisive.fallback) + " (the default)";
+      stated ? '"' + one_line(stated->text, 40) + '"' : std::string(decisive.default_value) + " (the default)";
   refuse(node, path,
          "applies only where " + std::string(row.when.key) + " = " + values + ", which here is " + found +
              "; remove it or change " + std::string(row.when.key));
@@ -324,8 +324,8 @@ std::string range_text(const KeyRow& row) {
          (r.below_high ? " and less than " : " and at most ") + plain(r.high) + unit;
 }
 
-std::string usual_text(const KeyRow& row) {
-  const Range& r = row.usual;
+std::string plausible_text(const KeyRow& row) {
+  const Range& r = row.plausible;
   const bool lowest = std::isinf(r.low), highest = std::isinf(r.high);
   if (lowest && highest) return "";
   const std::string zero = r.or_zero ? "0 or " : "";

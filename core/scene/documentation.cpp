@@ -99,17 +99,17 @@ std::string type_text(const KeyRow& row) {
 
 // ranges that only keep numbers sane would be noise
 std::string allowed_text(const KeyRow& row) {
-  const std::string usual = usual_text(row).empty() ? "" : "; usually " + usual_text(row);
+  const std::string plausible = plausible_text(row).empty() ? "" : "; usually " + plausible_text(row);
   const bool numeric = row.type == KeyType::number || row.type == KeyType::integer;
-  if (!numeric) return type_text(row) + usual;
+  if (!numeric) return type_text(row) + plausible;
   std::string range = range_text(row);
   for (const std::string_view verb : {"lie ", "be "})
     if (range.starts_with(verb)) range.erase(0, verb.size());
-  return type_text(row) + ", " + range + usual;
+  return type_text(row) + ", " + range + plausible;
 }
 
 std::string default_text(const KeyRow& row) {
-  if (!row.fallback.empty()) return "`" + std::string(row.fallback) + "`";
+  if (!row.default_value.empty()) return "`" + std::string(row.default_value) + "`";
   return row.required ? "required" : "";
 }
 

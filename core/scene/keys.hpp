@@ -1,4 +1,5 @@
-// The one table of every key a scene may hold. The reader refuses what it does not allow; the documentation prints it.
+// The one table of every key a scene may hold, its rows in keys/. The reader refuses what it does not allow; the
+// documentation prints it.
 #pragma once
 
 #include <array>
@@ -46,22 +47,22 @@ struct Condition {
 };
 
 struct KeyRow {
-  std::string_view table;  // the group of keys it belongs to; "" is the top of the file
-  std::string_view key;
+  std::string_view table{};  // the group of keys it belongs to, of which it is a row; "" is the top of the file
+  std::string_view key{};
   KeyType type = KeyType::number;
   std::string_view unit{};
-  Range range{};                // anything else is refused; of vectors, each entry
-  Range usual{};                // anything else is legal but more likely a slip: a warning; of vectors, the length
-  std::string_view fallback{};  // the default as TOML; empty: none
-  std::string_view example{};   // a value as TOML
-  bool required = false;        // where its condition holds
+  Range range{};      // anything else is refused; of vectors, each entry
+  Range plausible{};  // anything else is legal but more likely a mistake: a warning; of vectors, the length
+  std::string_view default_value{};  // as TOML; empty: none
+  std::string_view example{};        // a value as TOML
+  bool required = false;             // where its condition holds
   Condition when{};
   std::vector<std::string_view> choices{};
   std::vector<std::string_view> holds{};  // table, tables: the groups of keys inside
   std::string_view meaning{};
-  std::string_view repair{};  // what to do about a value out of range; may be empty
-  std::string_view breaks{};  // what goes wrong with a badly chosen value; may be empty
-  std::string_view slip{};    // the slip that an unusual value suggests, as a question; may be empty
+  std::string_view repair{};   // what to do about a value out of range; may be empty
+  std::string_view breaks{};   // what goes wrong with a badly chosen value; may be empty
+  std::string_view mistake{};  // the likely one where a value is not plausible, as a question; may be empty
 };
 
 std::span<const KeyRow> key_rows();
@@ -78,8 +79,8 @@ bool key_applies(const Node& table, const Groups& groups, const KeyRow& row);
 // "be greater than 0 and at most 1", "lie between 0 and 90 deg"
 std::string range_text(const KeyRow& row);
 
-// "500 to 8000 kg/m³", "0 or 1.6 to 90 deg", "at most 100 m/s"; empty when everything is usual
-std::string usual_text(const KeyRow& row);
+// "500 to 8000 kg/m³", "0 or 1.6 to 90 deg", "at most 100 m/s"; empty when everything is plausible
+std::string plausible_text(const KeyRow& row);
 
 // Holds every value of a tree against the table; throws SceneError at the first that does not fit.
 void check_keys(const Node& scene);

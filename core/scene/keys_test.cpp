@@ -86,11 +86,11 @@ TEST(Prepare, TakesBlocksByVerticesPlanesAndBox) {
 }
 
 TEST(Keys, HoldTheDefaultsOfSettings) {
-  EXPECT_EQ(find_row({"excavations"}, "outline")->fallback, ExcavationSpec{}.outline ? "true" : "false");
+  EXPECT_EQ(find_row({"excavations"}, "outline")->default_value, ExcavationSpec{}.outline ? "true" : "false");
   EXPECT_TRUE(dump(parse(everything)).starts_with(dump(Scene{})));
   for (const KeyRow& row : key_rows()) {
-    if (row.fallback.empty()) continue;
-    const std::string text = address(row) + "=" + std::string(row.fallback);
+    if (row.default_value.empty()) continue;
+    const std::string text = address(row) + "=" + std::string(row.default_value);
     EXPECT_EQ(dump(parse(everything, {text})), dump(parse(everything))) << text;
   }
 }
@@ -99,7 +99,7 @@ TEST(Keys, HoldTheDefaultsOfSettings) {
 // it. A choice may need other keys beside it, and is then refused.
 TEST(Keys, WithADefaultShowInTheDump) {
   for (const KeyRow& row : key_rows()) {
-    if (row.fallback.empty() || row.example == row.fallback) continue;
+    if (row.default_value.empty() || row.example == row.default_value) continue;
     // stated in the scene, for without it the tunnel takes out no block
     if (row.table == "excavations" && row.key == "outline") continue;
     const std::string text = address(row) + "=" + std::string(row.example);

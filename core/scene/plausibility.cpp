@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/scene/bodies.hpp"
-#include "core/scene/key_ranges.hpp"
 #include "core/scene/keys.hpp"
+#include "core/scene/keys/ranges.hpp"
 
 namespace voussoir {
 namespace {
@@ -80,13 +80,13 @@ struct TableJudge {
 
   void value(const KeyRow& row, const Node& node, const std::string& path) {
     const double size = length(node);
-    if (!row.usual.holds(size))
+    if (!row.plausible.holds(size))
       warnings.push_back(complaint(node, path,
-                                   "is unusual, " + usual_text(row) + " is usual; " +
-                                       (row.slip.empty() ? "is the value right?" : std::string(row.slip))));
-    else if (row.slip == key_ranges::angle_slip && is_radians_of_whole_degrees(size))
+                                   "is unusual, " + plausible_text(row) + " is usual; " +
+                                       (row.mistake.empty() ? "is the value right?" : std::string(row.mistake))));
+    else if (row.mistake == key_ranges::angle_mistake && is_radians_of_whole_degrees(size))
       warnings.push_back(complaint(
-          node, path, "is " + text(size * 180 / std::numbers::pi) + " deg in radians; " + std::string(row.slip)));
+          node, path, "is " + text(size * 180 / std::numbers::pi) + " deg in radians; " + std::string(row.mistake)));
     if (is_coordinate(row) && has_small_entry(node))
       warnings.push_back(complaint(node, path,
                                    "holds a coordinate that is next to nothing in a scene of " + text(extent) +

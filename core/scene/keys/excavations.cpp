@@ -1,0 +1,42 @@
+// [[excavations]], and the convex regions that joints may be confined to as well.
+#include "core/scene/keys/ranges.hpp"
+#include "core/scene/keys/tables.hpp"
+
+namespace voussoir {
+
+using enum KeyType;
+using namespace key_ranges;
+
+// clang-format off
+KeyTable excavation_keys() {
+  return {"excavations", {
+    {.key = "name", .type = name, .example = "\"tunnel\"", .required = true,
+     .meaning = "unique among the excavations"},
+    {.key = "outline", .type = boolean, .default_value = "false", .example = "true",
+     .meaning = "cut blocks along the region's faces by construction joints, last; without it they go or stay whole"},
+  }};
+}
+
+KeyTable region_keys() {
+  return {"region", {
+    {.key = "box", .type = table, .holds = {"box"}, .meaning = "a box along the axes"},
+    {.key = "cylinder", .type = table, .holds = {"cylinder"}, .meaning = "a tunnel, in 2-D a circle"},
+    {.key = "planes", .type = tables, .holds = {"domain.planes"}, .meaning = "planes that bound it"},
+  }};
+}
+
+KeyTable cylinder_keys() {
+  return {"cylinder", {
+    {.key = "from", .type = vector, .unit = "m", .range = sane, .example = "[0, -1, 0]",
+     .required = true, .meaning = "one end of the axis; in 2-D the centre"},
+    {.key = "to", .type = vector, .unit = "m", .range = sane, .example = "[0, 1, 0]",
+     .meaning = "the other end; in 3-D only, and needed there"},
+    {.key = "radius", .unit = "m", .range = positive, .plausible = plausible_length, .example = "3",
+     .required = true, .meaning = "of the circle that the sides touch", .mistake = "was it given in mm or km?"},
+    {.key = "sides", .type = integer, .range = {3, 256}, .default_value = "24", .example = "12",
+     .meaning = "of the polygon that stands for the circle"},
+  }};
+}
+// clang-format on
+
+}  // namespace voussoir

@@ -1,0 +1,22 @@
+// [[stage]]: its name and kind.
+#include "core/scene/keys/ranges.hpp"
+#include "core/scene/keys/tables.hpp"
+
+namespace voussoir {
+
+using enum KeyType;
+using namespace key_ranges;
+
+// clang-format off
+KeyTable stage_keys() {
+  return {"stage", {
+    {.key = "name", .type = name, .example = "\"settle\"", .required = true,
+     .meaning = "unique among the stages"},
+    {.key = "kind", .type = choice, .example = "\"settle\"", .required = true,
+     .choices = {"settle", "run", "reduce"},
+     .meaning = "settle: until at rest; run: true motion for a given time; reduce: lower friction until the model fails"},
+  }};
+}
+// clang-format on
+
+}  // namespace voussoir

@@ -1,0 +1,38 @@
+// [[stage]]: what changes when it begins.
+#include "core/scene/keys/ranges.hpp"
+#include "core/scene/keys/tables.hpp"
+
+namespace voussoir {
+
+using enum KeyType;
+using namespace key_ranges;
+
+// clang-format off
+KeyTable stage_change_keys() {
+  return {"stage", {
+    {.key = "damping", .type = table, .holds = {"damping"},
+     .meaning = "replaces the scene's damping within this stage"},
+    {.key = "fix", .type = tables, .holds = {"label", "selector"},
+     .meaning = "blocks fixed before the stage begins"},
+    {.key = "release", .type = tables, .holds = {"label", "selector"},
+     .meaning = "blocks set free before the stage begins"},
+    {.key = "remove", .type = tables, .holds = {"label", "selector"},
+     .meaning = "blocks excavated before the stage begins"},
+    {.key = "move", .type = tables, .when = {"kind", "run"},
+     .holds = {"label", "motion", "move", "selector"},
+     .meaning = "blocks whose motion is prescribed while the stage lasts, whatever the load on them; their other "
+         "freedoms stay as they are, those of a fixed block are held. Afterwards a fixed block stands, a free one goes on"},
+    {.key = "boundary", .type = tables, .holds = {"label", "boundary", "selector"},
+     .meaning = "stress on the outer faces of blocks, those that no joint made, from this stage on; it replaces what the "
+         "blocks bore before"},
+    {.key = "friction_deg", .unit = "deg", .range = friction_range, .plausible = plausible_friction,
+     .example = "30",
+     .meaning = "friction angle of every joint from this stage on", .mistake = friction_mistake},
+    {.key = "bond", .type = boolean, .default_value = "false", .example = "true",
+     .meaning = "bonds joints that are closed and state tension or cohesion: where they press, or first do before they "
+         "part by a thousandth of the smallest inscribed radius; a bond breaks once, by tension or slip"},
+  }};
+}
+// clang-format on
+
+}  // namespace voussoir

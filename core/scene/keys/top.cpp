@@ -1,0 +1,74 @@
+// The top of a scene file.
+#include "core/scene/keys/ranges.hpp"
+#include "core/scene/keys/tables.hpp"
+
+namespace voussoir {
+
+using enum KeyType;
+using namespace key_ranges;
+
+// clang-format off
+KeyTable top_keys() {
+  return {"", {
+    {.key = "title", .type = text, .example = "\"Sliding wedge\"", .meaning = "one line for reports"},
+    {.key = "base", .type = text, .example = "\"scene.toml\"",
+     .meaning = "another scene in the same folder, of which this one states only the differences: tables are merged key by "
+         "key, tables of a list by their name; a stage that states another kind or method replaces the "
+         "base's"},
+    {.key = "dimension", .type = integer, .range = {2, 3}, .example = "3", .required = true,
+     .meaning = "2: plane scene, x to the right, y up, unit thickness; 3: x east, y north, z up",
+     .repair = "write dimension = 2 or dimension = 3"},
+    {.key = "gravity", .type = vector, .unit = "m/s²", .range = sane, .plausible = {1, 30},
+     .example = "[0, 0, -9.81]",
+     .meaning = "acceleration of gravity; without it there is none", .breaks = "a wrong sign lifts the blocks off",
+     .mistake = "on earth it is 9.81; was it given in another unit?"},
+    {.key = "density", .unit = "kg/m³", .range = positive, .plausible = plausible_density, .example = "2600",
+     .meaning = "density of every block that does not state its own", .repair = "rock has 2000 to 3000 kg/m³",
+     .mistake = density_mistake},
+    {.key = "domain", .type = table, .holds = {"domain"},
+     .meaning = "a convex region that the joints cut into blocks"},
+    {.key = "joints", .type = tables, .holds = {"joints"},
+     .meaning = "planes that cut the domain, with or without an end"},
+    {.key = "joints_file", .type = text, .example = "\"joints.csv\"",
+     .meaning = "a table of joints in the same folder, one a row, before those of [[joints]], which may change one of its "
+         "name; columns x_m, y_m, z_m, and dip_deg, dip_direction_deg or normal_x, normal_y, normal_z; if wanted name, "
+         "set, properties, shape with length_m and width_m or corners_m. The scene that names the file states its dimension"},
+    {.key = "joint_sets", .type = tables, .holds = {"joint_sets"},
+     .meaning = "random joints that fill the domain, cut after [[joints]], set by set; every set is drawn by itself and "
+         "gives the same joints on every platform"},
+    {.key = "excavations", .type = tables, .holds = {"excavations", "region"},
+     .meaning = "convex regions: blocks of the domain whose centroids lie inside are taken out before the first stage"},
+    {.key = "joint_properties", .type = tables, .holds = {"joint_properties"},
+     .meaning = "stiffness and strength of joints, by name; `default`, or else the first table, also serves contacts "
+         "between faces that no joint made"},
+    {.key = "blocks", .type = tables, .holds = {"blocks"},
+     .meaning = "blocks given directly, by exactly one of vertices, planes or box"},
+    {.key = "blocks_file", .type = text, .example = "\"blocks.obj\"",
+     .meaning = "a file of convex blocks in the same folder: .csv of planes (columns block, normal_x, normal_y, normal_z, "
+         "offset_m; if wanted part), .stl or .obj; [[blocks]] may add density, fixed, … to one of its name"},
+    {.key = "fix", .type = tables, .holds = {"label", "selector"}, .meaning = "blocks that never move"},
+    {.key = "restrain", .type = tables, .holds = {"label", "restrain", "selector"},
+     .meaning = "blocks that cannot move in some directions (world axes)"},
+    {.key = "initial_velocity", .type = tables, .holds = {"label", "motion", "selector"},
+     .meaning = "blocks that move when the first stage begins"},
+    {.key = "accuracy", .type = table, .holds = {"accuracy"},
+     .meaning = "numerical settings by the accuracy that is wanted"},
+    {.key = "contact", .type = table, .holds = {"contact"},
+     .meaning = "how contacts between blocks are found"},
+    {.key = "damping", .type = table, .holds = {"damping"},
+     .meaning = "damping of every stage that does not state its own"},
+    {.key = "time", .type = table, .holds = {"time"}, .meaning = "the time step"},
+    {.key = "equilibrium", .type = table, .holds = {"equilibrium"},
+     .meaning = "when a scene counts as at rest"},
+    {.key = "slicing", .type = table, .holds = {"slicing"}, .meaning = "limits of cutting"},
+    {.key = "stage", .type = tables, .holds = {"stage"},
+     .meaning = "what happens, in this order; at least one"},
+    {.key = "monitors", .type = tables, .holds = {"monitors", "selector"},
+     .meaning = "quantities followed in history.csv: of one block that a selector chooses, or of a joint's contacts"},
+    {.key = "output", .type = table, .holds = {"output"},
+     .meaning = "how often results are written"},
+  }};
+}
+// clang-format on
+
+}  // namespace voussoir
