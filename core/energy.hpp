@@ -39,27 +39,28 @@ inline constexpr std::size_t source_count = static_cast<std::size_t>(Source::sta
 struct SourceRow {
   Source source;
   std::string_view name;
-  int motion;     // what the motion gets
+  std::string_view monitored;  // as a quantity of monitors; empty: none
+  int motion;                  // what the motion gets
   int springs;    // what springs that store energy (EnergyLedger::elastic) lose; loads with a spring have 1 here
   int potential;  // potential energy of gravity
   int damping;    // lost to damping
   int external;   // put in from outside
 };
 inline constexpr std::array<SourceRow, source_count> source_table{{
-    {Source::contacts, "contacts", 1, 1, 0, 0, 0},
-    {Source::gravity, "gravity", 1, 0, -1, 0, 0},
-    {Source::boundary_stress, "boundary_stress", 1, 0, 0, 0, 1},
-    {Source::applied_forces, "applied_forces", 1, 0, 0, 0, 1},
-    {Source::prescribed_motion, "prescribed_motion", 1, 0, 0, 0, 1},
-    {Source::local_damping, "local_damping", -1, 0, 0, 1, 0},
-    {Source::relaxation, "relaxation", -1, 0, 0, 1, 0},
-    {Source::friction, "friction", 0, 1, 0, 0, 0},          // lost to slip
-    {Source::dashpots, "dashpots", 0, 1, 0, 1, 0},          // lost to viscous damping
-    {Source::stiffening, "stiffening", 0, 1, 0, 0, 0},      // lost by shear springs that grew stiffer with stress under
+    {Source::contacts, "contacts", "contact_load", 1, 1, 0, 0, 0},
+    {Source::gravity, "gravity", "gravity_load", 1, 0, -1, 0, 0},
+    {Source::boundary_stress, "boundary_stress", "boundary_load", 1, 0, 0, 0, 1},
+    {Source::applied_forces, "applied_forces", "applied_load", 1, 0, 0, 0, 1},
+    {Source::prescribed_motion, "prescribed_motion", "", 1, 0, 0, 0, 1},
+    {Source::local_damping, "local_damping", "", -1, 0, 0, 1, 0},
+    {Source::relaxation, "relaxation", "", -1, 0, 0, 1, 0},
+    {Source::friction, "friction", "", 0, 1, 0, 0, 0},      // lost to slip
+    {Source::dashpots, "dashpots", "", 0, 1, 0, 1, 0},      // lost to viscous damping
+    {Source::stiffening, "stiffening", "", 0, 1, 0, 0, 0},  // lost by shear springs that grew stiffer with stress under
                                                             // their force; negative: made
-    {Source::gravity_ramp, "gravity_ramp", 0, 0, 1, 0, 1},  // put in by gravity that grows
-    {Source::stage_changes, "stage_changes", 0, 0, 0, 0, 1},  // put in by changes of the model between stages, and
-                                                              // where a motion is stopped to relax
+    {Source::gravity_ramp, "gravity_ramp", "", 0, 0, 1, 0, 1},    // put in by gravity that grows
+    {Source::stage_changes, "stage_changes", "", 0, 0, 0, 0, 1},  // put in by changes of the model between stages, and
+                                                                  // where a motion is stopped to relax
 }};
 
 // One number for each load, or for each source.

@@ -119,12 +119,12 @@ void load_boundary(Model<Dim>& model, int body, const Matrix<Dim>& stress) {
   model.boundary.insert(after, std::move(loaded));
 }
 
-// those of earlier stages stay at their factor's last entry
+// those of earlier stages stay as they ended
 template <int Dim>
 void hold_forces(Model<Dim>& model) {
-  std::erase_if(model.applied, [](const AppliedForce<Dim>& f) { return f.factor.frequency > 0; });
   for (AppliedForce<Dim>& f : model.applied) {
-    if (!f.factor.factors.empty()) f.force *= f.factor.factors.back();
+    f.force *= f.last_factor;
+    f.last_factor = 1;
     f.factor = {};
   }
 }
@@ -135,8 +135,12 @@ void apply_forces(Model<Dim>& model, const std::vector<ForcePlan>& plans) {
     std::erase_if(model.applied, [&](const AppliedForce<Dim>& f) { return f.name == plan.name; });
   for (const ForcePlan& plan : plans)
     for (const int b : select(model, plan.bodies)) {
-      AppliedForce<Dim> force{
-          .name = plan.name, .body = b, .turns_with_body = plan.turns_with_body, .factor = plan.factor};
+      AppliedForce<Dim> force;
+      force.name = plan.name;
+      force.body = b;
+      force.turns_with_body = plan.turns_with_body;
+      force.factor = plan.factor;
+      force.last_factor = plan.last_factor;
       force.force = Eigen::Map<const Vector<Dim>>(plan.force.data());
       if (!plan.point.empty())
         force.place = Eigen::Map<const Vector<Dim>>(plan.point.data()) - model.origin - model.bodies[b].reference;

@@ -61,7 +61,8 @@ struct AppliedForce {
   Vector<Dim> place = Vector<Dim>::Zero();  // where it acts, body frame, m
   Vector<Dim> force = Vector<Dim>::Zero();  // N, at a factor of 1; world axes, or the body's where it turns with it
   bool turns_with_body = false;
-  TimeFactor factor;  // of the time since the stage began
+  TimeFactor factor;       // of the time since the stage began
+  double last_factor = 1;  // when it ends
 };
 
 // a named discontinuity, in slicing order

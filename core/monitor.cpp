@@ -1,5 +1,7 @@
 #include "core/monitor.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,21 +19,10 @@ void append_vector(std::vector<Column>& columns, const std::string& name, const 
     columns.push_back({name + "_" + axis_names[k], unit});
 }
 
-// what all touching contacts of a body exert on it
+// what a source exerts on a body; nothing where the scene does not use it
 template <int Dim>
-Vector<Dim> contact_load(int body, const Model<Dim>& model, const State<Dim>& state) {
-  Vector<Dim> sum = Vector<Dim>::Zero();
-  for (const Contact<Dim>& c : state.contacts) {
-    if (!c.touching()) continue;
-    if (model.parts[c.part_a].body == body) sum -= c.force;
-    if (model.parts[c.part_b].body == body) sum += c.force;
-  }
-  return sum;
-}
-
-template <int Dim>
-Vector<Dim> applied_load(int body, const State<Dim>& state) {
-  const std::vector<Load<Dim>>& loads = state.loads_of[Source::applied_forces];
+Vector<Dim> load_of(Source source, int body, const State<Dim>& state) {
+  const std::vector<Load<Dim>>& loads = state.loads_of[source];
   return loads.empty() ? Vector<Dim>::Zero().eval() : loads[body].force;
 }
 
@@ -68,7 +59,7 @@ template <int Dim>
 std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
   std::vector<Column> columns;
   for (const Monitor& m : monitors) {
-    switch (m.quantity) {
+    switch (m.followed.quantity) {
       case Quantity::displacement:
         append_vector<Dim>(columns, m.name + "_displacement", "m");
         break;
@@ -87,11 +78,8 @@ std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
         else
           append_vector<Dim>(columns, m.name + "_angular_velocity", "rad/s");
         break;
-      case Quantity::contact_load:
-        append_vector<Dim>(columns, m.name + "_contact_load", "N");
-        break;
-      case Quantity::applied_load:
-        append_vector<Dim>(columns, m.name + "_applied_load", "N");
+      case Quantity::load:
+        append_vector<Dim>(columns, fmt::format("{}_{}", m.name, m.followed.word), "N");
         break;
       case Quantity::contact_force:
         columns.push_back({m.name + "_normal_force", "N"});
@@ -112,7 +100,7 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
   std::vector<double> values;
   const auto append = [&](const auto& v) { values.insert(values.end(), v.data(), v.data() + v.size()); };
   for (const Monitor& m : monitors) {
-    switch (m.quantity) {
+    switch (m.followed.quantity) {
       case Quantity::displacement:
         append(state.motions[m.subject].displacement);
         break;
@@ -125,11 +113,8 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
       case Quantity::angular_velocity:
         append(angular_velocity(model.bodies[m.subject], state.motions[m.subject]));
         break;
-      case Quantity::contact_load:
-        append(contact_load(m.subject, model, state));
-        break;
-      case Quantity::applied_load:
-        append(applied_load(m.subject, state));
+      case Quantity::load:
+        append(load_of(m.followed.source, m.subject, state));
         break;
       case Quantity::contact_force:
         append_joint(values, m.subject, model, state);

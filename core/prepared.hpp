@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/model.hpp"
@@ -10,10 +11,31 @@
 
 namespace voussoir {
 
+enum class Quantity { displacement, velocity, rotation, angular_velocity, load, contact_force };
+
+// what a monitor may follow in history.csv
+struct Monitored {
+  std::string_view word;
+  Quantity quantity;
+  Source source = Source::contacts;  // of a load
+};
+
+// every such quantity: of a body, the loads of each source among them, or the resultant over the contacts of a joint
+inline std::vector<Monitored> monitored_quantities() {
+  std::vector<Monitored> all{{"displacement", Quantity::displacement},
+                             {"velocity", Quantity::velocity},
+                             {"rotation", Quantity::rotation},
+                             {"angular_velocity", Quantity::angular_velocity}};
+  for (const SourceRow& row : source_table)
+    if (!row.monitored.empty()) all.push_back({row.monitored, Quantity::load, row.source});
+  all.push_back({"contact_force", Quantity::contact_force});
+  return all;
+}
+
 // a monitor whose subject was found
 struct Monitor {
   std::string name;
-  Quantity quantity = Quantity::displacement;
+  Monitored followed{"displacement", Quantity::displacement};
   int subject = 0;  // body, or joint for contact_force
 };
 

@@ -166,8 +166,7 @@ struct BoundaryPlan {
 };
 
 // A force on bodies, from the stage on, until a later stage states one of the same name. Its factor runs while the
-// stage that states it lasts; afterwards the force stays at the factor's last entry, and one with a frequency has
-// ended.
+// stage that states it lasts; afterwards the force stays as it ended.
 struct ForcePlan {
   std::string name;
   Selector bodies;
@@ -175,6 +174,7 @@ struct ForcePlan {
   std::vector<double> point;     // m: where it acts, world coordinates at the start; empty: at each body's centroid
   bool turns_with_body = false;  // else it keeps its direction in space; its point always moves with the body
   TimeFactor factor;             // of the time since the stage began
+  double last_factor = 1;        // when it ends
 };
 
 // what changes in the model between two stages
@@ -201,16 +201,6 @@ inline Settings settings_of(const StagePlan& stage, Settings scene) {
   scene.time.fraction = stage.time_fraction.value_or(scene.time.fraction);
   return scene;
 }
-
-enum class Quantity { displacement, velocity, rotation, angular_velocity, contact_load, applied_load, contact_force };
-
-// a quantity followed in history.csv: of a body, or the resultant over the contacts of a joint
-struct MonitorPlan {
-  std::string name;
-  Quantity quantity = Quantity::displacement;
-  Selector body;      // every quantity but contact_force
-  std::string joint;  // contact_force
-};
 
 struct OutputPlan {
   double history_interval = 0;  // s between rows of history.csv; 0: about 200 rows a stage

@@ -174,6 +174,15 @@ std::string numbers_text(const std::vector<double>& numbers) {
   return fmt::format("({})", fmt::join(texts, ", "));
 }
 
+std::string factor_text(const TimeFactor& factor) {
+  std::string text;
+  if (factor.frequency > 0)
+    text += fmt::format(", times a sine of {:g} Hz from {:g} deg on", factor.frequency, factor.phase * degrees);
+  if (!factor.times.empty())
+    text += fmt::format(", times {} at {} s", numbers_text(factor.factors), numbers_text(factor.times));
+  return text;
+}
+
 std::string move_text(const MovePlan& move) {
   std::string text;
   if (!move.velocity.empty()) {
@@ -184,12 +193,7 @@ std::string move_text(const MovePlan& move) {
   }
   if (!move.angular_velocity.empty())
     text += fmt::format("{}turning at {} rad/s", text.empty() ? "" : ", ", numbers_text(move.angular_velocity));
-  if (move.factor.frequency > 0)
-    text +=
-        fmt::format(", times a sine of {:g} Hz from {:g} deg on", move.factor.frequency, move.factor.phase * degrees);
-  if (!move.factor.times.empty())
-    text += fmt::format(", times {} at {} s", numbers_text(move.factor.factors), numbers_text(move.factor.times));
-  return text;
+  return text + factor_text(move.factor);
 }
 
 // what happens to the model before the stage, and what is forced upon it within
@@ -201,6 +205,13 @@ std::string change_text(const Change& change) {
     text +=
         fmt::format("; stress {} = {} Pa on outer faces of blocks",
                     plan.stress.size() == 3 ? "(xx, yy, xy)" : "(xx, yy, zz, yz, zx, xy)", numbers_text(plan.stress));
+  for (const ForcePlan& plan : change.force) {
+    text += fmt::format("; force '{}' = {} {} on blocks", plan.name, numbers_text(plan.force),
+                        plan.force.size() == 2 ? "N/m" : "N");
+    if (!plan.point.empty()) text += fmt::format(" at {} m", numbers_text(plan.point));
+    if (plan.turns_with_body) text += ", turning with them";
+    text += factor_text(plan.factor);
+  }
   if (change.bond) text += "; bonds closed joints that have tension or cohesion";
   if (!change.fix.empty()) text += "; fixes blocks";
   if (!change.release.empty()) text += "; releases blocks";
@@ -221,32 +232,14 @@ void print_stages(const std::vector<StagePlan>& stages) {
   }
 }
 
-const char* quantity_name(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::displacement:
-      return "displacement";
-    case Quantity::velocity:
-      return "velocity";
-    case Quantity::rotation:
-      return "rotation";
-    case Quantity::angular_velocity:
-      return "angular velocity";
-    case Quantity::contact_load:
-      return "contact load";
-    case Quantity::contact_force:
-      return "contact force";
-  }
-  return "";
-}
-
 template <int Dim>
 void print_monitors(const Prepared<Dim>& prepared) {
   const char* label = "monitors";
   for (const Monitor& monitor : prepared.monitors) {
-    const bool of_joint = monitor.quantity == Quantity::contact_force;
+    const bool of_joint = monitor.followed.quantity == Quantity::contact_force;
     std::string subject =
         of_joint ? "joint " + prepared.model.joints[monitor.subject].name : fmt::format("block {}", monitor.subject);
-    line(label, fmt::format("{}: {} of {}", monitor.name, quantity_name(monitor.quantity), subject));
+    line(label, fmt::format("{}: {} of {}", monitor.name, monitor.followed.word, subject));
     label = "";
   }
 }
@@ -274,6 +267,7 @@ std::string inactive(const Prepared<Dim>& prepared) {
   if (none_changes([](const Change& c) { return c.bond; })) list.push_back("bonds");
   if (none_changes([](const Change& c) { return !c.move.empty(); })) list.push_back("prescribed motion");
   if (none_changes([](const Change& c) { return !c.boundary.empty(); })) list.push_back("boundary stress");
+  if (none_changes([](const Change& c) { return !c.force.empty(); })) list.push_back("applied forces");
   if (prepared.monitors.empty()) list.push_back("monitors");
   if (!prepared.output.frames) list.push_back("ParaView frames");
   if (std::none_of(prepared.stages.begin(), prepared.stages.end(),

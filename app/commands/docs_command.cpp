@@ -30,12 +30,12 @@ constexpr Meaning quantity_meanings[] = {
     {"rotation",
      "since the first stage began: the rotation vector about the world's axes; in 2-D one column, counter-clockwise"},
     {"angular_velocity", "about the world's axes; in 2-D one column"},
-    {"contact_load", "sum of the forces that all contacts of the block exert on it"},
     {"contact_force",
      "of all touching contacts of the joint: the sums of normal force (compression positive), of the sizes of shear "
      "force and of area, "
      "their number, the largest mobilised friction angle, and the angle between the joint's own normal and that of the "
      "contact that carries most"},
+    {"", "sum of the forces of this source on the block"},
 };
 
 template <std::size_t Count>
@@ -64,13 +64,12 @@ search for the critical friction writes one at the end of each trial. A cell is 
   text +=
       "\nThen the columns of each monitor, which begin with its name, here `m`:\n\n| quantity | columns | meaning "
       "|\n|---|---|---|\n";
-  const std::vector<std::string_view>& quantities = find_row({"monitors"}, "quantities")->choices;
-  for (std::size_t k = 0; k < quantities.size(); ++k) {
+  for (const Monitored& followed : monitored_quantities()) {
     std::vector<std::string> headers;
-    for (const Column& column : monitor_columns<3>({{"m", static_cast<Quantity>(k), 0}}))
+    for (const Column& column : monitor_columns<3>({{"m", followed, 0}}))
       headers.push_back("`" + column.header() + "`");
-    text += fmt::format("| {} | {} | {} |\n", quantities[k], fmt::join(headers, ", "),
-                        meaning_of(quantities[k], quantity_meanings));
+    text += fmt::format("| {} | {} | {} |\n", followed.word, fmt::join(headers, ", "),
+                        meaning_of(followed.word, quantity_meanings));
   }
   return text;
 }

@@ -25,7 +25,7 @@ Prepared<Dim> scene_of(const Model<Dim>& model, const std::vector<StagePlan>& st
   scene.state = initial_state(model);
   scene.stages = stages;
   scene.output.frame_interval = 1e-4;
-  scene.monitors = {{"block", Quantity::displacement, static_cast<int>(model.bodies.size()) - 1}};
+  scene.monitors = {{"block", {"displacement", Quantity::displacement}, static_cast<int>(model.bodies.size()) - 1}};
   return scene;
 }
 

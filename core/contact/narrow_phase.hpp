@@ -54,8 +54,8 @@ template <int Dim>
 void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& settings, const Solvers<Dim>& solvers,
                   std::span<Contact<Dim>* const> contacts, KernelCounters& counters);
 
-// How far the second part stays behind a plane of the first's frame, m, rounding included: a lower bound of the distance
-// between parts where nothing of the first lies beyond `support_a` along `axis`.
+// How far the second part stays behind a plane of the first's frame, m, rounding included: a lower bound of the
+// distance between parts where nothing of the first lies beyond `support_a` along `axis`.
 template <int Dim>
 double gap_behind(const Pair<Dim>& pair, const Vector<Dim>& axis, double support_a);
 

@@ -7,6 +7,7 @@
 
 #include "core/scene/bodies.hpp"
 #include "core/scene/keys.hpp"
+#include "core/scene/values.hpp"
 #include "core/scene/keys/ranges.hpp"
 
 namespace voussoir {
@@ -295,15 +296,17 @@ void judge_joints(const Scene& scene, const Model<Dim>& model, Warnings& warning
 }
 
 // factors that the stage never reaches
-void judge_moves(const StageSpec& stage, Warnings& warnings) {
+void judge_factors(const StageSpec& stage, Warnings& warnings) {
   const auto* plan = std::get_if<RunPlan>(&stage.plan.plan);
-  for (std::size_t i = 0; plan && i < stage.moves.size(); ++i) {
-    const std::vector<double>& times = stage.plan.change.move[i].factor.times;
-    if (!times.empty() && times.back() > plan->duration)
-      warnings.push_back(complaint(
-          stage.moves[i].subject, "times_s",
-          "goes on beyond duration_s (" + text(plan->duration) + "), when the stage ends; is the table in s?"));
-  }
+  for (const auto& [key, list] : stage.chosen)
+    for (const SelectorSpec& spec : list) {
+      std::vector<double> times;
+      if (plan && spec.subject.node->find("times_s")) read(spec.subject, "times_s", times);
+      if (!times.empty() && times.back() > plan->duration)
+        warnings.push_back(complaint(
+            spec.subject, "times_s",
+            "goes on beyond duration_s (" + text(plan->duration) + "), when the stage ends; is the table in s?"));
+    }
 }
 
 }  // namespace
@@ -346,7 +349,7 @@ std::vector<std::string> implausible_values(const Scene& scene, const Prepared<D
   judge_default(scene, warnings);
   judge_bonds(scene, warnings);
   for (const StageSpec& stage : scene.stages)
-    judge_moves(stage, warnings);
+    judge_factors(stage, warnings);
   judge_domain<Dim>(scene, prepared.model, warnings);
   judge_joints<Dim>(scene, prepared.model, warnings);
   judge_sizes<Dim>(scene, prepared.model, warnings);

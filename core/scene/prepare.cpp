@@ -1,12 +1,16 @@
 // A scene made ready to run, in the order of its data: properties, joints, blocks, supports, motion, stages, monitors.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <map>
 
 #include "core/scene/bodies.hpp"
 #include "core/scene/domain_blocks.hpp"
 #include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/values.hpp"
 
 namespace voussoir {
 namespace {
@@ -210,21 +214,56 @@ State<Dim> moving_state(const Scene& scene, const Model<Dim>& model) {
   return state;
 }
 
+// m: how far a point (model coordinates) lies outside of a body, at least; at most 0 in it
+template <int Dim>
+double outside_by(const Body<Dim>& body, const Vector<Dim>& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Polytope<Dim>& part : body.parts) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const HalfSpace<Dim>& face : part.faces)
+      most = std::max(most, signed_distance<Dim>(face, point - body.reference));
+    least = std::min(least, most);
+  }
+  return least;
+}
+
+// a force acts on the block that its point lies in or on
+template <int Dim>
+void check_point(const Subject& force, const Model<Dim>& model, const std::vector<int>& bodies) {
+  constexpr double on_face = 1e-6;  // of the block's size: coordinates are written with so many digits
+  std::vector<double> point;
+  read(force, "point", point);
+  if (point.empty()) return;
+  for (const int b : bodies) {
+    const Body<Dim>& body = model.bodies[b];
+    const double outside = outside_by<Dim>(body, Eigen::Map<const Vector<Dim>>(point.data()) - model.origin);
+    if (outside > on_face * body.radius)
+      refuse(
+          force, "point",
+          fmt::format("lies at least {:.3g} m outside of {}, which the force acts on; move the point into the block, "
+                      "choose the block it lies in (for example inside = the point), or leave it out for the centroid",
+                      outside, body.name.empty() ? fmt::format("block {}", b) : "block '" + body.name + "'"));
+  }
+}
+
 template <int Dim>
 std::vector<StagePlan> checked_stages(const Scene& scene, const Model<Dim>& model) {
   std::vector<StagePlan> plans;
   const std::vector<std::string> names = property_names(scene);
   for (const StageSpec& stage : scene.stages) {
-    for (const SelectorSpec& change : stage.changes)
-      chosen_some<Dim>(scene, model, change);
+    for (const auto& [key, list] : stage.chosen)
+      for (const SelectorSpec& spec : list)
+        chosen_some<Dim>(scene, model, spec);
     std::vector<bool> moved(model.bodies.size(), false);
-    for (const SelectorSpec& move : stage.moves)
+    for (const SelectorSpec& move : stage.chosen_by("move"))
       for (const int b : chosen_some<Dim>(scene, model, move)) {
         if (moved[b])
           refuse(*move.subject.node, move.subject.path,
                  "moves a block that another move of this stage already moves; choose each block once");
         moved[b] = true;
       }
+    for (const SelectorSpec& spec : stage.chosen_by("force"))
+      check_point<Dim>(spec.subject, model, chosen<Dim>(model, spec));
     if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan.plan)) {
       if (names.empty())
         refuse(*stage.subject.node, stage.subject.path, "there is no friction to reduce; add [[joint_properties]]");
@@ -268,8 +307,8 @@ std::vector<Monitor> find_monitors(const Scene& scene, const Model<Dim>& model) 
     } else {
       subject = joint_of<Dim>(model, spec);
     }
-    for (const Quantity quantity : spec.quantities)
-      monitors.push_back({spec.name, quantity, subject});
+    for (const Monitored& followed : spec.quantities)
+      monitors.push_back({spec.name, followed, subject});
   }
   return monitors;
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "core/load/time_factor.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/values.hpp"
 
@@ -15,11 +16,6 @@ template <class Enum>
 void read_choice(const Subject& table, std::string_view key, const std::map<std::string, Enum>& words, Enum& target) {
   if (const Node* node = table.node->find(key)) target = words.at(node->text);
 }
-
-const std::map<std::string, Quantity> quantity_words = {
-    {"displacement", Quantity::displacement}, {"velocity", Quantity::velocity},
-    {"rotation", Quantity::rotation},         {"angular_velocity", Quantity::angular_velocity},
-    {"contact_load", Quantity::contact_load}, {"contact_force", Quantity::contact_force}};
 
 bool chooses(const Selector& s) {
   return s.all || !s.names.empty() || !s.above.empty() || !s.below.empty() || s.inside.has_value();
@@ -142,14 +138,6 @@ void read_damping(const Subject& table, DampingSettings& damping) {
   read(table, "viscous_ratio", damping.viscous_ratio);
 }
 
-void read_changes(const Subject& table, std::string_view key, std::vector<Selector>& target,
-                  std::vector<SelectorSpec>& changes) {
-  for (const SelectorSpec& spec : read_selectors(table, key)) {
-    target.push_back(spec.selector);
-    changes.push_back(spec);
-  }
-}
-
 void read_factor(const Subject& table, TimeFactor& factor) {
   read(table, "times_s", factor.times);
   read(table, "factors", factor.factors);
@@ -201,6 +189,24 @@ BoundaryPlan read_boundary(const Subject& table, const Selector& bodies, int dim
   return plan;
 }
 
+ForcePlan read_force(const Subject& table, const Selector& bodies, const RunPlan* run) {
+  ForcePlan plan;
+  plan.bodies = bodies;
+  read(table, "name", plan.name);
+  read(table, "force", plan.force);
+  read(table, "point", plan.point);
+  read(table, "turns_with_body", plan.turns_with_body);
+  read_factor(table, plan.factor);
+  for (const char* key : {"times_s", "frequency_hz"})
+    if (!run && table.node->find(key))
+      refuse(
+          table, key,
+          "a factor of time needs a stage of kind run: on the way to rest time means nothing; state the force alone, "
+          "or grow it in a stage of kind run before");
+  if (run) plan.last_factor = value_at(plan.factor, run->duration);
+  return plan;
+}
+
 StageSpec read_stage(const Subject& table, const DampingSettings& damping, int dimension) {
   StageSpec stage;
   stage.subject = table;
@@ -214,18 +220,26 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping, int d
     stage.plan.damping = damping;
     read_damping(*own, *stage.plan.damping);
   }
-  read_changes(table, "fix", stage.plan.change.fix, stage.changes);
-  read_changes(table, "release", stage.plan.change.release, stage.changes);
-  read_changes(table, "remove", stage.plan.change.remove, stage.changes);
-  stage.moves = read_selectors(table, "move");
-  for (const SelectorSpec& spec : stage.moves)
-    stage.plan.change.move.push_back(read_move(spec.subject, spec.selector));
-  read(table, "bond", stage.plan.change.bond);
-  for (const SelectorSpec& spec : read_selectors(table, "boundary")) {
-    stage.plan.change.boundary.push_back(read_boundary(spec.subject, spec.selector, dimension));
-    stage.changes.push_back(spec);
-  }
-  if (table.node->find("friction_deg")) read_degrees(table, "friction_deg", stage.plan.change.friction.emplace());
+  Change& change = stage.plan.change;
+  const auto read_chosen = [&](const char* key, const auto& add) {
+    for (const SelectorSpec& spec : stage.chosen[key] = read_selectors(table, key))
+      add(spec.subject, spec.selector);
+  };
+  for (const auto& [key, target] :
+       {std::pair("fix", &change.fix), {"release", &change.release}, {"remove", &change.remove}})
+    read_chosen(key, [&](const Subject&, const Selector& bodies) { target->push_back(bodies); });
+  read_chosen("move", [&](const Subject& at, const Selector& bodies) { change.move.push_back(read_move(at, bodies)); });
+  read_chosen("boundary", [&](const Subject& at, const Selector& bodies) {
+    change.boundary.push_back(read_boundary(at, bodies, dimension));
+  });
+  read_chosen("force", [&](const Subject& at, const Selector& bodies) {
+    ForcePlan plan = read_force(at, bodies, std::get_if<RunPlan>(&stage.plan.plan));
+    if (std::ranges::find(change.force, plan.name, &ForcePlan::name) != change.force.end())
+      refuse(at, "name", "stands twice in this stage; give each force a name of its own");
+    change.force.push_back(std::move(plan));
+  });
+  read(table, "bond", change.bond);
+  if (table.node->find("friction_deg")) read_degrees(table, "friction_deg", change.friction.emplace());
   return stage;
 }
 
@@ -236,12 +250,13 @@ MonitorSpec read_monitor(const Subject& table) {
   read(table, "joint", monitor.joint);
   std::vector<std::string> words;
   read(table, "quantities", words);
+  const std::vector<Monitored> all = monitored_quantities();
   for (const std::string& word : words)
-    monitor.quantities.push_back(quantity_words.at(word));
+    monitor.quantities.push_back(*std::ranges::find(all, word, &Monitored::word));
 
   const bool of_joint = table.node->find("joint");
-  for (const Quantity quantity : monitor.quantities) {
-    const bool force = quantity == Quantity::contact_force;
+  for (const Monitored& followed : monitor.quantities) {
+    const bool force = followed.quantity == Quantity::contact_force;
     if (force && !of_joint)
       refuse(table, "joint", "contact_force is followed on a joint; write for example joint = \"A\"");
     if (!force && of_joint)

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -152,14 +154,20 @@ struct InitialVelocitySpec {
 struct StageSpec {
   Subject subject;
   StagePlan plan;
-  std::vector<SelectorSpec> changes;  // the selectors of plan.change but of its moves, with their places
-  std::vector<SelectorSpec> moves;    // those that move
+  std::map<std::string, std::vector<SelectorSpec>, std::less<>> chosen;  // the selectors of plan.change by their key,
+                                                                         // in its order, with their places
+
+  const std::vector<SelectorSpec>& chosen_by(std::string_view key) const {
+    static const std::vector<SelectorSpec> none;
+    const auto found = chosen.find(key);
+    return found == chosen.end() ? none : found->second;
+  }
 };
 
 struct MonitorSpec {
   SelectorSpec body;  // empty for contact_force
   std::string name, joint;
-  std::vector<Quantity> quantities;
+  std::vector<Monitored> quantities;
 };
 
 struct Scene {

@@ -166,7 +166,7 @@ TEST(Prepare, CutsTheWedgeAndResolvesSelectors) {
   ASSERT_EQ(p.monitors.size(), 4u);
   EXPECT_EQ(p.monitors[0].subject, free);
   EXPECT_EQ(p.monitors[3].subject, 0);
-  EXPECT_EQ(p.monitors[3].quantity, Quantity::contact_force);
+  EXPECT_EQ(p.monitors[3].followed.quantity, Quantity::contact_force);
   double mass = 0;
   for (const Body<3>& b : p.model.bodies)
     mass += b.mass;

@@ -24,9 +24,9 @@
 #include <cctype>
 #include <vector>
 
-#include "text/text_scan.hpp"
 #include "core/floating_point_traps.hpp"
 #include "core/scene/scene_text.hpp"
+#include "text/text_scan.hpp"
 
 namespace voussoir {
 namespace {

@@ -19,12 +19,9 @@ KeyTable stage_change_keys() {
     {.key = "remove", .type = tables, .holds = {"label", "selector"},
      .meaning = "blocks excavated before the stage begins"},
     {.key = "move", .type = tables, .when = {"kind", "run"},
-     .holds = {"label", "motion", "move", "selector"},
+     .holds = {"label", "motion", "move", "factor", "selector"},
      .meaning = "blocks whose motion is prescribed while the stage lasts, whatever the load on them; their other "
          "freedoms stay as they are, those of a fixed block are held. Afterwards a fixed block stands, a free one goes on"},
-    {.key = "boundary", .type = tables, .holds = {"label", "boundary", "selector"},
-     .meaning = "stress on the outer faces of blocks, those that no joint made, from this stage on; it replaces what the "
-         "blocks bore before"},
     {.key = "friction_deg", .unit = "deg", .range = friction_range, .plausible = plausible_friction,
      .example = "30",
      .meaning = "friction angle of every joint from this stage on", .mistake = friction_mistake},
