@@ -165,7 +165,7 @@ Prepared<2> bonded_block(double slope, double tension, double cohesion, const st
   JointProperties& joint = scene.model.properties.front();
   joint.tension = tension;
   joint.cohesion = cohesion;
-  joint.laws = (tension > 0 ? tension_bond : 0u) | (cohesion > 0 ? cohesion_bond : 0u);
+  joint.laws.bond = tension > 0 || cohesion > 0;
   scene.state = initial_state(scene.model);
   scene.stages = stages;
   scene.stages.front().change.bond = true;
@@ -220,7 +220,7 @@ TEST(Bonds, ThatAreDueSurviveAnInterruption) {
     JointProperties& joint = scene.model.properties.front();
     joint.tension = 2e4;
     joint.cohesion = 5e4;
-    joint.laws = tension_bond | cohesion_bond;
+    joint.laws.bond = true;
     joint.sub_contacts = along;
     scene.state = initial_state(scene.model);
     scene.stages = {stage_of("load", RunPlan{.duration = 6e-3, .gravity = {.ramp = 4e-3}})};

@@ -90,19 +90,24 @@ void print_joints(const Model<Dim>& model) {
 // the laws that a plain joint has not, one after the other
 std::vector<std::string> laws_text(const JointProperties& p) {
   std::vector<std::string> laws;
-  const auto add = [&](JointLaw law, auto... arguments) {
-    if (p.laws & law) laws.push_back(fmt::format(arguments...));
+  const auto add = [&](bool has, auto... arguments) {
+    if (has) laws.push_back(fmt::format(arguments...));
   };
-  add(linear_normal, fmt::runtime("normal stiffness + {:g}/m times the normal stress"), p.normal_growth);
-  add(power_normal, fmt::runtime("normal stiffness times (normal stress / 1 Pa)^{:g}"), p.normal_exponent);
-  add(linear_shear, fmt::runtime("shear stiffness + {:g}/m times the normal stress"), p.shear_growth);
-  add(power_shear, fmt::runtime("shear stiffness times (normal stress / 1 Pa)^{:g}"), p.shear_exponent);
-  add(hardening, fmt::runtime("friction hardens within {:g} m of slip (normal stress / 1 Pa)^{:g}"), p.hardening_slip,
+  add(p.laws.normal == StiffnessLaw::linear, fmt::runtime("normal stiffness + {:g}/m times the normal stress"),
+      p.normal_growth);
+  add(p.laws.normal == StiffnessLaw::power, fmt::runtime("normal stiffness times (normal stress / 1 Pa)^{:g}"),
+      p.normal_exponent);
+  add(p.laws.shear == StiffnessLaw::linear, fmt::runtime("shear stiffness + {:g}/m times the normal stress"),
+      p.shear_growth);
+  add(p.laws.shear == StiffnessLaw::power, fmt::runtime("shear stiffness times (normal stress / 1 Pa)^{:g}"),
+      p.shear_exponent);
+  add(p.laws.friction == FrictionLaw::hardening,
+      fmt::runtime("friction hardens within {:g} m of slip (normal stress / 1 Pa)^{:g}"), p.hardening_slip,
       p.hardening_exponent);
-  add(softening, fmt::runtime("friction coefficient softens by {:g} within {:g} m of slip"), p.softening_drop,
-      p.softening_slip);
-  add(tension_bond, fmt::runtime("tension {:g} Pa where bonded"), p.tension);
-  add(cohesion_bond, fmt::runtime("cohesion {:g} Pa where bonded"), p.cohesion);
+  add(p.laws.friction == FrictionLaw::softening,
+      fmt::runtime("friction coefficient softens by {:g} within {:g} m of slip"), p.softening_drop, p.softening_slip);
+  add(p.tension > 0, fmt::runtime("tension {:g} Pa where bonded"), p.tension);
+  add(p.cohesion > 0, fmt::runtime("cohesion {:g} Pa where bonded"), p.cohesion);
   return laws;
 }
 
@@ -262,7 +267,7 @@ std::string inactive(const Prepared<Dim>& prepared) {
                         [&](const StagePlan& s) { return test(s.change); });
   };
   const auto none_has = [&](auto test) { return std::none_of(model.properties.begin(), model.properties.end(), test); };
-  if (none_has([](const JointProperties& p) { return p.laws != 0; })) list.push_back("joint laws and strengths");
+  if (none_has([](const JointProperties& p) { return !p.laws.is_plain(); })) list.push_back("joint laws and strengths");
   if (none_has([](const JointProperties& p) { return p.sub_contacts > 1; })) list.push_back("sub-contacts");
   if (none_changes([](const Change& c) { return c.bond; })) list.push_back("bonds");
   if (none_changes([](const Change& c) { return !c.move.empty(); })) list.push_back("prescribed motion");

@@ -39,7 +39,7 @@ std::vector<std::string> unsupported(const LimitAnalysis& analysis) {
 // strength beside friction has no place in the linear programs
 void warn_of_strengths(const std::vector<JointProperties>& properties, std::vector<std::string>& warnings) {
   for (const JointProperties& p : properties)
-    if (p.bonds())
+    if (p.laws.bond)
       warnings.push_back(
           fmt::format("joint_properties '{}' state tension {:.4g} Pa and cohesion {:.4g} Pa; limit analysis "
                       "leaves both out: its joints have friction alone",

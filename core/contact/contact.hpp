@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "core/geometry/types.hpp"
+#include "core/law/joint_state.hpp"
 
 namespace voussoir {
 
@@ -28,19 +28,6 @@ struct ContactGeometry {
   double area = 0;                           // m² (2-D: m, unit thickness); 0 when no law asked for it
   double firmness = 1;                       // share of a constant normal stiffness that acts (ContactNormal)
   int face_a = -1, face_b = -1;  // the faces that end the searches along the normal, or lean on each other most
-};
-
-// what a joint remembers
-template <int Dim>
-struct JointState {
-  Vector<Dim> shear_force = Vector<Dim>::Zero();  // N on the second body
-  Vector<Dim> normal = Vector<Dim>::Zero();       // of the step before
-  Vector<Dim> point = Vector<Dim>::Zero();        // m, of the step before, relative as the contact's
-  double plastic_slip = 0;                        // m, accumulated
-  double dashpot = 0;                             // N: its share of the normal force, of the step before
-  double area = 0;                                // m², of the step before; 1 for a constant stiffness
-  double shear_stiffness = 0;                     // Pa/m, of the step before, where a law lets it vary; else 0
-  bool bonded = false;                            // its strength in tension and its cohesion are intact
 };
 
 enum class ProofKind {

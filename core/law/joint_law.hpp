@@ -1,18 +1,13 @@
 // Joint laws beyond the plain one (Boon 2013, Eqs 4.10-4.18, 6.3-6.7, App. F; decisions in method.md section 4):
 // stiffness that depends on the normal stress, strength in tension and cohesion with brittle loss, friction that
-// hardens or softens with slip. The table of scene keys (scene/keys.cpp) repeats parameters and equations for users.
+// hardens or softens with slip. The table of scene keys (scene/keys/joint_properties.cpp) repeats parameters and
+// equations for users.
 #pragma once
 
 #include "core/law/elastic_coulomb.hpp"
+#include "core/law/joint_state.hpp"
 
 namespace voussoir {
-
-// what a joint remembers beside its shear force
-struct JointMemory {
-  double plastic_slip = 0;     // m, accumulated: β
-  double shear_stiffness = 0;  // Pa/m, of the step before; 0 at first
-  bool bonded = false;         // tension and cohesion are intact, both or neither
-};
 
 struct NormalAnswer {
   double stress = 0;     // Pa, compression positive
@@ -40,19 +35,21 @@ struct FrictionAnswer {
 };
 FrictionAnswer friction_answer(const JointProperties& properties, double friction, double slip, double stress);
 
-// The plastic slip p of a return to the cone: trial - K p = μ(β + p) N, within [0, trial/K], where the left side less
-// the right goes from positive to not positive. Hardening makes that difference convex, softening concave: one root
-// either way, to which Newton's method runs from one side. Needs K > 0 and trial > μ(β) N.
+// The plastic slip p of a return to the cone after the slip β = `plastic_slip`: trial - K p = μ(β + p) N, within [0,
+// trial/K], where the left side less the right goes from positive to not positive. Hardening makes that difference
+// convex, softening concave: one root either way, to which Newton's method runs from one side. Needs K > 0 and trial >
+// μ(β) N.
 struct SlipReturn {
   double slip = 0;         // m
   bool snap_back = false;  // friction fell faster than the spring unloads, N |μ'| > K: no quasi-static path leads here
 };
-SlipReturn return_to_cone(const JointProperties& properties, double friction, const JointMemory& memory, double trial,
+SlipReturn return_to_cone(const JointProperties& properties, double friction, double plastic_slip, double trial,
                           double stiffness, double normal_force, double stress);
 
-// As elastic_coulomb, for a joint with any laws; stiffness per area only.
+// As elastic_coulomb, for a joint with any laws; stiffness per area only. Of the history it brings shear force, plastic
+// slip, shear stiffness and bond up to date.
 template <int Dim>
 JointForce<Dim> joint_law(const JointProperties& properties, double friction, double dashpot,
-                          const JointKinematics<Dim>& kinematics, Vector<Dim>& shear, JointMemory& memory);
+                          const JointKinematics<Dim>& kinematics, JointState<Dim>& history);
 
 }  // namespace voussoir

@@ -30,21 +30,23 @@ JointProperties plain() {
 }
 JointProperties linear() {  // Eqs 4.10-4.12
   JointProperties p{"linear", 4e9, 1e8, 40 * degree, false};
-  p.laws = linear_normal | linear_shear;
+  p.laws.normal = p.laws.shear = StiffnessLaw::linear;
   p.normal_growth = 7.4e4;
   p.shear_growth = 9.7e4;
   return p;
 }
 JointProperties power() {  // Eqs 4.13, 4.17
   JointProperties p{"power", 2.1e6, 1.9e6, 40 * degree, false};
-  p.laws = power_normal | power_shear;
+  p.laws.normal = p.laws.shear = StiffnessLaw::power;
   p.normal_exponent = 0.75;
   p.shear_exponent = 0.7;
   return p;
 }
 JointProperties hardened() {  // Eqs 4.14, 4.16-4.18
   JointProperties p{"hardened", 2e9, 1.9e6, 40 * degree, false};
-  p.laws = linear_normal | power_shear | hardening;
+  p.laws.normal = StiffnessLaw::linear;
+  p.laws.shear = StiffnessLaw::power;
+  p.laws.friction = FrictionLaw::hardening;
   p.normal_growth = 3.7e4;
   p.shear_exponent = 0.7;
   p.hardening_slip = 2e-6;
@@ -53,14 +55,14 @@ JointProperties hardened() {  // Eqs 4.14, 4.16-4.18
 }
 JointProperties softened() {  // Eq. 6.7
   JointProperties p{"softened", 2e9, 1e8, 20 * degree, false};
-  p.laws = softening;
+  p.laws.friction = FrictionLaw::softening;
   p.softening_drop = 0.059266;
   p.softening_slip = 0.35;
   return p;
 }
 JointProperties bonded_joint() {  // Eqs 6.3-6.6
   JointProperties p{"bonded", 2e9, 1e9, 40 * degree, false};
-  p.laws = tension_bond | cohesion_bond;
+  p.laws.bond = true;
   p.tension = 0.076e6;
   p.cohesion = 0.787e6;
   return p;
@@ -68,7 +70,8 @@ JointProperties bonded_joint() {  // Eqs 6.3-6.6
 std::vector<JointProperties> every_law() {
   JointProperties brittle = linear();  // several at once
   brittle.name = "brittle";
-  brittle.laws |= softening | tension_bond | cohesion_bond;
+  brittle.laws.friction = FrictionLaw::softening;
+  brittle.laws.bond = true;
   brittle.softening_drop = 0.3;
   brittle.softening_slip = 1e-4;
   brittle.tension = 1e5;
@@ -146,7 +149,7 @@ TEST(ShearLaw, HardeningAndSofteningFollowTheirCurves) {
   for (const JointProperties& p : {hardened(), softened()})
     for (const double stress : {1e5, 1e6, 5e6}) {
       const double ks = shear_stiffness_at(p, stress);
-      const bool hardens = p.laws & hardening;
+      const bool hardens = p.laws.friction == FrictionLaw::hardening;
       const double scale = hardens ? 2e-6 * std::pow(stress, 0.213) : 0.35;
       const auto strength = [&](double beta) {
         return stress * (hardens ? std::tan(40 * degree) * (1 - std::exp(-beta / scale))
@@ -172,7 +175,9 @@ TEST(ShearLaw, TangentIsThatOfTheCurve) {
   constexpr double stress = 1e6;
   for (const JointProperties& p : {plain(), linear(), hardened(), softened()}) {
     const double ks = shear_stiffness_at(p, stress);
-    const double reach = p.laws & softening ? 1 : p.laws & hardening ? 1e-4 : 2e-2;
+    const double reach = p.laws.friction == FrictionLaw::softening   ? 1
+                         : p.laws.friction == FrictionLaw::hardening ? 1e-4
+                                                                     : 2e-2;
     JointPath path = sheared(stress, reach);
     path.steps = 20000;
     const std::vector<JointPathPoint> points = follow(p, path);
@@ -204,28 +209,27 @@ TEST(ShearLaw, CohesionIsLostAtOnce) {
 
 TEST(ShearLaw, TensionAndSlipBreakTheSameBond) {
   const JointProperties p = bonded_joint();
-  JointMemory memory;
-  Vector<2> shear = Vector<2>::Zero();
+  JointState<2> history;
   JointKinematics<2> k;
   k.normal = {0, 1};
   k.area = 2;
   k.slip.setZero();
   k.overlap = 1e-5;  // 28 µm below the offset
-  memory.bonded = true;
-  EXPECT_NEAR(joint_law<2>(p, p.friction, 0, k, shear, memory).force[1], -2 * 2e9 * 28e-6, 1e-6);
-  EXPECT_TRUE(memory.bonded);
+  history.bonded = true;
+  EXPECT_NEAR(joint_law<2>(p, p.friction, 0, k, history).force[1], -2 * 2e9 * 28e-6, 1e-6);
+  EXPECT_TRUE(history.bonded);
   // a dashpot that pulls beyond the strength breaks it, and what is broken does not pull
   k.closing_speed = -1;
-  EXPECT_EQ(joint_law<2>(p, p.friction, 1e6, k, shear, memory).force[1], 0);
-  EXPECT_FALSE(memory.bonded);
+  EXPECT_EQ(joint_law<2>(p, p.friction, 1e6, k, history).force[1], 0);
+  EXPECT_FALSE(history.bonded);
   // slip at a pull: the strength c A + tan φ F is less than under no load; beyond it nothing is left
-  memory.bonded = true;
+  history.bonded = true;
   k.closing_speed = 0;
   k.slip = {-1e-3, 0};  // asks for 2 MN, of which 1.574 - 0.094 MN are there
-  const JointForce<2> torn = joint_law<2>(p, p.friction, 0, k, shear, memory);
-  EXPECT_FALSE(memory.bonded);
+  const JointForce<2> torn = joint_law<2>(p, p.friction, 0, k, history);
+  EXPECT_FALSE(history.bonded);
   EXPECT_EQ(torn.force, Vector<2>::Zero());
-  EXPECT_EQ(shear, Vector<2>::Zero());
+  EXPECT_EQ(history.shear_force, Vector<2>::Zero());
 }
 
 TEST(ShearLaw, SnapBackIsReported) {
@@ -266,9 +270,8 @@ TEST(JointEnergy, DissipationIsNeverNegative) {
   const std::vector<JointProperties> laws = every_law();
   for (int i = 0; i < paths; ++i) {
     const JointProperties& p = laws[i % laws.size()];
-    JointMemory memory;
-    memory.bonded = p.laws & (tension_bond | cohesion_bond) && i % 2;
-    Vector<3> shear = Vector<3>::Zero();
+    JointState<3> history;
+    history.bonded = p.laws.bond && i % 2;
     JointKinematics<3> k;
     k.normal = {0, 0, 1};
     k.area = shapes::power_of_ten(random, -2, 1);
@@ -276,16 +279,17 @@ TEST(JointEnergy, DissipationIsNeverNegative) {
       k.overlap = shapes::power_of_ten(random, -7, -3.5);
       const double slip = shapes::power_of_ten(random, -8, -2), way = shapes::uniform(random, 0, 2 * std::numbers::pi);
       k.slip = {slip * std::cos(way), slip * std::sin(way), 0};
-      const double before = memory.plastic_slip;
-      const JointForce<3> answer = joint_law<3>(p, p.friction, 0, k, shear, memory);
+      const double before = history.plastic_slip;
+      const JointForce<3> answer = joint_law<3>(p, p.friction, 0, k, history);
       ASSERT_GE(answer.friction, 0) << p.name << " path " << i;
-      ASSERT_GE(memory.plastic_slip, before);
+      ASSERT_GE(history.plastic_slip, before);
       const double coefficient =
-          friction_answer(p, p.friction, memory.plastic_slip, answer.force[2] / k.area).coefficient;
-      const double cohesion = memory.bonded ? p.cohesion * k.area : 0;
-      ASSERT_LE(shear.norm(), (cohesion + coefficient * std::max(answer.force[2], 0.0)) * (1 + 1e-9) + 1e-300)
+          friction_answer(p, p.friction, history.plastic_slip, answer.force[2] / k.area).coefficient;
+      const double cohesion = history.bonded ? p.cohesion * k.area : 0;
+      ASSERT_LE(history.shear_force.norm(),
+                (cohesion + coefficient * std::max(answer.force[2], 0.0)) * (1 + 1e-9) + 1e-300)
           << p.name;
-      slid += memory.plastic_slip > before;
+      slid += history.plastic_slip > before;
     }
   }
   EXPECT_GT(slid, paths);
@@ -300,8 +304,7 @@ TEST(JointEnergy, WorkIsStoredLostOrBooked) {
     double errors[2];
     for (int fine = 0; fine < 2; ++fine) {
       const int steps = fine ? 4000 : 1000;
-      JointMemory memory;
-      Vector<2> shear = Vector<2>::Zero();
+      JointState<2> history;
       Vector<2> force = Vector<2>::Zero();
       double work = 0, lost = 0, stiffening = 0, elastic = 0, turnover = 0;
       for (std::size_t leg = 1; leg < std::size(corners); ++leg)
@@ -314,7 +317,7 @@ TEST(JointEnergy, WorkIsStoredLostOrBooked) {
           k.area = 1;
           k.overlap = corners[leg - 1][0] + share * (corners[leg][0] - corners[leg - 1][0]);
           k.slip = {ds, 0};
-          const JointForce<2> answer = joint_law<2>(p, p.friction, 0, k, shear, memory);
+          const JointForce<2> answer = joint_law<2>(p, p.friction, 0, k, history);
           // the joint pushes along +y as it closes, and against the slip
           work += 0.5 * (force[1] + answer.force[1]) * du - 0.5 * (force[0] + answer.force[0]) * ds;
           force = answer.force;

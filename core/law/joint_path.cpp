@@ -27,8 +27,7 @@ double overlap_between(const JointProperties& p, const JointPath& path, double s
 
 struct Walker {
   const JointProperties& properties;
-  JointMemory memory;
-  Vector<2> shear = Vector<2>::Zero();
+  JointState<2> history;
   JointPathPoint now;
   std::vector<JointPathPoint> points;
 
@@ -39,19 +38,20 @@ struct Walker {
     k.area = 1;
     // the law's shear is the force on the second body, against its slip
     k.slip = {now.slip - slip, 0};
-    const JointForce<2> answer = joint_law<2>(properties, properties.friction, 0, k, shear, memory);
+    const JointForce<2> answer = joint_law<2>(properties, properties.friction, 0, k, history);
     now.overlap = overlap;
     now.slip = slip;
     now.normal_stress = answer.force[1];
-    now.shear_stress = shear[0];
-    now.normal_stiffness = normal_answer(properties, overlap, memory.bonded).stiffness;
+    now.shear_stress = history.shear_force[0];
+    now.normal_stiffness = normal_answer(properties, overlap, history.bonded).stiffness;
     now.shear_stiffness = shear_stiffness_at(properties, now.normal_stress);
-    now.plastic_slip = memory.plastic_slip;
-    now.friction = friction_answer(properties, properties.friction, memory.plastic_slip, now.normal_stress).coefficient;
+    now.plastic_slip = history.plastic_slip;
+    now.friction =
+        friction_answer(properties, properties.friction, history.plastic_slip, now.normal_stress).coefficient;
     now.elastic = answer.elastic;
     now.dissipated += answer.friction;
     now.stiffening += answer.stiffening;
-    now.bonded = memory.bonded;
+    now.bonded = history.bonded;
     now.snap_back = answer.snap_back;
     points.push_back(now);
   }
@@ -60,11 +60,11 @@ struct Walker {
 }  // namespace
 
 std::vector<JointPathPoint> follow(const JointProperties& properties, const JointPath& path) {
-  Walker walker{properties, {}, Vector<2>::Zero(), {}, {}};
+  Walker walker{properties, {}, {}, {}};
   const double closed = overlap_at(properties, path.normal_stress);
   for (int i = 0; i <= path.steps; ++i)
     walker.go(closed * i / path.steps, 0);
-  walker.memory.bonded = path.bonded;
+  walker.history.bonded = path.bonded;
   if (path.unload)
     for (int i = path.steps - 1; i >= 0; --i)
       walker.go(closed * i / path.steps, 0);
@@ -72,7 +72,7 @@ std::vector<JointPathPoint> follow(const JointProperties& properties, const Join
   const auto shear_to = [&](double from, double to) {
     for (int i = 1; i <= path.steps; ++i) {
       const double slip = from + (to - from) * i / path.steps, rise = path.dilation * std::abs(slip);
-      walker.go(overlap_between(properties, path, closed, rise, walker.memory.bonded), slip);
+      walker.go(overlap_between(properties, path, closed, rise, walker.history.bonded), slip);
     }
   };
   if (path.slip != 0 && path.cycles == 0) shear_to(0, path.slip);

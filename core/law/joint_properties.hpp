@@ -1,21 +1,37 @@
 // The properties of a joint: what its laws (joint_law.hpp, elastic_coulomb.hpp) are made of.
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <string>
 
 namespace voussoir {
 
-// Laws beside the plain one (linear springs, constant friction, no strength in tension): bits of JointProperties::laws.
-// A joint without any costs one comparison more than if there were none.
-enum JointLaw : unsigned {
-  linear_normal = 1,   // kn = normal_stiffness + normal_growth σ
-  power_normal = 2,    // kn = normal_stiffness (σ / 1 Pa)^normal_exponent
-  linear_shear = 4,    // ks = shear_stiffness + shear_growth σ
-  power_shear = 8,     // ks = shear_stiffness (σ / 1 Pa)^shear_exponent
-  hardening = 16,      // tan φ (1 - e^(-β/u)), u = hardening_slip (σ / 1 Pa)^hardening_exponent, β plastic slip
-  softening = 32,      // tan φ - softening_drop (1 - e^(-β/softening_slip))
-  tension_bond = 64,   // tensile strength until the bond breaks
-  cohesion_bond = 128  // cohesion until the bond breaks
+// how a stiffness depends on the normal stress σ
+enum class StiffnessLaw : unsigned char {
+  constant,
+  linear,  // kn = normal_stiffness + normal_growth σ, ks = shear_stiffness + shear_growth σ
+  power    // kn = normal_stiffness (σ / 1 Pa)^normal_exponent, ks = shear_stiffness (σ / 1 Pa)^shear_exponent
+};
+
+// how the friction coefficient depends on the plastic slip β
+enum class FrictionLaw : unsigned char {
+  constant,
+  hardening,  // tan φ (1 - e^(-β/u)), u = hardening_slip (σ / 1 Pa)^hardening_exponent
+  softening   // tan φ - softening_drop (1 - e^(-β/softening_slip))
+};
+
+// the laws of a joint; what they are made of stands in its properties
+struct JointLaws {
+  StiffnessLaw normal = StiffnessLaw::constant, shear = StiffnessLaw::constant;
+  FrictionLaw friction = FrictionLaw::constant;
+  bool bond = false;  // strength in tension, cohesion or both, until the bond breaks
+
+  bool depends_on_stress() const { return normal != StiffnessLaw::constant || shear != StiffnessLaw::constant; }
+
+  // Linear springs, constant friction, no bond: elastic_coulomb answers. Asked of every contact at every step, so the
+  // four are compared at once.
+  bool is_plain() const { return std::bit_cast<std::uint32_t>(*this) == 0; }
 };
 
 struct JointProperties {
@@ -28,14 +44,13 @@ struct JointProperties {
   bool constant_stiffness = false;  // N/m whatever the area, which then is never computed (but with sub-contacts)
   int sub_contacts = 1;             // points that carry a face, along each of its directions; 1: the contact's own
 
-  unsigned laws = 0;                                  // JointLaw; those below that no law uses are zero
+  JointLaws laws{};
+  // those that no law uses are zero
   double normal_growth = 0, shear_growth = 0;         // 1/m
   double normal_exponent = 0, shear_exponent = 0;     // 0 < . < 1
   double hardening_slip = 0, hardening_exponent = 0;  // m at 1 Pa; 1
   double softening_drop = 0, softening_slip = 0;      // 1; m
   double tension = 0, cohesion = 0;                   // Pa
-
-  bool bonds() const { return laws & (tension_bond | cohesion_bond); }
 };
 
 }  // namespace voussoir

@@ -42,7 +42,7 @@ struct Tangent {
 };
 
 Tangent tangent(const JointProperties& p, double overlap) {
-  if (p.laws == 0) return {p.normal_stiffness, p.shear_stiffness};
+  if (p.laws.is_plain()) return {p.normal_stiffness, p.shear_stiffness};
   // as if bonded: a bond's loss makes nothing stiffer
   const NormalAnswer answer = normal_answer(p, overlap, true);
   return {answer.stiffness, shear_stiffness_at(p, answer.stress)};
@@ -51,8 +51,7 @@ Tangent tangent(const JointProperties& p, double overlap) {
 // how much stress stiffens a contact, against what its joint's properties state; 1 for the plain law
 template <int Dim>
 double stiffening(const JointProperties& p, const Contact<Dim>& c, std::span<const SubContact<Dim>> subs) {
-  constexpr unsigned stress_dependent = linear_normal | power_normal | linear_shear | power_shear;
-  if (!(p.laws & stress_dependent)) return 1;
+  if (!p.laws.depends_on_stress()) return 1;
   double overlap = c.cells == 0 ? c.geometry.overlap : 0;
   for (const SubContact<Dim>& s : subs)
     if (s.area > 0) overlap = std::max(overlap, s.overlap);

@@ -42,8 +42,9 @@ std::string dump(const Scene& s) {
     out << spec.selector.all << '\n';
   for (const PropertiesSpec& spec : s.properties) {
     const JointProperties& p = spec.properties;
-    out << p.constant_stiffness << ' ' << p.sub_contacts << ' ' << p.laws << ' ' << p.hardening_exponent << ' '
-        << p.tension << ' ' << p.cohesion << '\n';
+    out << p.constant_stiffness << ' ' << p.sub_contacts << ' ' << static_cast<int>(p.laws.normal) << ' '
+        << static_cast<int>(p.laws.shear) << ' ' << static_cast<int>(p.laws.friction) << ' ' << p.hardening_exponent
+        << ' ' << p.tension << ' ' << p.cohesion << '\n';
   }
   for (const JointSetSpec& spec : s.joint_sets) {
     const JointSet& set = spec.set;

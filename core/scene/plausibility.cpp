@@ -176,12 +176,12 @@ void judge_bonds(const Scene& scene, Warnings& warnings) {
   bool strong = false;
   for (const PropertiesSpec& spec : scene.properties) {
     const JointProperties& p = spec.properties;
-    strong |= p.bonds();
+    strong |= p.laws.bond;
     if (p.tension * std::tan(p.friction) > p.cohesion)
       warnings.push_back(complaint(spec.subject, "tension",
                                    "exceeds cohesion / tan(friction_deg) = " + text(p.cohesion / std::tan(p.friction)) +
                                        " Pa, beyond which a pulled joint has no strength in shear: it breaks there"));
-    if (made || scene.stages.empty() || !p.bonds()) continue;
+    if (made || scene.stages.empty() || !p.laws.bond) continue;
     warnings.push_back(complaint(spec.subject, p.cohesion > 0 ? "cohesion" : "tension",
                                  "counts only where joints are bonded, and no stage bonds any: write bond = true into "
                                  "the stage from which it is to count"));

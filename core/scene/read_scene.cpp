@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "core/scene/accuracy_level.hpp"
@@ -20,15 +21,14 @@ namespace voussoir {
 namespace {
 
 void read_laws(const Subject& item, JointProperties& p) {
-  const auto choose = [&](std::string_view key, std::initializer_list<std::pair<std::string_view, unsigned>> laws) {
-    std::string word;
-    read(item, key, word);
-    for (const auto& [name, law] : laws)
-      if (word == name) p.laws |= law;
-  };
-  choose("normal_law", {{"linear", linear_normal}, {"power", power_normal}});
-  choose("shear_law", {{"linear", linear_shear}, {"power", power_shear}});
-  choose("friction_law", {{"hardening", hardening}, {"softening", softening}});
+  const std::map<std::string, StiffnessLaw> stiffness_words = {
+      {"constant", StiffnessLaw::constant}, {"linear", StiffnessLaw::linear}, {"power", StiffnessLaw::power}};
+  const std::map<std::string, FrictionLaw> friction_words = {{"constant", FrictionLaw::constant},
+                                                             {"hardening", FrictionLaw::hardening},
+                                                             {"softening", FrictionLaw::softening}};
+  if (const Node* node = item.node->find("normal_law")) p.laws.normal = stiffness_words.at(node->text);
+  if (const Node* node = item.node->find("shear_law")) p.laws.shear = stiffness_words.at(node->text);
+  if (const Node* node = item.node->find("friction_law")) p.laws.friction = friction_words.at(node->text);
   read(item, "normal_growth", p.normal_growth);
   read(item, "normal_exponent", p.normal_exponent);
   read(item, "shear_growth", p.shear_growth);
@@ -39,17 +39,16 @@ void read_laws(const Subject& item, JointProperties& p) {
   read(item, "softening_slip_m", p.softening_slip);
   read(item, "tension", p.tension);
   read(item, "cohesion", p.cohesion);
-  if (p.tension > 0) p.laws |= tension_bond;
-  if (p.cohesion > 0) p.laws |= cohesion_bond;
+  p.laws.bond = p.tension > 0 || p.cohesion > 0;
 
-  if (p.constant_stiffness && p.laws != 0)
+  if (p.constant_stiffness && !p.laws.is_plain())
     refuse(
         item, "constant_stiffness",
         "knows no stress, on which every other law depends; remove it and give the stiffness per area, or remove the "
         "laws, tension and cohesion");
-  if (p.laws & power_normal && p.laws & tension_bond)
+  if (p.laws.normal == StiffnessLaw::power && p.tension > 0)
     refuse(item, "tension", "a power law has no stiffness without stress; use the linear or the constant law");
-  if (p.laws & softening && p.softening_drop > std::tan(p.friction))
+  if (p.laws.friction == FrictionLaw::softening && p.softening_drop > std::tan(p.friction))
     refuse(item, "softening_drop",
            fmt::format("exceeds the friction coefficient tan(friction_deg) = {:.4g} that there is to lose",
                        std::tan(p.friction)));

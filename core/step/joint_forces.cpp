@@ -61,16 +61,23 @@ struct Booked {
   long long snap_backs = 0, bonds_made = 0;
 };
 
+// the answer of a plain joint, inlined as below; `damping` over the root of the normal stiffness
+template <int Dim>
+[[gnu::always_inline]] inline JointForce<Dim> plain_answer(const JointProperties& properties, double friction,
+                                                           double damping, const JointKinematics<Dim>& k,
+                                                           JointState<Dim>& history) {
+  const double dashpot = damping > 0 ? damping * std::sqrt(properties.normal_stiffness) : 0;
+  const JointForce<Dim> answer = elastic_coulomb<Dim>(properties, friction, dashpot, k, history.shear_force);
+  history.plastic_slip += answer.plastic_slip;
+  return answer;
+}
+
 // the answer of a joint with laws of its own
 template <int Dim>
 JointForce<Dim> answer_of_laws(const JointProperties& properties, double friction, double damping,
                                const JointKinematics<Dim>& k, Booked& booked, JointState<Dim>& history) {
-  JointMemory memory{history.plastic_slip, history.shear_stiffness, history.bonded};
   const double stiffness = damping > 0 ? normal_answer(properties, k.overlap, history.bonded).stiffness : 0;
-  const JointForce<Dim> answer =
-      joint_law<Dim>(properties, friction, damping * std::sqrt(stiffness), k, history.shear_force, memory);
-  history.shear_stiffness = memory.shear_stiffness;
-  history.bonded = memory.bonded;
+  const JointForce<Dim> answer = joint_law<Dim>(properties, friction, damping * std::sqrt(stiffness), k, history);
   booked.stiffening += answer.stiffening;
   if (answer.snap_back) ++booked.snap_backs;
   return answer;
@@ -127,17 +134,14 @@ template <int Dim>
       settings.damping.viscous_ratio > 0 && motion.inverse_mass > 0 && !state.relaxation.under_way
           ? 2 * settings.damping.viscous_ratio * std::sqrt(k.area * k.firmness / motion.inverse_mass * at.share)
           : 0;
-  const JointForce<Dim> answer =
-      properties.laws == 0 ? elastic_coulomb<Dim>(properties, friction,
-                                                  damping > 0 ? damping * std::sqrt(properties.normal_stiffness) : 0, k,
-                                                  history.shear_force)
-                           : answer_of_laws<Dim>(properties, friction, damping, k, booked, history);
+  const JointForce<Dim> answer = properties.laws.is_plain()
+                                     ? plain_answer<Dim>(properties, friction, damping, k, history)
+                                     : answer_of_laws<Dim>(properties, friction, damping, k, booked, history);
   booked.elastic += answer.elastic;
   booked.friction += answer.friction;
   booked.dashpots += 0.5 * (history.dashpot * closing_before + answer.dashpot * k.closing_speed) * dt;
   history.normal = n;
   history.point = at.point;
-  history.plastic_slip += answer.plastic_slip;
   history.dashpot = answer.dashpot;
   history.area = k.area;
   return answer.force;
@@ -152,7 +156,7 @@ void bond_what_presses(const JointProperties& properties, std::size_t place, Sta
     history.bonded = true;
     ++made;
   };
-  if (!properties.bonds()) {
+  if (!properties.laws.bond) {
     c.bond_due = false;
   } else if (c.cells == 0) {
     bond(c.geometry.overlap, c.history);
@@ -226,7 +230,7 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<D
 
 template <int Dim>
 void make_bonds(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  if (std::ranges::none_of(model.properties, [](const JointProperties& p) { return p.bonds(); })) return;
+  if (std::ranges::none_of(model.properties, [](const JointProperties& p) { return p.laws.bond; })) return;
   // which of the pairs that are near are closed shows as each is looked at
   find_neighbours(model, settings, state);
   for (Contact<Dim>& c : state.contacts)

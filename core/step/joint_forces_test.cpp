@@ -199,7 +199,7 @@ TEST(Bonds, AreMadeWhereAClosedJointPressesAndHoldUntilTheyBreak) {
   for (const int along : {1, 4}) {
     Pressed<2> pressed(along, 1e-4, 0);
     JointProperties& joint = pressed.model.properties[0];
-    joint.laws = tension_bond | cohesion_bond;
+    joint.laws.bond = true;
     joint.tension = 2e4;  // an offset of 20 µm
     joint.cohesion = 1e5;
     EXPECT_NEAR(force_at(pressed, 1e-5), 0, 1e-6);  // never bonded: nothing below the offset
@@ -228,7 +228,7 @@ TEST(Bonds, WaitForAClosedJointToPressUnlessItOpens) {
     for (const double gap : {0.0, 1e-12, 2e-4, 3e-4}) {
       Pressed<2> pressed(along, 0, 0);
       JointProperties& joint = pressed.model.properties[0];
-      joint.laws = cohesion_bond;
+      joint.laws.bond = true;
       joint.cohesion = 1e5;
       pressed.state = initial_state(pressed.model);
       make_bonds(pressed.model, pressed.settings, pressed.state);
@@ -251,7 +251,7 @@ TEST(StressDependentStiffness, IsTheSameThroughAnyNumberOfPointsAndShortensTheSt
     Pressed<3> pressed(along, 1e-4, 0);
     JointProperties& joint = pressed.model.properties[0];
     const double plain = estimate_time_step(pressed.model, pressed.settings, {}, pressed.state).limit;
-    joint.laws = linear_normal | linear_shear;
+    joint.laws.normal = joint.laws.shear = StiffnessLaw::linear;
     joint.normal_growth = 2e4;  // stress at 0.1 mm: k/c (e² - 1)
     joint.shear_growth = 2e4;
     EXPECT_NEAR(force_at(pressed, 1e-4), joint.normal_stiffness / 2e4 * std::expm1(2), 1e-6 * 3e5);

@@ -220,8 +220,8 @@ void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>
 
 template <int Dim>
 double closed_gap(const Model<Dim>& model) {
-  const bool bonds =
-      std::any_of(model.properties.begin(), model.properties.end(), [](const JointProperties& p) { return p.bonds(); });
+  const bool bonds = std::any_of(model.properties.begin(), model.properties.end(),
+                                 [](const JointProperties& p) { return p.laws.bond; });
   return bonds ? closed_share * smallest_size(model) : 0;
 }
 
