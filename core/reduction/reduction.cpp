@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/motion/relaxation.hpp"
 
@@ -13,8 +14,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-// without a stated displacement, a body that moved by this share of its inscribed radius has failed
-constexpr double default_failure_share = 0.1;
+// without a stated displacement, a body that moved by this fraction of its inscribed radius has failed
+constexpr double default_failure_fraction = 0.1;
 
 // the bias of a constant rate goes with this power of it (method.md section 6)
 constexpr double bias_power = 2.0 / 3;
@@ -50,52 +51,32 @@ Trial judge(StopReason reason) {
   }
 }
 
+// What a trial does: it seeks rest at a friction angle, or the friction falls at constant rate from the last stable
+// angle to this one.
+struct Attempt {
+  int number = 0;          // of the trial, from 0
+  double target = 0;       // rad
+  bool from_base = false;  // it begins at the last stable state, not where the trial before ended
+  bool falls = false;
+  double rate = 0;  // rad/s, of a fall
+};
+
+// The ways of searching stand at the end, each in one place. A way goes through its trials by their numbers, so that an
+// interrupted search, called again with its progress, goes on in the trial that was under way.
 template <int Dim>
 struct Search {
   const Model<Dim>& model;
   const Settings& settings;
   const ReducePlan& plan;
+  const RunHooks<Dim>& hooks;
+  const TrialHook<Dim>& on_trial;
   State<Dim>& state;
   ReductionProgress<Dim>& progress;
   std::vector<int> properties;
   double failure_displacement;
   ReductionReport report;
 
-  // the trial that runs at constant rate, instead of to rest at an angle
-  bool falls() const {
-    return plan.method == ReductionMethod::rate ? progress.trial > 0 : falls_faster() || falls_slower();
-  }
-
-  // two rates: fall, come to rest nearer to where the first fall began to move, fall from there
-  bool falls_faster() const { return two_rates() && progress.trial == faster_fall; }
-  bool comes_nearer() const { return two_rates() && progress.trial == coming_nearer; }
-  bool falls_slower() const { return two_rates() && progress.trial == slower_fall; }
-  bool two_rates() const { return plan.method == ReductionMethod::two_rates; }
-
-  double rate() const { return falls_slower() ? plan.slower_rate : plan.rate; }
-
-  // how far too low an angle a rate can find on a plane, rad; 0 where nothing pulls
-  double largest_lag(double rate) const {
-    const double g = model.gravity.norm() * (1 - settings.damping.local);
-    return g > 0 ? std::cbrt(6 * failure_displacement * rate * rate / g) : 0;
-  }
-
-  double next_target() const {
-    if (progress.trial == 0) return plan.from;
-    switch (plan.method) {
-      case ReductionMethod::bisection:
-        return progress.trial == 1 ? plan.to : 0.5 * (progress.stable + progress.failed);
-      case ReductionMethod::steps:
-        return std::max(plan.from - progress.trial * plan.step, plan.to);
-      case ReductionMethod::two_rates:
-        if (comes_nearer())
-          return std::min(plan.from, progress.failed_faster + nearer_by_lags * largest_lag(plan.rate));
-        return plan.to;
-      case ReductionMethod::rate:
-        return plan.to;
-    }
-    return plan.to;
-  }
+  // ---- one trial ----------------------------------------------------------------------------------------------------
 
   // the work done since is not forgotten
   void go_back_to_base() {
@@ -104,21 +85,18 @@ struct Search {
     state.counters = spent;
   }
 
-  bool starts_from_base() const {
-    return plan.method == ReductionMethod::bisection ? progress.trial > 0 : comes_nearer();
-  }
-
-  void begin_trial() {
-    if (starts_from_base()) go_back_to_base();
+  void begin(const Attempt& attempt) {
+    if (attempt.from_base) go_back_to_base();
+    progress.trial = attempt.number;
     progress.true_motion = false;
     progress.trial_steps = 0;
-    progress.run.begin = falls() ? std::vector<Vector<Dim>>{} : progress.begin;
-    progress.target = next_target();
+    progress.run.begin = attempt.falls ? std::vector<Vector<Dim>>{} : progress.begin;
+    progress.target = attempt.target;
     state.schedule.started = state.time;
-    if (falls()) {
+    if (attempt.falls) {
       progress.friction_from = progress.stable;
-      progress.friction_rate = rate();
-      progress.time_limit = state.time + (progress.stable - plan.to) / rate();
+      progress.friction_rate = attempt.rate;
+      progress.time_limit = state.time + (progress.stable - attempt.target) / attempt.rate;
       return;
     }
     // friction falls gently to the trial's angle: dropped at once, it would set the model in motion, and slip that
@@ -134,27 +112,28 @@ struct Search {
   }
 
   // relaxation and true motion take turns
-  bool relaxes_first() const { return relaxes(!falls(), settings.damping); }
+  bool relaxes_first(const Attempt& attempt) const { return relaxes(!attempt.falls, settings.damping); }
   long long round() const {
     return std::max(1LL, plan.step_limit / (progress.true_motion ? motion_round : relaxation_round));
   }
 
-  // true: the trial goes on by the other way
-  bool takes_turn() {
+  // true: the trial continues by the other of the two
+  bool takes_turn(const Attempt& attempt) {
     if (report.last.reason != StopReason::interrupted) progress.trial_steps += report.last.steps;
-    if (!relaxes_first() || report.last.reason != StopReason::step_limit || progress.trial_steps >= plan.step_limit)
+    if (!relaxes_first(attempt) || report.last.reason != StopReason::step_limit ||
+        progress.trial_steps >= plan.step_limit)
       return false;
     progress.true_motion = !progress.true_motion;
     return true;
   }
 
-  Trial go_on(const RunHooks<Dim>& hooks) {
+  Trial run_turn(const Attempt& attempt) {
     RunGoal goal;
-    goal.rest = !falls();
+    goal.rest = !attempt.falls;
     goal.moved_away = failure_displacement;
     goal.step_limit = plan.step_limit - progress.trial_steps;
-    if (relaxes_first()) goal.step_limit = std::min(goal.step_limit, round());
-    if (falls()) goal.time_limit = progress.time_limit;
+    if (relaxes_first(attempt)) goal.step_limit = std::min(goal.step_limit, round());
+    if (attempt.falls) goal.time_limit = progress.time_limit;
     const RunSchedule schedule{{}, progress.friction_rate, progress.friction_from, progress.target, properties};
     Settings own = settings;
     if (progress.true_motion) own.damping.statics = Statics::local;
@@ -162,6 +141,58 @@ struct Search {
     report.unbalanced = report.last.unbalanced;
     return judge(report.last.reason);
   }
+
+  // the friction angle that the trial has come to, rad
+  double friction_of(const Attempt& attempt) const {
+    return attempt.falls ? state.schedule.friction[properties.front()] : attempt.target;
+  }
+
+  // nothing: interrupted, or a numerical failure
+  std::optional<Trial> carry_out(const Attempt& attempt) {
+    if (!progress.run.under_way) begin(attempt);
+    Trial outcome = run_turn(attempt);
+    while (takes_turn(attempt))
+      outcome = run_turn(attempt);
+    if (report.last.reason == StopReason::interrupted) return {};
+    if (on_trial) on_trial(state, friction_of(attempt), outcome);
+    if (outcome != Trial::broken) return outcome;
+    report.message = report.last.detail;
+    return {};
+  }
+
+  // Stable or failed, and the bracket drawn up to it; nothing: the search is over.
+  std::optional<Trial> decide(const Attempt& attempt) {
+    const std::optional<Trial> outcome = carry_out(attempt);
+    if (!outcome) return {};
+    const double friction = friction_of(attempt);
+    if (outcome == Trial::undecided) {
+      give_up_undecided(attempt, friction);
+      return {};
+    }
+    if (outcome == Trial::failed && attempt.number == 0) {
+      report.message = fmt::format("fails already at from_deg = {:.6g}: start higher", plan.from / degree);
+      return {};
+    }
+    if (outcome == Trial::failed) {
+      progress.failed = friction;
+      return outcome;
+    }
+    progress.stable = friction;
+    progress.unbalanced = report.last.unbalanced;
+    if (plan.method != ReductionMethod::rate) progress.base = state;
+    if (attempt.number == 0 || friction != plan.to) return outcome;
+    report.message = fmt::format("still stable at to_deg = {:.6g}: end lower", plan.to / degree);
+    return {};
+  }
+
+  std::optional<Trial> rest_at(int number, double friction, bool from_base = false) {
+    return decide({.number = number, .target = friction, .from_base = from_base});
+  }
+  std::optional<Trial> fall(int number, double rate) {
+    return decide({.number = number, .target = plan.to, .falls = true, .rate = rate});
+  }
+
+  // ---- the end of a search ------------------------------------------------------------------------------------------
 
   void close(double critical, double error_bar) {
     report.bracketed = true;
@@ -172,21 +203,6 @@ struct Search {
     go_back_to_base();
     report.unbalanced = progress.unbalanced;
     close(0.5 * (progress.stable + progress.failed), 0.5 * (progress.stable - progress.failed));
-  }
-
-  // the angle at no rate at all
-  bool close_extrapolated() {
-    const double growth = std::pow(plan.rate / plan.slower_rate, bias_power) - 1;
-    const double bias = (progress.failed - progress.failed_faster) / growth;
-    if (!(bias > 0))
-      return give_up("the slower rate did not find the higher angle: the failure has no lag to extrapolate");
-    close(progress.failed + bias, extrapolation_margin * bias);
-    return false;
-  }
-
-  bool give_up(const std::string& message) {
-    report.message = message;
-    return false;
   }
 
   // The body that is farthest from where the search began, as a clause: what an undecided trial shows. The trial ended
@@ -208,81 +224,147 @@ struct Search {
                        away > 0.5 * velocity.norm() ? "creeps on" : "swings", velocity.norm());
   }
 
-  // what a trial that neither came to rest nor failed leaves of the search; always false
-  bool give_up_undecided(double friction) {
-    if (falls())
-      return give_up(fmt::format("no failure down to {:.6g} deg ({}), stable at {:.6g} deg", friction / degree,
-                                 describe(report.last.reason), progress.stable / degree));
-    const std::string why =
-        fmt::format("neither rest nor failure at {:.6g} deg within {} steps (unbalanced {:.2g}): {}", friction / degree,
-                    progress.trial_steps, report.last.unbalanced, farthest_mover());
-    if (progress.trial == 0) return give_up(why + "; neither a stable nor a failed angle is known");
-    // the first trial of a bisection is at `from`, the second at `to`
-    if (plan.method != ReductionMethod::bisection || progress.trial == 1)
-      return give_up(fmt::format("{}; stable at {:.6g} deg, no failed angle is known", why, progress.stable / degree));
+  // what a trial that neither came to rest nor failed leaves of the search
+  void give_up_undecided(const Attempt& attempt, double friction) {
+    if (attempt.falls) {
+      report.message = fmt::format("no failure down to {:.6g} deg ({}), stable at {:.6g} deg", friction / degree,
+                                   describe(report.last.reason), progress.stable / degree);
+      return;
+    }
+    report.message = fmt::format("neither rest nor failure at {:.6g} deg within {} steps (unbalanced {:.2g}): {}",
+                                 friction / degree, progress.trial_steps, report.last.unbalanced, farthest_mover());
+    if (attempt.number == 0) {
+      report.message += "; neither a stable nor a failed angle is known";
+      return;
+    }
+    report.message += fmt::format("; stable at {:.6g} deg, ", progress.stable / degree);
+    // of the ways that go on to seek rest only a bisection knows a failed angle, from its second trial on
+    if (plan.method != ReductionMethod::bisection || attempt.number == 1) {
+      report.message += "no failed angle is known";
+      return;
+    }
+    report.message += fmt::format("failed at {:.6g} deg", progress.failed / degree);
     close_bracket();
-    return give_up(fmt::format("{}; stable at {:.6g} deg, failed at {:.6g} deg", why, progress.stable / degree,
-                               progress.failed / degree));
   }
 
-  // draws the trial's consequences; false: the search is over
-  bool conclude(Trial outcome, double friction) {
-    if (outcome == Trial::broken) return give_up(report.last.detail);
-    if (comes_nearer()) {
-      // no rest there: the slower fall begins where the faster did
-      if (outcome != Trial::stable) go_back_to_base();
-      progress.stable = outcome == Trial::stable ? friction : plan.from;
-      return true;
-    }
-    if (outcome == Trial::undecided) return give_up_undecided(friction);
-    if (progress.trial == 0 && outcome == Trial::failed)
-      return give_up(fmt::format("fails already at from_deg = {:.6g}: start higher", plan.from / degree));
-    if (outcome == Trial::stable) {
-      progress.stable = friction;
-      progress.unbalanced = report.last.unbalanced;
-      if (plan.method != ReductionMethod::rate) progress.base = state;
-      if (progress.trial > 0 && friction == plan.to)
-        return give_up(fmt::format("still stable at to_deg = {:.6g}: end lower", plan.to / degree));
-    } else {
-      progress.failed = friction;
-    }
-    if (progress.trial == 0) return true;
-    return search_goes_on(outcome);
+  std::string failed_rule() const {
+    return fmt::format("failed: a body moved more than {:.3g} m", failure_displacement);
+  }
+  std::string stable_and_failed_rule() const {
+    return fmt::format("stable: unbalanced ratio below {:.0e}; ", settings.equilibrium.unbalanced) + failed_rule();
   }
 
-  bool search_goes_on(Trial outcome) {
-    if (falls_slower()) return close_extrapolated();
-    if (falls_faster()) {
+  // ---- bisection: every trial starts from the last stable state -----------------------------------------------------
+
+  void bisect() {
+    if (progress.trial == 0 && !rest_at(0, plan.from)) return;
+    if (progress.trial <= 1 && !rest_at(1, plan.to, true)) return;
+    for (int n = std::max(progress.trial, 2); progress.stable - progress.failed > plan.tolerance; ++n)
+      if (!rest_at(n, 0.5 * (progress.stable + progress.failed), true)) return;
+    close_bracket();
+  }
+  std::string bisection_rule() const { return "bisection from the last stable state; " + stable_and_failed_rule(); }
+
+  // ---- steps: from rest to rest until one fails ---------------------------------------------------------------------
+
+  void go_by_steps() {
+    for (int n = progress.trial;; ++n) {
+      const std::optional<Trial> outcome = rest_at(n, std::max(plan.from - n * plan.step, plan.to));
+      if (outcome == Trial::failed) close_bracket();
+      if (outcome != Trial::stable) return;
+    }
+  }
+  std::string steps_rule() const {
+    return fmt::format("steps of {:.4g} deg; ", plan.step / degree) + stable_and_failed_rule();
+  }
+
+  // ---- rate: one fall from rest -------------------------------------------------------------------------------------
+
+  // how far too low an angle a rate can find on a plane, rad; 0 where nothing pulls
+  double largest_lag(double rate) const {
+    const double g = model.gravity.norm() * (1 - settings.damping.local);
+    return g > 0 ? std::cbrt(6 * failure_displacement * rate * rate / g) : 0;
+  }
+
+  void fall_at_rate() {
+    if (progress.trial == 0 && !rest_at(0, plan.from)) return;
+    if (fall(1, plan.rate)) close(progress.failed, largest_lag(plan.rate));
+  }
+  std::string rate_rule() const {
+    return fmt::format("constant rate {:.4g} deg/s, found too low by up to {:.2g} deg; ", plan.rate / degree,
+                       report.error_bar / degree) +
+           failed_rule();
+  }
+
+  // ---- two rates: fall, come to rest nearer to where the first fall began to move, fall from there
+  // -------------------
+
+  void fall_at_two_rates() {
+    if (progress.trial == 0 && !rest_at(0, plan.from)) return;
+    if (progress.trial <= faster_fall) {
+      if (!fall(faster_fall, plan.rate)) return;
       progress.failed_faster = progress.failed;
-      return true;
     }
-    if (plan.method == ReductionMethod::rate) {
-      close(progress.failed, largest_lag(plan.rate));
-      return false;
-    }
-    const bool open = plan.method == ReductionMethod::bisection ? progress.stable - progress.failed > plan.tolerance
-                                                                : outcome == Trial::stable;
-    if (!open) close_bracket();
-    return open;
+    if (progress.trial <= coming_nearer && !come_nearer()) return;
+    if (fall(slower_fall, plan.slower_rate)) extrapolate();
   }
 
-  void search(const RunHooks<Dim>& hooks, const TrialHook<Dim>& on_trial) {
+  // where there is no rest, the slower fall begins where the faster did; false: the search is over
+  bool come_nearer() {
+    const double friction = std::min(plan.from, progress.failed_faster + nearer_by_lags * largest_lag(plan.rate));
+    const std::optional<Trial> outcome = carry_out({.number = coming_nearer, .target = friction, .from_base = true});
+    if (!outcome) return false;
+    if (outcome != Trial::stable) go_back_to_base();
+    progress.stable = outcome == Trial::stable ? friction : plan.from;
+    return true;
+  }
+
+  // to the angle at no rate at all
+  void extrapolate() {
+    const double growth = std::pow(plan.rate / plan.slower_rate, bias_power) - 1;
+    const double bias = (progress.failed - progress.failed_faster) / growth;
+    if (bias > 0)
+      close(progress.failed + bias, extrapolation_margin * bias);
+    else
+      report.message = "the slower rate did not find the higher angle: the failure has no lag to extrapolate";
+  }
+  std::string two_rates_rule() const {
+    return fmt::format("{:.6g} deg at {:.4g} deg/s, {:.6g} at {:.4g}, extrapolated by rate^(2/3); ",
+                       progress.failed_faster / degree, plan.rate / degree, progress.failed / degree,
+                       plan.slower_rate / degree) +
+           failed_rule();
+  }
+
+  // -------------------------------------------------------------------------------------------------------------------
+
+  void search() {
     if (progress.begin.empty())
       for (const Motion<Dim>& m : state.motions)
         progress.begin.push_back(m.displacement);
-    while (true) {
-      if (!progress.run.under_way) begin_trial();
-      Trial outcome = go_on(hooks);
-      while (takes_turn())
-        outcome = go_on(hooks);
-      if (report.last.reason == StopReason::interrupted) return;
-      const double friction = falls() ? state.schedule.friction[properties.front()] : progress.target;
-      if (on_trial) on_trial(state, friction, outcome);
-      if (!conclude(outcome, friction)) break;
-      ++progress.trial;
+    switch (plan.method) {
+      case ReductionMethod::bisection:
+        return bisect();
+      case ReductionMethod::steps:
+        return go_by_steps();
+      case ReductionMethod::rate:
+        return fall_at_rate();
+      case ReductionMethod::two_rates:
+        return fall_at_two_rates();
     }
-    report.stable = progress.stable;
-    report.failed = progress.failed;
+  }
+
+  std::string rule() const {
+    switch (plan.method) {
+      case ReductionMethod::bisection:
+        return bisection_rule();
+      case ReductionMethod::steps:
+        return steps_rule();
+      case ReductionMethod::rate:
+        return rate_rule();
+      case ReductionMethod::two_rates:
+        return two_rates_rule();
+    }
+    return {};
   }
 };
 
@@ -291,7 +373,7 @@ double default_failure_displacement(const Model<Dim>& model) {
   double smallest = 0;
   for (const Body<Dim>& b : model.bodies)
     if (!b.fixed) smallest = smallest == 0 ? b.size : std::min(smallest, b.size);
-  return default_failure_share * smallest;
+  return default_failure_fraction * smallest;
 }
 
 }  // namespace
@@ -322,35 +404,18 @@ std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& pl
 template <int Dim>
 ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,
                        ReductionProgress<Dim>& progress, const RunHooks<Dim>& hooks, const TrialHook<Dim>& on_trial) {
-  Search<Dim> search{model, settings, plan, state, progress, chosen_properties(model, plan), 0, {}};
+  Search<Dim> search{model, settings, plan, hooks, on_trial, state, progress, chosen_properties(model, plan), 0, {}};
   search.failure_displacement =
       plan.failure_displacement > 0 ? plan.failure_displacement : default_failure_displacement(model);
-  search.search(hooks, on_trial);
-
-  const std::string failed = fmt::format("failed: a body moved more than {:.3g} m", search.failure_displacement);
-  const std::string stable = fmt::format("stable: unbalanced ratio below {:.0e}", settings.equilibrium.unbalanced);
-  switch (plan.method) {
-    case ReductionMethod::bisection:
-      search.report.rule = "bisection from the last stable state; " + stable + "; " + failed;
-      break;
-    case ReductionMethod::steps:
-      search.report.rule = fmt::format("steps of {:.4g} deg; ", plan.step / degree) + stable + "; " + failed;
-      break;
-    case ReductionMethod::rate:
-      search.report.rule = fmt::format("constant rate {:.4g} deg/s, found too low by up to {:.2g} deg; ",
-                                       plan.rate / degree, search.report.error_bar / degree) +
-                           failed;
-      break;
-    case ReductionMethod::two_rates:
-      search.report.rule = fmt::format("{:.6g} deg at {:.4g} deg/s, {:.6g} at {:.4g}, extrapolated by rate^(2/3); ",
-                                       progress.failed_faster / degree, plan.rate / degree, progress.failed / degree,
-                                       plan.slower_rate / degree) +
-                           failed;
-      break;
+  search.search();
+  ReductionReport& report = search.report;
+  if (report.last.reason != StopReason::interrupted) {
+    report.stable = progress.stable;
+    report.failed = progress.failed;
   }
-  if (search.report.bracketed && !search.report.message.empty())
-    search.report.rule += "; the search ended early: " + search.report.message;
-  return search.report;
+  report.rule = search.rule();
+  if (report.bracketed && !report.message.empty()) report.rule += "; the search ended early: " + report.message;
+  return report;
 }
 
 template std::vector<int> chosen_properties<2>(const Model<2>&, const ReducePlan&);

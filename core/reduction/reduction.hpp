@@ -56,19 +56,18 @@ std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& pl
 //   steps      each step runs to equilibrium (thesis, Method B); ends at the first that does not
 //   rate       constant rate (Method A); ends when a body has moved by the failure displacement. The angle found is
 //              too low by (6 X cos θ r² / ((1-α) g))^(1/3) on a plane of dip θ: the error bar takes cos θ = 1
-//   two_rates  the same at two rates from one path of equilibria, the slower from nearer by, where the faster has told;
-//   since the bias goes with r^(2/3), the two tell how large it is
-//              at the slower and what is left without it. The error bar is a quarter of that correction: the margin of
-//              a grid convergence index whose order is known. It is not, where the joints soften
+//   two_rates  the same at two rates from one path of equilibria, the slower beginning nearer to where the faster
+//              failed. Since the bias goes with r^(2/3), the two tell how large it is at the slower and what is left
+//              without it. The error bar is a quarter of that correction: the margin of a grid convergence index whose
+//              order is known. It is not, where the joints soften
 // Trials to rest have failed where a body has moved by the failure displacement since the search began, however many
 // trials it took: counted from each trial's own beginning, a slope that yields a little in each would seem the stronger
-// the smaller the steps. A fall at constant rate counts from its beginning. In a trial that relaxation
-// cannot decide, true motion under local damping and relaxation take turns: near the critical angle what slides
-// flutters, and critical damping of the flutter holds up the slide, while local damping does not end a slide whose
-// forces are nearly in balance. Afterwards the state is the last stable one (rates:
-// the failed one). A bisection with a trial that
-// stays undecided ends there, with the bracket that it has and a message. A search that the hooks interrupted
-// (`last.reason`) goes on when it is called again with its progress.
+// the smaller the steps. A fall at constant rate counts from its beginning. In a trial that relaxation cannot decide,
+// true motion under local damping and relaxation take turns: near the critical angle what slides flutters, and critical
+// damping of the flutter holds up the slide, while local damping does not end a slide whose forces are nearly in
+// balance. Afterwards the state is the last stable one (rates: the failed one). A bisection with a trial that stays
+// undecided ends there, with the bracket that it has and a message. A search that the hooks interrupted (`last.reason`)
+// goes on when it is called again with its progress.
 template <int Dim>
 ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,
                        ReductionProgress<Dim>& progress, const RunHooks<Dim>& hooks = {},
