@@ -49,37 +49,37 @@ void call_kernel(const ContactSettings& settings, std::size_t first, std::size_t
 }
 
 template <int Dim>
-void lay_out(const std::vector<Pair<Dim>>& pairs, const Contacts<Dim>& contacts, Stage last, std::size_t first,
+void lay_out(const std::vector<Pair<Dim>>& pairs, const Contacts<Dim>& contacts, QueryLevel level, std::size_t first,
              std::size_t count) {
   for (std::size_t i = first; i < first + count; ++i) {
     desk<Dim>().pairs[i] = pairs[i];
-    desk<Dim>().pairs[i].last = last;
+    desk<Dim>().pairs[i].level = level;
     desk<Dim>().contacts[i] = contacts[i];
   }
 }
 
 constexpr int cold = -1, near_move = 0, far_move = 1;
 
-// the contacts as the step before left them: resolved from cold at the previous poses, to the same stage
+// the contacts as the step before left them: resolved from cold at the previous poses, to the same level
 template <int Dim, class Work>
-Contacts<Dim> contacts_before(const Work& work, const ContactSettings& settings, Stage last, int move) {
+Contacts<Dim> contacts_before(const Work& work, const ContactSettings& settings, QueryLevel level, int move) {
   Contacts<Dim> start(pairs_per_workload);
   if (move == cold) return start;
   KernelCounters counters;
-  lay_out<Dim>(work.previous[move], start, last, 0, pairs_per_workload);
+  lay_out<Dim>(work.previous[move], start, level, 0, pairs_per_workload);
   call_kernel<Dim>(settings, 0, pairs_per_workload, true, counters);
   return desk<Dim>().contacts;
 }
 
 // `work` lives as long as what is made here
 template <int Dim, class Work>
-std::shared_ptr<Prepared> prepare_kernel(std::shared_ptr<const Work> work, const ContactSettings& settings, Stage last,
-                                         int move, bool batched) {
-  const auto start = std::make_shared<const Contacts<Dim>>(contacts_before<Dim>(*work, settings, last, move));
+std::shared_ptr<Prepared> prepare_kernel(std::shared_ptr<const Work> work, const ContactSettings& settings,
+                                         QueryLevel level, int move, bool batched) {
+  const auto start = std::make_shared<const Contacts<Dim>>(contacts_before<Dim>(*work, settings, level, move));
   auto prepared = std::make_shared<Prepared>();
   prepared->counters = std::make_shared<KernelCounters>();
-  prepared->restore = [work, start, last](std::size_t first, std::size_t count) {
-    lay_out<Dim>(work->pairs, *start, last, first, count);
+  prepared->restore = [work, start, level](std::size_t first, std::size_t count) {
+    lay_out<Dim>(work->pairs, *start, level, first, count);
   };
   prepared->resolve = [settings, batched, counters = prepared->counters](std::size_t first, std::size_t count) {
     KernelCounters mine;  // of this thread
@@ -90,7 +90,7 @@ std::shared_ptr<Prepared> prepare_kernel(std::shared_ptr<const Work> work, const
   return prepared;
 }
 
-Method kernel(const char* name, Stage last, int move, bool batched, int threads = 1,
+Method kernel(const char* name, QueryLevel level, int move, bool batched, int threads = 1,
               const ContactSettings& settings = published) {
   static const char* const stages[] = {"decision", "point", "overlap", "area"};
   static const char* const delivers[] = {"decision certificate", "decision certificate point",
@@ -98,14 +98,14 @@ Method kernel(const char* name, Stage last, int move, bool batched, int threads 
                                          "decision certificate point normal overlap area"};
   Method method;
   method.name = name;
-  method.stage = stages[static_cast<int>(last)];
-  method.delivers = delivers[static_cast<int>(last)];
-  // where nothing touches, every stage ends with the decision
-  method.applies = last == Stage::decision ? any_pair : overlapping;
+  method.stage = stages[static_cast<int>(level)];
+  method.delivers = delivers[static_cast<int>(level)];
+  // where nothing touches, every query ends with the decision
+  method.applies = level == QueryLevel::decision ? any_pair : overlapping;
   method.threads = threads;
   method.prepare = [=](const Workload& work) {
     // workloads are kept until the program ends
-    return prepare_kernel<3>(std::shared_ptr<const Workload>(&work, [](const Workload*) {}), settings, last, move,
+    return prepare_kernel<3>(std::shared_ptr<const Workload>(&work, [](const Workload*) {}), settings, level, move,
                              batched);
   };
   return method;
@@ -113,11 +113,11 @@ Method kernel(const char* name, Stage last, int move, bool batched, int threads 
 
 // prisms, and the polygons they are
 void add_plane_methods(std::vector<Method>& list) {
-  for (const Stage last : {Stage::overlap, Stage::area}) {
-    Method in_space = kernel(batched_warm, last, near_move, true), in_plane = in_space;
+  for (const QueryLevel level : {QueryLevel::overlap, QueryLevel::area}) {
+    Method in_space = kernel(batched_warm, level, near_move, true), in_plane = in_space;
     in_plane.name = batched_warm_2d;
     in_plane.prepare = [=](const Workload& work) {
-      return prepare_kernel<2>(in_the_plane(work), published, last, near_move, true);
+      return prepare_kernel<2>(in_the_plane(work), published, level, near_move, true);
     };
     for (Method* method : {&in_space, &in_plane}) {
       method->applies = prisms;
@@ -142,7 +142,7 @@ FeasibilityResult<3> run_lp(const Pair<3>& pair, const Basis& start, HalfSpaces<
 std::shared_ptr<Prepared> prepare_lp(const Workload& work) {
   std::vector<Pair<3>> pairs = work.pairs;
   for (Pair<3>& pair : pairs)
-    pair.last = Stage::decision;
+    pair.level = QueryLevel::decision;
   return prepared_query(pairs_per_workload, [pairs](std::size_t i) {
     Contact<3> contact;
     KernelCounters counters;
@@ -216,21 +216,21 @@ std::shared_ptr<Prepared> prepare_solid_centroid(const Workload& work) {
 
 std::vector<Method> own_methods() {
   std::vector<Method> list;
-  for (const Stage last : {Stage::decision, Stage::point, Stage::overlap, Stage::area}) {
-    list.push_back(kernel(single_cold, last, cold, false));
-    list.push_back(kernel(single_warm, last, near_move, false));
-    list.push_back(kernel(batched_cold, last, cold, true));
-    list.push_back(kernel(batched_warm, last, near_move, true));
+  for (const QueryLevel level : {QueryLevel::decision, QueryLevel::point, QueryLevel::overlap, QueryLevel::area}) {
+    list.push_back(kernel(single_cold, level, cold, false));
+    list.push_back(kernel(single_warm, level, near_move, false));
+    list.push_back(kernel(batched_cold, level, cold, true));
+    list.push_back(kernel(batched_warm, level, near_move, true));
   }
-  for (const Stage last : {Stage::overlap, Stage::area}) {
-    list.push_back(kernel(single_warm_far, last, far_move, false));
-    list.push_back(kernel(batched_warm_far, last, far_move, true));
+  for (const QueryLevel level : {QueryLevel::overlap, QueryLevel::area}) {
+    list.push_back(kernel(single_warm_far, level, far_move, false));
+    list.push_back(kernel(batched_warm_far, level, far_move, true));
   }
-  for (const Stage last : {Stage::decision, Stage::area})
-    list.push_back(kernel(batched_warm_threads, last, near_move, true, 2));
+  for (const QueryLevel level : {QueryLevel::decision, QueryLevel::area})
+    list.push_back(kernel(batched_warm_threads, level, near_move, true, 2));
 
-  list.push_back(kernel(single_warm_path, Stage::overlap, near_move, false, 1, on_central_path));
-  list.push_back(kernel(batched_warm_path, Stage::overlap, near_move, true, 1, on_central_path));
+  list.push_back(kernel(single_warm_path, QueryLevel::overlap, near_move, false, 1, on_central_path));
+  list.push_back(kernel(batched_warm_path, QueryLevel::overlap, near_move, true, 1, on_central_path));
   add_plane_methods(list);
 
   list.push_back({own_lp, "lp", "decision certificate", any_pair, prepare_lp});

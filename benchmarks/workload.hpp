@@ -8,6 +8,7 @@
 
 #include "benchmarks/shapes.hpp"
 #include "core/contact/narrow_phase.hpp"
+#include "core/contact/pair_geometry.hpp"
 
 namespace voussoir::benchmarks {
 

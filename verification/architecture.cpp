@@ -7,6 +7,7 @@
 #include <optional>
 #include <regex>
 #include <set>
+#include <utility>
 
 #include "verification/verdict_file.hpp"
 
@@ -21,24 +22,76 @@ constexpr int one_screen = 60;     // lines of core/step.cpp: the whole method a
 constexpr std::array top_folders{"text",  "core",       "app",     "reference", "verification",
                                  "cases", "benchmarks", "reports", "fuzz"};
 
-// from the ground up; a room may include the rooms of the lines above its own
-const std::vector<std::vector<std::string>> layers{
-    {"geometry", "settings", "accuracy", "energy", "floating_point_traps", "on_threads"},
-    {"law", "exchange"},
-    {"optimise", "load", "support"},
-    {"contact", "slicing", "joint_sets", "model"},
-    {"state", "limit"},
-    {"prepared"},
-    {"results", "scene"},
-    {"motion", "monitor", "output"},
-    {"step", "state_hash"},
-    {"run"},
-    {"reduction"},
-    {"progress"},
-    {"checkpoint", "simulate"},
+// What stands on what in a folder of the core, from the ground up: a line may include the lines before its own. A name
+// is a folder, or a header with its source; a source without a header stands above the one that declares what it
+// defines.
+struct Order {
+  std::string_view folder;
+  std::vector<std::vector<std::string_view>> lines;
+};
+const std::vector<Order> orders{
+    {"core",
+     {{"geometry", "settings", "accuracy", "energy", "floating_point_traps", "on_threads"},
+      {"law", "exchange"},
+      {"optimise", "load"},
+      {"contact", "slicing", "joint_sets", "model"},
+      {"state", "limit"},
+      {"results", "scene"},
+      {"motion", "monitor", "output", "neighbours"},
+      {"stages", "state_hash"},
+      {"joint_laws"},
+      {"step"},
+      {"run"},
+      {"reduction"},
+      {"progress"},
+      {"checkpoint", "simulate"}}},
+    {"core/geometry", {{"types"}, {"half_space"}, {"polytope", "surface"}, {"outline"}}},
+    {"core/law", {{"joint_properties", "joint_state"}, {"elastic_coulomb"}, {"joint_law"}, {"joint_path"}}},
+    {"core/exchange", {{"mesh", "tables"}, {"convex_corners"}}},
+    {"core/optimise",
+     {{"feasibility_program", "far_planes", "double_double", "symmetric_system", "glpk_environment"},
+      {"careful_feasibility", "analytic_centre", "central_path"},
+      {"feasibility"},
+      {"solvers", "glpk", "ipopt"}}},
+    {"core/load", {{"load", "time_factor"}, {"boundary_stress"}}},
+    {"core/contact",
+     {{"contact", "pair", "kernel_counters", "rounding"},
+      {"broad_phase", "thin_directions", "separation", "pair_geometry", "overlap_region", "bracketing",
+       "careful_overlap"},
+      {"nearness", "sub_contacts", "kernel", "general_road"},
+      {"narrow_phase"},
+      {"contact_between"}}},
+    {"core/contact/kernel",
+     {{"workspace", "packs_inl"},
+      {"lanes_inl"},
+      {"records_inl", "section_inl"},
+      {"meeting_inl"},
+      {"standing_inl"},
+      {"first_inl", "central_inl"},
+      {"kernel"}}},
+    {"core/slicing", {{"block", "joint"}, {"clump", "slice"}}},
+    {"core/joint_sets", {{"portable_math"}, {"random_stream"}, {"joint_set"}, {"statistics"}}},
+    {"core/limit", {{"interfaces", "linear_program"}, {"glpk_program"}, {"limit"}, {"mechanism"}}},
+    {"core/scene",
+     {{"scene_error", "key_row"},
+      {"node"},
+      {"joint_set_keys", "scene_text", "values", "scene_spec"},
+      {"keys", "toml_text"},
+      {"check_keys"},
+      {"accuracy_level", "overrides", "scene_files", "bodies", "read_plane", "read_stages"},
+      {"base_scene", "plausibility", "joint_outline", "region", "read_slicing"},
+      {"domain_blocks", "draw_joint_sets", "read_joint_sets"},
+      {"scene"},
+      {"canonical_text", "documentation", "prepare", "read_scene"}}},
+    {"core/motion", {{"integrate", "time_step", "free_fall"}, {"work", "prescribed"}, {"relaxation"}}},
+     {"core/step", {{"neighbours", "loads", "motion"}, {"contacts"}, {"joint_forces"}}},
+    {"core/output",
+     {{"fingerprint", "version", "output_error", "vtp"}, {"atomic_file"}, {"history_csv", "paraview", "results_json"}}},
+    {"core/reduction", {{"reduction"}}},
+    {"core/checkpoint", {{"fields"}, {"checkpoint"}}},
 };
 
-// what another folder of the house may include besides itself, folders or single files; core is ordered by its layers
+// what another folder of the house may include besides itself, folders or single files
 struct Reach {
   std::string_view folder;
   std::vector<std::string_view> may_include;
@@ -65,35 +118,62 @@ bool is_ours(std::string_view path) {
          std::find(top_folders.begin(), top_folders.end(), top_folder(path)) != top_folders.end();
 }
 
-// core/contact/overlap.hpp -> contact, core/step.cpp -> step, core/run_test.cpp -> run
-std::string room_of(std::string_view path) {
-  std::string_view rest = path.substr(path.find('/') + 1);
-  if (const auto slash = rest.find('/'); slash != std::string_view::npos) return std::string(rest.substr(0, slash));
-  std::string stem(rest.substr(0, rest.find('.')));
-  if (stem.ends_with("_test")) stem.resize(stem.size() - 5);
-  return stem;
+// what the order of a folder calls a file in it: core/contact/pair.hpp -> contact in core, pair in core/contact
+std::string_view name_in(std::string_view folder, std::string_view path) {
+  const std::string_view rest = path.substr(folder.size() + 1);
+  return rest.substr(0, rest.find_first_of("/."));
 }
 
-std::optional<std::size_t> layer_of(const std::string& room) {
-  for (std::size_t i = 0; i < layers.size(); ++i)
-    if (std::find(layers[i].begin(), layers[i].end(), room) != layers[i].end()) return i;
+std::string_view folder_of(std::string_view path) {
+  return path.substr(0, path.rfind('/'));
+}
+
+// the innermost folder that holds both
+std::string_view common_folder(std::string_view a, std::string_view b) {
+  std::string_view folder = folder_of(a);
+  while (!b.starts_with(std::string(folder) + '/'))
+    folder = folder_of(folder);
+  return folder;
+}
+
+// nothing: the folder's order has no such name
+std::optional<std::size_t> line_of(std::string_view folder, std::string_view name) {
+  const auto order = std::find_if(orders.begin(), orders.end(), [&](const Order& o) { return o.folder == folder; });
+  if (order == orders.end()) return std::nullopt;
+  for (std::size_t i = 0; i < order->lines.size(); ++i)
+    if (std::find(order->lines[i].begin(), order->lines[i].end(), name) != order->lines[i].end()) return i;
   return std::nullopt;
 }
 
-// a test, and the shapes that tests share, may use any room of the core, but stay inside the house's order otherwise
+// a test, and the shapes that tests share, may use all of the core, but stay inside the house's order otherwise
 bool is_test(std::string_view path) {
   return path.ends_with("_test.cpp") || path.ends_with("_test.hpp") || path.starts_with("core/testing/");
 }
 
-std::string judge_rooms(const std::string& from_path, const std::string& to_path) {
-  const std::string from = room_of(from_path), to = room_of(to_path);
-  if (from == to || is_test(from_path)) return {};
-  const auto from_layer = layer_of(from), to_layer = layer_of(to);
-  if (!from_layer || !to_layer) return {};  // reported once, as an unknown room
+// both files lie in the core
+std::string judge_order(const std::string& from_path, const std::string& to_path) {
+  if (is_test(from_path)) return {};
+  if (is_test(to_path)) return "only tests may include it";
+  const std::string_view folder = common_folder(from_path, to_path);
+  const std::string_view from = name_in(folder, from_path), to = name_in(folder, to_path);
+  const auto from_line = line_of(folder, from), to_line = line_of(folder, to);
+  if (from == to || !from_line || !to_line) return {};  // what has no line is reported once
   if (from == "output" && to == "scene") return "output and scene do not know each other";
-  if (*to_layer < *from_layer) return {};
-  return *to_layer == *from_layer ? fmt::format("{} and {} are rooms of the same floor", from, to)
-                                  : fmt::format("{} lies above {}", to, from);
+  if (*to_line < *from_line) return {};
+  return *to_line == *from_line ? fmt::format("{} and {} stand side by side in {}", from, to, folder)
+                                : fmt::format("{} stands above {} in {}", to, from, folder);
+}
+
+// the names under which the orders of the core's folders know a file, with their folders
+std::vector<std::pair<std::string, std::string>> places_of(const std::string& path) {
+  std::vector<std::pair<std::string, std::string>> places;
+  if (top_folder(path) != "core" || path.starts_with("core/testing/")) return places;
+  for (std::size_t slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1)) {
+    const bool innermost = path.find('/', slash + 1) == std::string::npos;
+    const std::string folder = path.substr(0, slash);
+    if (!innermost || !is_test(path)) places.emplace_back(folder, name_in(folder, path));
+  }
+  return places;
 }
 
 std::string judge_folders(const std::string& from, const std::string& to_path) {
@@ -142,23 +222,23 @@ std::vector<SourceFile> read_sources(const fs::path& root) {
 
 std::vector<std::string> violations(const std::vector<SourceFile>& sources) {
   std::vector<std::string> found;
-  std::set<std::string> unknown_rooms;
-  const auto check_room = [&](const std::string& path) {
-    if (top_folder(path) == "core" && room_of(path) != "testing" && !layer_of(room_of(path)) &&
-        unknown_rooms.insert(room_of(path)).second)
-      found.push_back(fmt::format("core/{} has no floor: give it one in verification/architecture.cpp", room_of(path)));
+  std::set<std::pair<std::string, std::string>> unknown;
+  const auto check_places = [&](const std::string& path) {
+    for (const auto& [folder, name] : places_of(path))
+      if (!line_of(folder, name) && unknown.emplace(folder, name).second)
+        found.push_back(fmt::format("{}/{} has no line: give it one in verification/architecture.cpp", folder, name));
   };
 
   for (const SourceFile& source : sources) {
-    check_room(source.path);
+    check_places(source.path);
     for (const std::string& path : source.includes) {
       if (path.starts_with("./") || path.starts_with("../"))
         found.push_back(fmt::format("{} includes {}: write the path from the repository's root", source.path, path));
       if (!is_ours(path)) continue;
-      check_room(path);
+      check_places(path);
       const std::string from = top_folder(source.path);
       std::string problem = judge_folders(from, path);
-      if (problem.empty() && from == "core") problem = judge_rooms(source.path, path);
+      if (problem.empty() && from == "core" && top_folder(path) == "core") problem = judge_order(source.path, path);
       if (!problem.empty()) found.push_back(fmt::format("{} includes {}: {}", source.path, path, problem));
     }
 
@@ -167,6 +247,20 @@ std::vector<std::string> violations(const std::vector<SourceFile>& sources) {
       found.push_back(fmt::format("{} has {} lines, more than {}", source.path, source.lines, limit));
   }
   return found;
+}
+
+std::vector<std::string> names_without_file(const std::vector<SourceFile>& sources) {
+  std::set<std::pair<std::string, std::string>> there;
+  for (const SourceFile& source : sources)
+    for (const auto& place : places_of(source.path))
+      there.insert(place);
+  std::vector<std::string> names;
+  for (const Order& order : orders)
+    for (const auto& line : order.lines)
+      for (const std::string_view name : line)
+        if (!there.contains({std::string(order.folder), std::string(name)}))
+          names.push_back(fmt::format("{}/{}", order.folder, name));
+  return names;
 }
 
 }  // namespace voussoir::verification

@@ -1,5 +1,6 @@
 #pragma once
-// Who may include whom. The order of the rooms stands here once and is enforced by unit.architecture.
+// Who may include whom: the order of the folders, of the rooms of the core and of the files in each room is stated
+// once, in architecture.cpp, and enforced by unit.architecture. Where no arrow points up there is no cycle.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -20,7 +21,11 @@ std::vector<std::string> include_paths(std::string_view text);
 // All .hpp and .cpp files below the project's folders, sorted by path.
 std::vector<SourceFile> read_sources(const std::filesystem::path& root);
 
-// One sentence per violation: an arrow that runs back up or across, an unknown room, a file that is too long.
+// One sentence per violation: an arrow that runs back up or across, a file without a line in its folder's order, a file
+// that is too long.
 std::vector<std::string> violations(const std::vector<SourceFile>& sources);
+
+// What the orders name and no source is called: renamed or deleted since.
+std::vector<std::string> names_without_file(const std::vector<SourceFile>& sources);
 
 }  // namespace voussoir::verification

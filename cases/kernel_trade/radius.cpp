@@ -8,7 +8,7 @@ namespace voussoir::trade {
 namespace {
 
 Contact<3> resolve(const TouchingPair& pair, double potential_radius, KernelCounters& counters) {
-  const Pair<3> input{&pair.a, &pair.b, Matrix<3>::Identity(), pair.turn, pair.offset, Stage::overlap};
+  const Pair<3> input{&pair.a, &pair.b, Matrix<3>::Identity(), pair.turn, pair.offset, QueryLevel::overlap};
   Contact<3> contact;
   Contact<3>* slot = &contact;
   ContactSettings settings;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "cases/robustness/judges.hpp"
+#include "core/contact/pair_geometry.hpp"
 #include "core/step/contacts.hpp"
 #include "core/testing/exact_referee.hpp"
 
@@ -25,7 +26,7 @@ constexpr double newton_remainder = 1e-9;
 // up to this many planes cddlib solves the program from nothing; beyond, the kernel's own basis is proven exactly
 constexpr int most_planes_for_cddlib = 120;
 
-// two gradients of a potential nearer to zero or to each other than this give no direction (narrow_phase.cpp)
+// two gradients of a potential nearer to zero or to each other than this give no direction (core/contact/rounding.hpp)
 constexpr double no_direction = 1e-6;
 
 // all that the stages of one contact need

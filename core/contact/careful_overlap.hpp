@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/contact/contact.hpp"
-#include "core/contact/narrow_phase.hpp"
+#include "core/contact/pair.hpp"
 
 namespace voussoir {
 

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/contact/narrow_phase.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -59,11 +61,11 @@ void check(const Polytope<Dim>& part, const Pose<Dim>& at, const char* which) {
 
 template <int Dim>
 ContactBetween<Dim> resolve(const Polytope<Dim>& a, const Pose<Dim>& at_a, const Polytope<Dim>& b,
-                            const Pose<Dim>& at_b, Stage last, const ContactSettings& settings,
+                            const Pose<Dim>& at_b, QueryLevel level, const ContactSettings& settings,
                             const Solvers<Dim>& solvers) {
   const Pair<Dim> pair{
-      &a,  &b, at_a.axes, at_a.axes.transpose() * at_b.axes, at_a.axes.transpose() * (at_b.position - at_a.position),
-      last};
+      &a,   &b, at_a.axes, at_a.axes.transpose() * at_b.axes, at_a.axes.transpose() * (at_b.position - at_a.position),
+      level};
   Contact<Dim> contact;
   Contact<Dim>* const slot = &contact;
   KernelCounters counters;
@@ -75,15 +77,15 @@ ContactBetween<Dim> resolve(const Polytope<Dim>& a, const Pose<Dim>& at_a, const
 
 template <int Dim>
 ContactBetween<Dim> contact_between(const Polytope<Dim>& a, const Pose<Dim>& at_a, const Polytope<Dim>& b,
-                                    const Pose<Dim>& at_b, Stage last, const ContactSettings& settings,
+                                    const Pose<Dim>& at_b, QueryLevel level, const ContactSettings& settings,
                                     const Solvers<Dim>& solvers) {
   check<Dim>(a, at_a, "first");
   check<Dim>(b, at_b, "second");
   const std::strong_ordering faces = compare<Dim>(a.faces, b.faces);
   const bool in_their_order = faces != 0 ? faces < 0 : compare<Dim>(at_a, at_b) <= 0;
-  if (in_their_order) return resolve<Dim>(a, at_a, b, at_b, last, settings, solvers);
+  if (in_their_order) return resolve<Dim>(a, at_a, b, at_b, level, settings, solvers);
 
-  ContactBetween<Dim> turned = resolve<Dim>(b, at_b, a, at_a, last, settings, solvers);
+  ContactBetween<Dim> turned = resolve<Dim>(b, at_b, a, at_a, level, settings, solvers);
   turned.geometry.normal = -turned.geometry.normal;
   std::swap(turned.geometry.face_a, turned.geometry.face_b);
   return turned;
@@ -91,7 +93,7 @@ ContactBetween<Dim> contact_between(const Polytope<Dim>& a, const Pose<Dim>& at_
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                 \
   template ContactBetween<Dim> contact_between<Dim>(const Polytope<Dim>&, const Pose<Dim>&, const Polytope<Dim>&, \
-                                                    const Pose<Dim>&, Stage, const ContactSettings&,              \
+                                                    const Pose<Dim>&, QueryLevel, const ContactSettings&,         \
                                                     const Solvers<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

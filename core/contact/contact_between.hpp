@@ -1,7 +1,10 @@
 // The contact of two parts anywhere, whichever is given first: for users and tests that have no model.
 #pragma once
 
-#include "core/contact/narrow_phase.hpp"
+#include "core/contact/contact.hpp"
+#include "core/contact/pair.hpp"
+#include "core/optimise/solvers.hpp"
+#include "core/settings.hpp"
 
 namespace voussoir {
 
@@ -18,7 +21,7 @@ struct ContactBetween {
   // Pose::position of one of the two, the same one whichever is given first; m
   Vector<Dim> origin = Vector<Dim>::Zero();
   // World axes; the point relative to `origin`, so that it keeps its digits far from the world's; the normal from the
-  // first part given to the second, face_a of the first. Set while touching, as far as the last stage goes.
+  // first part given to the second, face_a of the first. Set while touching, as far as the level goes.
   ContactGeometry<Dim> geometry;
 };
 
@@ -29,7 +32,7 @@ struct ContactBetween {
 // off orthonormal by more than rounding leaves.
 template <int Dim>
 ContactBetween<Dim> contact_between(const Polytope<Dim>& a, const Pose<Dim>& at_a, const Polytope<Dim>& b,
-                                    const Pose<Dim>& at_b, Stage last = Stage::area,
+                                    const Pose<Dim>& at_b, QueryLevel level = QueryLevel::area,
                                     const ContactSettings& settings = {}, const Solvers<Dim>& solvers = {});
 
 }  // namespace voussoir

@@ -309,7 +309,7 @@ TEST(ContactBetween, CubesFarFromTheOrigin) {
   EXPECT_LT((contact_between<3>(cube, high, cube, low).geometry.normal + Vector<3>::UnitZ()).norm(), exact);
   EXPECT_EQ(contact_between<3>(cube, low, cube, {low.position + Vector<3>(0, 0, 1.5)}).status,
             ContactStatus::separated);
-  EXPECT_EQ(contact_between<3>(cube, low, cube, high, Stage::overlap).geometry.area, 0);
+  EXPECT_EQ(contact_between<3>(cube, low, cube, high, QueryLevel::overlap).geometry.area, 0);
 }
 
 TEST(ContactBetween, RefusesWhatIsNoPlacement) {

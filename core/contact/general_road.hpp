@@ -2,7 +2,11 @@
 // point, plain loops. Slower than the kernel/ and its net: it answers what that could not prove.
 #pragma once
 
-#include "core/contact/narrow_phase.hpp"
+#include "core/contact/contact.hpp"
+#include "core/contact/kernel_counters.hpp"
+#include "core/contact/pair.hpp"
+#include "core/optimise/solvers.hpp"
+#include "core/settings.hpp"
 
 namespace voussoir {
 

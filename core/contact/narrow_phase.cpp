@@ -1,45 +1,15 @@
 #include "core/contact/narrow_phase.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "core/contact/careful_overlap.hpp"
 #include "core/contact/general_road.hpp"
 #include "core/contact/kernel/kernel.hpp"
-#include "core/optimise/solvers.hpp"
+#include "core/contact/separation.hpp"
 
 namespace voussoir {
 namespace {
-
-// rounding of a vertex's projection on an axis, as a share of the coordinates: two rotations and a sum
-constexpr double projection_rounding = 8 * std::numeric_limits<double>::epsilon();
-
-}  // namespace
-
-template <int Dim>
-double gap_behind(const Pair<Dim>& pair, const Vector<Dim>& axis, double support_a) {
-  const Polytope<Dim>& b = *pair.b;
-  const Vector<Dim> seen = pair.rotation.transpose() * axis;
-  double least = std::numeric_limits<double>::max();
-  for (const Vector<Dim>& v : b.vertices)
-    least = std::min(least, v.dot(seen));
-  const double distance = pair.offset.dot(axis);
-  return (least + distance - support_a) - b.vertex_error -
-         projection_rounding * (b.radius + std::abs(distance) + pair.offset.norm() + std::abs(support_a));
-}
-
-namespace {
-
-// nothing of the part lies beyond this along the axis
-template <int Dim>
-double support(const Polytope<Dim>& part, const Vector<Dim>& axis) {
-  double most = -std::numeric_limits<double>::max();
-  for (const Vector<Dim>& v : part.vertices)
-    most = std::max(most, v.dot(axis));
-  return most + part.vertex_error + projection_rounding * part.radius;
-}
 
 // whether the axis, unit and in the first body's frame, separates the parts
 template <int Dim>
@@ -131,7 +101,7 @@ constexpr std::size_t pairs_together = 64;
 template <int Dim>
 void sort_by_work(std::span<KernelTask<Dim>> tasks) {
   const auto less = [](const KernelTask<Dim>& s, const KernelTask<Dim>& t) {
-    return std::tuple(s.pair->last, s.planes_a, s.planes_b) < std::tuple(t.pair->last, t.planes_a, t.planes_b);
+    return std::tuple(s.pair->level, s.planes_a, s.planes_b) < std::tuple(t.pair->level, t.planes_a, t.planes_b);
   };
   if (!std::is_sorted(tasks.begin(), tasks.end(), less)) std::sort(tasks.begin(), tasks.end(), less);
 }
@@ -187,8 +157,6 @@ void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
   }
 }
 
-template double gap_behind<2>(const Pair<2>&, const Vector<2>&, double);
-template double gap_behind<3>(const Pair<3>&, const Vector<3>&, double);
 template void narrow_phase<2>(std::span<const Pair<2>>, const ContactSettings&, const Solvers<2>&,
                               std::span<Contact<2>* const>, KernelCounters&);
 template void narrow_phase<3>(std::span<const Pair<3>>, const ContactSettings&, const Solvers<3>&,

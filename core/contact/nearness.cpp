@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/contact/separation.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -30,7 +32,7 @@ Pair<Dim> seen_from_second(const Pair<Dim>& pair) {
           pair.axes * pair.rotation,
           pair.rotation.transpose(),
           -(pair.rotation.transpose() * pair.offset),
-          pair.last};
+          pair.level};
 }
 
 // How far the second part stays behind that face of the first which keeps it farthest away, rounding included.

@@ -1,7 +1,7 @@
 // How near two parts are: what the planes of their faces keep apart needs no contact.
 #pragma once
 
-#include "core/contact/narrow_phase.hpp"
+#include "core/contact/pair.hpp"
 
 namespace voussoir {
 

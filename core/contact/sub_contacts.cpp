@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/contact/pair_geometry.hpp"
+
 namespace voussoir {
 namespace {
 

@@ -7,7 +7,8 @@
 
 #include <span>
 
-#include "core/contact/narrow_phase.hpp"
+#include "core/contact/contact.hpp"
+#include "core/contact/pair.hpp"
 
 namespace voussoir {
 
@@ -17,7 +18,7 @@ constexpr int sub_contact_count(int along) {
   return along <= 1 ? 0 : Dim == 2 ? along : along * along;
 }
 
-// Fills the sub-contacts of a touching pair that is resolved to Stage::area: point, overlap, spread and area. The
+// Fills the sub-contacts of a touching pair that is resolved to QueryLevel::area: point, overlap, spread and area. The
 // smaller of the two faces is divided, the first part's where they are equal. Cells that do not touch have no area and
 // forget their history; where another face is divided than the step before, the cells share what shear force there was
 // by their areas. Needs contact.geometry and contact.proof of this step.

@@ -216,8 +216,8 @@ Contact<Dim> expect_same_bits_swapped(const Posed<Dim>& p, const Pose<Dim>& at_a
     contact.geometry = found.geometry;
     return contact;
   };
-  const ContactBetween<Dim> found = contact_between<Dim>(p.a, at_a, p.b, at_b, Stage::area, settings);
-  ContactBetween<Dim> swapped = contact_between<Dim>(p.b, at_b, p.a, at_a, Stage::area, settings);
+  const ContactBetween<Dim> found = contact_between<Dim>(p.a, at_a, p.b, at_b, QueryLevel::area, settings);
+  ContactBetween<Dim> swapped = contact_between<Dim>(p.b, at_b, p.a, at_a, QueryLevel::area, settings);
   EXPECT_EQ(found.origin, swapped.origin);
   // only the sign of a zero in it may differ
   EXPECT_EQ(found.geometry.normal, Vector<Dim>(-swapped.geometry.normal));
@@ -307,8 +307,8 @@ Queue<Dim> make_queue(const ContactSettings& settings, long long first, int coun
     const Matrix<Dim> axes = matrix(shapes::orientation<Dim>(random));
     Pair<Dim> cold{&c.a, &c.b, axes, c.rotation, c.offset}, warm{&c.a, &c.b, axes, c.rotation_after, c.offset_after};
     const Contact<Dim> standing = resolve_alone<Dim>(cold, {}, settings);
-    cold.last = static_cast<Stage>(integer(random, 0, 3));
-    warm.last = static_cast<Stage>(integer(random, 0, 3));
+    cold.level = static_cast<QueryLevel>(integer(random, 0, 3));
+    warm.level = static_cast<QueryLevel>(integer(random, 0, 3));
     for (const auto& [pair, before] : {std::pair{cold, Contact<Dim>{}}, std::pair{warm, standing}}) {
       queue.pairs.push_back(pair);
       queue.before.push_back(before);

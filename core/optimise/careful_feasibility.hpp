@@ -2,7 +2,7 @@
 // parallel faces whose answer in double does not prove itself.
 #pragma once
 
-#include "core/optimise/feasibility.hpp"
+#include "core/optimise/feasibility_program.hpp"
 
 namespace voussoir {
 

@@ -2,7 +2,7 @@
 // with VOUSSOIR_WITH_GLPK.
 #pragma once
 
-#include "core/optimise/feasibility.hpp"
+#include "core/optimise/feasibility_program.hpp"
 
 namespace voussoir {
 

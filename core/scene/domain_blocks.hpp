@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/model.hpp"
-#include "core/scene/scene.hpp"
+#include "core/scene/scene_spec.hpp"
 
 namespace voussoir {
 

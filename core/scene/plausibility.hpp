@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/scene.hpp"
+#include "core/prepared.hpp"
+#include "core/scene/scene_spec.hpp"
 
 namespace voussoir {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/scene/scene.hpp"
+#include "core/scene/scene_spec.hpp"
 
 namespace voussoir {
 

@@ -1,7 +1,7 @@
 // A plane as joints, joint sets, domains and excavations state it.
 #pragma once
 
-#include "core/scene/scene.hpp"
+#include "core/scene/scene_spec.hpp"
 
 namespace voussoir {
 

@@ -1,7 +1,7 @@
 // Reads what becomes blocks by cutting: domain, joints, excavations and how the cuts are made.
 #pragma once
 
-#include "core/scene/scene.hpp"
+#include "core/scene/scene_spec.hpp"
 
 namespace voussoir {
 

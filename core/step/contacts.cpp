@@ -56,7 +56,7 @@ struct Tally {
 
 // the contacts [first, last) of the list, in one batch
 template <int Dim>
-void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& state, Stage stage, double gap, int first,
+void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& state, QueryLevel level, double gap, int first,
              int last, Tally& tally) {
   static thread_local std::vector<Pair<Dim>> pairs;
   static thread_local std::vector<Contact<Dim>*> waiting;
@@ -76,7 +76,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
       ++tally.kernel.motion_skips;
       continue;
     }
-    pairs.push_back(pair_of(model, state, c.part_a, c.part_b, stage));
+    pairs.push_back(pair_of(model, state, c.part_a, c.part_b, level));
     waiting.push_back(&c);
     touched.push_back(c.touching());
   }
@@ -135,7 +135,7 @@ void add(Counters& total, const Tally& tally) {
 template <int Dim>
 void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const int count = static_cast<int>(state.contacts.size());
-  const Stage stage = needs_area(model) ? Stage::area : Stage::overlap;
+  const QueryLevel level = needs_area(model) ? QueryLevel::area : QueryLevel::overlap;
   const double gap = closed_gap(model);
   find_stances(model, settings.threads, state);
   count_travels(model, settings, state);
@@ -145,7 +145,7 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
   std::vector<Tally>& tallies = own;  // this thread's, filled by all
   tallies.assign(batches, {});
   on_threads(settings.threads, batches, [&](int i) {
-    resolve(model, settings, state, stage, gap, i * batch, std::min(count, (i + 1) * batch), tallies[i]);
+    resolve(model, settings, state, level, gap, i * batch, std::min(count, (i + 1) * batch), tallies[i]);
   });
   for (const Tally& tally : tallies)
     add(state.counters, tally);

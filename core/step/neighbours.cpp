@@ -144,7 +144,7 @@ double radius_of(const Model<Dim>& model, int part) {
 
 template <int Dim>
 Nearness nearness_of(const Model<Dim>& model, const State<Dim>& state, int a, int b) {
-  return nearness(pair_of(model, state, a, b, Stage::decision), radius_of(model, a), radius_of(model, b));
+  return nearness(pair_of(model, state, a, b, QueryLevel::decision), radius_of(model, a), radius_of(model, b));
 }
 
 // places that State::subs has for each contact
@@ -277,7 +277,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   const std::size_t most = most_candidates(boxes.size());
   const auto wanted = [&](int a, int b) {
     if (count.load(std::memory_order_relaxed) > most || !spans.meet(a, b)) return false;
-    const bool near = may_come_near(pair_of(model, state, a, b, Stage::decision), radius_of(model, a),
+    const bool near = may_come_near(pair_of(model, state, a, b, QueryLevel::decision), radius_of(model, a),
                                     radius_of(model, b), candidate_reach * skin);
     if (near) count.fetch_add(1, std::memory_order_relaxed);
     return near;

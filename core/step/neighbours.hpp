@@ -36,14 +36,14 @@ double travelled(const Model<Dim>& model, const State<Dim>& state, const Contact
 
 // two parts as the kernel sees them, where their bodies stand
 template <int Dim>
-Pair<Dim> pair_of(const Model<Dim>& model, const State<Dim>& state, int part_a, int part_b, Stage stage) {
+Pair<Dim> pair_of(const Model<Dim>& model, const State<Dim>& state, int part_a, int part_b, QueryLevel level) {
   const Stance<Dim>&at_a = state.stances[model.parts[part_a].body], &at_b = state.stances[model.parts[part_b].body];
   return {&model.polytope(part_a),
           &model.polytope(part_b),
           at_a.axes,
           at_a.axes.transpose() * at_b.axes,
           at_a.axes.transpose() * between(at_a, at_b),
-          stage};
+          level};
 }
 
 // m: a joint that is to be bonded (make_bonds) must not open by more before it presses; 0 where no joint has strength

@@ -121,7 +121,7 @@ Pairs touching_pairs(const Model<Dim>& model, State<Dim> state) {
   for (int a = 0; a < static_cast<int>(model.parts.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(model.parts.size()); ++b) {
       if (!may_touch(model, a, b)) continue;
-      const Pair<Dim> pair = pair_of(model, state, a, b, Stage::decision);
+      const Pair<Dim> pair = pair_of(model, state, a, b, QueryLevel::decision);
       Contact<Dim> contact;
       Contact<Dim>* const place = &contact;
       KernelCounters counters;
@@ -238,7 +238,7 @@ void expect_that_it_lasts(std::uint64_t seed) {
         shapes::uniform(random, 0, 1) * (radius_a + radius_b) * shapes::direction<Dim>(random);
     const auto seen = [&](State<Dim>& at) {
       find_stances(model, 1, at);
-      return pair_of(model, at, 0, 1, Stage::decision);
+      return pair_of(model, at, 0, 1, QueryLevel::decision);
     };
     const auto moved = [&](double way_a, double way_b) {
       State<Dim> later = state;
@@ -275,7 +275,7 @@ TEST(Neighbours, WhatItsVerticesDoNotTellIsNear) {
   State<3> state = initial_state(model);
   state.motions[1].displacement = {100, 0, 0};
   find_stances(model, 1, state);
-  const Pair<3> pair = pair_of(model, state, 0, 1, Stage::decision);
+  const Pair<3> pair = pair_of(model, state, 0, 1, QueryLevel::decision);
   EXPECT_TRUE(nearness(pair, model.bodies[0].radius, model.bodies[1].radius).near);
   EXPECT_TRUE(may_come_near(pair, model.bodies[0].radius, model.bodies[1].radius, 0.1));
 }

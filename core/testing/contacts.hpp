@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/contact/narrow_phase.hpp"
+#include "core/contact/pair_geometry.hpp"
 #include "core/testing/oracles.hpp"
 #include "core/testing/shapes.hpp"
 

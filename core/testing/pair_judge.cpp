@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "core/contact/pair_geometry.hpp"
 #include "core/slicing/block.hpp"
 #include "core/testing/exact_contacts.hpp"
 #include "core/testing/workers.hpp"
@@ -102,7 +103,7 @@ class Judge {
   Judge(const Scene<Dim>& scene, const std::string& start, std::vector<Finding>& findings, Tally& tally)
       : scene_(scene), start_(start), findings_(findings), tally_(tally) {}
 
-  void decision(const Contact<Dim>& contact, Stage stage) {
+  void decision(const Contact<Dim>& contact, QueryLevel level) {
     count("decisions");
     const double value = scene_.value.get_d();
     switch (contact.status) {
@@ -121,7 +122,7 @@ class Judge {
         share("undecided band", std::abs(value), promised * scene_.size);
         return;
       case ContactStatus::no_normal:
-        if (stage == Stage::decision) return broken("no normal where none was asked for", value);
+        if (level == QueryLevel::decision) return broken("no normal where none was asked for", value);
         // one block about the middle of the other has no direction that is better than the others: named, not hidden
         count("no normal");
         if (!(-value > 0.1 * std::min(scene_.pair.a->inscribed_radius, scene_.pair.b->inscribed_radius)))
@@ -259,9 +260,9 @@ class Judge {
 };
 
 template <int Dim>
-Contact<Dim> resolve(Pair<Dim> pair, Stage last, const Contact<Dim>& before, Tally& tally,
+Contact<Dim> resolve(Pair<Dim> pair, QueryLevel level, const Contact<Dim>& before, Tally& tally,
                      const ContactSettings& settings = {}) {
-  pair.last = last;
+  pair.level = level;
   Contact<Dim> contact = before;
   Contact<Dim>* slot = &contact;
   KernelCounters counters;
@@ -354,26 +355,26 @@ template <int Dim>
 std::vector<Finding> judge(const Case<Dim>& c, Tally& tally) {
   std::vector<Finding> findings;
   const Scene<Dim> before(c, false), after(c, true);
-  const Contact<Dim> cold = resolve<Dim>(before.pair, Stage::area, {}, tally),
-                     decided = resolve<Dim>(before.pair, Stage::decision, {}, tally),
-                     warm = resolve<Dim>(after.pair, Stage::area, cold, tally);
+  const Contact<Dim> cold = resolve<Dim>(before.pair, QueryLevel::area, {}, tally),
+                     decided = resolve<Dim>(before.pair, QueryLevel::decision, {}, tally),
+                     warm = resolve<Dim>(after.pair, QueryLevel::area, cold, tally);
   Judge<Dim> judge_cold(before, "cold, ", findings, tally), judge_decided(before, "decision only, ", findings, tally),
       judge_warm(after, "warm, ", findings, tally);
   judge_cold.program();
-  judge_cold.decision(cold, Stage::area);
+  judge_cold.decision(cold, QueryLevel::area);
   judge_decided.same_decision(decided, cold);
-  if (!same_proof(decided, cold)) judge_decided.decision(decided, Stage::decision);
-  judge_warm.decision(warm, Stage::area);
+  if (!same_proof(decided, cold)) judge_decided.decision(decided, QueryLevel::decision);
+  judge_warm.decision(warm, QueryLevel::area);
   if (cold.touching()) judge_cold.values(cold.geometry);
   if (warm.touching()) judge_warm.values(warm.geometry);
 
   const ContactSettings on_path{.point = ContactPoint::central_path, .normal = ContactNormal::multipliers};
-  const Contact<Dim> path_cold = resolve<Dim>(before.pair, Stage::overlap, {}, tally, on_path),
-                     path_warm = resolve<Dim>(after.pair, Stage::overlap, path_cold, tally, on_path);
+  const Contact<Dim> path_cold = resolve<Dim>(before.pair, QueryLevel::overlap, {}, tally, on_path),
+                     path_warm = resolve<Dim>(after.pair, QueryLevel::overlap, path_cold, tally, on_path);
   Judge<Dim> judge_path_cold(before, "central path, cold, ", findings, tally),
       judge_path_warm(after, "central path, warm, ", findings, tally);
-  judge_path_cold.decision(path_cold, Stage::overlap);
-  judge_path_warm.decision(path_warm, Stage::overlap);
+  judge_path_cold.decision(path_cold, QueryLevel::overlap);
+  judge_path_warm.decision(path_warm, QueryLevel::overlap);
   if (path_cold.touching()) judge_path_cold.pressed(path_cold.geometry);
   if (path_warm.touching()) judge_path_warm.pressed(path_warm.geometry);
   return findings;

@@ -176,7 +176,7 @@ HWY_INLINE void measure_by_barrier(Meeting<L, Dim>& m) {
 
 // everything from the start on; the results of pairs that are not good mean nothing
 template <class L, int Dim>
-HWY_INLINE void resolve_on_central_path(Meeting<L, Dim>& m, Stage last, double tolerance, int limit,
+HWY_INLINE void resolve_on_central_path(Meeting<L, Dim>& m, QueryLevel level, double tolerance, int limit,
                                         SectionList* lists) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
@@ -187,7 +187,7 @@ HWY_INLINE void resolve_on_central_path(Meeting<L, Dim>& m, Stage last, double t
   m.across = m.inverse_across = L::real(1);
   assemble_in_first(m);
   m.good = both(m.good, m.least > m.rounding + m.tolerance);
-  if (last == Stage::decision || none(m.good)) return;
+  if (level == QueryLevel::decision || none(m.good)) return;
   const Real start_least = m.least;
   follow_path(m, tolerance, limit);
 
@@ -199,9 +199,9 @@ HWY_INLINE void resolve_on_central_path(Meeting<L, Dim>& m, Stage last, double t
   m.rounding = select(inside, rounding, m.rounding);
   for (int k = 0; k < Dim; ++k)
     m.point[k] = m.point[k] + select(inside, m.moved[k], L::real(0));
-  if (last == Stage::point || none(m.good)) return;
+  if (level == QueryLevel::point || none(m.good)) return;
   measure_by_barrier(m);
-  if (last == Stage::overlap || none(m.good)) return;
+  if (level == QueryLevel::overlap || none(m.good)) return;
   m.good = both(m.good, inside);
   const Wide down = L::wide(m.bound);
   invert_slacks(m, [&](int slot) HWY_ATTR { return m.get(m.slack_at, slot) - down; });

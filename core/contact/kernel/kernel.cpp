@@ -110,7 +110,7 @@ inline constexpr int geometry_numbers = Dim == 3 ? 8 : 4;
 
 // the answers into the tasks' contacts
 template <bool OnPath, class L, int Dim>
-HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTask<Dim>> tasks,
+HWY_INLINE void deliver(const Meeting<L, Dim>& m, QueryLevel level, std::span<KernelTask<Dim>> tasks,
                         const SectionList* lists, KernelCounters& counters) {
   using Real = typename L::Real;
   constexpr int width = L::width;
@@ -131,7 +131,7 @@ HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTa
   for (int j = 0; j < Dim; ++j)
     for (int i = 0; i < Dim; ++i)
       world[i][j] = columns[j * Dim + i];
-  const bool measured = last >= Stage::overlap;
+  const bool measured = level >= QueryLevel::overlap;
   const Components<Real, Dim> normal = measured ? unit_again<L>(from_frame(m.frame, m.normal)) : m.axis;
 
   const Real margin = m.least - m.rounding;
@@ -153,7 +153,7 @@ HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTa
   store_records<L, geometry_numbers<Dim>>(geometry, geometries);
 
   counters.newton_iterations += static_cast<long long>(L::total(m.iterations));
-  if (last == Stage::area) counters.areas += L::count(m.good);
+  if (level == QueryLevel::area) counters.areas += L::count(m.good);
   if (measured) {
     counters.normal_fallbacks += L::count(both(m.good, m.fallback));
     counters.deep_overlaps += L::count(both(m.good, m.overlap > m.potential_radius));
@@ -179,7 +179,7 @@ HWY_INLINE void deliver(const Meeting<L, Dim>& m, Stage last, std::span<KernelTa
     contact.geometry.face_a = static_cast<int>(face_a[lane]);
     contact.geometry.face_b = static_cast<int>(face_b[lane]);
     task.magnified = !OnPath && magnified(overlap[lane], margins[lane]);
-    if (Dim == 2 || last < Stage::area) continue;
+    if (Dim == 2 || level < QueryLevel::area) continue;
     const SectionList& list = lists[lane];
     if (!list.found_anew) continue;
     contact.proof.section_size = list.size;
@@ -225,27 +225,27 @@ HWY_INLINE void recall_section(const KernelTask<3>& task, int quads_a, SectionLi
   }
 }
 
-// as many tasks as the register holds pairs, or fewer, all to be resolved to the same stage
+// as many tasks as the register holds pairs, or fewer, all to be resolved to the same level
 template <bool OnPath, class L, int Dim>
 void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, Workspace& work,
                     KernelCounters& counters) {
   Meeting<L, Dim> m;
   SectionList lists[L::width];
   begin<L, Dim>(m, tasks, work);
-  const Stage last = tasks[0].pair->last;
+  const QueryLevel level = tasks[0].pair->level;
   if constexpr (Dim == 3) {
-    if (last == Stage::area)
+    if (level == QueryLevel::area)
       for (int lane = 0; lane < L::width; ++lane)
         recall_section(task_of(tasks, lane), m.quads_a, lists[lane]);
   }
   if constexpr (OnPath) {
     load_diameters<L, Dim>(m, tasks);
-    resolve_on_central_path(m, last, options.newton_tolerance, options.newton_limit, lists);
+    resolve_on_central_path(m, level, options.newton_tolerance, options.newton_limit, lists);
   } else {
-    resolve_from_point(m, last, options.newton_tolerance, options.newton_limit, lists);
+    resolve_from_point(m, level, options.newton_tolerance, options.newton_limit, lists);
   }
-  deliver<OnPath>(m, last, tasks, lists, counters);
-  if (OnPath && last >= Stage::overlap) deliver_firmness(m, tasks);
+  deliver<OnPath>(m, level, tasks, lists, counters);
+  if (OnPath && level >= QueryLevel::overlap) deliver_firmness(m, tasks);
 }
 
 template <bool OnPath, int Dim>
@@ -254,7 +254,7 @@ void standing_groups(std::span<KernelTask<Dim>> tasks, const KernelOptions& opti
   Workspace& work = workspace();
   while (!tasks.empty()) {
     std::size_t count = 1;
-    while (count < std::min(width, tasks.size()) && tasks[count].pair->last == tasks[0].pair->last)
+    while (count < std::min(width, tasks.size()) && tasks[count].pair->level == tasks[0].pair->level)
       ++count;
     if (count == 1)
       standing_group<OnPath, OnePair, Dim>(tasks.first(count), options, work, counters);
@@ -303,13 +303,13 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
 
   const auto certified = [&] { return m.least > m.rounding + m.tolerance; };
   SectionList list;
-  if (decision == Decision::touching && pair.last == Stage::decision) {
+  if (decision == Decision::touching && pair.level == QueryLevel::decision) {
     m.least = -worst;
     m.rounding = rounding_after(m, x);
     if (!certified()) return;
     m.point = m.point + x;
     clear(m);
-    return deliver<false>(m, pair.last, std::span<KernelTask<Dim>>(&task, 1), &list, counters);
+    return deliver<false>(m, pair.level, std::span<KernelTask<Dim>>(&task, 1), &list, counters);
   }
 
   Components<double, Dim> axis = axis_of(m, tight);
@@ -349,10 +349,10 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   m.point = m.point + from_frame(m.frame, m.moved);
   m.axis = from_frame(m.frame, axis);
   m.tangent = from_frame(m.frame, tangent);
-  resolve_from_point(m, pair.last, options.newton_tolerance, options.newton_limit, &list);
+  resolve_from_point(m, pair.level, options.newton_tolerance, options.newton_limit, &list);
   for (int k = 0; k < Dim; ++k)
     proof.tangent[k] = m.tangent[k];
-  deliver<false>(m, pair.last, std::span<KernelTask<Dim>>(&task, 1), &list, counters);
+  deliver<false>(m, pair.level, std::span<KernelTask<Dim>>(&task, 1), &list, counters);
 }
 
 void Standing2(std::span<KernelTask<2>> t, const KernelOptions& o, KernelCounters& c) {

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <span>
 
-#include "core/contact/narrow_phase.hpp"
+#include "core/contact/contact.hpp"
+#include "core/contact/kernel_counters.hpp"
+#include "core/contact/pair.hpp"
+#include "core/settings.hpp"
 
 namespace voussoir {
 
@@ -51,8 +54,8 @@ struct KernelOptions {
 // pairs that one call of resolve_standing handles at once, on this machine
 int kernel_width();
 
-// Contacts that touched before: Newton from the old point, then what Pair::last asks for. Any number of tasks; the same
-// bits in any company.
+// Contacts that touched before: Newton from the old point, then what Pair::level asks for. Any number of tasks; the
+// same bits in any company.
 template <int Dim>
 void resolve_standing(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters);
 

@@ -366,7 +366,7 @@ HWY_INLINE void measure_area(Meeting<L, 3>& m, SectionList* lists) {
   rebuild_sections<L>(planes, m.part, m.quads, m.scratch(), lists, but_not(m.good, known), m.area, m.good);
 }
 
-// before any stage has answered
+// before anything is answered
 template <class L, int Dim>
 HWY_INLINE void clear(Meeting<L, Dim>& m) {
   for (int k = 0; k < Dim; ++k)
@@ -378,10 +378,11 @@ HWY_INLINE void clear(Meeting<L, Dim>& m) {
 
 // everything from the start on; the results of pairs that are not good mean nothing
 template <class L, int Dim>
-HWY_INLINE void resolve_from_point(Meeting<L, Dim>& m, Stage last, double tolerance, int limit, SectionList* lists) {
+HWY_INLINE void resolve_from_point(Meeting<L, Dim>& m, QueryLevel level, double tolerance, int limit,
+                                   SectionList* lists) {
   using Real = typename L::Real;
   clear(m);
-  if (last == Stage::decision) {
+  if (level == QueryLevel::decision) {
     assemble_slacks(m, [](int, int, const auto&) {});
     m.good = both(m.good, m.least > m.rounding + m.tolerance);
     return;
@@ -396,9 +397,9 @@ HWY_INLINE void resolve_from_point(Meeting<L, Dim>& m, Stage last, double tolera
   const Components<Real, Dim> shift = from_frame(m.frame, m.moved);
   for (int k = 0; k < Dim; ++k)  // as in build_frame
     m.point[k] = m.point[k] + shift[k];
-  if (last == Stage::point || none(m.good)) return;
+  if (level == QueryLevel::point || none(m.good)) return;
   measure_overlap(m);
-  if (last == Stage::overlap || none(m.good)) return;
+  if (level == QueryLevel::overlap || none(m.good)) return;
   measure_area(m, lists);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/contact/contact.hpp"
+#include "core/contact/rounding.hpp"
 #include "core/geometry/half_space.hpp"
 
 namespace voussoir {
@@ -21,13 +22,6 @@ constexpr int quads_of(int planes) {
 struct Slots {
   int first, last;
 };
-
-// a slack's rounding as a share of the coordinates it was computed from, see assemble_planes: the products and sums of
-// two rotated vectors lose at most 13 half-ulps
-inline constexpr double slack_rounding = 4 * std::numeric_limits<double>::epsilon();
-
-// gradients that differ by less give no direction
-inline constexpr double parallel_gradients = 1e-6;
 
 // below this decrement² a full Newton step cannot leave the region (it stays inside the Dikin ellipsoid)
 inline constexpr double full_step_decrement2 = 1.0 / 16;

@@ -1,7 +1,7 @@
 // Ranges and phrases that rows of several key tables share.
 #pragma once
 
-#include "core/scene/keys.hpp"
+#include "core/scene/key_row.hpp"
 
 namespace voussoir::key_ranges {
 

@@ -2,7 +2,7 @@
 // the order of the page.
 #pragma once
 
-#include "core/scene/keys.hpp"
+#include "core/scene/key_row.hpp"
 
 namespace voussoir {
 

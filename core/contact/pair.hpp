@@ -1,0 +1,27 @@
+// Two convex parts whose contact is asked for, and how much of it.
+#pragma once
+
+#include "core/geometry/polytope.hpp"
+
+namespace voussoir {
+
+// how far a pair is resolved; each level contains those before it
+enum class QueryLevel {
+  decision,  // touching or not, and what proves it
+  point,     // and where
+  overlap,   // and in which direction, how far, between which faces
+  area       // and how wide
+};
+
+// Two parts as the first one sees them. Positions were subtracted before, so nothing depends on where the pair lies.
+template <int Dim>
+struct Pair {
+  const Polytope<Dim>* a = nullptr;
+  const Polytope<Dim>* b = nullptr;
+  Matrix<Dim> axes;      // frame of the first body -> world
+  Matrix<Dim> rotation;  // frame of the second body -> frame of the first
+  Vector<Dim> offset;    // centroid of the second body in the frame of the first, m
+  QueryLevel level = QueryLevel::area;
+};
+
+}  // namespace voussoir

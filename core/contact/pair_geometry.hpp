@@ -1,0 +1,44 @@
+// The geometry of two overlapping parts: their planes in one frame, the direction between them at a point, how far and
+// how wide they overlap. Planes of A stand first.
+#pragma once
+
+#include <vector>
+
+#include "core/contact/pair.hpp"
+
+namespace voussoir {
+
+// Planes of both parts in the first body's frame, seen from `origin`.
+template <int Dim>
+void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>& planes);
+
+// Direction from A to B at a point (Eqs 3.31-3.35): difference of the gradients of the parts' inner potentials
+// sum <a·x - d + r>², normalised. False when it vanishes. `fallback` tells that a face normal stood in for a zero
+// gradient.
+template <int Dim>
+bool contact_normal(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, double radius,
+                    Vector<Dim>& normal, bool& fallback);
+
+// Overlap along the normal (Eq. 3.36) and the two faces that end it; false when the search meets no face.
+template <int Dim>
+bool overlap_along(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, const Vector<Dim>& normal,
+                   double& overlap, int& face_a, int& face_b);
+
+// Area (2-D: length) of the section of the overlap region through the point normal to n (App. D, by clipping).
+// `reach` bounds the section, m.
+template <int Dim>
+double section_area(const HalfSpaces<Dim>& planes, const Vector<Dim>& point, const Vector<Dim>& normal, double reach);
+
+// The section itself, in axes about the point: perpendicular(n) and, in 3-D, n × perpendicular(n).
+struct Segment {
+  double low, high;  // m
+};
+Segment section_segment(const HalfSpaces<2>& planes, const Vector<2>& point, const Vector<2>& normal, double reach);
+void section_polygon(const HalfSpaces<3>& planes, const Vector<3>& point, const Vector<3>& normal, double reach,
+                     std::vector<Vector<2>>& polygon);
+
+// what of a convex polygon lies in {y : q·y <= slack} (Sutherland and Hodgman)
+void clip_polygon(const std::vector<Vector<2>>& polygon, const Vector<2>& q, double slack,
+                  std::vector<Vector<2>>& clipped);
+
+}  // namespace voussoir

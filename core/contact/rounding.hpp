@@ -1,0 +1,15 @@
+// What the kernels count as rounding.
+#pragma once
+
+#include <limits>
+
+namespace voussoir {
+
+// a slack's rounding as a share of the coordinates it was computed from: the products and sums of two rotated vectors
+// lose at most 13 half-ulps
+inline constexpr double slack_rounding = 4 * std::numeric_limits<double>::epsilon();
+
+// gradients that differ by less give no direction
+inline constexpr double parallel_gradients = 1e-6;
+
+}  // namespace voussoir

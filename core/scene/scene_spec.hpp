@@ -1,0 +1,197 @@
+// What a scene file states, in SI units and radians; nothing is derived here.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/joint_sets/joint_set.hpp"
+#include "core/law/joint_properties.hpp"
+#include "core/prepared.hpp"
+#include "core/scene/node.hpp"
+#include "core/settings.hpp"
+#include "core/slicing/slice.hpp"
+
+namespace voussoir {
+
+// `subject` is where the file states a thing, so that a later error can name line, key and value. Vectors have as many
+// entries as the scene has dimensions; coordinates are the file's.
+
+struct PlaneSpec {
+  double dip = 0, dip_direction = 0;  // rad
+  std::vector<double> point;          // m
+  std::vector<double> normal;         // upward, unit: the plane to the last bit where it is stated; or empty
+};
+
+struct BoxSpec {
+  Subject subject;
+  std::vector<double> min, max;  // m
+};
+
+struct DomainPlaneSpec {
+  Subject subject;
+  PlaneSpec plane;
+  bool keep_below = true;
+};
+
+struct DomainSpec {
+  Subject subject;
+  std::optional<BoxSpec> box;
+  std::vector<DomainPlaneSpec> planes;
+};
+
+// how far a joint reaches in its plane, about the plane's point
+struct OutlineSpec {
+  OutlineForm shape = OutlineForm::none;     // 2-D: a trace is a rectangle
+  double length = 0, width = 0;              // m: along the strike (2-D: of the trace), down the dip
+  std::vector<std::vector<double>> corners;  // m, of a polygon, in space
+};
+
+// a tunnel or, in 2-D, a circle: a prism whose sides touch it from outside
+struct CylinderSpec {
+  Subject subject;
+  std::vector<double> from, to;  // m; 2-D: the centre alone
+  double radius = 0;             // m
+  int sides = 24;
+};
+
+// convex; of box and cylinder at most one
+struct RegionSpec {
+  Subject subject;
+  std::optional<BoxSpec> box;
+  std::optional<CylinderSpec> cylinder;
+  std::vector<DomainPlaneSpec> planes;
+};
+
+struct JointSpec {
+  Subject subject;
+  std::string name;
+  PlaneSpec plane;
+  std::optional<std::string> properties;
+  OutlineSpec outline;
+  std::string set;  // joints of one name are a set; or empty
+  JointKind kind = JointKind::rock;
+  JointSide whole = JointSide::none;
+  std::optional<RegionSpec> within;  // the subdomain that it is confined to
+};
+
+// what is taken out before anything else happens
+struct ExcavationSpec {
+  std::string name;
+  RegionSpec region;
+  bool outline = false;  // construction joints along its faces
+};
+
+enum class JointEnds {
+  extended,  // at the faces of the blocks that the joint meets
+  healed,    // likewise, and blocks that it does not wholly separate are joined again
+  ignored    // nowhere: every joint is persistent
+};
+
+struct SlicingSpec {
+  CuttingOrder order = CuttingOrder::by_size;
+  JointEnds ends = JointEnds::extended;
+  double largest_aspect_ratio = 0;  // of the box along the axes; 0: any
+  int most_blocks = 1'000'000;
+};
+
+struct JointSetSpec {
+  Subject subject;
+  JointSet set;
+  std::optional<std::string> properties;
+  std::optional<RegionSpec> within;
+};
+
+struct PropertiesSpec {
+  Subject subject;
+  JointProperties properties;
+};
+
+struct BlockPlaneSpec {
+  Subject subject;
+  std::vector<double> normal;                // any length
+  std::optional<double> offset;              // m, for the normal as given; or
+  std::optional<std::vector<double>> point;  // m
+};
+
+struct MotionSpec {
+  std::optional<std::vector<double>> velocity;          // m/s
+  std::optional<std::vector<double>> angular_velocity;  // rad/s; 2-D one entry
+};
+
+struct BlockSpec {
+  Subject subject;
+  std::string name;
+  std::vector<std::vector<double>> vertices;  // m; exactly one of these three is stated
+  std::vector<BlockPlaneSpec> planes;
+  std::optional<BoxSpec> box;
+  std::string part_of;            // another block, of whose body this is a further part; or empty
+  std::optional<double> density;  // kg/m³
+  MotionSpec motion;
+  bool fixed = false;
+};
+
+struct SelectorSpec {
+  Subject subject;
+  Selector selector;  // `inside` in the file's coordinates
+};
+
+struct RestrainSpec {
+  SelectorSpec bodies;
+  std::array<bool, 3> translation{}, rotation{};  // true: no movement along or about this axis
+};
+
+struct InitialVelocitySpec {
+  SelectorSpec bodies;
+  MotionSpec motion;
+};
+
+struct StageSpec {
+  Subject subject;
+  StagePlan plan;
+  std::map<std::string, std::vector<SelectorSpec>, std::less<>> chosen;  // the selectors of plan.change by their key,
+                                                                         // in its order, with their places
+
+  const std::vector<SelectorSpec>& chosen_by(std::string_view key) const {
+    static const std::vector<SelectorSpec> none;
+    const auto found = chosen.find(key);
+    return found == chosen.end() ? none : found->second;
+  }
+};
+
+struct MonitorSpec {
+  SelectorSpec body;  // empty for contact_force
+  std::string name, joint;
+  std::vector<Monitored> quantities;
+};
+
+struct Scene {
+  std::string file, title;
+  int dimension = 3;
+  std::optional<std::vector<double>> gravity;  // m/s²
+  std::optional<double> density;               // kg/m³
+  std::optional<DomainSpec> domain;
+  std::vector<JointSpec> joints;  // in the order of the file, before those of the sets
+  std::vector<JointSetSpec> joint_sets;
+  std::vector<PropertiesSpec> properties;
+  std::vector<BlockSpec> blocks;
+  std::vector<SelectorSpec> fix;
+  std::vector<RestrainSpec> restrain;
+  std::vector<InitialVelocitySpec> initial_velocity;
+  Settings settings;
+  double smallest_inscribed_radius = 0;  // m
+  SlicingSpec slicing;
+  std::vector<ExcavationSpec> excavations;
+  std::vector<StageSpec> stages;
+  std::vector<MonitorSpec> monitors;
+  OutputPlan output;
+  std::vector<std::string> from_level;       // what accuracy.level set: "key = value"
+  std::vector<std::filesystem::path> files;  // that were read: the scene's own, if it is one, and whatever it names
+  std::shared_ptr<const Node> tree;          // the effective file, overrides applied; subjects point into it
+};
+
+}  // namespace voussoir
