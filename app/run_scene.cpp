@@ -30,7 +30,7 @@ void use_glpk([[maybe_unused]] Solvers<Dim>& solvers) {
 template <int Dim>
 void use_ipopt([[maybe_unused]] CentreSolver chosen, [[maybe_unused]] Solvers<Dim>& solvers) {
 #ifdef VOUSSOIR_HAS_IPOPT
-  if (chosen == CentreSolver::own) solvers.rescue = &solve_analytic_centre_ipopt<Dim>;
+  if (chosen == CentreSolver::own) solvers.fallback = &solve_analytic_centre_ipopt<Dim>;
   if (chosen == CentreSolver::ipopt) solvers.centre = &solve_analytic_centre_ipopt<Dim>;
   if (chosen == CentreSolver::ipopt_scaled) solvers.centre = &solve_analytic_centre_ipopt_scaled<Dim>;
 #else

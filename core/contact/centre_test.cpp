@@ -40,7 +40,7 @@ struct Cell {
 };
 
 template <int Dim>
-struct Meeting {
+struct CubePair {
   Polytope<Dim> a, b;
   Matrix<Dim> rotation;
   Vector<Dim> offset;
@@ -49,12 +49,12 @@ struct Meeting {
 // Two turned cubes, face on face to the depth, shifted until they share a strip of 1/aspect, tilted by what the strip
 // allows; far from the origin, references subtracted first.
 template <int Dim>
-Meeting<Dim> meet(const Cell& cell, Random& random) {
+CubePair<Dim> overlapping_cubes(const Cell& cell, Random& random) {
   const Matrix<Dim> axes_a = matrix(shapes::orientation<Dim>(random)),
                     axes_b = matrix(shapes::orientation<Dim>(random));
-  Meeting<Dim> m;
-  m.a = shapes::block<Dim>(shapes::placed<Dim>(shapes::cube<Dim>(0.5), axes_a, Vector<Dim>::Zero()));
-  m.b = shapes::block<Dim>(shapes::placed<Dim>(shapes::cube<Dim>(0.5), axes_b, Vector<Dim>::Zero()));
+  CubePair<Dim> cubes;
+  cubes.a = shapes::block<Dim>(shapes::placed<Dim>(shapes::cube<Dim>(0.5), axes_a, Vector<Dim>::Zero()));
+  cubes.b = shapes::block<Dim>(shapes::placed<Dim>(shapes::cube<Dim>(0.5), axes_b, Vector<Dim>::Zero()));
   Matrix<Dim> tilt;
   Vector<Dim> shift;
   const double flat = 0.1 * std::min(cell.depth, 1 / cell.aspect) * uniform(random, -1, 1);
@@ -71,9 +71,9 @@ Meeting<Dim> meet(const Cell& cell, Random& random) {
   const Vector<Dim> reference_a = cell.distance * shapes::direction<Dim>(random);
   const Vector<Dim> reference_b = reference_a + shift, between = reference_b - reference_a;
   const Vector<Dim> relative = between + (shift - between);
-  m.rotation = axes_a * tilt * axes_b.transpose();
-  m.offset = axes_a * relative;
-  return m;
+  cubes.rotation = axes_a * tilt * axes_b.transpose();
+  cubes.offset = axes_a * relative;
+  return cubes;
 }
 
 struct Worst {
@@ -81,19 +81,19 @@ struct Worst {
 };
 
 template <int Dim>
-void expect_converged(const Meeting<Dim>& m, const Outcome<Dim>& found, const Level& level, Worst& worst) {
+void expect_converged(const CubePair<Dim>& cubes, const Outcome<Dim>& found, const Level& level, Worst& worst) {
   ASSERT_EQ(found.contact.status, ContactStatus::touching);
   EXPECT_EQ(found.counters.centre_fallbacks, 0);
   const ContactGeometry<Dim>& g = found.contact.geometry;
-  const Pair<Dim> pair{&m.a, &m.b, Matrix<Dim>::Identity(), m.rotation, m.offset};
+  const Pair<Dim> pair{&cubes.a, &cubes.b, Matrix<Dim>::Identity(), cubes.rotation, cubes.offset};
   const ContactSettings settings;
-  const double radius = settings.potential_radius * std::min(m.a.inscribed_radius, m.b.inscribed_radius);
-  auto best = exact::converged_contact(exact::planes_of(pair), static_cast<int>(m.a.faces.size()),
-                                       static_cast<int>(m.b.faces.size()), exact::point_of(g.point), radius);
+  const double radius = settings.potential_radius * std::min(cubes.a.inscribed_radius, cubes.b.inscribed_radius);
+  auto best = exact::converged_contact(exact::planes_of(pair), static_cast<int>(cubes.a.faces.size()),
+                                       static_cast<int>(cubes.b.faces.size()), exact::point_of(g.point), radius);
   ASSERT_TRUE(best) << "the point lies outside";
   if constexpr (Dim == 2) best->section.area /= 2 * exact::lid_height(pair);
 
-  const double size = m.a.radius + m.b.radius, overlap = to_double(best->overlap);
+  const double size = cubes.a.radius + cubes.b.radius, overlap = to_double(best->overlap);
   ASSERT_GT(overlap, 0);
   const double open = left_open(size, overlap);
   const double off = to_double(best->distance) / (level.point + open);
@@ -110,8 +110,8 @@ void expect_converged(const Meeting<Dim>& m, const Outcome<Dim>& found, const Le
 // cold, then warm after a move of a hundredth of the overlap: the start must not matter (A6)
 template <int Dim>
 void expect_cell(const Cell& cell, Random& random, Worst& worst) {
-  const Meeting<Dim> here = meet<Dim>(cell, random);
-  Meeting<Dim> there = here;
+  const CubePair<Dim> here = overlapping_cubes<Dim>(cell, random);
+  CubePair<Dim> there = here;
   there.offset += 0.01 * std::min(cell.depth, 1 / cell.aspect) * shapes::direction<Dim>(random);
   for (const Level& level : {timed, reference}) {
     const ContactSettings settings{.newton_tolerance = level.newton_tolerance};

@@ -105,7 +105,8 @@ TEST(Multipliers, CrossedEdgesAreTheDistanceOfTheirLines) {
   }
 }
 
-// A needle's planes bear its tip and all but cancel: the direction is that of the plane that bears next to nothing.
+// A needle's planes are active at its tip and all but cancel: the direction is that of the plane whose multiplier is
+// next to nothing.
 TEST(Multipliers, ANeedlesTipHasTheFacesNormal) {
   const Polytope<3> large = shapes::block<3>(shapes::cube<3>(3));
   for (const double slope : {1e-3, 1e-7}) {

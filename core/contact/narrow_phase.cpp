@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/contact/careful_overlap.hpp"
-#include "core/contact/general_road.hpp"
+#include "core/contact/extended_precision_overlap.hpp"
 #include "core/contact/kernel/kernel.hpp"
+#include "core/contact/reference_kernel.hpp"
 #include "core/contact/separation.hpp"
 
 namespace voussoir {
@@ -47,7 +47,7 @@ bool on_central_path(const ContactSettings& settings) {
 }
 
 template <int Dim>
-bool kernel_suits(const ContactSettings& settings, const Solvers<Dim>& solvers) {
+bool simd_kernel_suits(const ContactSettings& settings, const Solvers<Dim>& solvers) {
   if (solvers.feasibility != &solve_feasibility<Dim>) return false;
   return on_central_path(settings) ||
          (settings.point == ContactPoint::analytic_centre && settings.normal == ContactNormal::potential &&
@@ -58,11 +58,11 @@ KernelOptions kernel_options(const ContactSettings& settings) {
   return {settings.newton_tolerance, settings.newton_limit, on_central_path(settings)};
 }
 
-// by the general road, with a plane between what is separated
+// by the reference kernel; parts that are separated keep the plane between them
 template <int Dim>
-void resolve_slowly(const Pair<Dim>& pair, const ContactSettings& settings, const Solvers<Dim>& solvers,
-                    Contact<Dim>& contact, KernelCounters& counters) {
-  resolve_generally(pair, settings, solvers, contact, false, counters);
+void resolve_without_simd(const Pair<Dim>& pair, const ContactSettings& settings, const Solvers<Dim>& solvers,
+                          Contact<Dim>& contact, KernelCounters& counters) {
+  resolve_by_reference(pair, settings, solvers, contact, false, counters);
   if (contact.status == ContactStatus::separated) keep_axis(pair, contact);
 }
 
@@ -83,15 +83,16 @@ void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const 
     if (separates(pair, axis, support(*pair.a, axis), contact)) return;
   }
   contact.geometry = {};
-  // what twice the digits could not tell, the kernel will not
-  if (on_central_path(settings) || was_undecided) return resolve_slowly(pair, settings, solvers, contact, counters);
+  // what extended precision could not decide, the SIMD kernel will not
+  if (on_central_path(settings) || was_undecided)
+    return resolve_without_simd(pair, settings, solvers, contact, counters);
   resolve_new(task, kernel_options(settings), counters);
   if (!task.answered) {
     const bool fresh = contact.proof.kind == ProofKind::interior_point;
-    return resolve_generally(pair, settings, solvers, contact, fresh, counters);
+    return resolve_by_reference(pair, settings, solvers, contact, fresh, counters);
   }
   if (contact.status == ContactStatus::separated) return keep_axis(pair, contact);
-  if (task.magnified) measure_overlap_carefully(pair, contact);
+  if (task.magnified) measure_overlap_in_extended_precision(pair, contact);
 }
 
 // as many as the nearest cache holds with their contacts
@@ -108,8 +109,8 @@ void sort_by_work(std::span<KernelTask<Dim>> tasks) {
 
 // at most pairs_together
 template <int Dim>
-void resolve_fast(std::span<const Pair<Dim>> pairs, const ContactSettings& settings, const Solvers<Dim>& solvers,
-                  std::span<Contact<Dim>* const> contacts, KernelCounters& counters) {
+void resolve_batch(std::span<const Pair<Dim>> pairs, const ContactSettings& settings, const Solvers<Dim>& solvers,
+                   std::span<Contact<Dim>* const> contacts, KernelCounters& counters) {
   KernelTask<Dim> tasks[pairs_together];
   std::size_t count = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -118,7 +119,7 @@ void resolve_fast(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
     const Proof<Dim>& proof = contact.proof;
     if (still_separated(pair, contact, counters)) continue;
     KernelTask<Dim>& task = tasks[count] = kernel_task(pair, settings, contact);
-    // the point that was inside both still is: they go on together, below
+    // persistent contacts are resolved together, below
     if (proof.kind == ProofKind::interior_point)
       ++count;
     else
@@ -126,16 +127,16 @@ void resolve_fast(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
   }
   if (count == 0) return;
 
-  const std::span<KernelTask<Dim>> standing(tasks, count);
-  sort_by_work(standing);
-  resolve_standing<Dim>(standing, kernel_options(settings), counters);
-  for (KernelTask<Dim>& task : standing) {
+  const std::span<KernelTask<Dim>> persistent(tasks, count);
+  sort_by_work(persistent);
+  resolve_persistent<Dim>(persistent, kernel_options(settings), counters);
+  for (KernelTask<Dim>& task : persistent) {
     if (!task.answered) {
       resolve_cold(task, settings, solvers, counters);
       continue;
     }
     ++counters.point_hits;
-    if (task.magnified) measure_overlap_carefully(*task.pair, *task.contact);
+    if (task.magnified) measure_overlap_in_extended_precision(*task.pair, *task.contact);
   }
 }
 
@@ -145,15 +146,15 @@ template <int Dim>
 void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& settings, const Solvers<Dim>& solvers,
                   std::span<Contact<Dim>* const> contacts, KernelCounters& counters) {
   counters.evaluations += static_cast<long long>(pairs.size());
-  if (!kernel_suits(settings, solvers)) {
+  if (!simd_kernel_suits(settings, solvers)) {
     for (std::size_t i = 0; i < pairs.size(); ++i)
       if (!still_separated(pairs[i], *contacts[i], counters))
-        resolve_slowly(pairs[i], settings, solvers, *contacts[i], counters);
+        resolve_without_simd(pairs[i], settings, solvers, *contacts[i], counters);
     return;
   }
   for (std::size_t from = 0; from < pairs.size(); from += pairs_together) {
     const std::size_t count = std::min(pairs_together, pairs.size() - from);
-    resolve_fast(pairs.subspan(from, count), settings, solvers, contacts.subspan(from, count), counters);
+    resolve_batch(pairs.subspan(from, count), settings, solvers, contacts.subspan(from, count), counters);
   }
 }
 

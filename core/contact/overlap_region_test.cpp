@@ -1,4 +1,5 @@
-// The exchangeable parts of the kernel: centroid of the overlap, overlap by bracketing, rescue of a failed centre.
+// The exchangeable parts of the kernel: centroid of the overlap, overlap by bracketing, fallback solver of a failed
+// centre.
 #include "core/contact/overlap_region.hpp"
 
 #include <gtest/gtest.h>
@@ -228,13 +229,13 @@ TEST(Bracketing, GivesTheKernelTheSameContact) {
   EXPECT_GT(compared, 0) << "the setting changes nothing";
 }
 
-// ---- rescue ---------------------------------------------------------------------------------------------------------
+// ---- fallback solver ------------------------------------------------------------------------------------------------
 
 CentreResult<3> fails(const HalfSpaces<3>&, const CentreRequest<3>& request) {
   return {CentreStatus::singular, request.start, 3};
 }
 
-TEST(Rescue, AnswersWhenTheSearchForTheCentreFails) {
+TEST(FallbackSolver, AnswersWhenTheSearchForTheCentreFails) {
   const Polytope<3> cube = unit_cube<3>();
   const Pair<3> pair{&cube, &cube, Matrix<3>::Identity(), Matrix<3>::Identity(), {0.25, -0.5, 0.99}};
   const auto resolve = [&](const Solvers<3>& solvers, const ContactSettings& settings) {
@@ -249,14 +250,14 @@ TEST(Rescue, AnswersWhenTheSearchForTheCentreFails) {
 
   Solvers<3> failing{.centre = &fails};
   EXPECT_EQ(resolve(failing, {}).contact.status, ContactStatus::centre_not_converged);
-  failing.rescue = &solve_analytic_centre<3>;
-  const Outcome<3> rescued = resolve(failing, {});
-  ASSERT_TRUE(rescued.contact.touching());
-  EXPECT_EQ(rescued.counters.centre_fallbacks, 1);
-  EXPECT_LT((rescued.contact.geometry.point - own.contact.geometry.point).norm(), exact);
+  failing.fallback = &solve_analytic_centre<3>;
+  const Outcome<3> by_fallback = resolve(failing, {});
+  ASSERT_TRUE(by_fallback.contact.touching());
+  EXPECT_EQ(by_fallback.counters.centre_fallbacks, 1);
+  EXPECT_LT((by_fallback.contact.geometry.point - own.contact.geometry.point).norm(), exact);
 
-  // a rescue that fails too leaves a named failure
-  failing.rescue = &fails;
+  // a fallback solver that fails, too, leaves a named failure
+  failing.fallback = &fails;
   const Outcome<3> lost = resolve(failing, {});
   EXPECT_EQ(lost.contact.status, ContactStatus::centre_not_converged);
   EXPECT_EQ(lost.counters.centre_fallbacks, 0);

@@ -1,6 +1,6 @@
 // What must not change the kernel's answer: the order of a block's planes, the unit of length, the axes, which block
-// comes first, company in a batch, the width of the machine's registers. Row L9 of the catalogue of extremes, on the
-// families of certainty_test.
+// comes first, the batch that it is resolved in, the width of the machine's registers. Row L9 of the catalogue of
+// extremes, on the families of certainty_test.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
@@ -280,7 +280,7 @@ constexpr ContactSettings on_central_path{.point = ContactPoint::central_path, .
 
 // ---- batches --------------------------------------------------------------------------------------------------------
 
-// Pairs of every family, cold, standing and separated before, resolved to different stages, that wait for company.
+// Pairs of every family, new, persistent and separated before, resolved to different levels, to be resolved in batches.
 template <int Dim>
 struct Queue {
   ContactSettings settings;
@@ -306,10 +306,10 @@ Queue<Dim> make_queue(const ContactSettings& settings, long long first, int coun
   for (const Case<Dim>& c : queue.cases) {
     const Matrix<Dim> axes = matrix(shapes::orientation<Dim>(random));
     Pair<Dim> cold{&c.a, &c.b, axes, c.rotation, c.offset}, warm{&c.a, &c.b, axes, c.rotation_after, c.offset_after};
-    const Contact<Dim> standing = resolve_alone<Dim>(cold, {}, settings);
+    const Contact<Dim> persistent = resolve_alone<Dim>(cold, {}, settings);
     cold.level = static_cast<QueryLevel>(integer(random, 0, 3));
     warm.level = static_cast<QueryLevel>(integer(random, 0, 3));
-    for (const auto& [pair, before] : {std::pair{cold, Contact<Dim>{}}, std::pair{warm, standing}}) {
+    for (const auto& [pair, before] : {std::pair{cold, Contact<Dim>{}}, std::pair{warm, persistent}}) {
       queue.pairs.push_back(pair);
       queue.before.push_back(before);
       queue.alone.push_back(resolve_alone<Dim>(pair, before, settings));
@@ -343,7 +343,7 @@ std::vector<int> numbers_of(const Queue<Dim>& queue) {
 }
 
 template <int Dim>
-void expect_same_bits_in_company(const ContactSettings& settings, long long first, int cases) {
+void expect_bits_independent_of_batch(const ContactSettings& settings, long long first, int cases) {
   Random random(seed + static_cast<std::uint64_t>(first));
   const Queue<Dim> queue = make_queue<Dim>(settings, first, cases, random);
   std::vector<int> order = numbers_of<Dim>(queue);
@@ -368,20 +368,20 @@ void expect_same_bits_in_company(const ContactSettings& settings, long long firs
 
 TEST(SamePair, AloneAndInAnyBatch3D) {
   SKIP_WITH_FAST_ARITHMETIC();
-  expect_same_bits_in_company<3>({}, 0, 1000);
-  expect_same_bits_in_company<3>(on_central_path, 0, 1000);
+  expect_bits_independent_of_batch<3>({}, 0, 1000);
+  expect_bits_independent_of_batch<3>(on_central_path, 0, 1000);
 }
 TEST(SamePair, AloneAndInAnyBatch2D) {
   SKIP_WITH_FAST_ARITHMETIC();
-  expect_same_bits_in_company<2>({}, 0, 1000);
-  expect_same_bits_in_company<2>(on_central_path, 0, 1000);
+  expect_bits_independent_of_batch<2>({}, 0, 1000);
+  expect_bits_independent_of_batch<2>(on_central_path, 0, 1000);
 }
 TEST(SamePairLong, AloneAndInAnyBatchFiftyThousand) {
   SKIP_WITH_FAST_ARITHMETIC();
   for (int part = 0; part < 50; ++part) {
     for (const ContactSettings& settings : {ContactSettings{}, on_central_path}) {
-      expect_same_bits_in_company<3>(settings, 1'000'000 + 1000 * part, 1000);
-      expect_same_bits_in_company<2>(settings, 1'000'000 + 1000 * part, 1000);
+      expect_bits_independent_of_batch<3>(settings, 1'000'000 + 1000 * part, 1000);
+      expect_bits_independent_of_batch<2>(settings, 1'000'000 + 1000 * part, 1000);
     }
   }
 }

@@ -129,18 +129,18 @@ TEST(WarmStart, StandsForTheSameContact) {
     const double depth = 1e-4;
     Matrix<3> turn = matrix(shapes::orientation<3>(random));
     Vector<3> offset = Vector<3>(0.1, 0.1, 0.5 - depth) - lowest_corner<3>(b, turn);
-    Contact<3> standing = touch<3>(a, b, turn, offset).contact;
-    ASSERT_TRUE(standing.touching());
+    Contact<3> persistent = touch<3>(a, b, turn, offset).contact;
+    ASSERT_TRUE(persistent.touching());
     for (int step = 0; step < 20; ++step) {
       offset += 0.02 * depth * shapes::direction<3>(random);
       turn = matrix(turned({Eigen::Quaterniond(turn)}, Spin<3>(1e-6 * shapes::direction<3>(random))));
-      const Outcome<3> warm = touch<3>(a, b, turn, offset, {}, standing), cold = touch<3>(a, b, turn, offset);
+      const Outcome<3> warm = touch<3>(a, b, turn, offset, {}, persistent), cold = touch<3>(a, b, turn, offset);
       ASSERT_TRUE(warm.contact.touching());
       EXPECT_EQ(warm.counters.lp_solves, 0);
       EXPECT_LT((warm.contact.geometry.point - cold.contact.geometry.point).norm(), point_tolerance);
       EXPECT_LT((warm.contact.geometry.normal - cold.contact.geometry.normal).norm(), point_tolerance);
       EXPECT_NEAR(warm.contact.geometry.overlap, cold.contact.geometry.overlap, point_tolerance * depth);
-      standing = warm.contact;
+      persistent = warm.contact;
     }
   }
 }
@@ -163,12 +163,12 @@ TEST(WarmStart, WhatTheGeneralRoadFoundStandsInTheKernel) {
     const Outcome<3> first = now({});
     if (!first.contact.touching() || first.counters.lp_solves < 2) continue;
     ++found_generally;
-    Contact<3> standing = first.contact;
+    Contact<3> persistent = first.contact;
     for (int step = 0; step < steps; ++step) {
       offset += 0.01 * thin * shapes::direction<3>(random);
-      const Outcome<3> next = now(standing);
+      const Outcome<3> next = now(persistent);
       stood += static_cast<int>(next.counters.point_hits);
-      standing = next.contact;
+      persistent = next.contact;
     }
   }
   EXPECT_GT(found_generally, slivers / 4);
@@ -206,15 +206,15 @@ TEST(WarmStart, TheNormalStaysUnitHoweverLongTheContactStands) {
     const double depth = 1e-4;
     const Matrix<3> turn = matrix(shapes::orientation<3>(random));
     const Vector<3> offset = Vector<3>(0.1, 0.1, 0.5 - depth) - lowest_corner<3>(b, turn);
-    Contact<3> standing = touch<3>(a, b, turn, offset).contact;
+    Contact<3> persistent = touch<3>(a, b, turn, offset).contact;
     for (int step = 0; step < 2000; ++step) {
       const Vector<3> moved = 0.02 * depth * shapes::direction<3>(random);
-      const Outcome<3> warm = touch<3>(a, b, turn, offset + moved, {}, standing);
+      const Outcome<3> warm = touch<3>(a, b, turn, offset + moved, {}, persistent);
       ASSERT_EQ(warm.counters.point_hits, 1);
-      standing = warm.contact;
+      persistent = warm.contact;
     }
     // three squares, a sum and a root
-    EXPECT_NEAR(standing.geometry.normal.norm(), 1, 4 * std::numeric_limits<double>::epsilon());
+    EXPECT_NEAR(persistent.geometry.normal.norm(), 1, 4 * std::numeric_limits<double>::epsilon());
   }
 }
 
@@ -236,7 +236,7 @@ TEST(WarmStart, ANewContactDoesNotRememberThatItWasSeparate) {
   }
 }
 
-TEST(Batch, APairAloneAndInCompanyGivesTheSameBits) {
+TEST(Batch, ThePairsAnswerIsBitwiseIndependentOfIt) {
   Random random(74);
   const Polytope<3> a = unit_cube<3>(), b = shapes::centred_block<3>(shapes::random_planes<3>(random, 9, 0.5));
   std::vector<Pair<3>> pairs;

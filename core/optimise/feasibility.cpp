@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/optimise/careful_feasibility.hpp"
+#include "core/optimise/extended_precision_feasibility.hpp"
 #include "core/optimise/far_planes.hpp"
 
 namespace voussoir {
@@ -24,7 +24,8 @@ constexpr int refinement_steps = 3;
 // a multiplier below this is negative: its basis bounds nothing
 constexpr double negative_multiplier = -8 * std::numeric_limits<double>::epsilon();
 
-// what a value may be off as a share of the planes' extent; if it may be more it is computed anew in twice the digits
+// what a value may be off as a share of the planes' extent; if it may be more it is computed once more in extended
+// precision
 constexpr double value_rounding = 16 * std::numeric_limits<double>::epsilon();
 
 // Tight planes of the dual simplex. With C = columns (a_i, 1) of the basis, C λ = (0, …, 0, 1) and (x, -s) C = d.
@@ -91,10 +92,11 @@ void pivot(Basis<Dim>& basis, int leave, int enter, double offset, const Eigen::
   basis.offsets[leave] = offset;
 }
 
-// The point where the tight planes meet, and -s. Refined: planes that are nearly parallel, as of two faces in contact,
-// leave few correct digits in the inverse.
+// The point where the tight planes intersect, and -s. Refined: planes that are nearly parallel, as of two faces in
+// contact, leave few correct digits in the inverse.
 template <int Dim>
-Eigen::Matrix<double, Dim + 1, 1> meeting_point(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far) {
+Eigen::Matrix<double, Dim + 1, 1> intersection_point(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes,
+                                                     double far) {
   Eigen::Matrix<double, Dim + 1, 1> solution = basis.inverse.transpose() * basis.offsets, residual;
   for (int step = 0; step < refinement_steps; ++step) {
     for (int k = 0; k <= Dim; ++k)
@@ -114,8 +116,8 @@ void record(const Basis<Dim>& basis, FeasibilityResult<Dim>& result) {
 
 // whether the point lies on its tight planes, as far as rounding lets it
 template <int Dim>
-bool meets(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far,
-           const Eigen::Matrix<double, Dim + 1, 1>& solution, double coordinates) {
+bool lies_on_planes(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far,
+                    const Eigen::Matrix<double, Dim + 1, 1>& solution, double coordinates) {
   for (int k = 0; k <= Dim; ++k) {
     const double residual = basis_plane(planes, basis.planes[k], far).normal.dot(solution.template head<Dim>()) +
                             solution[Dim] - basis.offsets[k];
@@ -136,15 +138,15 @@ FeasibilityResult<Dim> search(const HalfSpaces<Dim>& planes, const FeasibilityRe
   bool polished = false;  // the inverse was just computed, not updated, and the point refined
   for (; result.pivots < limit; ++result.pivots) {
     const Eigen::Matrix<double, Dim + 1, 1> solution =
-        polished ? meeting_point(basis, planes, far)
+        polished ? intersection_point(basis, planes, far)
                  : Eigen::Matrix<double, Dim + 1, 1>(basis.inverse.transpose() * basis.offsets);
     result.point = solution.template head<Dim>();
     result.value = -solution[Dim];
 
-    // every basis is dual feasible, so its value is a lower bound; tiny pivots can spoil it, hence the proof
+    // every basis is dual feasible, so its value is a lower bound; tiny pivots can spoil it, hence the certified bound
     if (result.value > request.stop_above) {
       record(basis, result);
-      if (proven_bound<Dim>(planes, result, reach) > request.stop_above) {
+      if (certified_lower_bound<Dim>(planes, result, reach) > request.stop_above) {
         result.status = FeasibilityStatus::separated_early;
         break;
       }
@@ -166,7 +168,8 @@ FeasibilityResult<Dim> search(const HalfSpaces<Dim>& planes, const FeasibilityRe
     if (enter < 0) {
       // updates lose digits: the answer is taken from a fresh inverse of the final basis, and where there is none, of
       // planes that pivoting let come too near to dependent, it is no answer
-      if (polished && meets(basis, planes, far, solution, coordinates)) result.status = FeasibilityStatus::optimal;
+      if (polished && lies_on_planes(basis, planes, far, solution, coordinates))
+        result.status = FeasibilityStatus::optimal;
       if (polished || !factorise(basis, planes, far)) break;
       polished = true;
       continue;
@@ -188,9 +191,9 @@ FeasibilityResult<Dim> search(const HalfSpaces<Dim>& planes, const FeasibilityRe
   return result;
 }
 
-// Whether the answer proves itself. Its planes are all kept; by weak duality no better one is farther off than what the
-// multipliers leave of the normals where they should cancel, times how far out the optimum lies. A basis of planes that
-// are too near to dependent has multipliers of which some may truly be negative.
+// Whether the answer certifies itself. Its planes are all kept; by weak duality no better one is farther off than what
+// the multipliers leave of the normals where they should cancel, times how far out the optimum lies. A basis of planes
+// that are too near to dependent has multipliers of which some may truly be negative.
 template <int Dim>
 bool answered(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& result) {
   if (result.status == FeasibilityStatus::separated_early) return true;  // proven there
@@ -209,7 +212,7 @@ bool answered(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& resul
 }  // namespace
 
 template <int Dim>
-double proven_bound(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& result, double reach) {
+double certified_lower_bound(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& result, double reach) {
   Vector<Dim> residual = Vector<Dim>::Zero();
   double sum = 0, offsets = 0;
   for (int k = 0; k <= Dim; ++k) {
@@ -226,13 +229,13 @@ template <int Dim>
 FeasibilityResult<Dim> solve_feasibility(const HalfSpaces<Dim>& planes, const FeasibilityRequest<Dim>& request) {
   const FeasibilityResult<Dim> result = search(planes, request);
   if (answered(planes, result)) return result;
-  FeasibilityResult<Dim> careful = solve_feasibility_carefully(planes, request);
-  careful.pivots += result.pivots;
-  return careful;
+  FeasibilityResult<Dim> extended = solve_feasibility_in_extended_precision(planes, request);
+  extended.pivots += result.pivots;
+  return extended;
 }
 
-template double proven_bound<2>(const HalfSpaces<2>&, const FeasibilityResult<2>&, double);
-template double proven_bound<3>(const HalfSpaces<3>&, const FeasibilityResult<3>&, double);
+template double certified_lower_bound<2>(const HalfSpaces<2>&, const FeasibilityResult<2>&, double);
+template double certified_lower_bound<3>(const HalfSpaces<3>&, const FeasibilityResult<3>&, double);
 template FeasibilityResult<1> solve_feasibility<1>(const HalfSpaces<1>&, const FeasibilityRequest<1>&);
 template FeasibilityResult<2> solve_feasibility<2>(const HalfSpaces<2>&, const FeasibilityRequest<2>&);
 template FeasibilityResult<3> solve_feasibility<3>(const HalfSpaces<3>&, const FeasibilityRequest<3>&);

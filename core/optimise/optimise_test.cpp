@@ -4,9 +4,9 @@
 #include <numeric>
 
 #include "core/optimise/analytic_centre.hpp"
-#include "core/optimise/careful_feasibility.hpp"
 #include "core/optimise/central_path.hpp"
 #include "core/optimise/double_double.hpp"
+#include "core/optimise/extended_precision_feasibility.hpp"
 #include "core/optimise/feasibility.hpp"
 #include "core/testing/oracles.hpp"
 #include "core/testing/shapes.hpp"
@@ -96,10 +96,10 @@ void expect_best_of_all_bases(std::uint64_t seed, int trials) {
     ASSERT_EQ(r.status, FeasibilityStatus::optimal);
     EXPECT_NEAR(r.value, static_cast<double>(oracle::feasibility<Dim>(planes)), lp_tolerance);
     expect_certificate<Dim>(planes, r);
-    const FeasibilityResult<Dim> careful = solve_feasibility_carefully<Dim>(planes, {});
-    ASSERT_EQ(careful.status, FeasibilityStatus::optimal);
-    EXPECT_NEAR(careful.value, r.value, lp_tolerance);
-    expect_certificate<Dim>(planes, careful);
+    const FeasibilityResult<Dim> extended = solve_feasibility_in_extended_precision<Dim>(planes, {});
+    ASSERT_EQ(extended.status, FeasibilityStatus::optimal);
+    EXPECT_NEAR(extended.value, r.value, lp_tolerance);
+    expect_certificate<Dim>(planes, extended);
     separate += r.value > 0;
   }
   // both answers must have been asked for

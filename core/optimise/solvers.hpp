@@ -11,8 +11,8 @@ struct Solvers {
   FeasibilitySolver<Dim>* feasibility = &solve_feasibility<Dim>;
   CentreSolverFunction<Dim>* centre = &solve_analytic_centre<Dim>;
 
-  // asked once more when `centre` has failed from a cold start; null: the contact then has no answer
-  CentreSolverFunction<Dim>* rescue = nullptr;
+  // called when `centre` has failed from a cold start; null: the contact then has no answer
+  CentreSolverFunction<Dim>* fallback = nullptr;
 };
 
 }  // namespace voussoir

@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-#include "core/contact/kernel/standing_inl.hpp"
+#include "core/contact/kernel/warm_start_inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace voussoir {
@@ -51,7 +51,7 @@ HWY_INLINE void bordered_direction(const typename L::Real (&sums)[Size + Size * 
 
 // Damped Newton; the slots' slacks become t = s + d - a·x, their inverses with them. Pairs that are done stand still.
 template <class L, int Dim>
-HWY_INLINE void follow_path(Meeting<L, Dim>& m, double tolerance, int limit) {
+HWY_INLINE void follow_path(Batch<L, Dim>& m, double tolerance, int limit) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
   using Bool = typename L::Bool;
@@ -119,13 +119,13 @@ HWY_INLINE void follow_path(Meeting<L, Dim>& m, double tolerance, int limit) {
   m.good = but_not(m.good, moving);
 }
 
-// below it a product of distances over diameters has lost its digits, or has none: too many planes for this road
+// below it a product of distances over diameters has lost its digits, or has none: too many planes for this kernel
 inline constexpr double least_product = 0x1p-900;
 
-// The value of the barrier as the general road has it (general_road.cpp): distances over the diameters of their parts,
-// without the two logarithms that any contact has.
+// The value of the barrier as the reference kernel has it (reference_kernel.cpp): distances over the diameters of their
+// parts, without the two logarithms that any contact has.
 template <class L, int Dim>
-HWY_INLINE typename L::Real barrier_value(Meeting<L, Dim>& m) {
+HWY_INLINE typename L::Real barrier_value(Batch<L, Dim>& m) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
   const Real one = L::real(1);
@@ -148,7 +148,7 @@ HWY_INLINE typename L::Real barrier_value(Meeting<L, Dim>& m) {
 
 // Normal and overlap from the barrier's gradient g over the first part's planes, and the share of a stiffness, 4 g².
 template <class L, int Dim>
-HWY_INLINE void measure_by_barrier(Meeting<L, Dim>& m) {
+HWY_INLINE void measure_by_barrier(Batch<L, Dim>& m) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
   const Real zero = L::real(0), one = L::real(1);
@@ -176,7 +176,7 @@ HWY_INLINE void measure_by_barrier(Meeting<L, Dim>& m) {
 
 // everything from the start on; the results of pairs that are not good mean nothing
 template <class L, int Dim>
-HWY_INLINE void resolve_on_central_path(Meeting<L, Dim>& m, QueryLevel level, double tolerance, int limit,
+HWY_INLINE void resolve_on_central_path(Batch<L, Dim>& m, QueryLevel level, double tolerance, int limit,
                                         SectionList* lists) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;

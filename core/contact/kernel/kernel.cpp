@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "core/contact/careful_overlap.hpp"
+#include "core/contact/extended_precision_overlap.hpp"
 
 // one compilation for each instruction set that is worth its size
 #undef HWY_TARGET_INCLUDE
@@ -15,8 +15,8 @@
 #include <hwy/highway.h>
 
 #include "core/contact/kernel/central_inl.hpp"
-#include "core/contact/kernel/first_inl.hpp"
-#include "core/contact/kernel/standing_inl.hpp"
+#include "core/contact/kernel/cold_start_inl.hpp"
+#include "core/contact/kernel/warm_start_inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace voussoir {
@@ -59,7 +59,7 @@ HWY_INLINE Task& task_of(std::span<Task> tasks, int lane) {
 
 // the tasks of one register; lanes beyond them are not good
 template <class L, int Dim>
-HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks, Workspace& work) {
+HWY_INLINE void begin(Batch<L, Dim>& m, std::span<const KernelTask<Dim>> tasks, Workspace& work) {
   static_assert(records_are_dense<2>() && records_are_dense<3>());
   const double *pairs[L::width], *proofs[L::width], *numbers[L::width];
   int least_a = tasks[0].planes_a, most_a = least_a, least_b = tasks[0].planes_b, most_b = least_b;
@@ -100,7 +100,7 @@ HWY_INLINE void begin(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks
   m.quads = m.quads_a + quads_of(most_b);
   m.part[0] = L::slots(0, most_a);
   m.part[1] = L::slots(m.quads_a, most_b);
-  m.numbers = work.room(Meeting<L, Dim>::room(m.quads));
+  m.numbers = work.room(Batch<L, Dim>::room(m.quads));
 }
 
 // what the records of a contact's proof and geometry hold of the answer, from `margin` and from `point` on
@@ -110,7 +110,7 @@ inline constexpr int geometry_numbers = Dim == 3 ? 8 : 4;
 
 // the answers into the tasks' contacts
 template <bool OnPath, class L, int Dim>
-HWY_INLINE void deliver(const Meeting<L, Dim>& m, QueryLevel level, std::span<KernelTask<Dim>> tasks,
+HWY_INLINE void deliver(const Batch<L, Dim>& m, QueryLevel level, std::span<KernelTask<Dim>> tasks,
                         const SectionList* lists, KernelCounters& counters) {
   using Real = typename L::Real;
   constexpr int width = L::width;
@@ -192,7 +192,7 @@ HWY_INLINE void deliver(const Meeting<L, Dim>& m, QueryLevel level, std::span<Ke
 }
 
 template <class L, int Dim>
-HWY_INLINE void deliver_firmness(const Meeting<L, Dim>& m, std::span<KernelTask<Dim>> tasks) {
+HWY_INLINE void deliver_firmness(const Batch<L, Dim>& m, std::span<KernelTask<Dim>> tasks) {
   double firmness[L::width];
   L::put(m.firmness, firmness);
   for (std::size_t lane = 0; lane < tasks.size(); ++lane)
@@ -201,7 +201,7 @@ HWY_INLINE void deliver_firmness(const Meeting<L, Dim>& m, std::span<KernelTask<
 
 // what no distance between points of the part exceeds
 template <class L, int Dim>
-HWY_INLINE void load_diameters(Meeting<L, Dim>& m, std::span<const KernelTask<Dim>> tasks) {
+HWY_INLINE void load_diameters(Batch<L, Dim>& m, std::span<const KernelTask<Dim>> tasks) {
   m.diameter[0] = L::collect([&](int lane) { return 2 * task_of(tasks, lane).pair->a->radius; });
   m.diameter[1] = L::collect([&](int lane) { return 2 * task_of(tasks, lane).pair->b->radius; });
 }
@@ -227,9 +227,9 @@ HWY_INLINE void recall_section(const KernelTask<3>& task, int quads_a, SectionLi
 
 // as many tasks as the register holds pairs, or fewer, all to be resolved to the same level
 template <bool OnPath, class L, int Dim>
-void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, Workspace& work,
-                    KernelCounters& counters) {
-  Meeting<L, Dim> m;
+void persistent_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, Workspace& work,
+                      KernelCounters& counters) {
+  Batch<L, Dim> m;
   SectionList lists[L::width];
   begin<L, Dim>(m, tasks, work);
   const QueryLevel level = tasks[0].pair->level;
@@ -249,7 +249,7 @@ void standing_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& optio
 }
 
 template <bool OnPath, int Dim>
-void standing_groups(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters) {
+void persistent_groups(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters) {
   constexpr std::size_t width = ManyPairs::width;
   Workspace& work = workspace();
   while (!tasks.empty()) {
@@ -257,28 +257,29 @@ void standing_groups(std::span<KernelTask<Dim>> tasks, const KernelOptions& opti
     while (count < std::min(width, tasks.size()) && tasks[count].pair->level == tasks[0].pair->level)
       ++count;
     if (count == 1)
-      standing_group<OnPath, OnePair, Dim>(tasks.first(count), options, work, counters);
+      persistent_group<OnPath, OnePair, Dim>(tasks.first(count), options, work, counters);
     else
-      standing_group<OnPath, ManyPairs, Dim>(tasks.first(count), options, work, counters);
+      persistent_group<OnPath, ManyPairs, Dim>(tasks.first(count), options, work, counters);
     tasks = tasks.subspan(count);
   }
 }
 
 template <int Dim>
-HWY_NOINLINE void standing(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters) {
+HWY_NOINLINE void persistent_contacts(std::span<KernelTask<Dim>> tasks, const KernelOptions& options,
+                                      KernelCounters& counters) {
   if (options.on_central_path)
-    standing_groups<true>(tasks, options, counters);
+    persistent_groups<true>(tasks, options, counters);
   else
-    standing_groups<false>(tasks, options, counters);
+    persistent_groups<false>(tasks, options, counters);
 }
 
 template <int Dim>
-HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, KernelCounters& counters) {
+HWY_NOINLINE void new_contact(KernelTask<Dim>& task, const KernelOptions& options, KernelCounters& counters) {
   const Pair<Dim>& pair = *task.pair;
   Contact<Dim>& contact = *task.contact;
   Proof<Dim>& proof = contact.proof;
   const Polytope<Dim>&a = *pair.a, &b = *pair.b;
-  Meeting<OnePair, Dim> m;
+  Batch<OnePair, Dim> m;
   const bool a_smaller = a.radius < b.radius;
   proof.point = a_smaller ? a.centre : Vector<Dim>(pair.offset + pair.rotation * b.centre);
   begin<OnePair, Dim>(m, std::span<const KernelTask<Dim>>(&task, 1), workspace());
@@ -355,17 +356,17 @@ HWY_NOINLINE void first(KernelTask<Dim>& task, const KernelOptions& options, Ker
   deliver<false>(m, pair.level, std::span<KernelTask<Dim>>(&task, 1), &list, counters);
 }
 
-void Standing2(std::span<KernelTask<2>> t, const KernelOptions& o, KernelCounters& c) {
-  standing<2>(t, o, c);
+void Persistent2(std::span<KernelTask<2>> t, const KernelOptions& o, KernelCounters& c) {
+  persistent_contacts<2>(t, o, c);
 }
-void Standing3(std::span<KernelTask<3>> t, const KernelOptions& o, KernelCounters& c) {
-  standing<3>(t, o, c);
+void Persistent3(std::span<KernelTask<3>> t, const KernelOptions& o, KernelCounters& c) {
+  persistent_contacts<3>(t, o, c);
 }
-void First2(KernelTask<2>& t, const KernelOptions& o, KernelCounters& c) {
-  first<2>(t, o, c);
+void New2(KernelTask<2>& t, const KernelOptions& o, KernelCounters& c) {
+  new_contact<2>(t, o, c);
 }
-void First3(KernelTask<3>& t, const KernelOptions& o, KernelCounters& c) {
-  first<3>(t, o, c);
+void New3(KernelTask<3>& t, const KernelOptions& o, KernelCounters& c) {
+  new_contact<3>(t, o, c);
 }
 int Width() {
   return ManyPairs::width;
@@ -378,10 +379,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace voussoir {
 
-HWY_EXPORT(Standing2);
-HWY_EXPORT(Standing3);
-HWY_EXPORT(First2);
-HWY_EXPORT(First3);
+HWY_EXPORT(Persistent2);
+HWY_EXPORT(Persistent3);
+HWY_EXPORT(New2);
+HWY_EXPORT(New3);
 HWY_EXPORT(Width);
 
 int kernel_width() {
@@ -389,20 +390,20 @@ int kernel_width() {
 }
 
 template <>
-void resolve_standing<2>(std::span<KernelTask<2>> tasks, const KernelOptions& options, KernelCounters& counters) {
-  HWY_DYNAMIC_DISPATCH(Standing2)(tasks, options, counters);
+void resolve_persistent<2>(std::span<KernelTask<2>> tasks, const KernelOptions& options, KernelCounters& counters) {
+  HWY_DYNAMIC_DISPATCH(Persistent2)(tasks, options, counters);
 }
 template <>
-void resolve_standing<3>(std::span<KernelTask<3>> tasks, const KernelOptions& options, KernelCounters& counters) {
-  HWY_DYNAMIC_DISPATCH(Standing3)(tasks, options, counters);
+void resolve_persistent<3>(std::span<KernelTask<3>> tasks, const KernelOptions& options, KernelCounters& counters) {
+  HWY_DYNAMIC_DISPATCH(Persistent3)(tasks, options, counters);
 }
 template <>
 void resolve_new<2>(KernelTask<2>& task, const KernelOptions& options, KernelCounters& counters) {
-  HWY_DYNAMIC_DISPATCH(First2)(task, options, counters);
+  HWY_DYNAMIC_DISPATCH(New2)(task, options, counters);
 }
 template <>
 void resolve_new<3>(KernelTask<3>& task, const KernelOptions& options, KernelCounters& counters) {
-  HWY_DYNAMIC_DISPATCH(First3)(task, options, counters);
+  HWY_DYNAMIC_DISPATCH(New3)(task, options, counters);
 }
 
 }  // namespace voussoir

@@ -1,5 +1,5 @@
-// The fast road through the contact kernel: SIMD, chosen at run time for the machine's instruction set. It answers what
-// it can prove; what it cannot goes to the general road (narrow_phase.cpp).
+// The SIMD kernel, chosen at run time for the machine's instruction set. It answers what it can prove; what it cannot
+// goes to the reference kernel (narrow_phase.cpp).
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct KernelTask {
   const HalfSpace<Dim>*faces_a, *faces_b;
   int planes_a, planes_b;
   bool answered;   // status, proof and geometry are set
-  bool magnified;  // rounding may show in the overlap (careful_overlap.hpp)
+  bool magnified;  // rounding may show in the overlap (extended_precision_overlap.hpp)
 };
 
 template <int Dim>
@@ -51,15 +51,15 @@ struct KernelOptions {
   bool on_central_path = false;  // contacts by multipliers (central_inl.hpp)
 };
 
-// pairs that one call of resolve_standing handles at once, on this machine
+// pairs that one call of resolve_persistent handles at once, on this machine
 int kernel_width();
 
-// Contacts that touched before: Newton from the old point, then what Pair::level asks for. Any number of tasks; the
-// same bits in any company.
+// Persistent contacts, which touched before: Newton from the old point (a warm start), then what Pair::level asks for.
+// Any number of tasks; the answer to each is bitwise independent of the others.
 template <int Dim>
-void resolve_standing(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters);
+void resolve_persistent(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters);
 
-// A pair of which nothing is known, not even by its proof: the LP, then the same from its point.
+// A new contact, of which nothing is known, not even by its proof: the LP (a cold start), then the same from its point.
 template <int Dim>
 void resolve_new(KernelTask<Dim>& task, const KernelOptions& options, KernelCounters& counters);
 

@@ -2,8 +2,8 @@
 // several pairs (ManyPairs).
 //
 // Both ways make the same roundings: only +, -, *, /, square root, minimum and maximum of IEEE doubles occur, never a
-// fused multiply-add, and a sum over planes is always four strided partial sums combined as (0+1)+(2+3). So a pair
-// gives the same bits alone and in any batch, at any width.
+// fused multiply-add, and a sum over planes is always four strided partial sums combined as (0+1)+(2+3). So a pair's
+// answer is bitwise independent of the batch and of the width.
 #if defined(VOUSSOIR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOUSSOIR_LANES_INL
 #undef VOUSSOIR_LANES_INL

@@ -55,7 +55,7 @@ inline constexpr int most_corners = 64;
 template <int Dim>
 inline constexpr int row_length = sizeof(HalfSpace<Dim>) / sizeof(double);
 
-// Harmless in every stage: never violated, never near, no weight. A power of two, so that a product with it and a
+// Harmless in every computation: never violated, never near, no weight. A power of two, so that a product with it and a
 // quotient by it are exact.
 inline constexpr double far_away = 0x1p100;
 
@@ -72,8 +72,7 @@ struct Sources {
   int least_count;
 };
 
-// What the stages keep of each plane: where in its slot. The fields of a slot lie side by side, each as wide as the
-// slot.
+// What is kept of each plane: where in its slot. The fields of a slot lie side by side, each as wide as the slot.
 template <int Dim>
 struct Fields {
   static constexpr int slack_at = 0, inverse_at = 1,  // of the slack

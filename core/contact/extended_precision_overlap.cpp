@@ -1,4 +1,4 @@
-#include "core/contact/careful_overlap.hpp"
+#include "core/contact/extended_precision_overlap.hpp"
 
 #include <array>
 #include <limits>
@@ -49,7 +49,7 @@ struct End {
 }  // namespace
 
 template <int Dim>
-void measure_overlap_carefully(const Pair<Dim>& pair, Contact<Dim>& contact) {
+void measure_overlap_in_extended_precision(const Pair<Dim>& pair, Contact<Dim>& contact) {
   const Vector<Dim>&point = contact.proof.point, &axis = contact.proof.axis;
   Row<Dim> from_b, point_b, backward_b;
   for (int k = 0; k < Dim; ++k)
@@ -66,7 +66,7 @@ void measure_overlap_carefully(const Pair<Dim>& pair, Contact<Dim>& contact) {
   contact.geometry.face_b = b.face;
 }
 
-template void measure_overlap_carefully<2>(const Pair<2>&, Contact<2>&);
-template void measure_overlap_carefully<3>(const Pair<3>&, Contact<3>&);
+template void measure_overlap_in_extended_precision<2>(const Pair<2>&, Contact<2>&);
+template void measure_overlap_in_extended_precision<3>(const Pair<3>&, Contact<3>&);
 
 }  // namespace voussoir

@@ -1,16 +1,16 @@
-// A pair of which nothing is known: the dual simplex decides whether it touches (Eq. 3.27), and from its point a
-// primal-dual method goes most of the way to the analytic centre: from the corner where the simplex ends, Newton alone
-// would double its distance to the faces at every step.
-#if defined(VOUSSOIR_FIRST_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef VOUSSOIR_FIRST_INL
-#undef VOUSSOIR_FIRST_INL
+// A new contact, of which nothing is known: the dual simplex decides whether it touches (Eq. 3.27), and from its point
+// a primal-dual method goes most of the way to the analytic centre: from the corner where the simplex ends, Newton
+// alone would double its distance to the faces at every step.
+#if defined(VOUSSOIR_COLD_START_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef VOUSSOIR_COLD_START_INL
+#undef VOUSSOIR_COLD_START_INL
 #else
-#define VOUSSOIR_FIRST_INL
+#define VOUSSOIR_COLD_START_INL
 #endif
 
 #include <Eigen/Core>
 
-#include "core/contact/kernel/standing_inl.hpp"
+#include "core/contact/kernel/warm_start_inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace voussoir {
@@ -30,7 +30,7 @@ struct TightPlanes {
 };
 
 template <int Dim>
-HWY_INLINE Components<double, Dim> normal_of(const Meeting<OnePair, Dim>& m, int plane) {
+HWY_INLINE Components<double, Dim> normal_of(const Batch<OnePair, Dim>& m, int plane) {
   Components<double, Dim> n;
   for (int k = 0; k < Dim; ++k)
     n[k] = m.number(m.normal_at + k, plane);
@@ -39,7 +39,7 @@ HWY_INLINE Components<double, Dim> normal_of(const Meeting<OnePair, Dim>& m, int
 
 // the plane most violated at x, and by how much
 template <int Dim>
-HWY_INLINE void most_violated(const Meeting<OnePair, Dim>& m, const Components<double, Dim>& x, double& value,
+HWY_INLINE void most_violated(const Batch<OnePair, Dim>& m, const Components<double, Dim>& x, double& value,
                               int& plane) {
   using L = OnePair;
   const Components<L::Wide, Dim> at = m.wide(x);
@@ -47,9 +47,9 @@ HWY_INLINE void most_violated(const Meeting<OnePair, Dim>& m, const Components<d
   L::find_largest({0, m.quads}, -std::numeric_limits<double>::max(), violation, value, plane);
 }
 
-// x and -s where the tight planes meet
+// x and -s where the tight planes intersect
 template <int Dim>
-HWY_INLINE void meet(const TightPlanes<Dim>& t, Components<double, Dim>& x, double& s) {
+HWY_INLINE void intersect(const TightPlanes<Dim>& t, Components<double, Dim>& x, double& s) {
   OnePair::Wide products[Dim + 1];
   for (int j = 0; j <= Dim; ++j)
     products[j] = t.offsets * t.inverse[j];
@@ -111,7 +111,7 @@ HWY_INLINE bool exchange(TightPlanes<Dim>& t, int plane, const Components<double
 
 // Σ over A's planes of λ a: it separates the parts, or nearly does
 template <int Dim>
-HWY_INLINE Components<double, Dim> axis_of(const Meeting<OnePair, Dim>& m, const TightPlanes<Dim>& t) {
+HWY_INLINE Components<double, Dim> axis_of(const Batch<OnePair, Dim>& m, const TightPlanes<Dim>& t) {
   Components<double, Dim> axis{};
   double lambda[planes_per_quad];
   t.multipliers(lambda);
@@ -120,9 +120,9 @@ HWY_INLINE Components<double, Dim> axis_of(const Meeting<OnePair, Dim>& m, const
   return axis;
 }
 
-// What the multipliers prove by weak duality whatever rounding did to them: s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ.
+// What the multipliers certify by weak duality whatever rounding did to them: s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ.
 template <int Dim>
-HWY_INLINE double proven_bound(const Meeting<OnePair, Dim>& m, const TightPlanes<Dim>& t, double reach) {
+HWY_INLINE double certified_lower_bound(const Batch<OnePair, Dim>& m, const TightPlanes<Dim>& t, double reach) {
   Components<double, Dim> residual{};
   double sum = 0, offsets = 0, lambda[planes_per_quad], offset[planes_per_quad];
   t.multipliers(lambda);
@@ -138,14 +138,14 @@ HWY_INLINE double proven_bound(const Meeting<OnePair, Dim>& m, const TightPlanes
 enum class Decision { unknown, separated, touching };
 
 template <int Dim>
-HWY_INLINE Decision decide(const Meeting<OnePair, Dim>& m, TightPlanes<Dim>& t, double reach,
-                           Components<double, Dim>& x, double& worst, double& bound, int& pivots) {
+HWY_INLINE Decision decide(const Batch<OnePair, Dim>& m, TightPlanes<Dim>& t, double reach, Components<double, Dim>& x,
+                           double& worst, double& bound, int& pivots) {
   for (pivots = 0; pivots < most_exchanges; ++pivots) {
     double s;
     int plane;
-    meet(t, x, s);
+    intersect(t, x, s);
     if (s > 0) {
-      bound = proven_bound(m, t, reach);
+      bound = certified_lower_bound(m, t, reach);
       if (bound > 0) return Decision::separated;
     }
     most_violated(m, x, worst, plane);
@@ -162,7 +162,7 @@ HWY_INLINE Decision decide(const Meeting<OnePair, Dim>& m, TightPlanes<Dim>& t, 
 
 // the plane that is thinnest seen across the axis: largest tangential part of its normal over its slack at x
 template <int Dim>
-HWY_INLINE Components<double, Dim> thinnest_across(const Meeting<OnePair, Dim>& m, const Components<double, Dim>& axis,
+HWY_INLINE Components<double, Dim> thinnest_across(const Batch<OnePair, Dim>& m, const Components<double, Dim>& axis,
                                                    const Components<double, Dim>& x) {
   using L = OnePair;
   const Components<L::Wide, Dim> direction = m.wide(axis), at = m.wide(x);
@@ -182,7 +182,7 @@ HWY_INLINE Components<double, Dim> thinnest_across(const Meeting<OnePair, Dim>& 
 
 // the plane with the smallest slack at x, its normal seen from A to B
 template <int Dim>
-HWY_INLINE Components<double, Dim> nearest_face(const Meeting<OnePair, Dim>& m, const Components<double, Dim>& x) {
+HWY_INLINE Components<double, Dim> nearest_face(const Batch<OnePair, Dim>& m, const Components<double, Dim>& x) {
   double value;
   int plane;
   most_violated(m, x, value, plane);
@@ -192,13 +192,13 @@ HWY_INLINE Components<double, Dim> nearest_face(const Meeting<OnePair, Dim>& m, 
 
 // of a slack seen from x, at most
 template <int Dim>
-HWY_INLINE double rounding_after(const Meeting<OnePair, Dim>& m, const Components<double, Dim>& x) {
+HWY_INLINE double rounding_after(const Batch<OnePair, Dim>& m, const Components<double, Dim>& x) {
   return m.rounding + 4 * slack_rounding * size_of(x);
 }
 
 // The planes as the frame's axes show them, seen from x: less exact than assembled ones by what `rounding` grows.
 template <int Dim>
-HWY_INLINE void turn_planes(Meeting<OnePair, Dim>& m, const Components<double, Dim>& x) {
+HWY_INLINE void turn_planes(Batch<OnePair, Dim>& m, const Components<double, Dim>& x) {
   using L = OnePair;
   const Components<L::Wide, Dim> to = m.wide(x);
   Components<L::Wide, Dim> turn[Dim];
@@ -219,7 +219,7 @@ HWY_INLINE void turn_planes(Meeting<OnePair, Dim>& m, const Components<double, D
 
 // Primal-dual steps (weights z/s in place of 1/s²) until Newton would converge.
 template <int Dim>
-HWY_INLINE int approach_centre(Meeting<OnePair, Dim>& m) {
+HWY_INLINE int approach_centre(Batch<OnePair, Dim>& m) {
   using L = OnePair;
   constexpr int sums_count = Dim + Dim * (Dim + 1) / 2;
   for (int slot = 0; slot < m.quads; ++slot)

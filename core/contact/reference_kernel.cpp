@@ -1,4 +1,4 @@
-#include "core/contact/general_road.hpp"
+#include "core/contact/reference_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/contact/bracketing.hpp"
-#include "core/contact/careful_overlap.hpp"
+#include "core/contact/extended_precision_overlap.hpp"
 #include "core/contact/overlap_region.hpp"
 #include "core/contact/pair_geometry.hpp"
 #include "core/contact/rounding.hpp"
@@ -83,8 +83,8 @@ struct Resolver {
   // along which the program's value grows most as B moves, unit: it separates the parts, or nearly does; false when
   // there is none, one part deep inside the other
   bool separating_direction(Vector<Dim>& axis) const {
-    Bearing parts[2];
-    lean_on_program(parts);
+    PartMultipliers parts[2];
+    add_program_multipliers(parts);
     axis = parts[0].gradient;
     const double length = axis.norm();
     if (!(length > parallel_gradients)) return false;
@@ -107,7 +107,7 @@ struct Resolver {
       return false;
     }
     start = lp.point;
-    if (const double bound = proven_bound<Dim>(planes, lp, reach) - rounding; bound > 0) {
+    if (const double bound = certified_lower_bound<Dim>(planes, lp, reach) - rounding; bound > 0) {
       contact.status = ContactStatus::separated;
       contact.proof.kind = ProofKind::multipliers;
       contact.proof.margin = bound;
@@ -177,7 +177,7 @@ struct Resolver {
     if (search_centre(*solvers.centre, point)) return true;
     // a warm start can be unlucky; a cold one is the definition
     if (proven == 0 && !lp_solved && (!establish_cold() || search_centre(*solvers.centre, point))) return lp_solved;
-    if (!solvers.rescue || !search_centre(*solvers.rescue, point)) return false;
+    if (!solvers.fallback || !search_centre(*solvers.fallback, point)) return false;
     ++counters.centre_fallbacks;
     return true;
   }
@@ -223,8 +223,8 @@ struct Resolver {
     return false;
   }
 
-  // what one part's planes bear of the program, or of its barrier
-  struct Bearing {
+  // the multipliers of one part's planes: those of the program, or of its barrier
+  struct PartMultipliers {
     Vector<Dim> gradient = Vector<Dim>::Zero();  // Σ λ a
     double weight = 0;                           // Σ λ
     double most = 0;                             // largest λ, at `face`
@@ -239,18 +239,19 @@ struct Resolver {
     }
   };
 
-  // the program's own, by part; its value
-  double lean_on_program(Bearing (&parts)[2]) const {
+  // the program's own, of its active set; returns its value
+  double add_program_multipliers(PartMultipliers (&parts)[2]) const {
     for (int k = 0; k <= Dim; ++k)
       if (const int plane = lp.basis[k]; plane >= 0)
         parts[plane < faces_a ? 0 : 1].add(lp.multipliers[k], planes[plane].normal, plane);
     return lp.value;
   }
 
-  // Those of its barrier. Each plane's distance is taken relative to the diameter of its part, which no point of both
-  // exceeds, and the two logarithms that any contact has, of a plane of each part at twice the smoothing, are left out:
-  // so far planes and near ones add to the value, it is above the program's, and parts that do not touch feel no force.
-  double lean_on_path(Bearing (&parts)[2]) const {
+  // Those of its barrier; returns its value. Each plane's distance is taken relative to the diameter of its part, which
+  // no point of both exceeds, and the two logarithms that any contact has, of a plane of each part at twice the
+  // smoothing, are left out: so far planes and near ones add to the value, it is above the program's, and parts that do
+  // not touch feel no force.
+  double add_barrier_multipliers(PartMultipliers (&parts)[2]) const {
     const double weight = smoothing(), diameter_a = 2 * pair.a->radius, diameter_b = 2 * pair.b->radius;
     LogarithmOfProduct logarithms;
     logarithms.multiply((diameter_a / (2 * weight)) * (diameter_b / (2 * weight)));
@@ -263,18 +264,18 @@ struct Resolver {
   }
 
   // Where B moves, the program's value s grows by its gradient g at the program's point: -s/|g| is the overlap of the
-  // features that the program leans on. |g| is 1/2 between faces, less at edges and corners; with 4|g|² of a stiffness
-  // k the force is that of the potential 2 k s², which does not jump where other planes become tight.
+  // features in the program's active set. |g| is 1/2 between faces, less at edges and corners; with 4|g|² of a
+  // stiffness k the force is that of the potential 2 k s², which does not jump where other planes become tight.
   bool measure_by_multipliers(Vector<Dim>& normal, double& overlap, int& face_a, int& face_b) {
-    Bearing parts[2];
-    const double value = on_central_path() ? lean_on_path(parts) : lean_on_program(parts);
+    PartMultipliers parts[2];
+    const double value = on_central_path() ? add_barrier_multipliers(parts) : add_program_multipliers(parts);
     face_a = parts[0].face;
     face_b = parts[1].face;
     normal = parts[0].gradient;
     double length = normal.norm(), least = parallel_gradients;
     if (!(length > least)) {
-      // The parts' gradients are opposite. Where they all but vanish, as in the tip of a needle, whose planes bear the
-      // point and cancel, that of the part whose planes bear less has kept its digits.
+      // The parts' gradients are opposite. Where they all but vanish, as in the tip of a needle, whose planes are
+      // active and cancel, that of the part with the smaller sum of multipliers has kept its digits.
       const bool first = parts[0].weight <= parts[1].weight;
       if (!first) normal = -parts[1].gradient;
       length = normal.norm();
@@ -333,15 +334,15 @@ struct Resolver {
     contact.proof.axis = normal;
     contact.proof.tangent = thinnest_across<Dim>(planes, point, normal);
     if (!by_multipliers() && settings.overlap == OverlapSearch::closed_form && magnified(overlap, contact.proof.margin))
-      measure_overlap_carefully(pair, contact);
+      measure_overlap_in_extended_precision(pair, contact);
   }
 };
 
 }  // namespace
 
 template <int Dim>
-void resolve_generally(const Pair<Dim>& pair, const ContactSettings& settings, const Solvers<Dim>& solvers,
-                       Contact<Dim>& contact, bool fresh, KernelCounters& counters) {
+void resolve_by_reference(const Pair<Dim>& pair, const ContactSettings& settings, const Solvers<Dim>& solvers,
+                          Contact<Dim>& contact, bool fresh, KernelCounters& counters) {
   static thread_local HalfSpaces<Dim> planes;
   const bool a_smaller = pair.a->radius < pair.b->radius;
   const Vector<Dim> origin = a_smaller ? pair.a->centre : Vector<Dim>(pair.offset + pair.rotation * pair.b->centre);
@@ -370,9 +371,9 @@ void resolve_generally(const Pair<Dim>& pair, const ContactSettings& settings, c
       .resolve();
 }
 
-template void resolve_generally<2>(const Pair<2>&, const ContactSettings&, const Solvers<2>&, Contact<2>&, bool,
-                                   KernelCounters&);
-template void resolve_generally<3>(const Pair<3>&, const ContactSettings&, const Solvers<3>&, Contact<3>&, bool,
-                                   KernelCounters&);
+template void resolve_by_reference<2>(const Pair<2>&, const ContactSettings&, const Solvers<2>&, Contact<2>&, bool,
+                                      KernelCounters&);
+template void resolve_by_reference<3>(const Pair<3>&, const ContactSettings&, const Solvers<3>&, Contact<3>&, bool,
+                                      KernelCounters&);
 
 }  // namespace voussoir

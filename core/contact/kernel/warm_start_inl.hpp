@@ -1,19 +1,19 @@
-// A contact from a point known to lie inside both parts: Newton to the analytic centre, normal, overlap, area.
-// Written once for both ways to fill a register (lanes_inl.hpp).
+// A warm start: a contact from a point known to lie inside both parts, by Newton to the analytic centre, normal,
+// overlap, area. Written once for both ways to fill a register (lanes_inl.hpp).
 //
 // All of it works in the contact frame: origin at the start, axes along the old normal and the next-thinnest direction.
 // There the Hessian is graded and factorising it top down loses nothing, however thin the region is (the thesis' 3.3.6
 // without its scaling factors).
-#if defined(VOUSSOIR_STANDING_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef VOUSSOIR_STANDING_INL
-#undef VOUSSOIR_STANDING_INL
+#if defined(VOUSSOIR_WARM_START_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef VOUSSOIR_WARM_START_INL
+#undef VOUSSOIR_WARM_START_INL
 #else
-#define VOUSSOIR_STANDING_INL
+#define VOUSSOIR_WARM_START_INL
 #endif
 
 #include <limits>
 
-#include "core/contact/kernel/meeting_inl.hpp"
+#include "core/contact/kernel/batch_inl.hpp"
 #include "core/contact/kernel/section_inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE {
 // The tangent is what it was when the contact began, the normal has turned since: they span the frame as they are, for
 // Newton's method asks for no unit axes, and a root and a quotient stand in nobody's way.
 template <class L, int Dim>
-HWY_INLINE void build_frame(Meeting<L, Dim>& m) {
+HWY_INLINE void build_frame(Batch<L, Dim>& m) {
   using Real = typename L::Real;
   for (int k = 0; k < Dim; ++k)  // number by number: a copy of all would wait for the stores before it
     m.frame[0][k] = m.axis[k];
@@ -41,17 +41,17 @@ HWY_INLINE void build_frame(Meeting<L, Dim>& m) {
 
 // products with the rows as components along unit axes, these as components along the rows
 template <class L>
-HWY_INLINE Components<typename L::Real, 2> rescaled(const Meeting<L, 2>&, const Components<typename L::Real, 2>& x) {
+HWY_INLINE Components<typename L::Real, 2> rescaled(const Batch<L, 2>&, const Components<typename L::Real, 2>& x) {
   return x;
 }
 template <class L>
-HWY_INLINE Components<typename L::Real, 3> rescaled(const Meeting<L, 3>& m, const Components<typename L::Real, 3>& x) {
+HWY_INLINE Components<typename L::Real, 3> rescaled(const Batch<L, 3>& m, const Components<typename L::Real, 3>& x) {
   return {x[0], m.inverse_across * x[1], m.inverse_across * x[2]};
 }
 
 // The slacks at the start, in each part's own frame, to full accuracy; `keep` takes each slot's normals there.
 template <class L, int Dim, class Keep>
-HWY_INLINE void assemble_slacks(Meeting<L, Dim>& m, const Keep& keep) {
+HWY_INLINE void assemble_slacks(Batch<L, Dim>& m, const Keep& keep) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
   const Components<Real, Dim> from_b = m.point - m.offset;
@@ -78,7 +78,7 @@ HWY_INLINE void assemble_slacks(Meeting<L, Dim>& m, const Keep& keep) {
 
 // planes in the contact frame and their slacks
 template <class L, int Dim>
-HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
+HWY_INLINE void assemble_planes(Batch<L, Dim>& m) {
   using Wide = typename L::Wide;
   Components<Wide, Dim> turn[2][Dim];
   for (int i = 0; i < Dim; ++i) {
@@ -94,7 +94,7 @@ HWY_INLINE void assemble_planes(Meeting<L, Dim>& m) {
 
 // planes in the first part's axes, and their slacks
 template <class L, int Dim>
-HWY_INLINE void assemble_in_first(Meeting<L, Dim>& m) {
+HWY_INLINE void assemble_in_first(Batch<L, Dim>& m) {
   using Wide = typename L::Wide;
   Components<Wide, Dim> turn[Dim];
   for (int i = 0; i < Dim; ++i)
@@ -164,9 +164,9 @@ HWY_INLINE void accumulate(const Components<Wide, 3>& p, const Components<Wide, 
 }
 
 // Keeps the inverse of what `slack` gives for each plane. Two planes of a part share a quotient; one whose other is
-// padding gets the very bits of its own, so a pair's bits do not depend on its company.
+// padding gets the very bits of its own, so a pair's answer is bitwise independent of the batch.
 template <class L, int Dim, class F>
-HWY_INLINE void invert_slacks(Meeting<L, Dim>& m, const F& slack) {
+HWY_INLINE void invert_slacks(Batch<L, Dim>& m, const F& slack) {
   using Wide = typename L::Wide;
   const Wide floor = L::wide(least_inverted);
   for (const Slots& run : L::runs(m.part).all)
@@ -175,13 +175,13 @@ HWY_INLINE void invert_slacks(Meeting<L, Dim>& m, const F& slack) {
         [&](const Wide& inverse, int slot) HWY_ATTR { m.set(inverse, m.inverse_at, slot); });
 }
 template <class L, int Dim>
-HWY_INLINE void invert_slacks(Meeting<L, Dim>& m) {
+HWY_INLINE void invert_slacks(Batch<L, Dim>& m) {
   invert_slacks(m, [&](int slot) HWY_ATTR { return m.get(m.slack_at, slot); });
 }
 
 // What a step takes of each slack, and the inverses of what is left. Pairs that are no longer inside are lost.
 template <class L, int Dim, class Taken>
-HWY_INLINE typename L::Bool take_from_slacks(Meeting<L, Dim>& m, const typename L::Bool& moving, const Taken& taken) {
+HWY_INLINE typename L::Bool take_from_slacks(Batch<L, Dim>& m, const typename L::Bool& moving, const Taken& taken) {
   using Wide = typename L::Wide;
   Wide least = L::wide(std::numeric_limits<double>::max());
   invert_slacks(m, [&](int slot) HWY_ATTR {
@@ -201,7 +201,7 @@ HWY_INLINE typename L::Bool take_from_slacks(Meeting<L, Dim>& m, const typename 
 
 // Damped Newton until the decrement before the last step was below the tolerance. Pairs that are done stand still.
 template <class L, int Dim>
-HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
+HWY_INLINE void find_centre(Batch<L, Dim>& m, double tolerance, int limit) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
   using Bool = typename L::Bool;
@@ -251,7 +251,7 @@ HWY_INLINE void find_centre(Meeting<L, Dim>& m, double tolerance, int limit) {
 
 // the normal of the part's face with the smallest slack, along unit axes
 template <class L, int Dim>
-HWY_INLINE Components<typename L::Real, Dim> nearest_normal(const Meeting<L, Dim>& m, int part) {
+HWY_INLINE Components<typename L::Real, Dim> nearest_normal(const Batch<L, Dim>& m, int part) {
   typename L::Real value;
   typename L::Number number;
   const auto closeness = [&](int slot) HWY_ATTR { return -m.get(m.slack_at, slot); };
@@ -269,7 +269,7 @@ HWY_INLINE Components<typename L::Real, Dim> nearest_normal(const Meeting<L, Dim
 // along it and the faces that end it (Eq. 3.36). Where a gradient vanishes, deeper than r in the part, the normal of
 // its nearest face stands in.
 template <class L, int Dim>
-HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
+HWY_INLINE void measure_overlap(Batch<L, Dim>& m) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
   using Bool = typename L::Bool;
@@ -324,7 +324,7 @@ HWY_INLINE void measure_overlap(Meeting<L, Dim>& m) {
 
 // Scaled normals in the contact plane: the section is {y : q·y <= 1}.
 template <class L>
-HWY_INLINE void project(Meeting<L, 3>& m) {
+HWY_INLINE void project(Batch<L, 3>& m) {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
   // unit axes of the plane by Duff et al. (2017), close to the frame's own when the normal is
@@ -341,7 +341,7 @@ HWY_INLINE void project(Meeting<L, 3>& m) {
 }
 
 template <class L>
-HWY_INLINE void measure_area(Meeting<L, 2>& m, SectionList*) {
+HWY_INLINE void measure_area(Batch<L, 2>& m, SectionList*) {
   using Wide = typename L::Wide;
   const Wide along0 = L::wide(-m.normal[1]), along1 = L::wide(m.normal[0]);
   Wide forward = L::wide(0.0), backward = forward;
@@ -358,7 +358,7 @@ HWY_INLINE void measure_area(Meeting<L, 2>& m, SectionList*) {
 }
 
 template <class L>
-HWY_INLINE void measure_area(Meeting<L, 3>& m, SectionList* lists) {
+HWY_INLINE void measure_area(Batch<L, 3>& m, SectionList* lists) {
   project(m);
   typename L::Bool known;
   const SectionPlanes<L> planes{m.numbers + m.scaled_at * L::step, m.fields * L::step};
@@ -368,7 +368,7 @@ HWY_INLINE void measure_area(Meeting<L, 3>& m, SectionList* lists) {
 
 // before anything is answered
 template <class L, int Dim>
-HWY_INLINE void clear(Meeting<L, Dim>& m) {
+HWY_INLINE void clear(Batch<L, Dim>& m) {
   for (int k = 0; k < Dim; ++k)
     m.moved[k] = m.normal[k] = L::real(0);
   m.iterations = m.overlap = m.area = L::real(0);
@@ -378,7 +378,7 @@ HWY_INLINE void clear(Meeting<L, Dim>& m) {
 
 // everything from the start on; the results of pairs that are not good mean nothing
 template <class L, int Dim>
-HWY_INLINE void resolve_from_point(Meeting<L, Dim>& m, QueryLevel level, double tolerance, int limit,
+HWY_INLINE void resolve_from_point(Batch<L, Dim>& m, QueryLevel level, double tolerance, int limit,
                                    SectionList* lists) {
   using Real = typename L::Real;
   clear(m);

@@ -1,4 +1,4 @@
-#include "core/optimise/careful_feasibility.hpp"
+#include "core/optimise/extended_precision_feasibility.hpp"
 
 #include <utility>
 
@@ -20,7 +20,7 @@ using Row = std::array<DoubleDouble, Dim + 1>;
 
 // Tight planes of the dual simplex. With C = columns (a_i, 1) of the basis, C λ = (0, …, 0, 1) and (x, -s) C = d.
 template <int Dim>
-struct CarefulBasis {
+struct ExtendedBasis {
   std::array<int, Dim + 1> planes{};
   std::array<Row<Dim>, Dim + 1> inverse;  // of C
 
@@ -55,7 +55,7 @@ double rounding_of(const Row<Dim>& a, const Row<Dim>& b) {
 
 // Gauss and Jordan with the largest of each column as pivot; false when the planes are dependent
 template <int Dim>
-bool factorise(CarefulBasis<Dim>& basis, const HalfSpaces<Dim>& planes, double far) {
+bool factorise(ExtendedBasis<Dim>& basis, const HalfSpaces<Dim>& planes, double far) {
   std::array<Row<Dim>, Dim + 1> matrix{};  // Cᵀ, whose inverse is that of C turned over
   std::array<Row<Dim>, Dim + 1> inverse{};
   for (int k = 0; k <= Dim; ++k) {
@@ -90,15 +90,15 @@ bool factorise(CarefulBasis<Dim>& basis, const HalfSpaces<Dim>& planes, double f
 }
 
 template <int Dim>
-bool dual_feasible(const CarefulBasis<Dim>& basis) {
+bool dual_feasible(const ExtendedBasis<Dim>& basis) {
   for (int k = 0; k <= Dim; ++k)
     if (basis.multiplier(k) < 0) return false;
   return true;
 }
 
 template <int Dim>
-CarefulBasis<Dim> start_basis(const HalfSpaces<Dim>& planes, const std::array<int, Dim + 1>* start, double far) {
-  CarefulBasis<Dim> basis;
+ExtendedBasis<Dim> start_basis(const HalfSpaces<Dim>& planes, const std::array<int, Dim + 1>* start, double far) {
+  ExtendedBasis<Dim> basis;
   if (start) {
     basis.planes = *start;
     if (factorise(basis, planes, far) && dual_feasible(basis)) return basis;
@@ -108,9 +108,9 @@ CarefulBasis<Dim> start_basis(const HalfSpaces<Dim>& planes, const std::array<in
   return basis;
 }
 
-// the point where the tight planes meet, and -s
+// the point where the tight planes intersect, and -s
 template <int Dim>
-Row<Dim> meeting_point(const CarefulBasis<Dim>& basis, const HalfSpaces<Dim>& planes, double far) {
+Row<Dim> intersection_point(const ExtendedBasis<Dim>& basis, const HalfSpaces<Dim>& planes, double far) {
   Row<Dim> solution;
   for (int k = 0; k <= Dim; ++k)
     for (int j = 0; j <= Dim; ++j)
@@ -120,7 +120,7 @@ Row<Dim> meeting_point(const CarefulBasis<Dim>& basis, const HalfSpaces<Dim>& pl
 
 // The most violated plane, or after many pivots the first; -1: none is violated.
 template <int Dim>
-int entering(const CarefulBasis<Dim>& basis, const HalfSpaces<Dim>& planes, const Row<Dim>& solution, double tolerance,
+int entering(const ExtendedBasis<Dim>& basis, const HalfSpaces<Dim>& planes, const Row<Dim>& solution, double tolerance,
              bool first) {
   double coordinates = 0;
   for (const DoubleDouble& x : solution)
@@ -142,7 +142,7 @@ int entering(const CarefulBasis<Dim>& basis, const HalfSpaces<Dim>& planes, cons
 // the tight plane that leaves: the first to lose its multiplier, and of several the one with the largest pivot, or
 // after many pivots the one with the least number
 template <int Dim>
-int leaving(const CarefulBasis<Dim>& basis, const HalfSpace<Dim>& enter, bool first) {
+int leaving(const ExtendedBasis<Dim>& basis, const HalfSpace<Dim>& enter, bool first) {
   const Row<Dim> column = column_of<Dim>(enter);
   int leave = -1;
   DoubleDouble best, largest;
@@ -163,15 +163,15 @@ int leaving(const CarefulBasis<Dim>& basis, const HalfSpace<Dim>& enter, bool fi
 }  // namespace
 
 template <int Dim>
-FeasibilityResult<Dim> solve_feasibility_carefully(const HalfSpaces<Dim>& planes,
-                                                   const FeasibilityRequest<Dim>& request) {
+FeasibilityResult<Dim> solve_feasibility_in_extended_precision(const HalfSpaces<Dim>& planes,
+                                                               const FeasibilityRequest<Dim>& request) {
   const double far = far_in_reaches * reach_of<Dim>(planes);
   const int limit = 10 * (static_cast<int>(planes.size()) + Dim + 1) + 50;
-  CarefulBasis<Dim> basis = start_basis<Dim>(planes, request.start, far);
+  ExtendedBasis<Dim> basis = start_basis<Dim>(planes, request.start, far);
   FeasibilityResult<Dim> result;
   for (; result.pivots < limit; ++result.pivots) {
     const bool first = result.pivots > limit / 2;  // in this order nothing comes twice
-    const Row<Dim> solution = meeting_point<Dim>(basis, planes, far);
+    const Row<Dim> solution = intersection_point<Dim>(basis, planes, far);
     for (int j = 0; j < Dim; ++j)
       result.point[j] = solution[j].high;
     result.value = -solution[Dim].high;
@@ -194,8 +194,11 @@ FeasibilityResult<Dim> solve_feasibility_carefully(const HalfSpaces<Dim>& planes
   return result;
 }
 
-template FeasibilityResult<1> solve_feasibility_carefully<1>(const HalfSpaces<1>&, const FeasibilityRequest<1>&);
-template FeasibilityResult<2> solve_feasibility_carefully<2>(const HalfSpaces<2>&, const FeasibilityRequest<2>&);
-template FeasibilityResult<3> solve_feasibility_carefully<3>(const HalfSpaces<3>&, const FeasibilityRequest<3>&);
+template FeasibilityResult<1> solve_feasibility_in_extended_precision<1>(const HalfSpaces<1>&,
+                                                                         const FeasibilityRequest<1>&);
+template FeasibilityResult<2> solve_feasibility_in_extended_precision<2>(const HalfSpaces<2>&,
+                                                                         const FeasibilityRequest<2>&);
+template FeasibilityResult<3> solve_feasibility_in_extended_precision<3>(const HalfSpaces<3>&,
+                                                                         const FeasibilityRequest<3>&);
 
 }  // namespace voussoir

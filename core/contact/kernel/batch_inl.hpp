@@ -1,9 +1,10 @@
-// What one register's worth of pairs needs on its way through the stages (standing_inl.hpp, central_inl.hpp).
-#if defined(VOUSSOIR_MEETING_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef VOUSSOIR_MEETING_INL
-#undef VOUSSOIR_MEETING_INL
+// A batch of pairs, as many as one register holds, and what they need until they are resolved (warm_start_inl.hpp,
+// central_inl.hpp).
+#if defined(VOUSSOIR_BATCH_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef VOUSSOIR_BATCH_INL
+#undef VOUSSOIR_BATCH_INL
 #else
-#define VOUSSOIR_MEETING_INL
+#define VOUSSOIR_BATCH_INL
 #endif
 
 #include "core/contact/kernel/lanes_inl.hpp"
@@ -15,7 +16,7 @@ namespace voussoir {
 namespace HWY_NAMESPACE {
 
 template <class L, int Dim>
-struct Meeting : Fields<Dim> {
+struct Batch : Fields<Dim> {
   using Real = typename L::Real;
   using Wide = typename L::Wide;
   using Bool = typename L::Bool;

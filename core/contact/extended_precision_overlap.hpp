@@ -1,6 +1,6 @@
-// The overlap in twice the digits, where rounding would show. Along the normal the distance to a face is its slack over
-// the cosine between both, so a face that the normal grazes, as in slivers and blocks inside others, magnifies what
-// rounding did to its slack.
+// The overlap in extended (double-double) precision, where rounding would show. Along the normal the distance to a face
+// is its slack over the cosine between both, so a face that the normal grazes, as in slivers and blocks inside others,
+// magnifies what rounding did to its slack.
 #pragma once
 
 #include "core/contact/contact.hpp"
@@ -12,10 +12,10 @@ namespace voussoir {
 // size, so that below this an overlap is within 64; ordinary contacts stay below 10.
 inline constexpr double most_magnified = 16;
 
-// Measures a touching contact's overlap and the faces that end it anew, at the point and along the axis of its proof,
-// from the parts' own planes.
+// Measures a touching contact's overlap and the faces that end it once more, at the point and along the axis of its
+// proof, from the parts' own planes.
 template <int Dim>
-void measure_overlap_carefully(const Pair<Dim>& pair, Contact<Dim>& contact);
+void measure_overlap_in_extended_precision(const Pair<Dim>& pair, Contact<Dim>& contact);
 
 // whether an overlap needs it, against the margin of the point that it was measured at
 inline bool magnified(double overlap, double margin) {

@@ -1,0 +1,19 @@
+// The reference kernel: any solver of the two convex programs, any definition of the contact point, plain loops. Slower
+// than the SIMD kernel (kernel/) and its fallback: it answers what that could not prove.
+#pragma once
+
+#include "core/contact/contact.hpp"
+#include "core/contact/kernel_counters.hpp"
+#include "core/contact/pair.hpp"
+#include "core/optimise/solvers.hpp"
+#include "core/settings.hpp"
+
+namespace voussoir {
+
+// As narrow_phase, for one pair. A proof by an interior point that holds at this very pose (`fresh`) is not questioned:
+// the pair touches, whatever the rounding of this kernel can tell.
+template <int Dim>
+void resolve_by_reference(const Pair<Dim>& pair, const ContactSettings& settings, const Solvers<Dim>& solvers,
+                          Contact<Dim>& contact, bool fresh, KernelCounters& counters);
+
+}  // namespace voussoir
