@@ -12,6 +12,7 @@
 #include "core/optimise/feasibility.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/draw_joint_sets.hpp"
+#include "core/scene/scene.hpp"
 #include "core/slicing/clump.hpp"
 #include "reference/slicing/arrangement.hpp"
 

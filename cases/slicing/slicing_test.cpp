@@ -12,6 +12,7 @@
 #include "cases/case_tools.hpp"
 #include "core/model.hpp"
 #include "core/scene/draw_joint_sets.hpp"
+#include "core/scene/scene.hpp"
 #include "core/slicing/clump.hpp"
 #include "reference/slicing/arrangement.hpp"
 
