@@ -294,6 +294,50 @@ TEST_F(Program, LimitAnswersProvesAndDraws) {
   EXPECT_FALSE(fs::exists(folder_ / "bad"));
 }
 
+TEST_F(Program, LimitFindsTheFactorOfAppliedForces) {
+  if (!is_built_in("glpk")) GTEST_SKIP();
+  // a column of 1 x 3 m and 75 kN/m, pushed at 2 m: it tips at 75 kN / 4
+  const std::string column =
+      "dimension = 2\ngravity = [0, -10]\ndensity = 2500\n"
+      "blocks = [{ name = \"ground\", box = { min = [-3, -1], max = [3, 0] }, fixed = true },\n"
+      "          { name = \"column\", box = { min = [-0.5, 0], max = [0.5, 3] } }]\n"
+      "joint_properties = [{ name = \"r\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]\n"
+      "[[stage]]\nname = \"settle\"\nkind = \"settle\"\n";
+  const std::string push =
+      "[[stage]]\nname = \"push\"\nkind = \"run\"\nduration_s = 1\n"
+      "[[stage.force]]\nname = \"rope\"\nbodies = [\"column\"]\nforce = [1e4, 0]\npoint = [0, 2]\n";
+  write("column.toml", column + push);
+  const Ended found = run("limit column.toml --load applied --out found");
+  EXPECT_EQ(found.code, 0) << found.err;
+  EXPECT_EQ(found.err, "") << "nothing is left out";
+  EXPECT_NE(found.out.find("multiple of the applied forces of stage 'push'"), std::string::npos) << found.out;
+  EXPECT_NEAR(results("found")["values"]["collapse_factor"]["value"].get<double>(), 75e3 / 4 / 1e4, 1e-9);
+
+  // what is left out, and what counts otherwise than in a run, is said
+  expect_one_line(run("limit column.toml --load right --out right"), 0,
+                  "forces of stage 'push' are left out: '--load applied'");
+  EXPECT_NEAR(results("right")["values"]["collapse_factor"]["value"].get<double>(), 1.0 / 3, 1e-9);
+  write("later.toml", column + push + "times_s = [0, 1]\nfactors = [0, 2]\n");
+  expect_one_line(run("limit later.toml --load applied --out later"), 0,
+                  "'rope' has a factor of time; it counts at a factor of 1");
+  EXPECT_NEAR(results("later")["values"]["collapse_factor"]["value"].get<double>(), 75e3 / 4 / 1e4, 1e-9);
+  write("two.toml", column + push +
+                        "[[stage]]\nname = \"more\"\nkind = \"settle\"\n[[stage.force]]\nname = \"rope\"\n"
+                        "bodies = [\"column\"]\nforce = [2e4, 0]\n");
+  expect_one_line(run("limit two.toml --load applied --out two"), 0,
+                  "of stage 'more' are left out; those of stage 'push'");
+  EXPECT_NEAR(results("two")["values"]["collapse_factor"]["value"].get<double>(), 75e3 / 4 / 1e4, 1e-9);
+
+  // no force, one that does nothing, one that cannot tip it
+  write("none.toml", column);
+  expect_one_line(run("limit none.toml --load applied --out bad"), 2, "no stage applies a force");
+  expect_one_line(run("limit column.toml --load applied --out bad --set stage.push.force.rope.force=[0,0]"), 2, "zero");
+  EXPECT_FALSE(fs::exists(folder_ / "bad"));
+  const Ended any = run("limit column.toml --load applied --out any --set stage.push.force.rope.force=[0,-1e4]");
+  EXPECT_EQ(any.code, 1);
+  EXPECT_NE(any.out.find("they press the blocks"), std::string::npos) << any.out;
+}
+
 TEST_F(Program, DocsNameTheKeys) {
   const Ended ended = run("docs");
   EXPECT_EQ(ended.code, 0);

@@ -162,9 +162,10 @@ void add_limit(CLI::App& program, LimitArguments& arguments, Action& action) {
       command
           ->add_option(
               "--load", arguments.load,
-              "seek the factor of this load at the scene's friction: gravity, or an acceleration to the left or "
-              "right beside gravity (default: seek the critical friction under gravity)")
-          ->check(CLI::IsMember({"gravity", "left", "right"}));
+              "seek the factor of this load at the scene's friction: gravity; or, beside gravity, an acceleration to "
+              "the left or right, or the applied forces of the first stage that states any, factors of time taken as "
+              "1 (default: seek the critical friction under gravity)")
+          ->check(CLI::IsMember({"gravity", "left", "right", "applied"}));
   command
       ->add_option(
           "--friction", arguments.properties,

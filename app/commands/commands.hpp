@@ -58,7 +58,7 @@ struct SliceArguments {
 struct LimitArguments {
   SceneArguments scene;
   std::filesystem::path out;            // empty: results/<name of the scene's file>_limit
-  std::string load;                     // gravity, left, right; empty: the critical friction is sought
+  std::string load;                     // gravity, left, right, applied; empty: the critical friction is sought
   std::vector<std::string> properties;  // whose friction is sought; none: all
   bool overwrite = false;
 };

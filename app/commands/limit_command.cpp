@@ -30,6 +30,7 @@ LimitRequest request_of(const LimitArguments& arguments) {
   if (arguments.load == "gravity") request.load = LimitLoad::gravity;
   if (arguments.load == "left") request.load = LimitLoad::left;
   if (arguments.load == "right") request.load = LimitLoad::right;
+  if (arguments.load == "applied") request.load = LimitLoad::applied;
   return request;
 }
 

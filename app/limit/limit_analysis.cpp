@@ -46,8 +46,15 @@ void warn_of_strengths(const std::vector<JointProperties>& properties, std::vect
                       p.name, p.tension, p.cohesion));
 }
 
-// what a stage would change is not looked at
-void warn_of_changes(const std::vector<StagePlan>& stages, std::vector<std::string>& warnings) {
+// The stage whose applied forces are looked at: the first that states any.
+const StagePlan* stage_of_forces(const std::vector<StagePlan>& stages) {
+  const auto stage = std::ranges::find_if(stages, [](const StagePlan& s) { return !s.change.force.empty(); });
+  return stage == stages.end() ? nullptr : &*stage;
+}
+
+// what a stage would change is not looked at, but for the forces of the stage `looked_at`, if any
+void warn_of_changes(const std::vector<StagePlan>& stages, const StagePlan* looked_at,
+                     std::vector<std::string>& warnings) {
   for (const StagePlan& stage : stages) {
     const Change& change = stage.change;
     if (!change.fix.empty() || !change.release.empty() || !change.remove.empty() || change.friction ||
@@ -56,7 +63,14 @@ void warn_of_changes(const std::vector<StagePlan>& stages, std::vector<std::stri
           fmt::format("stage '{}' changes blocks, loads or friction; limit analysis takes the scene as it is before "
                       "its first stage",
                       stage.name));
+    if (!change.force.empty() && &stage != looked_at)
+      warnings.push_back(fmt::format("the applied forces of stage '{}' are left out{}", stage.name,
+                                     looked_at ? fmt::format("; those of stage '{}' are looked at", looked_at->name)
+                                               : ": '--load applied' asks for their factor"));
   }
+  for (const ForcePlan& plan : looked_at ? looked_at->change.force : std::vector<ForcePlan>())
+    if (!plan.factor.times.empty() || plan.factor.frequency > 0)
+      warnings.push_back(fmt::format("force '{}' has a factor of time; it counts at a factor of 1", plan.name));
 }
 
 Value bracketed(double low, double high, const std::string& rule) {
@@ -98,37 +112,68 @@ void seek_friction(const std::vector<std::string>& properties, LimitAnalysis& an
   }
 }
 
-void seek_factor(LimitLoad load, LimitAnalysis& analysis) {
-  const Vector<2>& gravity = analysis.model.gravity;
-  const Vector<2> none = Vector<2>::Zero();
-  const Vector<2> push(load == LimitLoad::left ? -gravity.norm() : gravity.norm(), 0);
-  const bool pushed = load != LimitLoad::gravity;
-  analysis.sought = pushed ? fmt::format("horizontal acceleration to the {} at collapse, as a share of gravity",
-                                         load == LimitLoad::left ? "left" : "right")
-                           : "multiple of gravity at collapse";
+// the load whose factor is sought, beside gravity or instead of it
+struct LiveLoad {
+  std::string sought, if_any;  // if_any: what it means, or what to ask for, where any factor is carried
+  Loads loads;
+  bool beside_gravity = true;
+};
+
+LiveLoad pushed(const Model<2>& model, double direction, const char* side) {
+  return {fmt::format("horizontal acceleration to the {} at collapse, as a share of gravity", side),
+          "it presses the blocks against what is fixed, or wedges them there",
+          loads_of_acceleration(model, {direction * model.gravity.norm(), 0})};
+}
+
+LiveLoad applied(const Model<2>& model, const StagePlan& stage) {
+  Change forces;
+  forces.force = stage.change.force;
+  return {fmt::format("multiple of the applied forces of stage '{}' at collapse, beside gravity", stage.name),
+          "they press the blocks against what is fixed, or wedge them there",
+          loads_of_applied_forces(apply(model, forces))};
+}
+
+LiveLoad live_load(LimitLoad load, const Model<2>& model, const StagePlan* looked_at) {
+  if (load == LimitLoad::left) return pushed(model, -1, "left");
+  if (load == LimitLoad::right) return pushed(model, 1, "right");
+  if (load == LimitLoad::applied) return applied(model, *looked_at);
+  return {"multiple of gravity at collapse",
+          "without cohesion any multiple of gravity is as good as another: ask for the critical friction, or --load "
+          "left, right or applied",
+          loads_of_acceleration(model, model.gravity), false};
+}
+
+void seek_factor(const LiveLoad& live, LimitAnalysis& analysis) {
+  analysis.sought = live.sought;
+  const Vector<2> dead = live.beside_gravity ? analysis.model.gravity : Vector<2>::Zero();
   const LoadFactor found =
-      find_load_factor(analysis.model, analysis.interfaces, pushed ? gravity : none, pushed ? push : gravity);
+      find_load_factor(analysis.model, analysis.interfaces, loads_of_acceleration(analysis.model, dead), live.loads);
   analysis.status = found.status;
   analysis.state = found.state;
   analysis.evidence = found.evidence;
   if (found.status == LimitStatus::found)
     analysis.values.emplace_back("collapse_factor", Value{found.factor, "1", {}, "linear program"});
   if (found.status == LimitStatus::carries_any)
-    analysis.message = "carried up to a million times: this load brings nothing to collapse; " +
-                       std::string(pushed ? "it presses the blocks against what is fixed, or wedges them there"
-                                          : "without cohesion any multiple of gravity is as good as another: ask for "
-                                            "the critical friction, or --load left or right");
+    analysis.message =
+        "carried up to a million times the blocks' weight: this load brings nothing to collapse; " + live.if_any;
   if (found.status == LimitStatus::carries_nothing)
     analysis.message =
         "gravity alone is not carried, so there is no further load to look for; leave out --load to learn which "
         "friction carries it";
 }
 
-void refuse_empty(LimitStatus status) {
-  if (status == LimitStatus::nothing_free)
+void refuse_empty(const LimitAnalysis& analysis, const StagePlan* looked_at) {
+  if (analysis.status == LimitStatus::nothing_free)
     throw BadInput("no block is free to move, so nothing can collapse; choose fewer blocks to fix or restrain");
-  if (status == LimitStatus::no_load)
+  if (analysis.status != LimitStatus::no_load) return;
+  if (looked_at)
+    throw BadInput(
+        fmt::format("--load applied: the forces of stage '{}' are zero, cancel, or act on nothing that is free to "
+                    "follow them; state forces on free blocks",
+                    looked_at->name));
+  if (analysis.model.gravity.isZero(0))
     throw BadInput("gravity = 0: limit analysis needs a load; write for example gravity = [0, -9.81]");
+  throw BadInput("the load acts on nothing that is free to follow it; choose another --load, or restrain fewer blocks");
 }
 
 }  // namespace
@@ -146,10 +191,16 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
   analysis.interfaces = find_interfaces(analysis.model);
   analysis.warnings = unsupported(analysis);
   warn_of_strengths(analysis.model.properties, analysis.warnings);
-  warn_of_changes(prepared->stages, analysis.warnings);
+  const StagePlan* looked_at = request.load == LimitLoad::applied ? stage_of_forces(prepared->stages) : nullptr;
+  if (request.load == LimitLoad::applied && !looked_at)
+    throw BadInput(
+        "--load applied: no stage applies a force; add [[stage.force]] with name, bodies and force, or ask for --load "
+        "gravity, left or right");
+  warn_of_changes(prepared->stages, looked_at, analysis.warnings);
 
-  request.load ? seek_factor(*request.load, analysis) : seek_friction(request.properties, analysis);
-  refuse_empty(analysis.status);
+  request.load ? seek_factor(live_load(*request.load, analysis.model, looked_at), analysis)
+               : seek_friction(request.properties, analysis);
+  refuse_empty(analysis, looked_at);
   if (analysis.status == LimitStatus::solver_failed)
     analysis.message = "GLPK found no answer to a linear program; blocks of very different size are the usual cause";
   analysis.answered =

@@ -12,7 +12,7 @@
 
 namespace voussoir {
 
-enum class LimitLoad { gravity, left, right };
+enum class LimitLoad { gravity, left, right, applied };
 
 struct LimitRequest {
   std::optional<LimitLoad> load;        // whose factor is sought; none: the critical friction under gravity
@@ -37,7 +37,8 @@ struct LimitAnalysis {
 // printed with every answer
 extern const char* const associated_flow_caveat;
 
-// Throws BadInput where there is nothing to analyse: a scene in space, no free block, no gravity, an unknown name.
+// Throws BadInput where there is nothing to analyse: a scene in space, no free block, no gravity, no applied force, an
+// unknown name.
 LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& request = {});
 
 }  // namespace voussoir

@@ -12,7 +12,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr double largest_factor = 1e6;                // what carries more, carries any
+constexpr double largest_factor = 1e6;                // of weights: what carries more, carries any
 constexpr double least_friction = 0;                  // of the bisection
 constexpr double largest_friction = 89 * degree;      // beyond it a cone is a half-plane
 constexpr double friction_tolerance = 1e-6 * degree;  // width of the bracket
@@ -23,13 +23,22 @@ constexpr double balanced = 1e-10;  // of a body's weight: ten times what the so
 struct Rows {
   std::vector<std::array<int, 3>> of_body;  // x, y, moment; -1: held
   std::vector<double> weight, lever;        // by body: N, m
-  double acceleration = 0;                  // m/s², that makes the weight
   int count = 0;
 };
 
+// m/s², which makes the weights: the largest load over its body's mass, a moment divided by the body's radius too
+double acceleration_of(const Model<2>& model, const Loads& loads) {
+  double largest = 0;
+  for (std::size_t b = 0; b < loads.size(); ++b) {
+    const Body<2>& body = model.bodies[b];
+    largest = std::max(
+        {largest, loads[b].force.norm() / body.mass, std::abs(loads[b].moment[0]) / (body.mass * body.radius)});
+  }
+  return largest;
+}
+
 Rows number_rows(const Model<2>& model, double acceleration) {
   Rows rows;
-  rows.acceleration = acceleration;
   for (const Body<2>& body : model.bodies) {
     std::array<int, 3> of{-1, -1, -1};
     if (body.present && !body.fixed) {
@@ -92,11 +101,14 @@ void add_ends(const Model<2>& model, const Rows& rows, const std::vector<Interfa
   }
 }
 
-// the force of an acceleration on every body, as a share of its weight
-void for_each_load(const Rows& rows, const Vector<2>& acceleration, const auto& use) {
-  for (const std::array<int, 3>& row : rows.of_body)
+// what loads are to the free freedoms, as shares of each body's weight
+void for_each_load(const Rows& rows, const Loads& loads, const auto& use) {
+  for (std::size_t b = 0; b < loads.size(); ++b) {
+    const std::array<int, 3>& row = rows.of_body[b];
     for (int k = 0; k < 2; ++k)
-      if (row[k] >= 0) use(row[k], acceleration[k] / rows.acceleration);
+      if (row[k] >= 0) use(row[k], loads[b].force[k] / rows.weight[b]);
+    if (row[2] >= 0) use(row[2], loads[b].moment[0] / (rows.weight[b] * rows.lever[b]));
+  }
 }
 
 std::vector<std::array<EndForce, 2>> read_forces(const Rows& rows, const std::vector<Interface>& interfaces,
@@ -147,9 +159,9 @@ double find_inadmissible(const Model<2>& model, const std::vector<Interface>& in
   return largest;
 }
 
-// the equilibrium of all bodies under a dead acceleration
+// the equilibrium of all bodies under dead loads
 LinearProgram equilibrium(const Model<2>& model, const Rows& rows, const std::vector<Interface>& interfaces,
-                          const Vector<2>& dead) {
+                          const Loads& dead) {
   LinearProgram program;
   program.right_side.assign(rows.count, 0);
   add_ends(model, rows, interfaces, program);
@@ -164,7 +176,7 @@ struct Margin {
 };
 
 Margin find_margin(const Model<2>& model, const Rows& rows, const std::vector<Interface>& interfaces,
-                   const Vector<2>& dead) {
+                   const Loads& dead) {
   LinearProgram program = equilibrium(model, rows, interfaces, dead);
   for (int row = 0; row < rows.count; ++row)
     for (const double sign : {1.0, -1.0})
@@ -196,15 +208,34 @@ std::vector<bool> choose(const Model<2>& model, const std::vector<std::string>& 
 
 }  // namespace
 
-LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Vector<2>& dead,
-                            const Vector<2>& live) {
+Loads loads_of_acceleration(const Model<2>& model, const Vector<2>& acceleration) {
+  Loads loads(model.bodies.size());
+  for (std::size_t b = 0; b < loads.size(); ++b)
+    if (model.bodies[b].present) loads[b].force = model.bodies[b].mass * acceleration;
+  return loads;
+}
+
+Loads loads_of_applied_forces(const Model<2>& model) {
+  Loads loads(model.bodies.size());
+  for (const AppliedForce<2>& f : model.applied)
+    loads[f.body] += load_of<2>({f.place, f.force}, Matrix<2>::Identity());
+  return loads;
+}
+
+LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& dead,
+                            const Loads& live) {
   LoadFactor result;
-  const Rows rows = number_rows(model, std::max(dead.norm(), live.norm()));
+  const double of_dead = acceleration_of(model, dead),
+               acceleration = of_dead > 0 ? of_dead : acceleration_of(model, live);
+  const Rows rows = number_rows(model, acceleration);
   if (rows.count == 0) return result.status = LimitStatus::nothing_free, result;
-  if (live.norm() == 0) return result.status = LimitStatus::no_load, result;
+  double largest_share = 0;  // of a weight, the live load's: the program's factor is that of the load over it
+  if (acceleration > 0)
+    for_each_load(rows, live, [&](int, double share) { largest_share = std::max(largest_share, std::abs(share)); });
+  if (largest_share == 0) return result.status = LimitStatus::no_load, result;
 
   // the dead load first: without it there is no factor to look for
-  if (dead.norm() > 0) {
+  if (of_dead > 0) {
     const Margin margin = find_margin(model, rows, interfaces, dead);
     ++result.evidence.programs;
     if (margin.solution.status != ProgramStatus::optimal) return result.status = LimitStatus::solver_failed, result;
@@ -217,15 +248,15 @@ LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>&
 
   LinearProgram program = equilibrium(model, rows, interfaces, dead);
   ProgramColumn factor{-1, 0, largest_factor, {}};
-  for_each_load(rows, live, [&](int row, double share) { add_entry(factor, row, share); });
+  for_each_load(rows, live, [&](int row, double share) { add_entry(factor, row, share / largest_share); });
   program.columns.push_back(factor);
   const ProgramSolution solution = solve(program);
   ++result.evidence.programs;
   if (solution.status != ProgramStatus::optimal) return result.status = LimitStatus::solver_failed, result;
 
   const Certificate certificate = judge(program, solution);
-  result.factor = solution.x.back();
-  if (result.factor >= largest_factor) result.status = LimitStatus::carries_any;
+  result.factor = solution.x.back() / largest_share;
+  if (solution.x.back() >= largest_factor) result.status = LimitStatus::carries_any;
   result.state = {read_forces(rows, interfaces, solution.x), read_velocities(rows, solution.y)};
   result.evidence.gap = std::abs(certificate.primal - certificate.dual) / std::max(1.0, std::abs(certificate.primal));
   result.evidence.out_of_balance = certificate.primal_violation;
@@ -237,15 +268,16 @@ CriticalFriction find_critical_friction(const Model<2>& model, const std::vector
                                         const std::vector<std::string>& properties) {
   CriticalFriction result;
   const std::vector<bool> chosen = choose(model, properties);
+  const Loads gravity = loads_of_acceleration(model, model.gravity);
   const Rows rows = number_rows(model, model.gravity.norm());
   if (rows.count == 0) return result.status = LimitStatus::nothing_free, result;
-  if (rows.acceleration == 0) return result.status = LimitStatus::no_load, result;
+  if (model.gravity.isZero(0)) return result.status = LimitStatus::no_load, result;
 
   std::vector<Interface> trial = interfaces;
   const auto at = [&](double friction) {
     set_friction(trial, chosen, friction);
     ++result.evidence.programs;
-    return find_margin(model, rows, trial, model.gravity);
+    return find_margin(model, rows, trial, gravity);
   };
   const auto keep_standing = [&](double friction, const Margin& margin) {
     result.stands = friction;

@@ -10,6 +10,7 @@
 
 #include "core/limit/interfaces.hpp"
 #include "core/limit/linear_program.hpp"
+#include "core/load/load.hpp"
 
 namespace voussoir {
 
@@ -35,8 +36,8 @@ struct LimitState {
 enum class LimitStatus {
   found,
   nothing_free,     // no body has a freedom
-  no_load,          // the load, or gravity, is zero
-  carries_any,      // stands at every factor up to 1e6; or without any friction
+  no_load,          // the load does nothing to any freedom, or gravity is zero
+  carries_any,      // stands at every factor up to 1e6 times the blocks' weight; or without any friction
   carries_nothing,  // the dead load alone is not carried; or no friction up to 89 degrees is enough
   solver_failed     // GLPK gave up
 };
@@ -56,10 +57,16 @@ struct LoadFactor {
   Evidence evidence;
 };
 
-// The largest factor of the live acceleration (m/s², on every body's mass) that is carried together with the dead one,
-// at the friction and cohesion of the interfaces. The gap is that of the factor, relative to the larger of 1 and it.
-LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Vector<2>& dead,
-                            const Vector<2>& live);
+// What acts on each body, by id, where the model has it.
+using Loads = std::vector<Load<2>>;
+Loads loads_of_acceleration(const Model<2>& model, const Vector<2>& acceleration);  // m/s²
+Loads loads_of_applied_forces(const Model<2>& model);                               // at a factor of 1
+
+// The largest factor of the live loads that is carried together with the dead ones, at the friction and cohesion of the
+// interfaces. The gap is that of the largest share that the live load then is of a body's weight, relative to the
+// larger of 1 and it.
+LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& dead,
+                            const Loads& live);
 
 struct CriticalFriction {
   LimitStatus status = LimitStatus::found;

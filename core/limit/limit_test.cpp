@@ -71,8 +71,38 @@ CriticalFriction critical_friction(const Model<2>& model) {
   return find_critical_friction(model, find_interfaces(model));
 }
 
+// under accelerations
+LoadFactor load_factor(const Model<2>& model, const std::vector<Interface>& faces, const Vector<2>& dead,
+                       const Vector<2>& live) {
+  return find_load_factor(model, faces, loads_of_acceleration(model, dead), loads_of_acceleration(model, live));
+}
+
 LoadFactor pushed(const Model<2>& model, double direction) {
-  return find_load_factor(model, find_interfaces(model), model.gravity, {direction * model.gravity.norm(), 0});
+  return load_factor(model, find_interfaces(model), model.gravity, {direction * model.gravity.norm(), 0});
+}
+
+// of forces on named blocks, under gravity; a point left out is the centroid
+struct TestForce {
+  std::string name, body;
+  std::vector<double> force, point = {};
+};
+
+LoadFactor forced(Model<2> model, const std::vector<TestForce>& forces) {
+  Change change;
+  for (const TestForce& f : forces) {
+    ForcePlan plan{.name = f.name, .bodies = {}, .force = f.force, .point = f.point, .factor = {}};
+    plan.bodies.names = {f.body};
+    change.force.push_back(plan);
+  }
+  model = apply(model, change);
+  return find_load_factor(model, find_interfaces(model), loads_of_acceleration(model, model.gravity),
+                          loads_of_applied_forces(model));
+}
+
+void expect_proven(const LoadFactor& found) {
+  EXPECT_LE(found.evidence.gap, rounding);
+  EXPECT_LE(found.evidence.out_of_balance, rounding);
+  EXPECT_LE(found.evidence.inadmissible, rounding);
 }
 
 // a block `width` by `height` on a fixed plate that dips by `slope`
@@ -216,11 +246,8 @@ TEST(LoadFactor, OfABlockIsItsSlendernessOrItsFriction) {
   const LoadFactor tips = pushed(block_on_plate(1, 4, 0, 40), 1), slides = pushed(block_on_plate(4, 1, 0, 40), 1);
   EXPECT_NEAR(tips.factor, 1.0 / 4, rounding);
   EXPECT_NEAR(slides.factor, std::tan(40 * degree), rounding);
-  for (const LoadFactor* found : {&tips, &slides}) {
-    EXPECT_LE(found->evidence.gap, rounding);
-    EXPECT_LE(found->evidence.out_of_balance, rounding);
-    EXPECT_LE(found->evidence.inadmissible, rounding);
-  }
+  expect_proven(tips);
+  expect_proven(slides);
 }
 
 // the upper of two unit squares, shifted to the right, tips alone or takes the lower one along
@@ -249,16 +276,80 @@ TEST(LoadFactor, OfCohesionOnAnInclineIsCoulombs) {
   const Model<2> model = block_on_plate(length, height, dip, 30);
   std::vector<Interface> faces = find_interfaces(model);
   ASSERT_EQ(faces.size(), 1u);
-  EXPECT_EQ(find_load_factor(model, faces, {0, 0}, model.gravity).factor, 0) << "nothing else resists";
+  EXPECT_EQ(load_factor(model, faces, {0, 0}, model.gravity).factor, 0) << "nothing else resists";
   faces[0].cohesion = cohesion;
   const double weight = length * height * 2000 * 10;
-  const LoadFactor found = find_load_factor(model, faces, {0, 0}, model.gravity);
+  const LoadFactor found = load_factor(model, faces, {0, 0}, model.gravity);
   EXPECT_NEAR(found.factor, cohesion * length / (weight * (std::sin(dip) - std::cos(dip) * std::tan(30 * degree))),
               rounding);
 
   // under a flatter joint friction alone carries any weight
   const Model<2> flat = block_on_plate(length, height, 20 * degree, 30);
-  EXPECT_EQ(find_load_factor(flat, find_interfaces(flat), {0, 0}, flat.gravity).status, LimitStatus::carries_any);
+  EXPECT_EQ(load_factor(flat, find_interfaces(flat), {0, 0}, flat.gravity).status, LimitStatus::carries_any);
+}
+
+// ---- forces at points ----------------------------------------------------------------------------------------------
+
+// a column 1 x 3 of weight 60 kN/m
+Model<2> column(double friction_deg = 40) {
+  return block_on_plate(1, 3, 0, friction_deg);
+}
+constexpr double column_weight = 1 * 3 * 2000 * 10;
+
+// about its edge: F y = W b/2; where friction gives before, F = W tan(friction)
+TEST(AppliedForces, TipAColumnAboutItsEdgeOrPushItAway) {
+  const double weight = column_weight;
+  for (const double height : {0.5, 1.5, 2.0, 3.0})
+    for (const double side : {1.0, -1.0}) {
+      const LoadFactor found = forced(column(), {{"push", "block", {side * 1e3, 0}, {-0.5 * side, height}}});
+      ASSERT_EQ(found.status, LimitStatus::found);
+      const double tips = weight * 0.5 / height, slides = weight * std::tan(40 * degree);
+      EXPECT_NEAR(1e3 * found.factor, std::min(tips, slides), rounding * weight) << height;
+      expect_proven(found);
+      const bool turns = std::abs(found.state.velocities[body_named(column(), "block")].spin) > 1e-6;
+      EXPECT_EQ(turns, tips < slides);
+    }
+  // through its centroid, and obliquely at a corner: about the edge at (0.5, 0), gravity's lever is 0.5
+  EXPECT_NEAR(forced(column(), {{"push", "block", {weight, 0}}}).factor, 0.5 / 1.5, rounding);
+  const LoadFactor oblique = forced(column(), {{"rope", "block", {weight, -2 * weight}, {0.5, 3}}});
+  EXPECT_NEAR(oblique.factor, 0.5 / 3, rounding) << "what pulls down at the edge's plumb has no lever";
+}
+
+// several on one block sum up; two that cancel are a couple, which tips by its moment alone
+TEST(AppliedForces, OfOneBlockSumUp) {
+  const double weight = column_weight;
+  EXPECT_NEAR(
+      forced(column(), {{"low", "block", {weight, 0}, {-0.5, 1}}, {"high", "block", {weight, 0}, {-0.5, 2}}}).factor,
+      0.5 / 3, rounding);
+  const LoadFactor couple =
+      forced(column(), {{"low", "block", {-weight, 0}, {-0.5, 1}}, {"high", "block", {weight, 0}, {-0.5, 3}}});
+  EXPECT_NEAR(couple.factor, 0.5 / 2, rounding);
+  expect_proven(couple);
+}
+
+TEST(AppliedForces, NeedNoGravity) {
+  Model<2> model = column();
+  model.gravity.setZero();
+  const LoadFactor away = forced(model, {{"pull", "block", {1, 3}, {0, 3}}});
+  ASSERT_EQ(away.status, LimitStatus::found);
+  EXPECT_EQ(away.factor, 0);
+  EXPECT_EQ(forced(model, {{"press", "block", {0.4, -3}, {0, 3}}}).status, LimitStatus::carries_any);
+  EXPECT_EQ(forced(model, {{"tip", "block", {0.6, -3}, {0, 3}}}).factor, 0) << "it meets the ground beyond the edge";
+}
+
+// however small or large they are stated; and on what cannot move they are no load
+TEST(AppliedForces, OfAnySize) {
+  const double weight = column_weight;
+  for (const double size : {1e-9, 1e-3, 1e12})
+    EXPECT_NEAR(forced(column(), {{"push", "block", {size, 0}, {-0.5, 3}}}).factor * size / weight, 0.5 / 3, rounding)
+        << size;
+  EXPECT_EQ(forced(column(), {{"push", "plate", {1, 0}}}).status, LimitStatus::no_load);
+  Model<2> rail = column();
+  const int block = body_named(rail, "block");
+  rail.bodies[block].free_translation = {false, true};
+  rail.bodies[block].free_rotation = {false};
+  EXPECT_EQ(forced(rail, {{"push", "block", {1, 0}}}).status, LimitStatus::no_load);
+  EXPECT_NEAR(forced(rail, {{"lift", "block", {0, 2 * weight}}}).factor, 0.5, rounding);
 }
 
 // ---- slopes of many blocks -----------------------------------------------------------------------------------------
