@@ -47,10 +47,13 @@ TEST_F(Check, PrintsWhatAStageForcesUponTheModel) {
                             "[[stage]]\nname = \"shake\"\nkind = \"run\"\nduration_s = 1\nbond = true\n"
                             "[[stage.move]]\nbodies = [\"ground\"]\nvelocity = [0.1, 0]\ntranslation = [\"x\"]\n"
                             "frequency_hz = 2\n"
-                            "[[stage.boundary]]\nbodies = [\"stone\"]\nstress = [5e4, 0, 0]\n";
+                            "[[stage.boundary]]\nbodies = [\"stone\"]\nstress = [5e4, 0, 0]\n"
+                            "[[stage.force]]\nname = \"jack\"\nbodies = [\"stone\"]\nforce = [5e3, 0]\n"
+                            "point = [0, 0.5]\nturns_with_body = true\n";
   tells(scene, "moves blocks at (0.1, 0) m/s along x, times a sine of 2 Hz from 0 deg on");
   tells(scene, "stress (xx, yy, xy) = (50000, 0, 0) Pa on outer faces");
-  tells(scene, "bonds closed joints");
+  tells(scene, "force 'jack' = (5000, 0) N/m on blocks at (0, 0.5) m, turning with them");
+  tells(scene, "turning with them; bonds closed joints that have tension or cohesion; damping");
   tells(ground + box("stone", 0, 0) + rock + settle, "bonds, prescribed motion, boundary stress");
 }
 
@@ -76,6 +79,16 @@ TEST_F(Check, WarnsOfBlocksThatNothingHolds) {
   silent(ground + pair + box("leg 1", 0, 0) + box("leg 2", 0, 1) + box("leg 3", 0, 2) + rock + settle, "no chain");
   silent(ground + pair + rock + settle + "[[restrain]]\nall = true\ntranslation = [\"y\"]\n", "no chain");
   tells(ground + box("alone", 0, 3) + rock + settle, "block alone has no neighbour");
+}
+
+TEST_F(Check, WarnsWhereNothingWillMove) {
+  const std::string space = "dimension = 2\ndensity = 2000\n" + rock + box("ship", 0, 0) +
+                            "[[stage]]\nname = \"fly\"\nkind = \"run\"\nduration_s = 1\n";
+  tells(space, "nothing will move");
+  silent(space +
+             "[[stage]]\nname = \"burn\"\nkind = \"run\"\nduration_s = 1\n"
+             "[[stage.force]]\nname = \"thrust\"\nbodies = [\"ship\"]\nforce = [1e3, 0]\n",
+         "nothing will move");
 }
 
 TEST_F(Check, WarnsOfBlocksInOnePlace) {

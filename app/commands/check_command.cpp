@@ -221,7 +221,6 @@ std::string change_text(const Change& change) {
   if (!change.fix.empty()) text += "; fixes blocks";
   if (!change.release.empty()) text += "; releases blocks";
   if (!change.remove.empty()) text += "; removes blocks";
-  if (change.bond) text += "; bonds closed joints";
   if (change.friction) text += fmt::format("; friction {:g} deg", *change.friction * degrees);
   return text;
 }

@@ -225,7 +225,9 @@ template <int Dim>
 void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
                   Plausibility& result) {
   double smallest = 1e300, largest = 0;
-  bool anything_moves = model.gravity.norm() > 0 || !model.boundary.empty();
+  bool anything_moves = model.gravity.norm() > 0 || !model.boundary.empty() ||
+                        std::any_of(prepared.stages.begin(), prepared.stages.end(),
+                                    [](const StagePlan& s) { return !s.change.force.empty(); });
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
     anything_moves |= body.prescribed;
@@ -236,7 +238,7 @@ void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const 
     anything_moves |= motion.velocity.norm() > 0 || motion.angular_momentum.norm() > 0;
   }
   if (!anything_moves && state.contacts.empty())
-    result.warnings.push_back("no gravity, no velocity and no contact: nothing will move");
+    result.warnings.push_back("no gravity, no velocity, no force and no contact: nothing will move");
   if (largest > wide_size_ratio * smallest)
     result.warnings.push_back(
         fmt::format("inscribed radii of free blocks range from {:.2g} to {:.2g} m: the smallest sets the time step; "
