@@ -1,115 +1,19 @@
 // Every mistake a user can make is told in one line: file, line, key, value found, what is allowed, the repair.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <fstream>
 
-#include "core/scene/scene.hpp"
+#include "core/testing/bad_scenes.hpp"
 
 namespace voussoir {
 namespace {
 
-const std::string good_scene = R"(title = "Two blocks on an incline"
-dimension = 3
-gravity = [0, 0, -9.81]
-density = 2600
-[domain]
-box = { min = [-2, -2, -2], max = [2, 2, 2] }
-[[joints]]
-name = "A"
-dip = 30
-dip_direction = 90
-point = [0, 0, 0]
-[[joints]]
-name = "B"
-dip = 90
-dip_direction = 0
-point = [0, 0.5, 0]
-properties = "rock"
-[[joint_properties]]
-name = "rock"
-normal_stiffness = 1e9
-shear_stiffness = 1e8
-friction_deg = 40
-[[blocks]]
-name = "far"
-box = { min = [10, 0, 0], max = [11, 1, 1] }
-[[fix]]
-below = ["A"]
-[damping]
-local = 0.7
-[[stage]]
-name = "settle"
-kind = "settle"
-[[stage]]
-name = "reduce"
-kind = "reduce"
-from_deg = 40
-to_deg = 5
-tolerance_deg = 0.01
-failure_displacement = 0.01
-[[monitors]]
-name = "slider"
-quantities = ["displacement"]
-above = ["A", "B"]
-[[monitors]]
-name = "on A"
-joint = "A"
-quantities = ["contact_force"]
-)";
-
-struct BadInput {
-  const char* name;
-  std::string from, to;  // replaced in the good scene; an empty `from` appends. #! marks the line of the error
-  std::string key;       // the address and value as the error must show them
-  std::string phrase;    // of what is allowed, or of the repair
-};
-
-void PrintTo(const BadInput& bad, std::ostream* out) {
-  *out << bad.name;
-}
-
-std::string edited(const BadInput& bad) {
-  std::string text = good_scene;
-  if (bad.from.empty()) return text + bad.to;
-  const std::size_t at = text.find(bad.from);
-  EXPECT_NE(at, std::string::npos) << "the good scene has no " << bad.from;
-  return at == std::string::npos ? text : text.replace(at, bad.from.size(), bad.to);
-}
-
-int marked_line(const std::string& text) {
-  const std::size_t mark = text.find("#!");
-  if (mark == std::string::npos) return 0;
-  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + mark, '\n'));
-}
-
-// what reading and preparing a scene complains about; empty when it does not
-std::string complaint_about(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    const Scene scene = parse_scene(text, "scene.toml", overrides);
-    scene.dimension == 2 ? void(prepare<2>(scene)) : void(prepare<3>(scene));
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-std::string by_name(const testing::TestParamInfo<BadInput>& info) {
-  return info.param.name;
-}
+using namespace bad_scenes;
 
 class Bad : public testing::TestWithParam<BadInput> {};
 
 TEST_P(Bad, IsToldInOneLine) {
-  const std::string text = edited(GetParam());
-  const std::string message = complaint_about(text);
-  ASSERT_NE(message, "") << "accepted";
-  EXPECT_EQ(message.find_first_of("\n\r"), std::string::npos) << message;
-  const int line = marked_line(text);
-  EXPECT_TRUE(message.starts_with("scene.toml:" + (line ? std::to_string(line) + ": " : "")))
-      << message << "\nexpected line " << line;
-  EXPECT_NE(message.find(GetParam().key), std::string::npos) << message;
-  EXPECT_NE(message.find(GetParam().phrase), std::string::npos) << message;
+  expect_told(GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -379,50 +283,6 @@ INSTANTIATE_TEST_SUITE_P(
 struct BadOverride {
   const char *text, *key, *phrase;
 };
-
-const std::string moving = "[[stage]]\nname = \"push\"\nkind = \"run\"\nduration_s = 1\n[[stage.move]]\n";
-
-const std::string pressing = "[[stage]]\nname = \"press\"\nkind = \"settle\"\n[[stage.boundary]]\n";
-
-INSTANTIATE_TEST_SUITE_P(
-    Boundary, Bad,
-    testing::Values(BadInput{"stress_of_a_plane", "", pressing + "all = true\nstress = [1, 1, 0] #!",
-                             "stage.press.boundary.1.stress = [1, 1, 0]", "must have 6 entries because dimension = 3"},
-                    BadInput{"no_stress", "", pressing + "all = true ", "stage.press.boundary.1.stress is missing",
-                             "compression positive"},
-                    BadInput{"no_block", "", pressing + "stress = [1, 1, 0, 0, 0, 0] ",
-                             "stage.press.boundary.1.below is missing", "no block is chosen"}),
-    by_name);
-
-INSTANTIATE_TEST_SUITE_P(
-    Moves, Bad,
-    testing::Values(
-        BadInput{"no_velocity", "", moving + "bodies = [\"far\"] ", "stage.push.move.1.velocity is missing",
-                 "nothing moves"},
-        BadInput{"no_block", "", moving + "velocity = [1, 0, 0] ", "stage.push.move.1.below is missing",
-                 "no block is chosen"},
-        BadInput{"axis_not_named", "", moving + "bodies = [\"far\"]\ntranslation = [\"z\"]\nvelocity = [1, 0, 0] #!",
-                 "stage.push.move.1.velocity = [1, 0, 0]", "component along x"},
-        BadInput{"only_axes", "", moving + "bodies = [\"far\"]\nangular_velocity = [1, 0, 0]\ntranslation = [\"z\"] #!",
-                 "stage.push.move.1.translation", "beside no velocity"},
-        BadInput{"times_without_factors", "", moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\ntimes_s = [0, 1]",
-                 "stage.push.move.1.factors is missing", "as many entries"},
-        BadInput{"times_fall", "",
-                 moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\nfactors = [0, 1]\ntimes_s = [1, 1] #!",
-                 "stage.push.move.1.times_s = [1, 1]", "must ascend"},
-        BadInput{"times_of_words", "",
-                 moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\nfactors = [0]\ntimes_s = [\"a\"] #!",
-                 "stage.push.move.1.times_s.1 = \"a\"", "must be a number"},
-        BadInput{"phase_alone", "", moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\nphase_deg = 90 #!",
-                 "stage.push.move.1.phase_deg = 90", "no frequency_hz"},
-        BadInput{
-            "moved_twice", "",
-            moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\n[[stage.move]] #!\nall = true\nvelocity = [1, 0, 0]",
-            "stage.push.move.2", "already moves"},
-        BadInput{"at_rest", "kind = \"settle\"",
-                 "kind = \"settle\"\n[[stage.move]] #!\nbodies = [\"far\"]\nvelocity = [1, 0, 0]", "stage.settle.move",
-                 "applies only where kind"}),
-    by_name);
 
 TEST(BadOverrides, AreToldWithTheirText) {
   const BadOverride all[] = {{"joints.A.dip=95", "joints.A.dip = 95", "must lie between 0 and 90"},

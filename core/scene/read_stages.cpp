@@ -233,10 +233,7 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping, int d
     change.boundary.push_back(read_boundary(at, bodies, dimension));
   });
   read_chosen("force", [&](const Subject& at, const Selector& bodies) {
-    ForcePlan plan = read_force(at, bodies, std::get_if<RunPlan>(&stage.plan.plan));
-    if (std::ranges::find(change.force, plan.name, &ForcePlan::name) != change.force.end())
-      refuse(at, "name", "stands twice in this stage; give each force a name of its own");
-    change.force.push_back(std::move(plan));
+    change.force.push_back(read_force(at, bodies, std::get_if<RunPlan>(&stage.plan.plan)));
   });
   read(table, "bond", change.bond);
   if (table.node->find("friction_deg")) read_degrees(table, "friction_deg", change.friction.emplace());
