@@ -65,6 +65,8 @@ std::string dump(const Scene& s) {
           << reduce->step_limit << '\n';
     for (const MovePlan& move : stage.plan.change.move)
       out << move.translation[0] << move.translation[1] << move.translation[2] << ' ' << move.factor.phase << '\n';
+    for (const ForcePlan& force : stage.plan.change.force)
+      out << force.turns_with_body << '\n';
     if (stage.plan.damping)
       out << static_cast<int>(stage.plan.damping->statics) << ' ' << stage.plan.damping->local << ' '
           << stage.plan.damping->viscous_ratio << '\n';

@@ -134,6 +134,7 @@ release = [{ bodies = ["by planes"] }]
 remove = [{ bodies = ["by vertices"] }]
 move = [{ bodies = ["by planes"], velocity = [1, 0, 0], frequency_hz = 1 }]
 boundary = [{ bodies = ["by vertices"], stress = [1, 1, 0, 0, 0, 0] }]
+force = [{ name = "push", bodies = ["by planes"], force = [1, 0, 0] }]
 [[stage]]
 name = "bisection"
 kind = "reduce"
@@ -190,7 +191,9 @@ inline std::string address(const KeyRow& row) {
                                                           {"restrain", "restrain.1"},
                                                           {"motion", "initial_velocity.1"},
                                                           {"boundary", "stage.run.boundary.1"},
+                                                          {"force", "stage.run.force.push"},
                                                           {"move", "stage.run.move.1"},
+                                                          {"factor", "stage.run.move.1"},
                                                           {"monitors", "monitors.body"}};
   std::string table(row.table);
   if (const auto at = tables.find(row.table); at != tables.end()) table = at->second;
