@@ -18,6 +18,8 @@ struct Monitored {
   std::string_view word;
   Quantity quantity;
   Source source = Source::contacts;  // of a load
+
+  bool operator==(const Monitored&) const = default;
 };
 
 // every such quantity: of a body, the loads of each source among them, or the resultant over the contacts of a joint

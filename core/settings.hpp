@@ -1,5 +1,5 @@
 // Every numerical choice, grouped by room: default, unit, range, what breaks when it is wrong; then the plain plans a
-// scene may state. The reader's key table (scene/keys.cpp) repeats meaning and range for users.
+// scene may state. A row of scene/keys/ names the member that a scene's key sets, and takes its default from here.
 #pragma once
 
 #include <array>
@@ -153,9 +153,9 @@ struct TimeFactor {
 // stay what they are: those of a fixed body are held.
 struct MovePlan {
   Selector bodies;
-  std::vector<double> velocity;          // m/s, as many entries as dimensions
-  std::array<bool, 3> translation{};     // the axes along which it is forced
-  std::vector<double> angular_velocity;  // rad/s, world axes, 2-D one entry; empty: rotation is not forced
+  std::vector<double> velocity;                       // m/s, as many entries as dimensions
+  std::array<bool, 3> translation{true, true, true};  // the axes along which it is forced
+  std::vector<double> angular_velocity;               // rad/s, world axes, 2-D one entry; empty: rotation is not forced
   TimeFactor factor;
 };
 

@@ -298,16 +298,16 @@ std::string plain(double number) {
 
 const KeyRow* find_row(const Groups& groups, std::string_view key) {
   for (const std::string_view group : groups)
-    for (const KeyRow& row : key_rows())
-      if (row.table == group && row.key == key) return &row;
+    for (const KeyRow& row : key_rows(group))
+      if (row.key == key) return &row;
   return nullptr;
 }
 
 std::vector<std::string> keys_of(const Groups& groups) {
   std::vector<std::string> keys;
   for (const std::string_view group : groups)
-    for (const KeyRow& row : key_rows())
-      if (row.table == group) keys.emplace_back(row.key);
+    for (const KeyRow& row : key_rows(group))
+      keys.emplace_back(row.key);
   return keys;
 }
 

@@ -58,7 +58,7 @@ void add_outline(const Scene& scene, const ExcavationSpec& spec, const HalfSpace
 
 SlicingLimits limits_of(const Scene& scene) {
   SlicingLimits limits;
-  limits.smallest_inscribed_radius = scene.smallest_inscribed_radius;
+  limits.smallest_inscribed_radius = scene.slicing.smallest_inscribed_radius;
   if (scene.slicing.largest_aspect_ratio > 0) limits.largest_aspect_ratio = scene.slicing.largest_aspect_ratio;
   limits.most_blocks = scene.slicing.most_blocks;
   limits.threads = scene.settings.threads;

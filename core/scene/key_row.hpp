@@ -1,9 +1,14 @@
 // One key of a scene: what the table of keys (keys.hpp) says of it.
 #pragma once
 
+#include <functional>
 #include <limits>
+#include <string>
 #include <string_view>
+#include <typeinfo>
 #include <vector>
+
+#include "core/scene/node.hpp"
 
 namespace voussoir {
 
@@ -40,23 +45,50 @@ struct Condition {
   std::string_view key, value;
 };
 
+// groups of keys a table may hold
+using Groups = std::vector<std::string_view>;
+
+// The member of a plain struct, its owner, that holds the value of a key; made by keys/members.hpp.
+struct KeyMember {
+  const std::type_info* owner = nullptr;
+  KeyType type = KeyType::number;
+  std::function<void(const Node& value, void* owner)> take;  // a checked value
+  std::function<std::string(const void* owner)> text;        // the value as TOML; empty: it holds none
+  std::string default_value{};                               // the same of an owner that nothing is read into
+  std::vector<std::string_view> choices{};
+  Groups holds{};
+};
+
 struct KeyRow {
   std::string_view table{};  // the group of keys it belongs to, of which it is a row; "" is the top of the file
   std::string_view key{};
+  // Where the value goes, one for each struct that may hold it: type, choices, default and a table's keys follow from
+  // it. None where code takes the value by hand: then the row states them.
+  std::vector<KeyMember> members{};
   KeyType type = KeyType::number;
   std::string_view unit{};
-  Range range{};      // anything else is refused; of vectors, each entry
-  Range plausible{};  // anything else is legal but more likely a mistake: a warning; of vectors, the length
-  std::string_view default_value{};  // as TOML; empty: none
-  std::string_view example{};        // a value as TOML
-  bool required = false;             // where its condition holds
+  Range range{};                // anything else is refused; of vectors, each entry
+  Range plausible{};            // anything else is legal but more likely a mistake: a warning; of vectors, the length
+  std::string default_value{};  // as TOML; empty: none
+  std::string_view example{};   // a value as TOML
+  bool required = false;        // where its condition holds
+  bool no_default = false;      // what its member holds at first is no value that a scene could leave out
   Condition when{};
   std::vector<std::string_view> choices{};
-  std::vector<std::string_view> holds{};  // table, tables: the groups of keys inside
+  Groups holds{};  // table, tables: the groups of keys inside
   std::string_view meaning{};
   std::string_view repair{};   // what to do about a value out of range; may be empty
   std::string_view breaks{};   // what goes wrong with a badly chosen value; may be empty
   std::string_view mistake{};  // the likely one where a value is not plausible, as a question; may be empty
 };
+
+// Takes what a checked table states into the members of `owner`, of this type, that the rows of a group name. What it
+// does not state stays as it is.
+void read_keys(const Node& table, std::string_view group, const std::type_info& type, void* owner);
+
+template <class Owner>
+void read_keys(const Node& table, std::string_view group, Owner& owner) {
+  read_keys(table, group, typeid(Owner), &owner);
+}
 
 }  // namespace voussoir

@@ -13,9 +13,7 @@
 namespace voussoir {
 
 std::span<const KeyRow> key_rows();
-
-// groups of keys a table may hold
-using Groups = std::vector<std::string_view>;
+std::span<const KeyRow> key_rows(std::string_view group);
 
 const KeyRow* find_row(const Groups& groups, std::string_view key);
 std::vector<std::string> keys_of(const Groups& groups);

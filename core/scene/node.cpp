@@ -79,6 +79,21 @@ std::string item_path(const std::string& list_path, const Node& item, std::size_
   return list_path + "." + (named ? one_line(name->text, longest_value) : std::to_string(index + 1));
 }
 
+std::optional<Subject> child(const Subject& table, std::string_view key) {
+  const Node* node = table.node->find(key);
+  if (!node) return {};
+  return Subject{node, key_path(table.path, key)};
+}
+
+std::vector<Subject> children(const Subject& table, std::string_view key) {
+  std::vector<Subject> all;
+  const Node* list = table.node->find(key);
+  const std::string path = key_path(table.path, key);
+  for (std::size_t i = 0; list && i < list->items.size(); ++i)
+    all.push_back({&list->items[i], item_path(path, list->items[i], i)});
+  return all;
+}
+
 std::string value_text(const Node& node) {
   switch (node.kind) {
     case Node::Kind::boolean:

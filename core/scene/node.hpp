@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,10 @@ struct Subject {
   const Node* node = nullptr;
   std::string path;
 };
+
+// a table inside a table, or the tables of a list, with their addresses; none where the file states none
+std::optional<Subject> child(const Subject& table, std::string_view key);
+std::vector<Subject> children(const Subject& table, std::string_view key);
 
 // joints.A for a named table, joints.2 (counted from 1) for one without a name
 std::string item_path(const std::string& list_path, const Node& item, std::size_t index);

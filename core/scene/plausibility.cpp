@@ -7,8 +7,8 @@
 
 #include "core/scene/bodies.hpp"
 #include "core/scene/keys.hpp"
-#include "core/scene/values.hpp"
 #include "core/scene/keys/ranges.hpp"
+#include "core/scene/values.hpp"
 
 namespace voussoir {
 namespace {
@@ -85,7 +85,7 @@ struct TableJudge {
       warnings.push_back(complaint(node, path,
                                    "is unusual, " + plausible_text(row) + " is usual; " +
                                        (row.mistake.empty() ? "is the value right?" : std::string(row.mistake))));
-    else if (row.mistake == key_ranges::angle_mistake && is_radians_of_whole_degrees(size))
+    else if (row.mistake == keys::angle_mistake && is_radians_of_whole_degrees(size))
       warnings.push_back(complaint(
           node, path, "is " + text(size * 180 / std::numbers::pi) + " deg in radians; " + std::string(row.mistake)));
     if (is_coordinate(row) && has_small_entry(node))
@@ -300,9 +300,9 @@ void judge_factors(const StageSpec& stage, Warnings& warnings) {
   const auto* plan = std::get_if<RunPlan>(&stage.plan.plan);
   for (const auto& [key, list] : stage.chosen)
     for (const SelectorSpec& spec : list) {
-      std::vector<double> times;
-      if (plan && spec.subject.node->find("times_s")) read(spec.subject, "times_s", times);
-      if (!times.empty() && times.back() > plan->duration)
+      TimeFactor factor;
+      if (key == "move" || key == "force") read_keys(*spec.subject.node, "factor", factor);
+      if (plan && !factor.times.empty() && factor.times.back() > plan->duration)
         warnings.push_back(complaint(
             spec.subject, "times_s",
             "goes on beyond duration_s (" + text(plan->duration) + "), when the stage ends; is the table in s?"));

@@ -146,7 +146,7 @@ std::vector<int> chosen_some(const Scene& scene, const Model<Dim>& model, const 
         *spec.subject.node, spec.subject.path,
         "chooses no block (of " + std::to_string(model.bodies.size()) +
             "); check the sides of the joints and the extent of domain.box or the blocks, or choose by a point inside" +
-            (scene.smallest_inscribed_radius > 0 ? ", or lower slicing.smallest_inscribed_radius" : ""));
+            (scene.slicing.smallest_inscribed_radius > 0 ? ", or lower slicing.smallest_inscribed_radius" : ""));
   return bodies;
 }
 
@@ -231,12 +231,12 @@ double outside_by(const Body<Dim>& body, const Vector<Dim>& point) {
 template <int Dim>
 void check_point(const Subject& force, const Model<Dim>& model, const std::vector<int>& bodies) {
   constexpr double on_face = 1e-6;  // of the block's size: coordinates are written with so many digits
-  std::vector<double> point;
-  read(force, "point", point);
-  if (point.empty()) return;
+  ForcePlan plan;
+  read_keys(*force.node, "force", plan);
+  if (plan.point.empty()) return;
   for (const int b : bodies) {
     const Body<Dim>& body = model.bodies[b];
-    const double outside = outside_by<Dim>(body, Eigen::Map<const Vector<Dim>>(point.data()) - model.origin);
+    const double outside = outside_by<Dim>(body, Eigen::Map<const Vector<Dim>>(plan.point.data()) - model.origin);
     if (outside > on_face * body.radius)
       refuse(
           force, "point",

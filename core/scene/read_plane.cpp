@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/geometry/half_space.hpp"
-#include "core/scene/values.hpp"
+#include "core/scene/keys.hpp"
 
 namespace voussoir {
 namespace {
@@ -15,9 +15,8 @@ namespace {
 constexpr double same_plane = 1e-4;  // rad
 
 // the normal as stated, turned up
-std::vector<double> read_normal(const Subject& subject, const PlaneSpec& plane, bool with_dip) {
-  std::vector<double> normal;
-  read(subject, "normal", normal);
+std::vector<double> upward_normal(const Subject& subject, const PlaneSpec& plane, bool with_dip) {
+  std::vector<double> normal = plane.normal;
   const double square = squared_length(normal);
   if (!is_unit(square))
     refuse(subject, "normal",
@@ -38,9 +37,9 @@ std::vector<double> read_normal(const Subject& subject, const PlaneSpec& plane, 
 
 }  // namespace
 
-void read_plane(const Subject& subject, int dimension, PlaneSpec& plane) {
-  read(subject, "point", plane.point);
-  read_degrees(subject, "dip", plane.dip);
+PlaneSpec read_plane(const Subject& subject, std::string_view group, int dimension) {
+  PlaneSpec plane;
+  read_keys(*subject.node, group, plane);
   const bool with_dip = subject.node->find("dip"), with_normal = subject.node->find("normal");
   const bool stated = subject.node->find("dip_direction");
   if (!with_dip && !with_normal)
@@ -49,7 +48,6 @@ void read_plane(const Subject& subject, int dimension, PlaneSpec& plane) {
     refuse(subject, "dip_direction",
            std::string("a plane that dips needs it; write for example dip_direction = ") +
                (dimension == 2 ? "90 (to the right) or 270 (to the left)" : "130 (clockwise from north)"));
-  read_degrees(subject, "dip_direction", plane.dip_direction);
   if (dimension == 2 && stated) {
     const double degrees = subject.node->find("dip_direction")->number;
     if (degrees != 90 && degrees != 270)
@@ -57,7 +55,8 @@ void read_plane(const Subject& subject, int dimension, PlaneSpec& plane) {
              "must be 90 (dips to the right) or 270 (to the left) because dimension = 2; choose one");
   }
   if (dimension == 2 && !stated) plane.dip_direction = std::numbers::pi / 2;
-  if (with_normal) plane.normal = read_normal(subject, plane, with_dip);
+  if (with_normal) plane.normal = upward_normal(subject, plane, with_dip);
+  return plane;
 }
 
 }  // namespace voussoir

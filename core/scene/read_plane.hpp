@@ -5,6 +5,7 @@
 
 namespace voussoir {
 
-void read_plane(const Subject& subject, int dimension, PlaneSpec& plane);
+// `group`: of the keys that state it
+PlaneSpec read_plane(const Subject& subject, std::string_view group, int dimension);
 
 }  // namespace voussoir

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "core/scene/accuracy_level.hpp"
@@ -15,32 +14,11 @@
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/scene/toml_text.hpp"
-#include "core/scene/values.hpp"
 
 namespace voussoir {
 namespace {
 
-void read_laws(const Subject& item, JointProperties& p) {
-  const std::map<std::string, StiffnessLaw> stiffness_words = {
-      {"constant", StiffnessLaw::constant}, {"linear", StiffnessLaw::linear}, {"power", StiffnessLaw::power}};
-  const std::map<std::string, FrictionLaw> friction_words = {{"constant", FrictionLaw::constant},
-                                                             {"hardening", FrictionLaw::hardening},
-                                                             {"softening", FrictionLaw::softening}};
-  if (const Node* node = item.node->find("normal_law")) p.laws.normal = stiffness_words.at(node->text);
-  if (const Node* node = item.node->find("shear_law")) p.laws.shear = stiffness_words.at(node->text);
-  if (const Node* node = item.node->find("friction_law")) p.laws.friction = friction_words.at(node->text);
-  read(item, "normal_growth", p.normal_growth);
-  read(item, "normal_exponent", p.normal_exponent);
-  read(item, "shear_growth", p.shear_growth);
-  read(item, "shear_exponent", p.shear_exponent);
-  read(item, "hardening_slip_m", p.hardening_slip);
-  read(item, "hardening_exponent", p.hardening_exponent);
-  read(item, "softening_drop", p.softening_drop);
-  read(item, "softening_slip_m", p.softening_slip);
-  read(item, "tension", p.tension);
-  read(item, "cohesion", p.cohesion);
-  p.laws.bond = p.tension > 0 || p.cohesion > 0;
-
+void check_laws(const Subject& item, const JointProperties& p) {
   if (p.constant_stiffness && !p.laws.is_plain())
     refuse(
         item, "constant_stiffness",
@@ -58,30 +36,18 @@ std::vector<PropertiesSpec> read_properties(const Subject& scene) {
   std::vector<PropertiesSpec> all;
   for (const Subject& item : children(scene, "joint_properties")) {
     JointProperties p;
-    read(item, "name", p.name);
-    read(item, "normal_stiffness", p.normal_stiffness);
-    read(item, "shear_stiffness", p.shear_stiffness);
-    read_degrees(item, "friction_deg", p.friction);
-    read(item, "constant_stiffness", p.constant_stiffness);
-    read(item, "sub_contacts", p.sub_contacts);
-    read_laws(item, p);
+    read_keys(*item.node, "joint_properties", p);
+    read_keys(*item.node, "joint_properties", p.laws);
+    p.laws.bond = p.tension > 0 || p.cohesion > 0;
+    check_laws(item, p);
     all.push_back({item, p});
   }
   return all;
 }
 
-MotionSpec read_motion(const Subject& subject) {
-  MotionSpec motion;
-  read(subject, "velocity", motion.velocity);
-  read(subject, "angular_velocity", motion.angular_velocity);
-  return motion;
-}
-
 BlockPlaneSpec read_block_plane(const Subject& subject) {
   BlockPlaneSpec plane{subject, {}, {}, {}};
-  read(subject, "normal", plane.normal);
-  read(subject, "offset", plane.offset);
-  read(subject, "point", plane.point);
+  read_keys(*subject.node, "blocks.planes", plane);
   double square = 0;
   for (const double x : plane.normal)
     square += x * x;
@@ -100,8 +66,8 @@ std::vector<BlockSpec> read_blocks(const Subject& scene) {
   for (const Subject& item : children(scene, "blocks")) {
     BlockSpec block;
     block.subject = item;
-    read(item, "name", block.name);
-    read(item, "vertices", block.vertices);
+    read_keys(*item.node, "blocks", block);
+    read_keys(*item.node, "blocks", block.motion);
     for (const Subject& plane : children(item, "planes"))
       block.planes.push_back(read_block_plane(plane));
     if (const auto box = child(item, "box")) block.box = read_box(*box);
@@ -114,13 +80,9 @@ std::vector<BlockSpec> read_blocks(const Subject& scene) {
       for (const char* key : {"vertices", "planes"})
         if (item.node->find(key))
           refuse(item, key, "a block takes only one of vertices, planes and box; remove the others");
-    read(item, "part_of", block.part_of);
     if (!block.part_of.empty())
       for (const char* key : {"density", "velocity", "angular_velocity", "fixed"})
         if (item.node->find(key)) refuse(item, key, "belongs to the block that this one is part_of; state it there");
-    read(item, "density", block.density);
-    read(item, "fixed", block.fixed);
-    block.motion = read_motion(item);
     blocks.push_back(std::move(block));
   }
   return blocks;
@@ -130,8 +92,7 @@ std::vector<RestrainSpec> read_restrain(const Subject& scene) {
   std::vector<RestrainSpec> all;
   for (const Subject& item : children(scene, "restrain")) {
     RestrainSpec spec{read_selector(item), {}, {}};
-    read_axes(item, "translation", spec.translation);
-    read_axes(item, "rotation", spec.rotation);
+    read_keys(*item.node, "restrain", spec);
     if (!item.node->find("translation") && !item.node->find("rotation"))
       refuse(item, "rotation", "nothing is restrained; write rotation = true or for example translation = [\"x\"]");
     all.push_back(spec);
@@ -167,11 +128,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   scene.file = *source;
   scene.tree = tree;
   scene.from_level = from_level;
-  scene.dimension = scene_dimension(*tree);
   const Subject top{tree.get(), ""};
-  read(top, "title", scene.title);
-  read(top, "gravity", scene.gravity);
-  read(top, "density", scene.density);
+  read_keys(*tree, "", scene);
   scene.domain = read_domain(top, scene.dimension);
   scene.joints = read_joints(top, scene.dimension);
   scene.joint_sets = read_joint_sets(top, scene.dimension);
@@ -181,14 +139,9 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   scene.restrain = read_restrain(top);
   scene.initial_velocity = read_initial_velocity(top);
   scene.settings = read_settings(top);
-  if (const auto slicing = child(top, "slicing")) {
-    read(*slicing, "smallest_inscribed_radius", scene.smallest_inscribed_radius);
-    scene.slicing = read_slicing(*slicing);
-  }
   scene.excavations = read_excavations(top, scene.dimension);
-  scene.stages = read_stages(top, scene.settings.damping);
+  scene.stages = read_stages(top, scene.dimension, scene.settings.damping);
   scene.monitors = read_monitors(top);
-  scene.output = read_output(top);
   return scene;
 }
 

@@ -1,7 +1,7 @@
 #include "core/scene/read_slicing.hpp"
 
+#include "core/scene/keys.hpp"
 #include "core/scene/read_plane.hpp"
-#include "core/scene/values.hpp"
 
 namespace voussoir {
 namespace {
@@ -9,53 +9,28 @@ namespace {
 std::vector<DomainPlaneSpec> read_planes(const Subject& region, int dimension) {
   std::vector<DomainPlaneSpec> planes;
   for (const Subject& item : children(region, "planes")) {
-    DomainPlaneSpec plane{item, {}, true};
-    read_plane(item, dimension, plane.plane);
-    std::string keep;
-    read(item, "keep", keep);
-    plane.keep_below = keep == "below";
+    DomainPlaneSpec plane{item, read_plane(item, "domain.planes", dimension), true};
+    read_keys(*item.node, "domain.planes", plane);
     planes.push_back(plane);
   }
   return planes;
 }
 
-// what a choice of the key table means; the first value is its default
-template <class T>
-T chosen(const Subject& subject, std::string_view key, std::initializer_list<std::pair<std::string_view, T>> meanings) {
-  std::string word;
-  read(subject, key, word);
-  for (const auto& [name, meaning] : meanings)
-    if (word == name) return meaning;
-  return meanings.begin()->second;
-}
-
 OutlineSpec read_outline(const Subject& item, int dimension) {
-  OutlineSpec outline;
-  std::string shape = "infinite";
-  read(item, "shape", shape);
-  if (shape != "infinite" && (shape == "trace") != (dimension == 2))
+  const Node* shape = item.node->find("shape");
+  if (shape && shape->text != "infinite" && (shape->text == "trace") != (dimension == 2))
     refuse(item, "shape",
            dimension == 2 ? "has no place in a plane because dimension = 2; write shape = \"trace\" and its length"
                           : "belongs to a plane but dimension = 3; write \"rectangle\", \"ellipse\" or \"polygon\"");
-  outline.shape = chosen<OutlineForm>(item, "shape",
-                                      {{"infinite", OutlineForm::none},
-                                       {"rectangle", OutlineForm::rectangle},
-                                       {"ellipse", OutlineForm::ellipse},
-                                       {"polygon", OutlineForm::polygon},
-                                       {"trace", OutlineForm::rectangle}});
-  read(item, "length", outline.length);
-  read(item, "width", outline.width);
-  read(item, "corners", outline.corners);
+  OutlineSpec outline;
+  read_keys(*item.node, "joints", outline);
   return outline;
 }
 
 CylinderSpec read_cylinder(const Subject& subject, int dimension) {
   CylinderSpec cylinder;
   cylinder.subject = subject;
-  read(subject, "from", cylinder.from);
-  read(subject, "to", cylinder.to);
-  read(subject, "radius", cylinder.radius);
-  read(subject, "sides", cylinder.sides);
+  read_keys(*subject.node, "cylinder", cylinder);
   if (dimension == 2 && !cylinder.to.empty())
     refuse(subject, "to", "a circle has only a centre because dimension = 2; remove it");
   if (dimension == 3 && (cylinder.to.empty() || cylinder.to == cylinder.from))
@@ -67,8 +42,7 @@ CylinderSpec read_cylinder(const Subject& subject, int dimension) {
 
 BoxSpec read_box(const Subject& subject) {
   BoxSpec box{subject, {}, {}};
-  read(subject, "min", box.min);
-  read(subject, "max", box.max);
+  read_keys(*subject.node, "box", box);
   for (std::size_t k = 0; k < box.min.size(); ++k)
     if (!(box.max[k] > box.min[k]))
       refuse(subject, "max",
@@ -94,18 +68,9 @@ std::vector<JointSpec> read_joints(const Subject& scene, int dimension) {
   for (const Subject& item : children(scene, "joints")) {
     JointSpec joint;
     joint.subject = item;
-    read(item, "name", joint.name);
-    read(item, "properties", joint.properties);
-    read_plane(item, dimension, joint.plane);
+    read_keys(*item.node, "joints", joint);
+    joint.plane = read_plane(item, "joints", dimension);
     joint.outline = read_outline(item, dimension);
-    read(item, "set", joint.set);
-    joint.kind = chosen<JointKind>(item, "kind",
-                                   {{"rock", JointKind::rock},
-                                    {"boundary", JointKind::boundary},
-                                    {"construction", JointKind::construction},
-                                    {"fictitious", JointKind::fictitious}});
-    joint.whole = chosen<JointSide>(item, "whole",
-                                    {{"", JointSide::none}, {"below", JointSide::below}, {"above", JointSide::above}});
     if (const auto within = child(item, "within")) joint.within = read_region(*within, dimension);
     joints.push_back(std::move(joint));
   }
@@ -131,25 +96,11 @@ std::vector<ExcavationSpec> read_excavations(const Subject& scene, int dimension
   std::vector<ExcavationSpec> all;
   for (const Subject& item : children(scene, "excavations")) {
     ExcavationSpec spec;
-    read(item, "name", spec.name);
+    read_keys(*item.node, "excavations", spec);
     spec.region = read_region(item, dimension);
-    read(item, "outline", spec.outline);
     all.push_back(std::move(spec));
   }
   return all;
-}
-
-SlicingSpec read_slicing(const Subject& slicing) {
-  SlicingSpec spec;
-  spec.order = chosen<CuttingOrder>(
-      slicing, "order",
-      {{"size", CuttingOrder::by_size}, {"given", CuttingOrder::given}, {"alternating", CuttingOrder::alternating}});
-  spec.ends = chosen<JointEnds>(
-      slicing, "ends",
-      {{"extended", JointEnds::extended}, {"healed", JointEnds::healed}, {"ignored", JointEnds::ignored}});
-  read(slicing, "largest_aspect_ratio", spec.largest_aspect_ratio);
-  read(slicing, "most_blocks", spec.most_blocks);
-  return spec;
 }
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// Reads what becomes blocks by cutting: domain, joints, excavations and how the cuts are made.
+// Reads what becomes blocks by cutting: domain, joints and excavations.
 #pragma once
 
 #include "core/scene/scene_spec.hpp"
@@ -10,6 +10,5 @@ std::optional<DomainSpec> read_domain(const Subject& scene, int dimension);
 std::vector<JointSpec> read_joints(const Subject& scene, int dimension);
 RegionSpec read_region(const Subject& subject, int dimension);
 std::vector<ExcavationSpec> read_excavations(const Subject& scene, int dimension);
-SlicingSpec read_slicing(const Subject& slicing);
 
 }  // namespace voussoir

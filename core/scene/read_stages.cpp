@@ -2,53 +2,20 @@
 
 #include <algorithm>
 #include <functional>
-#include <map>
 
 #include "core/load/time_factor.hpp"
 #include "core/scene/keys.hpp"
-#include "core/scene/values.hpp"
 
 namespace voussoir {
 namespace {
-
-// the key table has refused every other word
-template <class Enum>
-void read_choice(const Subject& table, std::string_view key, const std::map<std::string, Enum>& words, Enum& target) {
-  if (const Node* node = table.node->find(key)) target = words.at(node->text);
-}
 
 bool chooses(const Selector& s) {
   return s.all || !s.names.empty() || !s.above.empty() || !s.below.empty() || s.inside.has_value();
 }
 
-Selector selector_of(const Subject& table) {
-  Selector selector;
-  read(table, "all", selector.all);
-  read(table, "bodies", selector.names);
-  read(table, "above", selector.above);
-  read(table, "below", selector.below);
-  read(table, "inside", selector.inside);
-  return selector;
-}
-
 ReducePlan read_reduction(const Subject& table) {
   ReducePlan plan;
-  read_choice(table, "method",
-              {{"bisection", ReductionMethod::bisection},
-               {"steps", ReductionMethod::steps},
-               {"rate", ReductionMethod::rate},
-               {"two_rates", ReductionMethod::two_rates}},
-              plan.method);
-  read(table, "joint_properties", plan.properties);
-  read_degrees(table, "from_deg", plan.from);
-  read_degrees(table, "to_deg", plan.to);
-  read_degrees(table, "tolerance_deg", plan.tolerance);
-  read_degrees(table, "step_deg", plan.step);
-  read_degrees(table, "rate_deg_per_s", plan.rate);
-  read_degrees(table, "slower_rate_deg_per_s", plan.slower_rate);
-  read(table, "failure_displacement", plan.failure_displacement);
-  read(table, "ramp_steps", plan.ramp_steps);
-  read(table, "step_limit", plan.step_limit);
+  read_keys(*table.node, "stage", plan);
   if (!(plan.from > plan.to))
     refuse(table, "from_deg",
            "must be greater than to_deg (" + value_text(*table.node->find("to_deg")) +
@@ -62,8 +29,7 @@ ReducePlan read_reduction(const Subject& table) {
 
 GravityPlan read_gravity(const Subject& table) {
   GravityPlan plan;
-  read(table, "gravity_ramp_s", plan.ramp);
-  read(table, "gravity_to", plan.to);
+  read_keys(*table.node, "stage", plan);
   return plan;
 }
 
@@ -108,9 +74,8 @@ void free_runs(const Subject& scene, const DampingSettings& damping, std::vector
 
 SettlePlan read_settle(const Subject& table) {
   SettlePlan plan;
+  read_keys(*table.node, "stage", plan);
   plan.gravity = read_gravity(table);
-  read(table, "time_limit_s", plan.time_limit);
-  read(table, "step_limit", plan.step_limit);
   if (plan.gravity.ramp >= plan.time_limit) {
     const Node* limit = table.node->find("time_limit_s");
     refuse(table, "gravity_ramp_s",
@@ -122,7 +87,7 @@ SettlePlan read_settle(const Subject& table) {
 
 RunPlan read_run(const Subject& table) {
   RunPlan plan;
-  read(table, "duration_s", plan.duration);
+  read_keys(*table.node, "stage", plan);
   plan.gravity = read_gravity(table);
   if (plan.gravity.ramp > plan.duration)
     refuse(table, "gravity_ramp_s",
@@ -132,17 +97,9 @@ RunPlan read_run(const Subject& table) {
   return plan;
 }
 
-void read_damping(const Subject& table, DampingSettings& damping) {
-  read_choice(table, "statics", {{"adaptive", Statics::adaptive}, {"local", Statics::local}}, damping.statics);
-  read(table, "local", damping.local);
-  read(table, "viscous_ratio", damping.viscous_ratio);
-}
-
-void read_factor(const Subject& table, TimeFactor& factor) {
-  read(table, "times_s", factor.times);
-  read(table, "factors", factor.factors);
-  read(table, "frequency_hz", factor.frequency);
-  read_degrees(table, "phase_deg", factor.phase);
+TimeFactor read_factor(const Subject& table) {
+  TimeFactor factor;
+  read_keys(*table.node, "factor", factor);
   if (factor.times.size() != factor.factors.size())
     refuse(table, factor.times.size() < factor.factors.size() ? "times_s" : "factors",
            "stands beside " + std::to_string(std::max(factor.times.size(), factor.factors.size())) +
@@ -151,36 +108,34 @@ void read_factor(const Subject& table, TimeFactor& factor) {
     refuse(table, "times_s", "must ascend; put the times in order, each once, with their factors");
   if (factor.phase != 0 && factor.frequency == 0)
     refuse(table, "phase_deg", "stands beside no frequency_hz; state the frequency or remove the phase");
+  return factor;
 }
 
 // a velocity that is prescribed, where, and in which direction
 MovePlan read_move(const Subject& table, const Selector& bodies) {
+  const MotionSpec motion = read_motion(table);
+  if (!motion.velocity && !motion.angular_velocity)
+    refuse(table, "velocity", "nothing moves; state velocity, angular_velocity or both");
   MovePlan plan;
   plan.bodies = bodies;
-  read(table, "velocity", plan.velocity);
-  read(table, "angular_velocity", plan.angular_velocity);
-  if (plan.velocity.empty() && plan.angular_velocity.empty())
-    refuse(table, "velocity", "nothing moves; state velocity, angular_velocity or both");
-  plan.translation.fill(true);
-  if (table.node->find("translation")) {
-    plan.translation.fill(false);
-    read_axes(table, "translation", plan.translation);
-    if (plan.velocity.empty())
-      refuse(table, "translation", "stands beside no velocity; state the velocity or remove the directions");
-  }
+  plan.velocity = motion.velocity.value_or(std::vector<double>());
+  plan.angular_velocity = motion.angular_velocity.value_or(std::vector<double>());
+  read_keys(*table.node, "move", plan);
+  if (table.node->find("translation") && !motion.velocity)
+    refuse(table, "translation", "stands beside no velocity; state the velocity or remove the directions");
   for (std::size_t k = 0; k < plan.velocity.size(); ++k)
     if (plan.velocity[k] != 0 && !plan.translation[k])
       refuse(table, "velocity",
              std::string("has a component along ") + "xyz"[k] +
                  ", which translation does not name; name it there or make the component 0");
-  read_factor(table, plan.factor);
+  plan.factor = read_factor(table);
   return plan;
 }
 
 BoundaryPlan read_boundary(const Subject& table, const Selector& bodies, int dimension) {
   BoundaryPlan plan;
   plan.bodies = bodies;
-  read(table, "stress", plan.stress);
+  read_keys(*table.node, "boundary", plan);
   const std::size_t wanted = dimension == 2 ? 3 : 6;
   if (plan.stress.size() != wanted)
     refuse(table, "stress",
@@ -192,11 +147,8 @@ BoundaryPlan read_boundary(const Subject& table, const Selector& bodies, int dim
 ForcePlan read_force(const Subject& table, const Selector& bodies, const RunPlan* run) {
   ForcePlan plan;
   plan.bodies = bodies;
-  read(table, "name", plan.name);
-  read(table, "force", plan.force);
-  read(table, "point", plan.point);
-  read(table, "turns_with_body", plan.turns_with_body);
-  read_factor(table, plan.factor);
+  read_keys(*table.node, "force", plan);
+  plan.factor = read_factor(table);
   for (const char* key : {"times_s", "frequency_hz"})
     if (!run && table.node->find(key))
       refuse(
@@ -210,15 +162,15 @@ ForcePlan read_force(const Subject& table, const Selector& bodies, const RunPlan
 StageSpec read_stage(const Subject& table, const DampingSettings& damping, int dimension) {
   StageSpec stage;
   stage.subject = table;
-  read(table, "name", stage.plan.name);
-  std::string kind;
-  read(table, "kind", kind);
+  read_keys(*table.node, "stage", stage.plan);
+  read_keys(*table.node, "stage", stage.plan.change);
+  const std::string& kind = table.node->find("kind")->text;
   if (kind == "settle") stage.plan.plan = read_settle(table);
   if (kind == "run") stage.plan.plan = read_run(table);
   if (kind == "reduce") stage.plan.plan = read_reduction(table);
   if (const auto own = child(table, "damping")) {
     stage.plan.damping = damping;
-    read_damping(*own, *stage.plan.damping);
+    read_keys(*own->node, "damping", *stage.plan.damping);
   }
   Change& change = stage.plan.change;
   const auto read_chosen = [&](const char* key, const auto& add) {
@@ -235,21 +187,14 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping, int d
   read_chosen("force", [&](const Subject& at, const Selector& bodies) {
     change.force.push_back(read_force(at, bodies, std::get_if<RunPlan>(&stage.plan.plan)));
   });
-  read(table, "bond", change.bond);
-  if (table.node->find("friction_deg")) read_degrees(table, "friction_deg", change.friction.emplace());
   return stage;
 }
 
 MonitorSpec read_monitor(const Subject& table) {
   MonitorSpec monitor;
-  monitor.body = {table, selector_of(table)};
-  read(table, "name", monitor.name);
-  read(table, "joint", monitor.joint);
-  std::vector<std::string> words;
-  read(table, "quantities", words);
-  const std::vector<Monitored> all = monitored_quantities();
-  for (const std::string& word : words)
-    monitor.quantities.push_back(*std::ranges::find(all, word, &Monitored::word));
+  read_keys(*table.node, "monitors", monitor);
+  monitor.body.subject = table;
+  read_keys(*table.node, "selector", monitor.body.selector);
 
   const bool of_joint = table.node->find("joint");
   for (const Monitored& followed : monitor.quantities) {
@@ -272,7 +217,8 @@ MonitorSpec read_monitor(const Subject& table) {
 }  // namespace
 
 SelectorSpec read_selector(const Subject& table) {
-  const SelectorSpec spec{table, selector_of(table)};
+  SelectorSpec spec{table, {}};
+  read_keys(*table.node, "selector", spec.selector);
   if (!chooses(spec.selector))
     refuse(table, "below",
            "no block is chosen; choose by all = true, bodies, above, below or inside, for example below = [\"A\"]");
@@ -286,53 +232,27 @@ std::vector<SelectorSpec> read_selectors(const Subject& table, std::string_view 
   return all;
 }
 
+MotionSpec read_motion(const Subject& table) {
+  MotionSpec motion;
+  read_keys(*table.node, "motion", motion);
+  return motion;
+}
+
 Settings read_settings(const Subject& scene) {
   Settings settings;
-  if (const auto table = child(scene, "contact")) {
-    ContactSettings& contact = settings.contact;
-    read_choice(*table, "lp", {{"own", LpSolver::own}, {"glpk", LpSolver::glpk}}, contact.lp);
-    read_choice(
-        *table, "centre",
-        {{"own", CentreSolver::own}, {"ipopt", CentreSolver::ipopt}, {"ipopt_scaled", CentreSolver::ipopt_scaled}},
-        contact.centre);
-    read_choice(*table, "point",
-                {{"analytic_centre", ContactPoint::analytic_centre},
-                 {"centroid", ContactPoint::centroid},
-                 {"chebyshev", ContactPoint::chebyshev},
-                 {"central_path", ContactPoint::central_path}},
-                contact.point);
-    read_choice(*table, "normal",
-                {{"potential", ContactNormal::potential}, {"multipliers", ContactNormal::multipliers}}, contact.normal);
-    read_choice(*table, "overlap",
-                {{"closed_form", OverlapSearch::closed_form}, {"bracketing", OverlapSearch::bracketing}},
-                contact.overlap);
-    if (contact.normal == ContactNormal::multipliers && contact.overlap == OverlapSearch::bracketing)
-      refuse(*table, "overlap",
-             "searches along the potential's normal; with normal = \"multipliers\" the overlap is the linear program's "
-             "value, leave it out");
-    read(*table, "tolerance", contact.tolerance);
-    read(*table, "potential_radius", contact.potential_radius);
-    read(*table, "smoothing", contact.smoothing);
-    read(*table, "newton_tolerance", contact.newton_tolerance);
-    read(*table, "newton_limit", contact.newton_limit);
-    read(*table, "skin", contact.skin);
-  }
-  if (const auto table = child(scene, "damping")) read_damping(*table, settings.damping);
-  if (const auto table = child(scene, "time")) {
-    read(*table, "fraction", settings.time.fraction);
-    read(*table, "step_s", settings.time.step);
-  }
-  if (const auto table = child(scene, "equilibrium")) {
-    read(*table, "unbalanced", settings.equilibrium.unbalanced);
-    read(*table, "window", settings.equilibrium.window);
-  }
+  read_keys(*scene.node, "", settings);
+  const ContactSettings& contact = settings.contact;
+  if (contact.normal == ContactNormal::multipliers && contact.overlap == OverlapSearch::bracketing)
+    refuse(*child(scene, "contact"), "overlap",
+           "searches along the potential's normal; with normal = \"multipliers\" the overlap is the linear program's "
+           "value, leave it out");
   return settings;
 }
 
-std::vector<StageSpec> read_stages(const Subject& scene, const DampingSettings& damping) {
+std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const DampingSettings& damping) {
   std::vector<StageSpec> stages;
   for (const Subject& item : children(scene, "stage"))
-    stages.push_back(read_stage(item, damping, scene_dimension(*scene.node)));
+    stages.push_back(read_stage(item, damping, dimension));
   chain_gravity(stages);
   free_runs(scene, damping, stages);
   if (stages.empty())
@@ -346,16 +266,6 @@ std::vector<MonitorSpec> read_monitors(const Subject& scene) {
   for (const Subject& item : children(scene, "monitors"))
     monitors.push_back(read_monitor(item));
   return monitors;
-}
-
-OutputPlan read_output(const Subject& scene) {
-  OutputPlan output;
-  if (const auto table = child(scene, "output")) {
-    read(*table, "history_interval_s", output.history_interval);
-    read(*table, "frame_interval_s", output.frame_interval);
-    read(*table, "frames", output.frames);
-  }
-  return output;
 }
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// The parts of a scene that say what happens: selectors, settings, stages, monitors, output.
+// The parts of a scene that say what happens: selectors, motions, settings, stages, monitors.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@ namespace voussoir {
 
 SelectorSpec read_selector(const Subject& table);
 std::vector<SelectorSpec> read_selectors(const Subject& table, std::string_view key);
+MotionSpec read_motion(const Subject& table);
 Settings read_settings(const Subject& scene);
-std::vector<StageSpec> read_stages(const Subject& scene, const DampingSettings& damping);
+std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const DampingSettings& damping);
 std::vector<MonitorSpec> read_monitors(const Subject& scene);
-OutputPlan read_output(const Subject& scene);
 
 }  // namespace voussoir

@@ -96,7 +96,8 @@ enum class JointEnds {
 struct SlicingSpec {
   CuttingOrder order = CuttingOrder::by_size;
   JointEnds ends = JointEnds::extended;
-  double largest_aspect_ratio = 0;  // of the box along the axes; 0: any
+  double smallest_inscribed_radius = 0;  // m
+  double largest_aspect_ratio = 0;       // of the box along the axes; 0: any
   int most_blocks = 1'000'000;
 };
 
@@ -184,7 +185,6 @@ struct Scene {
   std::vector<RestrainSpec> restrain;
   std::vector<InitialVelocitySpec> initial_velocity;
   Settings settings;
-  double smallest_inscribed_radius = 0;  // m
   SlicingSpec slicing;
   std::vector<ExcavationSpec> excavations;
   std::vector<StageSpec> stages;

@@ -1,20 +1,17 @@
 // [accuracy]
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 // clang-format off
 KeyTable accuracy_keys() {
   return {"accuracy", {
     {.key = "level", .type = choice, .example = "\"balanced\"", .required = true,
-     .choices = {"fast", "balanced", "reference"}, .meaning = "sets what the scene leaves out, tolerances, ramps, rest and "
+     .choices = {"fast", "balanced", "reference"},
+     .meaning = "sets what the scene leaves out, tolerances, ramps, rest and "
          "time step, as the cases' studies found it for an error of 5 %, 1 % or 0.1 %, of critical angles from 15 deg on"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

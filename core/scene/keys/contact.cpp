@@ -1,59 +1,66 @@
 // [contact]
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
+#include "core/settings.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 // clang-format off
 KeyTable contact_keys() {
   return {"contact", {
-    {.key = "lp", .type = choice, .default_value = "\"own\"", .example = "\"glpk\"",
-     .choices = {"own", "glpk"}, .meaning = "solver of the linear program that tells whether two blocks overlap",
+    {.key = "lp", .members = {one_of(&ContactSettings::lp, {{"own", LpSolver::own}, {"glpk", LpSolver::glpk}})},
+     .example = "\"glpk\"",
+     .meaning = "solver of the linear program that tells whether two blocks overlap",
      .breaks = "glpk is slow, a reference only"},
-    {.key = "centre", .type = choice, .default_value = "\"own\"", .example = "\"ipopt\"",
-     .choices = {"own", "ipopt", "ipopt_scaled"},
+    {.key = "centre", .members = {one_of(&ContactSettings::centre,
+         {{"own", CentreSolver::own}, {"ipopt", CentreSolver::ipopt}, {"ipopt_scaled", CentreSolver::ipopt_scaled}})},
+     .example = "\"ipopt\"",
      .meaning = "solver of the analytic centre; ipopt: scaled by the overlap's own shape; ipopt_scaled: turned into the "
          "contact normal's frame and scaled along it",
      .breaks = "Ipopt is slow, a reference only; where it is built in, it also answers when our own search fails"},
-    {.key = "point", .type = choice, .default_value = "\"analytic_centre\"", .example = "\"central_path\"",
-     .choices = {"analytic_centre", "centroid", "chebyshev", "central_path"},
+    {.key = "point", .members = {one_of(&ContactSettings::point,
+         {{"analytic_centre", ContactPoint::analytic_centre}, {"centroid", ContactPoint::centroid},
+          {"chebyshev", ContactPoint::chebyshev}, {"central_path", ContactPoint::central_path}})},
+     .example = "\"central_path\"",
      .meaning = "where in the overlap the contact acts: its analytic centre, centroid, largest ball's centre, or a smooth one",
      .breaks = "the centroid costs more; the Chebyshev point is cheaper but jumps"},
-    {.key = "normal", .type = choice, .default_value = "\"potential\"", .example = "\"multipliers\"",
-     .choices = {"potential", "multipliers"}, .meaning = "direction and depth: by potential particles, as published, or by "
+    {.key = "normal", .members = {one_of(&ContactSettings::normal,
+         {{"potential", ContactNormal::potential}, {"multipliers", ContactNormal::multipliers}})},
+     .example = "\"multipliers\"",
+     .meaning = "direction and depth: by potential particles, as published, or by "
          "the linear program, which with point = \"central_path\" and constant_stiffness keeps energy; softer at edges",
      .breaks = "potential loses or makes energy where edges slide; multipliers cost more; with chebyshev, faces hop on corners"},
-    {.key = "smoothing", .unit = "1", .range = {0, 1e-2, true}, .plausible = {1e-5, 3e-3},
-     .default_value = "3e-4", .example = "1e-3", .meaning = "of point = \"central_path\", times the smaller inscribed radius",
+    {.key = "smoothing", .members = {in(&ContactSettings::smoothing)}, .unit = "1", .range = {0, 1e-2, true},
+     .plausible = {1e-5, 3e-3}, .example = "1e-3",
+     .meaning = "of point = \"central_path\", times the smaller inscribed radius",
      .breaks = "below, the force jumps from corner to corner; above, blocks lie deeper, by some 10 to 30 times it"},
-    {.key = "overlap", .type = choice, .default_value = "\"closed_form\"", .example = "\"bracketing\"",
-     .choices = {"closed_form", "bracketing"}, .meaning = "how the ends of the overlap along the normal are found",
+    {.key = "overlap", .members = {one_of(&ContactSettings::overlap,
+         {{"closed_form", OverlapSearch::closed_form}, {"bracketing", OverlapSearch::bracketing}})},
+     .example = "\"bracketing\"",
+     .meaning = "how the ends of the overlap along the normal are found",
      .breaks = "bracketing is slow, a reference only"},
-    {.key = "tolerance", .unit = "1", .range = {0, 1e-3},
-     .plausible = {.low = 1e-14, .high = 5e-11, .or_zero = true}, .default_value = "0", .example = "1e-12",
+    {.key = "tolerance", .members = {in(&ContactSettings::tolerance)}, .unit = "1", .range = {0, 1e-3},
+     .plausible = {.low = 1e-14, .high = 5e-11, .or_zero = true}, .example = "1e-12",
      .meaning = "two blocks touch when they overlap by more than this times the smaller inscribed radius, and by more than "
          "rounding hides (at most 64 ulp of the pair's size)",
      .breaks = "below 1e-14 rounding hides it; far above, contacts are found late"},
-    {.key = "potential_radius", .unit = "1", .range = {0, 1, true}, .plausible = {1e-3, 0.2},
-     .default_value = "0.02", .example = "0.01", .meaning = "rounding of edges for the contact normal, times the smaller inscribed radius",
+    {.key = "potential_radius", .members = {in(&ContactSettings::potential_radius)}, .unit = "1",
+     .range = {0, 1, true}, .plausible = {1e-3, 0.2}, .example = "0.01",
+     .meaning = "rounding of edges for the contact normal, times the smaller inscribed radius",
      .breaks = "must exceed the overlap; large values tilt the normal of face contacts near an edge"},
-    {.key = "newton_tolerance", .unit = "1", .range = {0, 0.1, true}, .plausible = {1e-10, 1e-3},
-     .default_value = "1e-5",
-     .example = "1e-8", .meaning = "the search for the centre stops when its decrement is below this",
+    {.key = "newton_tolerance", .members = {in(&ContactSettings::newton_tolerance)}, .unit = "1",
+     .range = {0, 0.1, true}, .plausible = {1e-10, 1e-3}, .example = "1e-8",
+     .meaning = "the search for the centre stops when its decrement is below this",
      .breaks = "1e-3 leaves 1e-6 of the overlap, 1e-5 leaves 1e-9; 0.1 leaves visible noise"},
-    {.key = "newton_limit", .type = integer, .unit = "1", .range = {1, 1e6}, .plausible = {20, 1e4},
-     .default_value = "200",
-     .example = "400", .meaning = "largest number of iterations of that search",
+    {.key = "newton_limit", .members = {in(&ContactSettings::newton_limit)}, .unit = "1", .range = {1, 1e6},
+     .plausible = {20, 1e4}, .example = "400",
+     .meaning = "largest number of iterations of that search",
      .breaks = "a search that needs more ends the run as failed"},
-    {.key = "skin", .unit = "1", .range = {0, 100, true}, .plausible = {0.01, 2}, .default_value = "0.1",
-     .example = "0.2",
+    {.key = "skin", .members = {in(&ContactSettings::skin)}, .unit = "1", .range = {0, 100, true},
+     .plausible = {0.01, 2}, .example = "0.2",
      .meaning = "blocks closer than this times the smallest inscribed radius are kept in the list of neighbours",
      .breaks = "changes the cost, never the result"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

@@ -1,33 +1,31 @@
 // [damping], of a scene and of a stage.
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
+#include "core/settings.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 // clang-format off
 KeyTable damping_keys() {
   return {"damping", {
-    {.key = "statics", .type = choice, .default_value = "\"adaptive\"", .example = "\"local\"",
-     .choices = {"adaptive", "local"},
+    {.key = "statics", .members = {one_of(&DampingSettings::statics,
+         {{"adaptive", Statics::adaptive}, {"local", Statics::local}})},
+     .example = "\"local\"",
      .meaning = "how settle stages and the trials of a reduction come to rest; adaptive: dynamic relaxation, by the fewest "
          "steps, in which inertia, time and velocities are fictitious and the other keys of this table mean nothing; "
          "local: the true motion, damped by the other keys, as in the thesis",
      .breaks = "adaptive is for what is nearly at rest; where the way to rest is an event, as in a fall, choose local"},
-    {.key = "local", .unit = "1", .range = fraction,
-     .plausible = {.low = 0.01, .high = 0.95, .or_zero = true}, .default_value = "0.7", .example = "0",
+    {.key = "local", .members = {in(&DampingSettings::local)}, .unit = "1", .range = fraction,
+     .plausible = {.low = 0.01, .high = 0.95, .or_zero = true}, .example = "0",
      .meaning = "share by which each force component is lessened when it drives the motion (Cundall); a stage takes what "
          "it leaves out from the scene; 0 in stages of kind run where neither states it",
      .repair = "0 for dynamics, 0.7 to reach rest",
      .breaks = "0 never comes to rest by itself; above 0.9 failure is delayed"},
-    {.key = "viscous_ratio", .unit = "1", .range = {0, 10},
-     .plausible = {.low = 1e-3, .high = 1, .or_zero = true}, .default_value = "0", .example = "0.1",
+    {.key = "viscous_ratio", .members = {in(&DampingSettings::viscous_ratio)}, .unit = "1", .range = {0, 10},
+     .plausible = {.low = 1e-3, .high = 1, .or_zero = true}, .example = "0.1",
      .meaning = "dashpot normal to every contact, as a share of critical damping",
      .breaks = "large values shorten the time step"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

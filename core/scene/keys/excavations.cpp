@@ -1,18 +1,15 @@
 // [[excavations]], and the convex regions that joints may be confined to as well.
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
+#include "core/scene/scene_spec.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 // clang-format off
 KeyTable excavation_keys() {
   return {"excavations", {
-    {.key = "name", .type = name, .example = "\"tunnel\"", .required = true,
+    {.key = "name", .members = {in(&ExcavationSpec::name, name)}, .example = "\"tunnel\"", .required = true,
      .meaning = "unique among the excavations"},
-    {.key = "outline", .type = boolean, .default_value = "false", .example = "true",
+    {.key = "outline", .members = {in(&ExcavationSpec::outline)}, .example = "true",
      .meaning = "cut blocks along the region's faces by construction joints, last; without it they go or stay whole"},
   }};
 }
@@ -27,16 +24,18 @@ KeyTable region_keys() {
 
 KeyTable cylinder_keys() {
   return {"cylinder", {
-    {.key = "from", .type = vector, .unit = "m", .range = sane, .example = "[0, -1, 0]",
-     .required = true, .meaning = "one end of the axis; in 2-D the centre"},
-    {.key = "to", .type = vector, .unit = "m", .range = sane, .example = "[0, 1, 0]",
+    {.key = "from", .members = {in(&CylinderSpec::from)}, .unit = "m", .range = sane, .example = "[0, -1, 0]",
+     .required = true,
+     .meaning = "one end of the axis; in 2-D the centre"},
+    {.key = "to", .members = {in(&CylinderSpec::to)}, .unit = "m", .range = sane, .example = "[0, 1, 0]",
      .meaning = "the other end; in 3-D only, and needed there"},
-    {.key = "radius", .unit = "m", .range = positive, .plausible = plausible_length, .example = "3",
-     .required = true, .meaning = "of the circle that the sides touch", .mistake = "was it given in mm or km?"},
-    {.key = "sides", .type = integer, .range = {3, 256}, .default_value = "24", .example = "12",
+    {.key = "radius", .members = {in(&CylinderSpec::radius)}, .unit = "m", .range = positive,
+     .plausible = plausible_length, .example = "3", .required = true,
+     .meaning = "of the circle that the sides touch", .mistake = "was it given in mm or km?"},
+    {.key = "sides", .members = {in(&CylinderSpec::sides)}, .range = {3, 256}, .example = "12",
      .meaning = "of the polygon that stands for the circle"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

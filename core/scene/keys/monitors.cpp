@@ -1,19 +1,15 @@
 // [[monitors]]
-#include "core/prepared.hpp"
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
+#include "core/scene/scene_spec.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 namespace {
 
-std::vector<std::string_view> words() {
-  std::vector<std::string_view> words;
+Words<Monitored> words() {
+  Words<Monitored> words;
   for (const Monitored& followed : monitored_quantities())
-    words.push_back(followed.word);
+    words.emplace_back(followed.word, followed);
   return words;
 }
 
@@ -22,16 +18,16 @@ std::vector<std::string_view> words() {
 // clang-format off
 KeyTable monitor_keys() {
   return {"monitors", {
-    {.key = "name", .type = name, .example = "\"wedge\"", .required = true,
+    {.key = "name", .members = {in(&MonitorSpec::name, name)}, .example = "\"wedge\"", .required = true,
      .meaning = "unique among the monitors; begins its columns in history.csv"},
-    {.key = "quantities", .type = choices, .example = "[\"displacement\", \"rotation\"]",
-     .required = true, .choices = words(),
+    {.key = "quantities", .members = {some_of(&MonitorSpec::quantities, words())},
+     .example = "[\"displacement\", \"rotation\"]", .required = true,
      .meaning = "contact_force: resultant over the contacts of a joint, which `joint` names; the others: of one block that a "
          "selector chooses; …_load: what acts on it from one source, applied_load by stage.force; velocities are those of half a step before"},
-    {.key = "joint", .type = name, .example = "\"A\"",
+    {.key = "joint", .members = {in(&MonitorSpec::joint, name)}, .example = "\"A\"",
      .meaning = "joint of contact_force"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

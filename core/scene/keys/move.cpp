@@ -1,20 +1,17 @@
 // [[stage.move]]
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
+#include "core/settings.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 // clang-format off
 KeyTable move_keys() {
   return {"move", {
-    {.key = "translation", .type = axes, .default_value = "true", .example = "[\"x\"]",
+    {.key = "translation", .members = {in(&MovePlan::translation)}, .example = "[\"x\"]",
      .meaning = "directions along which the velocity is prescribed; true: all. Along the others the block is as free as "
          "without it"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

@@ -1,25 +1,22 @@
 // [output]
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
+#include "core/settings.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 // clang-format off
 KeyTable output_keys() {
   return {"output", {
-    {.key = "history_interval_s", .unit = "s", .range = {0, 1e9},
-     .plausible = {.low = 1e-6, .high = 5, .or_zero = true}, .default_value = "0", .example = "0.01",
+    {.key = "history_interval_s", .members = {in(&OutputPlan::history_interval)}, .unit = "s", .range = {0, 1e9},
+     .plausible = {.low = 1e-6, .high = 5, .or_zero = true}, .example = "0.01",
      .meaning = "time between rows of history.csv; 0: about 200 rows a stage", .mistake = "was it given in ms?"},
-    {.key = "frame_interval_s", .unit = "s", .range = {0, 1e9},
-     .plausible = {.low = 5e-4, .high = 50, .or_zero = true}, .default_value = "0", .example = "0.1",
+    {.key = "frame_interval_s", .members = {in(&OutputPlan::frame_interval)}, .unit = "s", .range = {0, 1e9},
+     .plausible = {.low = 5e-4, .high = 50, .or_zero = true}, .example = "0.1",
      .meaning = "time between ParaView frames; 0: at the end of each stage only", .mistake = "was it given in ms?"},
-    {.key = "frames", .type = boolean, .default_value = "true", .example = "false",
+    {.key = "frames", .members = {in(&OutputPlan::frames)}, .example = "false",
      .meaning = "write ParaView frames"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

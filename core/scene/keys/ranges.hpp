@@ -3,7 +3,7 @@
 
 #include "core/scene/key_row.hpp"
 
-namespace voussoir::key_ranges {
+namespace voussoir::keys {
 
 // lengths and the like: far beyond any rock mass, and squares of them still are numbers
 inline constexpr Range sane{-1e12, 1e12};
@@ -41,4 +41,4 @@ inline constexpr std::string_view stiffness_mistake = "was it given in MPa/m or 
 inline constexpr std::string_view angle_mistake = "was it given in radians?";
 inline constexpr std::string_view friction_mistake = "was it given in radians, or as its tangent?";
 
-}  // namespace voussoir::key_ranges
+}  // namespace voussoir::keys

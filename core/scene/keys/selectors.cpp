@@ -1,11 +1,8 @@
 // What tables that choose blocks have in common: name, choice, restraint, velocity.
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
+#include "core/scene/scene_spec.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 // clang-format off
 KeyTable label_keys() {
@@ -17,39 +14,38 @@ KeyTable label_keys() {
 
 KeyTable selector_keys() {
   return {"selector", {
-    {.key = "all", .type = boolean, .default_value = "false", .example = "true",
-     .meaning = "every block"},
-    {.key = "bodies", .type = names, .example = "[\"slider\"]",
+    {.key = "all", .members = {in(&Selector::all)}, .example = "true", .meaning = "every block"},
+    {.key = "bodies", .members = {in(&Selector::names)}, .example = "[\"slider\"]",
      .meaning = "blocks of these names"},
-    {.key = "above", .type = names, .example = "[\"A\", \"B\"]",
+    {.key = "above", .members = {in(&Selector::above)}, .example = "[\"A\", \"B\"]",
      .meaning = "blocks whose centroid lies above all these joints (on the side of the upward normal; to the side it "
          "dips to where the joint is vertical)"},
-    {.key = "below", .type = names, .example = "[\"A\"]",
+    {.key = "below", .members = {in(&Selector::below)}, .example = "[\"A\"]",
      .meaning = "blocks whose centroid lies below all these joints"},
-    {.key = "inside", .type = vector, .unit = "m", .range = sane, .example = "[0.5, 0.5, -1]",
+    {.key = "inside", .members = {in(&Selector::inside)}, .unit = "m", .range = sane, .example = "[0.5, 0.5, -1]",
      .meaning = "the block that holds this point"},
   }};
 }
 
 KeyTable restrain_keys() {
   return {"restrain", {
-    {.key = "translation", .type = axes, .example = "[\"x\", \"y\"]",
+    {.key = "translation", .members = {in(&RestrainSpec::translation)}, .example = "[\"x\", \"y\"]",
      .meaning = "directions without movement; true: all"},
-    {.key = "rotation", .type = axes, .example = "true",
+    {.key = "rotation", .members = {in(&RestrainSpec::rotation)}, .example = "true",
      .meaning = "axes without rotation; true: all (2-D: only true)"},
   }};
 }
 
 KeyTable motion_keys() {
   return {"motion", {
-    {.key = "velocity", .type = vector, .unit = "m/s", .range = sane, .plausible = plausible_speed,
-     .example = "[0, 0, -1]",
+    {.key = "velocity", .members = {in(&MotionSpec::velocity)}, .unit = "m/s", .range = sane,
+     .plausible = plausible_speed, .example = "[0, 0, -1]",
      .meaning = "velocity of the centroid"},
-    {.key = "angular_velocity", .type = spin, .unit = "rad/s", .range = sane,
+    {.key = "angular_velocity", .members = {in(&MotionSpec::angular_velocity, spin)}, .unit = "rad/s", .range = sane,
      .plausible = plausible_speed, .example = "[0, 0, 1]",
      .meaning = "world axes; in 2-D one number, counter-clockwise"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

@@ -1,22 +1,18 @@
 // [[stage]]: its name and kind.
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
+#include "core/settings.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 // clang-format off
 KeyTable stage_keys() {
   return {"stage", {
-    {.key = "name", .type = name, .example = "\"settle\"", .required = true,
+    {.key = "name", .members = {in(&StagePlan::name, name)}, .example = "\"settle\"", .required = true,
      .meaning = "unique among the stages"},
-    {.key = "kind", .type = choice, .example = "\"settle\"", .required = true,
-     .choices = {"settle", "run", "reduce"},
+    {.key = "kind", .type = choice, .example = "\"settle\"", .required = true, .choices = {"settle", "run", "reduce"},
      .meaning = "settle: until at rest; run: true motion for a given time; reduce: lower friction until the model fails"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

@@ -1,11 +1,8 @@
 // [[stage]]: what changes when it begins.
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
+#include "core/settings.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 // clang-format off
 KeyTable stage_change_keys() {
@@ -22,14 +19,14 @@ KeyTable stage_change_keys() {
      .holds = {"label", "motion", "move", "factor", "selector"},
      .meaning = "blocks whose motion is prescribed while the stage lasts, whatever the load on them; their other "
          "freedoms stay as they are, those of a fixed block are held. Afterwards a fixed block stands, a free one goes on"},
-    {.key = "friction_deg", .unit = "deg", .range = friction_range, .plausible = plausible_friction,
-     .example = "30",
+    {.key = "friction_deg", .members = {degrees(&Change::friction)}, .unit = "deg", .range = friction_range,
+     .plausible = plausible_friction, .example = "30",
      .meaning = "friction angle of every joint from this stage on", .mistake = friction_mistake},
-    {.key = "bond", .type = boolean, .default_value = "false", .example = "true",
+    {.key = "bond", .members = {in(&Change::bond)}, .example = "true",
      .meaning = "bonds joints that are closed and state tension or cohesion: where they press, or first do before they "
          "part by a thousandth of the smallest inscribed radius; a bond breaks once, by tension or slip"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

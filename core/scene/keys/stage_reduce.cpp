@@ -1,53 +1,54 @@
 // [[stage]]: keys of the kind reduce.
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
+#include "core/settings.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 // clang-format off
 KeyTable stage_reduce_keys() {
   return {"stage", {
-    {.key = "method", .type = choice, .default_value = "\"bisection\"", .example = "\"steps\"",
-     .when = {"kind", "reduce"}, .choices = {"bisection", "steps", "rate", "two_rates"},
+    {.key = "method", .members = {one_of(&ReducePlan::method,
+         {{"bisection", ReductionMethod::bisection}, {"steps", ReductionMethod::steps},
+          {"rate", ReductionMethod::rate}, {"two_rates", ReductionMethod::two_rates}})},
+     .example = "\"steps\"", .when = {"kind", "reduce"},
      .meaning = "bisection: halve the bracket, each trial from the last stable state; steps: lower in steps, each to "
          "rest; rate: lower continuously; two_rates: the same twice from one equilibrium, extrapolated to no rate"},
-    {.key = "joint_properties", .type = names, .example = "[\"rock\"]", .when = {"kind", "reduce"},
+    {.key = "joint_properties", .members = {in(&ReducePlan::properties)}, .example = "[\"rock\"]",
+     .when = {"kind", "reduce"},
      .meaning = "the properties whose friction is lowered; all without it"},
-    {.key = "from_deg", .unit = "deg", .range = friction_range, .plausible = plausible_friction,
-     .example = "60", .required = true,
-     .when = {"kind", "reduce"}, .meaning = "friction angle at the start; the model must be stable there",
-     .mistake = friction_mistake},
-    {.key = "to_deg", .unit = "deg", .range = friction_range, .plausible = {1, 85}, .example = "5",
-     .required = true,
-     .when = {"kind", "reduce"}, .meaning = "friction angle at which the search ends", .mistake = friction_mistake},
-    {.key = "tolerance_deg", .unit = "deg", .range = {0, 90, true}, .plausible = {5e-4, 5},
-     .example = "0.01",
-     .required = true, .when = {"method", "bisection"}, .meaning = "largest bracket at the end"},
-    {.key = "step_deg", .unit = "deg", .range = {0, 90, true}, .plausible = {0.02, 5},
-     .example = "0.5", .required = true,
-     .when = {"method", "steps"}, .meaning = "decrement"},
-    {.key = "rate_deg_per_s", .unit = "deg/s", .range = {0, 1e6, true}, .plausible = {1e-3, 1},
-     .example = "0.025",
-     .required = true, .when = {"method", "rate|two_rates"}, .meaning = "speed of reduction; two_rates: the faster one",
+    {.key = "from_deg", .members = {degrees(&ReducePlan::from)}, .unit = "deg", .range = friction_range,
+     .plausible = plausible_friction, .example = "60", .required = true, .when = {"kind", "reduce"},
+     .meaning = "friction angle at the start; the model must be stable there", .mistake = friction_mistake},
+    {.key = "to_deg", .members = {degrees(&ReducePlan::to)}, .unit = "deg", .range = friction_range,
+     .plausible = {1, 85}, .example = "5", .required = true, .when = {"kind", "reduce"},
+     .meaning = "friction angle at which the search ends", .mistake = friction_mistake},
+    {.key = "tolerance_deg", .members = {degrees(&ReducePlan::tolerance)}, .unit = "deg", .range = {0, 90, true},
+     .plausible = {5e-4, 5}, .example = "0.01", .required = true, .when = {"method", "bisection"},
+     .meaning = "largest bracket at the end"},
+    {.key = "step_deg", .members = {degrees(&ReducePlan::step)}, .unit = "deg", .range = {0, 90, true},
+     .plausible = {0.02, 5}, .example = "0.5", .required = true, .when = {"method", "steps"},
+     .meaning = "decrement"},
+    {.key = "rate_deg_per_s", .members = {degrees(&ReducePlan::rate)}, .unit = "deg/s", .range = {0, 1e6, true},
+     .plausible = {1e-3, 1}, .example = "0.025", .required = true, .when = {"method", "rate|two_rates"},
+     .meaning = "speed of reduction; two_rates: the faster one",
      .breaks = "too fast: failure is found late, by the power 2/3 of the rate"},
-    {.key = "slower_rate_deg_per_s", .unit = "deg/s", .range = {0, 1e6, true}, .plausible = {1e-3, 1},
-     .example = "0.02",
-     .required = true, .when = {"method", "two_rates"}, .meaning = "the slower speed of reduction",
+    {.key = "slower_rate_deg_per_s", .members = {degrees(&ReducePlan::slower_rate)}, .unit = "deg/s",
+     .range = {0, 1e6, true}, .plausible = {1e-3, 1}, .example = "0.02", .required = true,
+     .when = {"method", "two_rates"},
+     .meaning = "the slower speed of reduction",
      .breaks = "close to the faster one: the extrapolation magnifies small differences"},
-    {.key = "failure_displacement", .unit = "m", .range = not_negative,
-     .plausible = {.low = 1e-4, .high = 1, .or_zero = true}, .default_value = "0", .example = "0.01", .when = {"kind", "reduce"},
+    {.key = "failure_displacement", .members = {in(&ReducePlan::failure_displacement)}, .unit = "m",
+     .range = not_negative, .plausible = {.low = 1e-4, .high = 1, .or_zero = true}, .example = "0.01",
+     .when = {"kind", "reduce"},
      .meaning = "a block that has moved this far since the search began (rate, two_rates: since the fall began) has "
          "failed; 0: a tenth of the smallest inscribed radius of the free blocks",
      .breaks = "must exceed the elastic settlement; too large: trials take long", .mistake = "was it given in mm?"},
-    {.key = "ramp_steps", .type = integer, .unit = "steps", .range = count, .plausible = {20, 1e5},
-     .default_value = "500", .example = "2000", .when = {"method", "bisection|steps|two_rates"},
+    {.key = "ramp_steps", .members = {in(&ReducePlan::ramp_steps)}, .unit = "steps", .range = count,
+     .plausible = {20, 1e5}, .example = "2000", .when = {"method", "bisection|steps|two_rates"},
      .meaning = "number of steps over which a trial lowers the friction; two_rates: before the slower one",
      .breaks = "too few: the inertia of the change breaks the path"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

@@ -1,35 +1,33 @@
 // [[stage]]: keys of the kinds settle and run.
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
+#include "core/settings.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 // clang-format off
 KeyTable stage_run_keys() {
   return {"stage", {
-    {.key = "gravity_ramp_s", .unit = "s", .range = {0, 1e9}, .plausible = plausible_ramp, .default_value = "0",
-     .example = "0.5", .when = {"kind", "settle|run"},
+    {.key = "gravity_ramp_s", .members = {in(&GravityPlan::ramp)}, .unit = "s", .range = {0, 1e9},
+     .plausible = plausible_ramp, .example = "0.5", .when = {"kind", "settle|run"},
      .meaning = "gravity grows from none to full within this time, at most duration_s",
-     .breaks = "0 loads the joints dynamically, to twice their weight without damping", .mistake = "was it given in ms?"},
-    {.key = "gravity_to", .unit = "1", .range = {0, 1e6}, .plausible = plausible_factor, .example = "2",
-     .when = {"kind", "settle|run"},
+     .breaks = "0 loads the joints dynamically, to twice their weight without damping",
+     .mistake = "was it given in ms?"},
+    {.key = "gravity_to", .members = {in(&GravityPlan::to)}, .unit = "1", .range = {0, 1e6},
+     .plausible = plausible_factor, .example = "2", .when = {"kind", "settle|run"},
      .meaning = "multiple of the scene's gravity that acts at the end of the ramp, which then begins at what acted in the "
          "stage before, or at once where there is no ramp. Without it a ramp goes from none to 1, and a stage without "
          "ramp leaves gravity as it is"},
-    {.key = "time_limit_s", .unit = "s", .range = {0, 1e9, true}, .plausible = {0.1, 1e4},
-     .default_value = "1e9", .example = "60",
-     .when = {"kind", "settle"}, .meaning = "gives up when not at rest by then", .mistake = "was it given in ms?"},
-    {.key = "step_limit", .type = integer, .unit = "steps", .range = count, .plausible = {1e4, 1e8},
-     .default_value = "1000000", .example = "2000000", .when = {"kind", "settle|reduce"},
+    {.key = "time_limit_s", .members = {in(&SettlePlan::time_limit)}, .unit = "s", .range = {0, 1e9, true},
+     .plausible = {0.1, 1e4}, .example = "60", .when = {"kind", "settle"},
+     .meaning = "gives up when not at rest by then", .mistake = "was it given in ms?"},
+    {.key = "step_limit", .members = {in(&SettlePlan::step_limit), in(&ReducePlan::step_limit)}, .unit = "steps",
+     .range = count, .plausible = {1e4, 1e8}, .example = "2000000", .when = {"kind", "settle|reduce"},
      .meaning = "gives up when not at rest after so many steps (reduce: in one trial)"},
-    {.key = "duration_s", .unit = "s", .range = {0, 1e9, true}, .plausible = {0.01, 1000},
-     .example = "2", .required = true, .when = {"kind", "run"}, .meaning = "simulated time",
-     .mistake = "was it given in ms?"},
+    {.key = "duration_s", .members = {in(&RunPlan::duration)}, .unit = "s", .range = {0, 1e9, true},
+     .plausible = {0.01, 1000}, .example = "2", .required = true, .when = {"kind", "run"},
+     .meaning = "simulated time", .mistake = "was it given in ms?"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

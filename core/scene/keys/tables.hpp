@@ -2,9 +2,12 @@
 // the order of the page.
 #pragma once
 
-#include "core/scene/key_row.hpp"
+#include "core/scene/keys/members.hpp"
+#include "core/scene/keys/ranges.hpp"
 
-namespace voussoir {
+namespace voussoir::keys {
+
+using enum KeyType;
 
 // the rows of one group of keys, or some of them
 struct KeyTable {
@@ -43,4 +46,4 @@ KeyTable monitor_keys();
 KeyTable output_keys();
 KeyTable joint_set_keys();
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

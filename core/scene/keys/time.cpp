@@ -1,36 +1,36 @@
 // [time] and [equilibrium]
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
+#include "core/settings.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 // clang-format off
 KeyTable time_keys() {
   return {"time", {
-    {.key = "fraction", .unit = "1", .range = {0, 1, true}, .plausible = {1e-3, 0.5}, .default_value = "0.2",
-     .example = "0.1",
+    {.key = "fraction", .members = {in(&TimeSettings::fraction)}, .unit = "1", .range = {0, 1, true},
+     .plausible = {1e-3, 0.5}, .example = "0.1",
      .meaning = "time step as a share of the stability limit; in stages of kind run 0.1 where it is not stated",
      .breaks = "above 0.2 (0.1 without damping) contacts that open and close gain energy"},
-    {.key = "step_s", .unit = "s", .range = {0, 1e9, true}, .plausible = {5e-7, 0.02}, .example = "1e-4",
+    {.key = "step_s", .members = {in(&TimeSettings::step)}, .unit = "s", .range = {0, 1e9, true},
+     .plausible = {5e-7, 0.02}, .example = "1e-4",
      .meaning = "a fixed time step instead of the estimate",
-     .breaks = "needed where no block ever touches; unstable above the limit", .mistake = "was it given in ms or µs?"},
+     .breaks = "needed where no block ever touches; unstable above the limit",
+     .mistake = "was it given in ms or µs?"},
   }};
 }
 
 KeyTable equilibrium_keys() {
   return {"equilibrium", {
-    {.key = "unbalanced", .unit = "1", .range = {0, 1, true}, .plausible = {1e-8, 1e-5},
-     .default_value = "1e-6", .example = "1e-7",
+    {.key = "unbalanced", .members = {in(&EquilibriumSettings::unbalanced)}, .unit = "1", .range = {0, 1, true},
+     .plausible = {1e-8, 1e-5}, .example = "1e-7",
      .meaning = "at rest when for every free block unbalanced force and momentum stay below this share of the mean "
-         "contact force", .breaks = "too loose: a slow slide passes as rest"},
-    {.key = "window", .type = integer, .unit = "steps", .range = {1, 1e6},
-     .plausible = {2, 1000}, .default_value = "10",
-     .example = "50", .meaning = "number of steps in a row that must be at rest"},
+         "contact force",
+     .breaks = "too loose: a slow slide passes as rest"},
+    {.key = "window", .members = {in(&EquilibriumSettings::window)}, .unit = "steps", .range = {1, 1e6},
+     .plausible = {2, 1000}, .example = "50",
+     .meaning = "number of steps in a row that must be at rest"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys

@@ -1,28 +1,27 @@
 // The top of a scene file.
-#include "core/scene/keys/ranges.hpp"
 #include "core/scene/keys/tables.hpp"
+#include "core/scene/scene_spec.hpp"
 
-namespace voussoir {
-
-using enum KeyType;
-using namespace key_ranges;
+namespace voussoir::keys {
 
 // clang-format off
 KeyTable top_keys() {
   return {"", {
-    {.key = "title", .type = text, .example = "\"Sliding wedge\"", .meaning = "one line for reports"},
+    {.key = "title", .members = {in(&Scene::title)}, .example = "\"Sliding wedge\"",
+     .meaning = "one line for reports"},
     {.key = "base", .type = text, .example = "\"scene.toml\"",
      .meaning = "another scene in the same folder, of which this one states only the differences: tables are merged key by "
          "key, tables of a list by their name; a stage that states another kind or method replaces the "
          "base's"},
-    {.key = "dimension", .type = integer, .range = {2, 3}, .example = "3", .required = true,
+    {.key = "dimension", .members = {in(&Scene::dimension)}, .range = {2, 3}, .example = "3", .required = true,
      .meaning = "2: plane scene, x to the right, y up, unit thickness; 3: x east, y north, z up",
      .repair = "write dimension = 2 or dimension = 3"},
-    {.key = "gravity", .type = vector, .unit = "m/s²", .range = sane, .plausible = {1, 30},
+    {.key = "gravity", .members = {in(&Scene::gravity)}, .unit = "m/s²", .range = sane, .plausible = {1, 30},
      .example = "[0, 0, -9.81]",
      .meaning = "acceleration of gravity; without it there is none", .breaks = "a wrong sign lifts the blocks off",
      .mistake = "on earth it is 9.81; was it given in another unit?"},
-    {.key = "density", .unit = "kg/m³", .range = positive, .plausible = plausible_density, .example = "2600",
+    {.key = "density", .members = {in(&Scene::density)}, .unit = "kg/m³", .range = positive,
+     .plausible = plausible_density, .example = "2600",
      .meaning = "density of every block that does not state its own", .repair = "rock has 2000 to 3000 kg/m³",
      .mistake = density_mistake},
     {.key = "domain", .type = table, .holds = {"domain"},
@@ -53,22 +52,22 @@ KeyTable top_keys() {
      .meaning = "blocks that move when the first stage begins"},
     {.key = "accuracy", .type = table, .holds = {"accuracy"},
      .meaning = "numerical settings by the accuracy that is wanted"},
-    {.key = "contact", .type = table, .holds = {"contact"},
+    {.key = "contact", .members = {group(&Settings::contact, "contact")},
      .meaning = "how contacts between blocks are found"},
-    {.key = "damping", .type = table, .holds = {"damping"},
+    {.key = "damping", .members = {group(&Settings::damping, "damping")},
      .meaning = "damping of every stage that does not state its own"},
-    {.key = "time", .type = table, .holds = {"time"}, .meaning = "the time step"},
-    {.key = "equilibrium", .type = table, .holds = {"equilibrium"},
+    {.key = "time", .members = {group(&Settings::time, "time")}, .meaning = "the time step"},
+    {.key = "equilibrium", .members = {group(&Settings::equilibrium, "equilibrium")},
      .meaning = "when a scene counts as at rest"},
-    {.key = "slicing", .type = table, .holds = {"slicing"}, .meaning = "limits of cutting"},
+    {.key = "slicing", .members = {group(&Scene::slicing, "slicing")}, .meaning = "limits of cutting"},
     {.key = "stage", .type = tables, .holds = {"stage"},
      .meaning = "what happens, in this order; at least one"},
     {.key = "monitors", .type = tables, .holds = {"monitors", "selector"},
      .meaning = "quantities followed in history.csv: of one block that a selector chooses, or of a joint's contacts"},
-    {.key = "output", .type = table, .holds = {"output"},
+    {.key = "output", .members = {group(&Scene::output, "output")},
      .meaning = "how often results are written"},
   }};
 }
 // clang-format on
 
-}  // namespace voussoir
+}  // namespace voussoir::keys
