@@ -75,7 +75,7 @@ const std::vector<Order> orders{
      {{"scene_error"},
       {"node"},
       {"key_row"},
-      {"scene_text", "values", "scene_spec"},
+      {"scene_text", "scene_spec"},
       {"keys", "toml_text"},
       {"check_keys"},
       {"accuracy_level", "overrides", "scene_files", "bodies", "read_plane", "read_stages"},

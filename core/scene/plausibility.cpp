@@ -8,7 +8,6 @@
 #include "core/scene/bodies.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/keys/ranges.hpp"
-#include "core/scene/values.hpp"
 
 namespace voussoir {
 namespace {

@@ -9,8 +9,8 @@
 #include "core/scene/bodies.hpp"
 #include "core/scene/domain_blocks.hpp"
 #include "core/scene/draw_joint_sets.hpp"
+#include "core/scene/keys.hpp"
 #include "core/scene/scene.hpp"
-#include "core/scene/values.hpp"
 
 namespace voussoir {
 namespace {

@@ -13,8 +13,7 @@ bool chooses(const Selector& s) {
   return s.all || !s.names.empty() || !s.above.empty() || !s.below.empty() || s.inside.has_value();
 }
 
-ReducePlan read_reduction(const Subject& table) {
-  ReducePlan plan;
+void read_plan(const Subject& table, ReducePlan& plan) {
   read_keys(*table.node, "stage", plan);
   if (!(plan.from > plan.to))
     refuse(table, "from_deg",
@@ -24,13 +23,6 @@ ReducePlan read_reduction(const Subject& table) {
     refuse(table, "slower_rate_deg_per_s",
            "must be less than rate_deg_per_s (" + value_text(*table.node->find("rate_deg_per_s")) +
                "); a quarter of it is a good choice");
-  return plan;
-}
-
-GravityPlan read_gravity(const Subject& table) {
-  GravityPlan plan;
-  read_keys(*table.node, "stage", plan);
-  return plan;
 }
 
 // A ramp to a stated gravity begins at the one the stages before have left, one to full gravity at none.
@@ -72,29 +64,26 @@ void free_runs(const Subject& scene, const DampingSettings& damping, std::vector
   }
 }
 
-SettlePlan read_settle(const Subject& table) {
-  SettlePlan plan;
+void read_plan(const Subject& table, SettlePlan& plan) {
   read_keys(*table.node, "stage", plan);
-  plan.gravity = read_gravity(table);
+  read_keys(*table.node, "stage", plan.gravity);
   if (plan.gravity.ramp >= plan.time_limit) {
     const Node* limit = table.node->find("time_limit_s");
     refuse(table, "gravity_ramp_s",
-           "must be less than time_limit_s (" + (limit ? value_text(*limit) : "by default 1e9") +
+           "must be less than time_limit_s (" +
+               (limit ? value_text(*limit) : "by default " + find_row({"stage"}, "time_limit_s")->default_value) +
                "): rest needs full gravity; shorten the ramp or raise the limit");
   }
-  return plan;
 }
 
-RunPlan read_run(const Subject& table) {
-  RunPlan plan;
+void read_plan(const Subject& table, RunPlan& plan) {
   read_keys(*table.node, "stage", plan);
-  plan.gravity = read_gravity(table);
+  read_keys(*table.node, "stage", plan.gravity);
   if (plan.gravity.ramp > plan.duration)
     refuse(table, "gravity_ramp_s",
            "must be at most duration_s (" + value_text(*table.node->find("duration_s")) +
                "): the stage would end before gravity has grown; shorten the ramp or lengthen the stage, state "
                "gravity_to = 0 for a stage without gravity");
-  return plan;
 }
 
 TimeFactor read_factor(const Subject& table) {
@@ -164,10 +153,7 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping, int d
   stage.subject = table;
   read_keys(*table.node, "stage", stage.plan);
   read_keys(*table.node, "stage", stage.plan.change);
-  const std::string& kind = table.node->find("kind")->text;
-  if (kind == "settle") stage.plan.plan = read_settle(table);
-  if (kind == "run") stage.plan.plan = read_run(table);
-  if (kind == "reduce") stage.plan.plan = read_reduction(table);
+  std::visit([&](auto& plan) { read_plan(table, plan); }, stage.plan.plan);
   if (const auto own = child(table, "damping")) {
     stage.plan.damping = damping;
     read_keys(*own->node, "damping", *stage.plan.damping);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "core/scene/key_row.hpp"
 
@@ -175,6 +176,20 @@ KeyMember one_of(T Owner::*at, const std::type_identity_t<Words<T>>& words) {
       at, KeyType::choice, [=](const Node& value, T& target) { target = meaning_of(words, value.text); },
       [=](const T& value) { return toml_text(word_for(words, value)); });
   made.choices = choices_of(words);
+  return made;
+}
+
+// one of some words, each for an alternative of a variant, in its order
+template <class Owner, class... T>
+KeyMember alternative(std::variant<T...> Owner::*at, const std::array<std::string_view, sizeof...(T)>& words) {
+  KeyMember made = key_member(
+      at, KeyType::choice,
+      [=](const Node& value, std::variant<T...>& target) {
+        std::size_t k = 0;
+        ((words[k++] == value.text ? void(target = T{}) : void()), ...);
+      },
+      [=](const std::variant<T...>& value) { return toml_text(std::string(words[value.index()])); });
+  made.choices.assign(words.begin(), words.end());
   return made;
 }
 

@@ -9,7 +9,8 @@ KeyTable stage_keys() {
   return {"stage", {
     {.key = "name", .members = {in(&StagePlan::name, name)}, .example = "\"settle\"", .required = true,
      .meaning = "unique among the stages"},
-    {.key = "kind", .type = choice, .example = "\"settle\"", .required = true, .choices = {"settle", "run", "reduce"},
+    {.key = "kind", .members = {alternative(&StagePlan::plan, {"settle", "run", "reduce"})}, .example = "\"settle\"",
+     .required = true,
      .meaning = "settle: until at rest; run: true motion for a given time; reduce: lower friction until the model fails"},
   }};
 }
