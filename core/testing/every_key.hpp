@@ -134,7 +134,7 @@ release = [{ bodies = ["by planes"] }]
 remove = [{ bodies = ["by vertices"] }]
 move = [{ bodies = ["by planes"], velocity = [1, 0, 0], frequency_hz = 1 }]
 boundary = [{ bodies = ["by vertices"], stress = [1, 1, 0, 0, 0, 0] }]
-force = [{ name = "push", bodies = ["by planes"], force = [1, 0, 0] }]
+force = [{ name = "push", bodies = ["by planes"], force = [1, 0, 0], point = [10.5, 0, 0.5] }]
 [[stage]]
 name = "bisection"
 kind = "reduce"

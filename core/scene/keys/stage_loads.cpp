@@ -24,9 +24,10 @@ std::vector<KeyTable> stage_load_keys() {
   {"force", {
     {.key = "name", .members = {in(&ForcePlan::name, name)}, .example = "\"crane\"", .required = true,
      .meaning = "a later stage that states a force of this name replaces it"},
-    {.key = "force", .members = {in(&ForcePlan::force)}, .unit = "N", .range = sane, .example = "[0, 0, -5e3]", .required = true,
+    {.key = "force", .members = {in(&ForcePlan::force)}, .unit = "N", .range = sane,
+     .plausible = {.low = 1, .high = 1e8, .or_zero = true}, .example = "[0, 0, -5e3]", .required = true,
      .meaning = "on each of the blocks, world axes; in 2-D N per metre of thickness. All zero: no force of this name acts "
-         "any more", .mistake = "was it given in kN?"},
+         "any more", .mistake = "was it given in kN or MN?"},
     {.key = "point", .members = {in(&ForcePlan::point)}, .unit = "m", .range = sane, .example = "[1, 0, 2]",
      .meaning = "where it acts, in or on its block, as the scene has it before anything moves; the point then moves with "
          "the block. Without it the force acts at the centroid of each block"},
