@@ -163,9 +163,12 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping, int d
     for (const SelectorSpec& spec : stage.chosen[key] = read_selectors(table, key))
       add(spec.subject, spec.selector);
   };
-  for (const auto& [key, target] :
-       {std::pair("fix", &change.fix), {"release", &change.release}, {"remove", &change.remove}})
-    read_chosen(key, [&](const Subject&, const Selector& bodies) { target->push_back(bodies); });
+  const auto choose = [&](const char* key, std::vector<Selector>& target) {
+    read_chosen(key, [&](const Subject&, const Selector& bodies) { target.push_back(bodies); });
+  };
+  choose("fix", change.fix);
+  choose("release", change.release);
+  choose("remove", change.remove);
   read_chosen("move", [&](const Subject& at, const Selector& bodies) { change.move.push_back(read_move(at, bodies)); });
   read_chosen("boundary", [&](const Subject& at, const Selector& bodies) {
     change.boundary.push_back(read_boundary(at, bodies, dimension));
