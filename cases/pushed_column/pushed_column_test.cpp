@@ -1,0 +1,406 @@
+// Pushed column: the force at which it tips, found by search in the plane and in space; how it leans before; a force
+// that grows, is replaced and ends; blocks in space under forces that change and turn.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cases/case_tools.hpp"
+#include "core/motion/integrate.hpp"
+#include "reference/pushed_column/pushed_column.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using reference::Push;
+using reference::PushedColumn;
+using verification::CaseReport;
+using verification::Kind;
+
+// as the scenes state it
+constexpr double height = 3, breadth = 1;          // m
+const PushedColumn column_of_scene;                // on 10 GPa/m
+const Push corner{-0.5 * breadth, height, false};  // the upper left one
+constexpr double share = 0.995;                    // of the tipping force
+const std::string source = "rigid column on a joint without tension, reference/pushed_column";
+
+PushedColumn on(double stiffness) {
+  PushedColumn column = column_of_scene;
+  column.stiffness = stiffness;
+  return column;
+}
+
+std::string text(double number) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%.15g", number);
+  return buffer;
+}
+
+// what a scene is run with
+struct Joint {
+  double stiffness = 1e10;  // Pa/m, in both directions
+  int points = 8;           // along the base
+  bool turns = false;       // the force
+};
+
+std::vector<std::string> variant(const Joint& joint, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> overrides{"joint_properties.rock.normal_stiffness=" + text(joint.stiffness),
+                                     "joint_properties.rock.shear_stiffness=" + text(joint.stiffness),
+                                     "joint_properties.rock.sub_contacts=" + std::to_string(joint.points)};
+  if (joint.turns) overrides.push_back("stage.push.force.push.turns_with_body=true");
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return overrides;
+}
+
+std::string push_of(const std::string& scene, double force) {
+  return "stage.push.force.push.force=[" + text(force) + (scene == "space.toml" ? ", 0, 0]" : ", 0]");
+}
+
+struct Trial {
+  bool rests = false;
+  double tilt = 0;  // rad, at the end; where it tipped, when that was seen
+  Results results;
+};
+
+template <int Dim>
+Trial attempt(const Prepared<Dim>& prepared) {
+  constexpr double tipped = 0.2;  // rad: beyond any tilt of equilibrium, short of the ground
+  const int column = prepared.model.bodies[0].fixed ? 1 : 0;
+  const auto tilt = [&](const State<Dim>& state) { return rotation_vector(state.motions[column].rotation).norm(); };
+  Watcher<Dim> watcher;
+  watcher.pause = [&](const Progress<Dim>& now) { return tilt(now.state) > tipped; };
+  Progress<Dim> progress = begin(prepared);
+  const bool ended = simulate(prepared, progress, watcher);
+  if (ended && progress.results.outcome != Outcome::done) throw std::runtime_error(progress.results.message);
+  return {ended, tilt(progress.state), std::move(progress.results)};
+}
+
+Trial attempt(const std::string& scene, const std::vector<std::string>& overrides) {
+  const LoadedScene loaded = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides);
+  return std::visit([](const auto& prepared) { return attempt(prepared); }, loaded.prepared);
+}
+
+// The least force that tips, over that of a rigid joint; and the tilts of the trials below it, for the figure.
+struct Found {
+  double force = 0, half_bracket = 0;
+  std::vector<double> forces, tilts;
+  verification::Cost cost;
+};
+
+Found search(const std::string& scene, const Joint& joint) {
+  constexpr double narrow = 1e-4;
+  const double rigid = rigid_push(on(joint.stiffness), corner);
+  double low = 0.8, high = 1.2;
+  Found found;
+  const auto rests = [&](double force) {
+    const Trial trial = attempt(scene, variant(joint, {push_of(scene, force * rigid)}));
+    found.cost.contact_evaluations += trial.results.counters.contact_evaluations;
+    found.cost.seconds += trial.results.seconds;
+    if (!trial.rests) return false;
+    found.forces.push_back(force);
+    found.tilts.push_back(trial.tilt);
+    return true;
+  };
+  if (!rests(low) || rests(high)) throw std::runtime_error("the search does not bracket the tipping force");
+  while (high - low > narrow) {
+    const double middle = 0.5 * (low + high);
+    (rests(middle) ? low : high) = middle;
+  }
+  found.force = 0.5 * (low + high);
+  found.half_bracket = 0.5 * (high - low);
+  return found;
+}
+
+Push push_of(const Joint& joint) {
+  return {corner.x, corner.y, joint.turns};
+}
+
+// what rest leaves of unbalanced force, 1e-6 of the weight, as a share of the force
+const double unbalanced = 1e-6 * column_of_scene.weight / rigid_push(column_of_scene, corner);
+
+Found judge_tipping(const std::string& scene, const Joint& joint, CaseReport& report) {
+  const Found found = search(scene, joint);
+  const PushedColumn column = on(joint.stiffness);
+  const double rigid = rigid_push(column, corner);
+  report.record(
+      {"tipping force" + std::string(joint.turns ? ", turning" : "") +
+           (scene == "space.toml" ? ", in space, " : ", in the plane, ") + text(joint.stiffness / 1e9) + " GPa/m",
+       "1",
+       Kind::exact,
+       source,
+       tipping(column, push_of(joint)).force / rigid,
+       {found.half_bracket + unbalanced, 0},
+       "half the bracket of the search, and the unbalanced force that counts as rest; over that of a rigid "
+       "joint, W b/(2 h)"},
+      found.force, found.cost);
+  return found;
+}
+
+std::vector<double> in_units_of(double unit, std::vector<double> values) {
+  for (double& value : values)
+    value /= unit;
+  return values;
+}
+
+TEST(PushedColumn, TipsEarlierOnSofterJoints) {
+  CaseReport report("pushed_column", {"power of the stiffness in what is lost", "tipping force on a rigid joint"});
+  std::vector<double> stiffness, force;
+  for (const double k : {1e9, 1e10, 1e12}) {
+    const Found found = judge_tipping("scene.toml", {.stiffness = k}, report);
+    stiffness.push_back(k);
+    force.push_back(found.force);
+    write_csv("pushed_column", "found_" + text(k / 1e9) + ".csv", {"tilt_mrad", "force"},
+              {in_units_of(1e-3, found.tilts), found.forces});
+  }
+  const double soft = 1 - force[1], stiff = 1 - force[2], bracket = 1e-4;
+  report.record({"power of the stiffness in what is lost",
+                 "1",
+                 Kind::limit,
+                 "the weight's lever loses a/3 + h/2 tilt, least at tilt ~ (W/k)^1/3",
+                 -1.0 / 3,
+                 {bracket / stiff / std::log(100) + 2e-3, 0},
+                 "the bracket as a share of what is lost at 1000 GPa/m; the next power, of the tilt of 5 mrad at 10"},
+                std::log(stiff / soft) / std::log(100));
+  // what is lost, taken as a line over k^-1/3, where the line meets k = infinity
+  const double x_soft = std::pow(stiffness[1], -1.0 / 3), x_stiff = std::pow(stiffness[2], -1.0 / 3);
+  report.record(
+      {"tipping force on a rigid joint",
+       "1",
+       Kind::limit,
+       "W b/(2 h)",
+       1,
+       {1.5 * bracket + 5e-3 * soft * x_stiff / x_soft, 0},
+       "extrapolated over k^-1/3 from 10 and 1000 GPa/m: 1.5 times the bracket, and the tilt of 5 mrad's share "
+       "of what is lost"},
+      1 - (stiff * x_soft - soft * x_stiff) / (x_soft - x_stiff));
+  write_csv("pushed_column", "found.csv", {"stiffness_GPa_m", "force"}, {in_units_of(1e9, stiffness), force});
+}
+
+TEST(PushedColumn, TipsInSpaceAsInThePlane) {
+  CaseReport report("pushed_column");
+  judge_tipping("space.toml", {}, report);
+}
+
+// the force that a turning push tips at is 0.4 % above that of one that stays horizontal, at the same corner
+TEST(PushedColumn, TipsLaterUnderAForceThatTurnsWithIt) {
+  CaseReport report("pushed_column");
+  for (const char* scene : {"scene.toml", "space.toml"})
+    judge_tipping(scene, {.stiffness = 1e9, .turns = true}, report);
+}
+
+// what one point a face does to it
+TEST(PushedColumn, NeedsMoreThanOnePointAlongItsBase) {
+  CaseReport report("pushed_column");
+  const Found one = search("scene.toml", {.points = 1});
+  report.report("tipping force, one point, 10 GPa/m", "1", one.force,
+                "over that of a rigid joint: the point does not stand at the centre of pressure");
+}
+
+// rad: by how much the tilt changes with the unbalanced force that counts as rest
+double allowed(const PushedColumn& column, const Push& push, double force) {
+  return tilt_under(column, push, force * (1 + unbalanced)) - tilt_under(column, push, force);
+}
+
+TEST(PushedColumn, LeansAsItsBaseIsPressed) {
+  CaseReport report("pushed_column");
+  const std::string because = "what the unbalanced force that counts as rest would add to it";
+  const auto judge = [&](const std::string& name, const std::string& scene, const Joint& joint) {
+    const PushedColumn column = on(joint.stiffness);
+    const double force = share * tipping(column, push_of(joint)).force;
+    const Trial trial = attempt(scene, variant(joint, {push_of(scene, force)}));
+    ASSERT_TRUE(trial.rests) << name;
+    report.record({"tilt at 99.5 %, " + name,
+                   "rad",
+                   Kind::exact,
+                   source,
+                   tilt_under(column, push_of(joint), force),
+                   {allowed(column, push_of(joint), force), 0},
+                   because},
+                  trial.tilt, {trial.results.counters.contact_evaluations, trial.results.seconds});
+    const Value* borne = trial.results.find("column_applied_load_x");
+    ASSERT_TRUE(borne);
+    EXPECT_NEAR(borne->value, force * (joint.turns ? std::cos(trial.tilt) : 1), 1e-9 * force) << name;
+  };
+  judge("1 GPa/m", "scene.toml", {.stiffness = 1e9});
+  judge("10 GPa/m", "scene.toml", {});
+  judge("1000 GPa/m", "scene.toml", {.stiffness = 1e12});
+  judge("2 points", "scene.toml", {.points = 2});
+  judge("32 points", "scene.toml", {.points = 32});
+  judge("turning", "scene.toml", {.turns = true});
+  judge("in space", "space.toml", {});
+  judge("in space, turning", "space.toml", {.turns = true});
+  // the scene as it stands, whose force is rounded
+  report.reference("column_rotation", -tilt_under(column_of_scene, corner, 11559) * 180 / std::numbers::pi, "deg");
+}
+
+// from the rows of a history: work of the applied force at the column's upper left corner, J/m
+double work_at_corner(const std::vector<double>& force, const std::vector<double>& x, const std::vector<double>& tilt) {
+  const auto place = [&](std::size_t i) {
+    return x[i] + corner.x * std::cos(tilt[i]) + 0.5 * height * std::sin(tilt[i]);
+  };
+  double work = 0;
+  for (std::size_t i = 1; i < force.size(); ++i)
+    work += 0.5 * (force[i] + force[i - 1]) * (place(i) - place(i - 1));
+  return work;
+}
+
+std::vector<double> tilts_of(const SceneRun& run, int stage) {
+  std::vector<double> tilts = column(run, "column_rotation_deg", stage);
+  for (double& tilt : tilts)
+    tilt *= -std::numbers::pi / 180;
+  return tilts;
+}
+
+// grown in time, at three shares of the stable step and on two joints
+TEST(PushedColumn, LeansAsFarWhenItIsPushedSlowly) {
+  constexpr int push = 2, less = 3, none = 4;
+  CaseReport report("pushed_column");
+  const double swings = 1e-3;
+  const std::string because =
+      "local damping of 0.7 leaves 0.18 of a swing after half of it; the four that ten seconds hold leave a thousandth "
+      "of the last growth";
+  for (const auto& [stiffness, fraction] : {std::pair(1e10, 0.8), {1e10, 0.2}, {1e11, 0.8}}) {
+    const PushedColumn joint = on(stiffness);
+    const double force = share * tipping(joint, corner).force;
+    const SceneRun slow = run("slow.toml", variant({.stiffness = stiffness},
+                                                   {push_of("slow.toml", force), "time.fraction=" + text(fraction)}));
+    const std::string name = text(stiffness / 1e9) + " GPa/m, " + text(fraction) + " of the step";
+    const std::vector<double> tilts = tilts_of(slow, push), forces = column(slow, "column_applied_load_x_N", push);
+    report.record({"tilt after a slow push, " + name,
+                   "rad",
+                   Kind::exact,
+                   source,
+                   tilt_under(joint, corner, force),
+                   {0, swings},
+                   because},
+                  tilts.back(), cost(slow));
+    EXPECT_NEAR(forces[forces.size() / 2], force, 1e-9 * force);
+
+    if (stiffness != 1e10 || fraction != 0.2) continue;
+    // the ledger's work so far, by a run that ends there
+    const double by_rows = work_at_corner(forces, column(slow, "column_displacement_x_m", push), tilts);
+    const LoadedScene scene = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "slow.toml",
+                                         variant({}, {push_of("slow.toml", force), "time.fraction=" + text(fraction)}));
+    Prepared<2> first = std::get<Prepared<2>>(scene.prepared);
+    first.stages.resize(push);
+    const double booked = attempt(first).results.energy.flows[Source::applied_forces];
+    report.record({"work of the push",
+                   "J",
+                   Kind::exact,
+                   "the integral of force over the way of its point",
+                   by_rows,
+                   {0, 1e-4},
+                   "rows 20 ms apart, 1e-3 of the push's growth, by the trapezoidal rule; each row's force is "
+                   "a step older than its way"},
+                  booked, cost(slow));
+
+    // replaced, and ended
+    const double smaller = 11300;
+    report.record({"tilt under the force that replaces it",
+                   "rad",
+                   Kind::exact,
+                   source,
+                   tilt_under(joint, corner, smaller),
+                   {allowed(joint, corner, smaller), 0},
+                   "what the unbalanced force that counts as rest would add to it"},
+                  tilts_of(slow, less).back(), cost(slow));
+    const double upright = 1e-6 * joint.weight * height / (joint.stiffness * std::pow(breadth, 3) / 12);
+    report.record({"tilt when it has ended",
+                   "rad",
+                   Kind::exact,
+                   "the weight is borne by the whole base",
+                   0,
+                   {upright, 0},
+                   "the unbalanced force that counts as rest, at the top of the column, over the rocking stiffness of "
+                   "its base"},
+                  tilts_of(slow, none).back(), cost(slow));
+    EXPECT_EQ(column(slow, "column_applied_load_x_N", none).back(), 0);
+  }
+  const double beyond = 1.005 * tipping(column_of_scene, corner).force;
+  EXPECT_FALSE(attempt("slow.toml", {push_of("slow.toml", beyond), "time.fraction=0.8"}).rests);
+}
+
+TEST(FreeBlocks, GoAsTheirForcesSay) {
+  CaseReport report("pushed_column");
+  const SceneRun free = run("free.toml");
+  constexpr double duration = 1.6, step = 5e-4, mass = 2500, inertia = mass / 6;  // s, s, kg, kg m²
+  const double pi = std::numbers::pi, w = 2 * pi * 1.25, sine = 10e3, thrust = 2500, arm = 0.4;
+  const std::string because = "leapfrog: a twelfth of the square of the step times the frequency, of the way";
+  const reference::Ride ride = reference::shaken_ride(sine / mass, w, 30 * pi / 180, duration);
+  report.record({"way of a shaken block",
+                 "m",
+                 Kind::exact,
+                 "integral of a sine",
+                 ride.way,
+                 {sine / mass / (w * w) * std::pow(w * step, 2) / 12 * w * duration, 0},
+                 because},
+                value(free, "shaken_displacement_y"), cost(free));
+  const reference::Spiral spiral = reference::spun_up(thrust / mass, thrust * arm / inertia, duration);
+  const double spin = thrust * arm / inertia * duration;
+  report.record({"way of a spun block, along",
+                 "m",
+                 Kind::exact,
+                 "Fresnel's integrals",
+                 spiral.along,
+                 {std::hypot(spiral.along, spiral.aside) * std::pow(spin * step, 2) / 12, 0},
+                 because},
+                value(free, "spun_displacement_x"), cost(free));
+  report.record({"way of a spun block, aside",
+                 "m",
+                 Kind::exact,
+                 "Fresnel's integrals",
+                 spiral.aside,
+                 {std::hypot(spiral.along, spiral.aside) * std::pow(spin * step, 2) / 12, 0},
+                 because},
+                value(free, "spun_displacement_y"), cost(free));
+  report.record({"turn of a spun block",
+                 "deg",
+                 Kind::exact,
+                 "a constant moment",
+                 spiral.turn * 180 / pi,
+                 {0, 1e-9},
+                 "leapfrog is exact for it: rounding"},
+                value(free, "spun_rotation_z"), cost(free));
+  EXPECT_LT(free.results.energy.closure(), 1e-12);
+
+  // the work of both forces is the motion's energy; the ledger is half a step ahead
+  const double pace = thrust / mass;  // of the spun block: its speed by a difference of the closed form
+  const reference::Spiral before = reference::spun_up(pace, thrust * arm / inertia, duration - step),
+                          after = reference::spun_up(pace, thrust * arm / inertia, duration + step);
+  const double speed = std::hypot(after.along - before.along, after.aside - before.aside) / (2 * step);
+  const double kinetic = 0.5 * mass * (ride.velocity * ride.velocity + speed * speed) + 0.5 * inertia * spin * spin;
+  const double power = std::abs(sine * ride.velocity) + thrust * (speed + arm * spin);
+  report.record({"work in space",
+                 "J",
+                 Kind::exact,
+                 "kinetic energy of both blocks",
+                 kinetic,
+                 {power * step, 0},
+                 "a step's work: the ledger's last flow is half a step ahead, the positions are a step on"},
+                free.results.energy.flows[Source::applied_forces], cost(free));
+}
+
+// the closed forms, for the figure
+TEST(PushedColumn, DrawsItsReference) {
+  std::vector<std::vector<double>> columns(1);
+  for (double mrad = 1e-3; mrad < 16; mrad *= 1.02)
+    columns[0].push_back(mrad);
+  for (const double k : {1e9, 1e10, 1e12}) {
+    std::vector<double>& force = columns.emplace_back();
+    for (const double mrad : columns[0])
+      force.push_back(1e-3 * mrad > 2 * column_of_scene.weight / k
+                          ? push_at(on(k), corner, 1e-3 * mrad) / rigid_push(on(k), corner)
+                          : std::nan(""));
+  }
+  write_csv("pushed_column", "theory.csv", {"tilt_mrad", "1", "10", "1000"}, columns);
+  std::vector<double> stiffness, force;
+  for (double exponent = 8.5; exponent < 13.01; exponent += 0.1) {
+    const double k = std::pow(10, exponent);
+    stiffness.push_back(k / 1e9);
+    force.push_back(tipping(on(k), corner).force / rigid_push(on(k), corner));
+  }
+  write_csv("pushed_column", "limit.csv", {"stiffness_GPa_m", "force"}, {stiffness, force});
+}
+
+}  // namespace
+}  // namespace voussoir::cases
