@@ -1,5 +1,5 @@
-// Every numeric key of the table times every bad value: refused with the key's name, or told by a warning that names it
-// before the run, or on the short list of what is harmless, with the reason.
+// Every numeric key of the table times every bad value: refused with the key's nameor reported by a warning that names
+// it before the run, or on the short list of what is harmless, with the reason.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// what a user is told, refusal or warnings
-std::vector<std::string> told(const fs::path& file, const std::vector<std::string>& overrides) {
+// what a user reads: refusal or warnings
+std::vector<std::string> messages_of(const fs::path& file, const std::vector<std::string>& overrides) {
   try {
     return assess(load_scene(file, overrides)).warnings;
   } catch (const SceneError& refusal) {
@@ -180,7 +180,8 @@ const Harmless harmless[] = {
     {"output", "history_interval_s", "0", is_default},
     {"slicing", "smallest_inscribed_radius", "0", is_default},
     {"slicing", "largest_aspect_ratio", "0", is_default},
-    {"joints", "corners", "any", "another polygon; one that leaves the plane, is not convex or cuts nothing is told"},
+    {"joints", "corners", "any",
+     "another polygon; one that leaves the plane, is not convex or cuts nothing is reported"},
     {"cylinder", "from", "any", "another tunnel; one that takes out no block is refused"},
     {"cylinder", "to", "any", "another tunnel; one that takes out no block is refused"},
     {"stage", "failure_displacement", "0", is_default},
@@ -217,7 +218,7 @@ TEST(BadValues, AreToldForEveryKeyOfTheTable) {
     std::vector<std::string> texts;
     for (const double x : good)
       texts.push_back(digits(x));
-    const std::vector<std::string> before = told(file.path(), {address + "=" + written(row, texts)});
+    const std::vector<std::string> before = messages_of(file.path(), {address + "=" + written(row, texts)});
     EXPECT_NO_THROW(load_scene(file.path(), {address + "=" + written(row, texts)})) << address;
 
     // a bad one in each place, and in all of them
@@ -233,12 +234,12 @@ TEST(BadValues, AreToldForEveryKeyOfTheTable) {
         if (same) continue;
         ++tried;
         const std::string text = address + "=" + written(row, changed);
-        const std::vector<std::string> after = told(file.path(), {text});
-        const bool told = std::any_of(after.begin(), after.end(), [&](const std::string& message) {
+        const std::vector<std::string> after = messages_of(file.path(), {text});
+        const bool reported = std::any_of(after.begin(), after.end(), [&](const std::string& message) {
           return names(message, row, address) && std::find(before.begin(), before.end(), message) == before.end();
         });
-        EXPECT_TRUE(told || is_harmless(row, bad.name))
-            << row.table << "|" << row.key << "|" << bad.name << "|" << text << " (" << after.size() << " told)";
+        EXPECT_TRUE(reported || is_harmless(row, bad.name))
+            << row.table << "|" << row.key << "|" << bad.name << "|" << text << " (" << after.size() << " messages)";
       }
   }
   EXPECT_GT(tried, 1000);
@@ -289,7 +290,7 @@ friction_deg = 30
                     reduce = "[[stage]]\nname = \"rest\"\nkind = \"reduce\"\nfrom_deg = 40\nto_deg = 10\n";
   const auto lost = [&](const std::string& rest) {
     const SceneFile file(head + rest);
-    const std::vector<std::string> warnings = told(file.path(), {});
+    const std::vector<std::string> warnings = messages_of(file.path(), {});
     return std::count_if(warnings.begin(), warnings.end(), [](const std::string& w) {
       return w.find("block stone begins with a velocity") == 0 && w.find("stage.rest") != std::string::npos &&
              w.find("statics = \"local\"") != std::string::npos;
@@ -309,7 +310,7 @@ friction_deg = 30
   const std::string without = "[[blocks]]\nname = \"stone\"\nbox = { min = [-0.5, 0], max = [0.5, 1] }\n";
   with_own.replace(with_own.find(without), without.size(), own);
   const SceneFile file(with_own + settle);
-  const std::vector<std::string> warnings = told(file.path(), {});
+  const std::vector<std::string> warnings = messages_of(file.path(), {});
   EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(),
                           [](const std::string& w) { return w.find("block stone begins with a velocity") == 0; }));
 }
@@ -321,7 +322,7 @@ TEST(WrongUnits, AreToldInRealScenes) {
         "incline/plane.toml", "bounce/scene.toml", "free_rotation/scene.toml"}) {
     const fs::path file = fs::path(VOUSSOIR_SOURCE_DIR) / "cases" / name;
     const Scene scene = read_scene(file);
-    const std::vector<std::string> before = told(file, {});
+    const std::vector<std::string> before = messages_of(file, {});
     std::vector<std::pair<std::string, const KeyRow*>> quantities;
     find_quantities(*scene.tree, {""}, "", quantities);
     ASSERT_FALSE(quantities.empty());
@@ -333,7 +334,7 @@ TEST(WrongUnits, AreToldInRealScenes) {
         for (const double x : good)
           wrong.push_back(digits(factor * x));
         const std::string text = address + "=" + written(*row, wrong, scene.dimension);
-        const std::vector<std::string> after = told(file, {text});
+        const std::vector<std::string> after = messages_of(file, {text});
         const bool new_one = std::any_of(after.begin(), after.end(), [&](const std::string& message) {
           return std::find(before.begin(), before.end(), message) == before.end();
         });

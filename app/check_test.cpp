@@ -30,7 +30,7 @@ class Check : public Program {
     EXPECT_EQ(ended.code, 0) << ended.err << scene;
     return ended.out;
   }
-  void tells(const std::string& scene, const std::string& part) const {
+  void says(const std::string& scene, const std::string& part) const {
     const std::string out = check(scene);
     EXPECT_NE(out.find(part), std::string::npos) << part << "\n" << out;
   }
@@ -50,11 +50,11 @@ TEST_F(Check, PrintsWhatAStageForcesUponTheModel) {
                             "[[stage.boundary]]\nbodies = [\"stone\"]\nstress = [5e4, 0, 0]\n"
                             "[[stage.force]]\nname = \"jack\"\nbodies = [\"stone\"]\nforce = [5e3, 0]\n"
                             "point = [0, 0.5]\nturns_with_body = true\n";
-  tells(scene, "moves blocks at (0.1, 0) m/s along x, times a sine of 2 Hz from 0 deg on");
-  tells(scene, "stress (xx, yy, xy) = (50000, 0, 0) Pa on outer faces");
-  tells(scene, "force 'jack' = (5000, 0) N/m on blocks at (0, 0.5) m, turning with them");
-  tells(scene, "turning with them; bonds closed joints that have tension or cohesion; damping");
-  tells(ground + box("stone", 0, 0) + rock + settle, "bonds, prescribed motion, boundary stress");
+  says(scene, "moves blocks at (0.1, 0) m/s along x, times a sine of 2 Hz from 0 deg on");
+  says(scene, "stress (xx, yy, xy) = (50000, 0, 0) Pa on outer faces");
+  says(scene, "force 'jack' = (5000, 0) N/m on blocks at (0, 0.5) m, turning with them");
+  says(scene, "turning with them; bonds closed joints that have tension or cohesion; damping");
+  says(ground + box("stone", 0, 0) + rock + settle, "bonds, prescribed motion, boundary stress");
 }
 
 TEST_F(Check, PrintsLawsStrengthsAndSubContacts) {
@@ -66,8 +66,8 @@ TEST_F(Check, PrintsLawsStrengthsAndSubContacts) {
   for (const char* part :
        {"3 points a face", "normal stiffness + 70000/m", "(normal stress / 1 Pa)^0.7", "softens by 0.06 within 0.35 m",
         "tension 70000 Pa where bonded", "cohesion 800000 Pa where bonded"})
-    tells(scene, part);
-  tells(ground + box("stone", 0, 0) + rock + settle, "one point a face");
+    says(scene, part);
+  says(ground + box("stone", 0, 0) + rock + settle, "one point a face");
 }
 
 // ---- blocks -------------------------------------------------------------------------------------------------------
@@ -75,16 +75,16 @@ TEST_F(Check, PrintsLawsStrengthsAndSubContacts) {
 TEST_F(Check, WarnsOfBlocksThatNothingHolds) {
   // two on one another, in the air
   const std::string pair = box("lower", 0, 3) + box("upper", 0, 4);
-  tells(ground + pair + rock + settle, "2 blocks, lower the first, are near one another, but no chain");
+  says(ground + pair + rock + settle, "2 blocks, lower the first, are near one another, but no chain");
   silent(ground + pair + box("leg 1", 0, 0) + box("leg 2", 0, 1) + box("leg 3", 0, 2) + rock + settle, "no chain");
   silent(ground + pair + rock + settle + "[[restrain]]\nall = true\ntranslation = [\"y\"]\n", "no chain");
-  tells(ground + box("alone", 0, 3) + rock + settle, "block alone has no neighbour");
+  says(ground + box("alone", 0, 3) + rock + settle, "block alone has no neighbour");
 }
 
 TEST_F(Check, WarnsWhereNothingWillMove) {
   const std::string space = "dimension = 2\ndensity = 2000\n" + rock + box("ship", 0, 0) +
                             "[[stage]]\nname = \"fly\"\nkind = \"run\"\nduration_s = 1\n";
-  tells(space, "nothing will move");
+  says(space, "nothing will move");
   silent(space +
              "[[stage]]\nname = \"burn\"\nkind = \"run\"\nduration_s = 1\n"
              "[[stage.force]]\nname = \"thrust\"\nbodies = [\"ship\"]\nforce = [1e3, 0]\n",
@@ -92,21 +92,21 @@ TEST_F(Check, WarnsWhereNothingWillMove) {
 }
 
 TEST_F(Check, WarnsOfBlocksInOnePlace) {
-  tells(ground + box("one", 0, 0) + box("two", 0, 0) + rock + settle, "blocks one and two lie in one another");
-  tells(ground + box("one", 0, 0) + box("two", 0.4, 0.4, 0.2) + rock + settle, "lie in one another");
+  says(ground + box("one", 0, 0) + box("two", 0, 0) + rock + settle, "blocks one and two lie in one another");
+  says(ground + box("one", 0, 0) + box("two", 0.4, 0.4, 0.2) + rock + settle, "lie in one another");
   silent(ground + box("one", 0, 0) + box("two", 1, 0) + rock + settle, "lie in one another");
 }
 
 TEST_F(Check, WarnsWhenAStageRemovesTheLastFreeBlock) {
   const std::string two = ground + box("one", 0, 0) + box("two", 1, 0) + rock + settle;
-  tells(two + "remove = [{ bodies = [\"one\", \"two\"] }]\n", "stage.rest removes the last free block");
-  tells(two + "fix = [{ bodies = [\"one\", \"two\"] }]\n", "stage.rest fixes the last free block");
+  says(two + "remove = [{ bodies = [\"one\", \"two\"] }]\n", "stage.rest removes the last free block");
+  says(two + "fix = [{ bodies = [\"one\", \"two\"] }]\n", "stage.rest fixes the last free block");
   silent(two + "remove = [{ bodies = [\"one\"] }]\n", "last free block");
 }
 
 TEST_F(Check, WarnsOfPilesOnOnePointAFace) {
   const std::string pile = ground + box("one", 0, 0) + box("two", 0, 0.99999) + box("three", 0, 1.99998) + rock;
-  tells(pile + settle, "3 free blocks rest on one another on one point a face");
+  says(pile + settle, "3 free blocks rest on one another on one point a face");
   silent(pile + "sub_contacts = 2\n" + settle, "one another on one point");
   silent(pile + settle + "[[restrain]]\nall = true\nrotation = true\n", "one another on one point");
 }
@@ -117,7 +117,7 @@ TEST_F(Check, WarnsOfDashpotsWithLongSteps) {
   const std::string scene = ground + box("stone", 0, 0) + rock +
                             "[[stage]]\nname = \"fall\"\nkind = \"run\"\nduration_s = 1\n[damping]\nlocal = 0\n"
                             "viscous_ratio = 0.2\n[time]\nfraction = ";
-  tells(scene + "0.2\n", "the restitution of impacts some 8 % off");
+  says(scene + "0.2\n", "the restitution of impacts some 8 % off");
   silent(scene + "0.1\n", "restitution");
 }
 
@@ -127,7 +127,7 @@ TEST_F(Check, WarnsOfRampsThatActAsABlow) {
     tower += box(fmt::format("b{}", k), 0, k * 1.0);
   const std::string ramped = settle + "damping = { statics = \"local\" }\ngravity_ramp_s = ";
   // one block swings in 9 ms, twenty on one another in 13 times as long
-  tells(tower + rock + ramped + "0.1\n", "it acts as a blow");
+  says(tower + rock + ramped + "0.1\n", "it acts as a blow");
   silent(tower + rock + ramped + "0.5\n", "it acts as a blow");
   silent(ground + box("stone", 0, 0) + rock + ramped + "0.1\n", "it acts as a blow");
 }
@@ -142,7 +142,7 @@ TEST_F(Check, IsSilentAboutOrdinaryDirectionsAndSpeeds) {
     return std::string(block).replace(block.find("point = [0, 0, 0]"), 0, "dip_direction = " + direction + "\n");
   };
   silent(with_direction("4.8"), "warning:");
-  tells(with_direction("4.71238898"), ": is 270 deg in radians");
+  says(with_direction("4.71238898"), ": is 270 deg in radians");
   silent(ground + box("stone", 0, 0) + "velocity = [1e-6, 0]\n" + rock +
              "[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = 1\n[time]\nfraction = 0.1\n[damping]\nlocal = 0\n",
          "is unusual");
@@ -156,8 +156,8 @@ TEST_F(Check, IsSilentAboutWhatIsWell) {
       "[[joint_properties]]\nname = \"spare\"\nnormal_stiffness = 1e8\nshear_stiffness = 1e9\nfriction_deg = 30\n";
   const std::string named = std::string(rock).replace(rock.find("\"rock\""), 6, "\"default\"");
   silent(ground + box("stone", 0, 0) + named + swapped + settle, "warning:");
-  tells(ground + box("stone", 0, 0) + named + swapped + settle,
-        "spare: normal 1e+08, shear 1e+09 Pa/m, friction 30 deg; of no face");
+  says(ground + box("stone", 0, 0) + named + swapped + settle,
+       "spare: normal 1e+08, shear 1e+09 Pa/m, friction 30 deg; of no face");
   // the first of a regular series of joints
   std::string joints =
       "dimension = 2\ngravity = [0, -10]\ndensity = 2000\ndomain = { box = { min = [-40, -1], max = [40, 0] } }\n";
@@ -166,7 +166,7 @@ TEST_F(Check, IsSilentAboutWhatIsWell) {
         fmt::format("[[joints]]\nname = \"j{0}\"\ndip = 90\ndip_direction = 90\npoint = [{1}, 0]\n", k, 5 * k - 4.95);
   joints += rock + "[[fix]]\nabove = [\"j1\"]\n" + settle;
   silent(joints, "was it given in km");
-  tells(std::string(joints).replace(joints.find("point = [5.05"), 13, "point = [6.05"), "was it given in km");
+  says(std::string(joints).replace(joints.find("point = [5.05"), 13, "point = [6.05"), "was it given in km");
 }
 
 TEST_F(Check, CallsNoPartOfAWeldedBlockASliver) {

@@ -78,7 +78,8 @@ double ChildProcess::seconds() const {
 std::string program_bytes() {
   std::ifstream file(this_program, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (bytes.empty()) throw BadInput("the program cannot read its own file, so results cannot be told from older ones");
+  if (bytes.empty())
+    throw BadInput("the program cannot read its own file, so results cannot be distinguished from older ones");
   return bytes;
 }
 

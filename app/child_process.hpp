@@ -16,18 +16,18 @@ struct ChildEnd {
   int signal = 0;  // that ended it; then there is no code
 };
 
-// Does not hear the terminal's signals, which its parent passes on as it sees fit, and is told to stop (SIGTERM) when
+// Does not hear the terminal's signals, which its parent passes on as it sees fit, and is asked to stop (SIGTERM) when
 // its parent dies, however that happens.
 class ChildProcess {
  public:
   // what it prints goes to `messages`; throws OutputError when it cannot be started
   ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& messages);
-  // kills it, if it still goes on
+  // kills it, if it still continues
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // does not wait; empty while it goes on
+  // does not wait; empty while it continues
   std::optional<ChildEnd> ended();
   void send(int signal) const;
   double seconds() const;  // since it was started

@@ -141,7 +141,7 @@ void refuse_results(const fs::path& folder, const Outputs& outputs, const std::o
   if (has("results.json") || (made && stands(folder / made->files.front()))) throw folder_is_taken(folder);
   if (has("run.json"))
     throw BadInput(
-        fmt::format("'{0}' holds a run that was interrupted: go on with 'voussoir resume {0}', or add "
+        fmt::format("'{0}' holds a run that was interrupted: continue with 'voussoir resume {0}', or add "
                     "--overwrite to start again",
                     folder.string()));
 }

@@ -1,5 +1,5 @@
-// Nothing is lost: a run that is killed, told to stop, locked out, or finds its folder damaged ends, once it goes on,
-// in the bits of the run that nothing disturbed.
+// Nothing is lost: a run that is killed, asked to stop, locked out, or finds its folder damaged ends, once it
+// continues, in the bits of the run that nothing disturbed.
 #include <sys/file.h>
 
 #include <boost/random/mersenne_twister.hpp>
@@ -63,7 +63,7 @@ void Faults::survive_kills(int wanted) const {
   ASSERT_TRUE(complete.contains("frames/blocks_0009.vtp"));
 
   boost::random::mt19937 random(20260101);
-  boost::random::uniform_real_distribution<double> share(1.0 / 120, 1.0 / 8);
+  boost::random::uniform_real_distribution<double> fraction(1.0 / 120, 1.0 / 8);
   int kills = 0, with_progress = 0, runs = 0, starts = 0;
   while (kills < wanted) {
     const std::string out = at("killed");
@@ -74,7 +74,7 @@ void Faults::survive_kills(int wanted) const {
       launch.arguments.insert(launch.arguments.end(), {"--threads", starts % 3 == 2 ? "2" : "1"});
       Process process = start(launch);
       if (kills < wanted) {
-        std::this_thread::sleep_for(Seconds(whole * share(random)));
+        std::this_thread::sleep_for(Seconds(whole * fraction(random)));
         process.send(SIGKILL);
       }
       const Ended ended = process.wait();
@@ -121,7 +121,7 @@ TEST_F(Faults, ASignalStopsWithACheckpoint) {
     Process process = under_way(scene, out);
     ASSERT_TRUE(wait_until([&] { return fs::exists(out + "/checkpoint"); }));
     process.send(signal);
-    expect_one_line(process.wait(), 128 + signal, "go on with 'voussoir resume " + out + "'");
+    expect_one_line(process.wait(), 128 + signal, "continue with 'voussoir resume " + out + "'");
     EXPECT_NO_THROW(checkpoint_record(read(out + "/checkpoint")));
     const Ended ended = run({.arguments = resume_arguments(out)});
     EXPECT_EQ(ended.code, 0) << ended.err;
@@ -155,7 +155,7 @@ TEST_F(Faults, ARepeatedLimitOfProcessorTimeStillLeavesACheckpoint) {
     process.send(SIGXCPU);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  expect_one_line(process.wait(), 128 + SIGXCPU, "go on with 'voussoir resume " + out + "'");
+  expect_one_line(process.wait(), 128 + SIGXCPU, "continue with 'voussoir resume " + out + "'");
   EXPECT_EQ(finish(scene, out, large_steps).code, 0);
   expect_equal(contents_of(out), complete, "a limit of processor time");
 }
@@ -275,9 +275,9 @@ sweep = [{ name = "stiffness", key = "joint_properties.rock.normal_stiffness", v
     ASSERT_TRUE(wait_until([&] { return runs_going_on(out) > 0; }));
     process.send(signal);
     const Ended ended = process.wait();
-    // its runs are told, by whoever is left to tell them
+    // its runs are reported, by whoever is left to tell them
     if (signal == SIGINT) {
-      expect_one_line(ended, 128 + SIGINT, "the same command goes on");
+      expect_one_line(ended, 128 + SIGINT, "the same command continues");
       EXPECT_EQ(runs_going_on(out), 0);
     }
     EXPECT_TRUE(wait_until([&] { return runs_going_on(out) == 0; }));
@@ -419,7 +419,7 @@ TEST_F(Faults, AnInterruptedRunIsNotOverwrittenUnasked) {
   expect_equal(contents_of(out), before, "refused");
   launch.arguments.push_back("--overwrite");
   EXPECT_EQ(run(launch).code, 0);
-  expect_equal(contents_of(out), complete, "begun anew");
+  expect_equal(contents_of(out), complete, "begun again");
 }
 
 TEST_F(Faults, ACompleteRunIsLeftAsItIs) {

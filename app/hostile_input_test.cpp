@@ -1,4 +1,4 @@
-// Scenes that claim too much, and files that are none: told in one line, exit code 2, in little memory and time.
+// Scenes that claim too much, and files that are none: refused in one line, exit code 2, in little memory and time.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int conduct_version = 1;
+constexpr int options_version = 1;
 constexpr int most_threads = 1024;  // as on the command line
 const char* const newest = "checkpoint";
 const char* const previous = "checkpoint.previous";
@@ -26,7 +26,7 @@ bool is_there(const fs::path& path) {
 }
 
 // bytes of run.json; that its head suffices to tell a checkpoint's size
-constexpr std::uintmax_t largest_conduct = 16 << 20, checkpoint_head = 4096;
+constexpr std::uintmax_t largest_options = 16 << 20, checkpoint_head = 4096;
 
 std::string content_of(const fs::path& path, std::uintmax_t most) {
   try {
@@ -51,33 +51,33 @@ std::string checkpoint_content(const fs::path& path) {
 
 }  // namespace
 
-void write_conduct(const fs::path& folder, const RunConduct& conduct) {
+void write_options(const fs::path& folder, const RunOptions& options) {
   const nlohmann::ordered_json json = {{"schema", "voussoir.run"},
-                                       {"schema_version", conduct_version},
+                                       {"schema_version", options_version},
                                        {"program", build_name()},
-                                       {"scene_hash", conduct.scene_hash},
-                                       {"threads", conduct.threads},
-                                       {"checkpoint_steps", conduct.checkpoint_steps},
-                                       {"checkpoint_seconds", conduct.checkpoint_seconds},
-                                       {"warnings", conduct.warnings}};
+                                       {"scene_hash", options.scene_hash},
+                                       {"threads", options.threads},
+                                       {"checkpoint_steps", options.checkpoint_steps},
+                                       {"checkpoint_seconds", options.checkpoint_seconds},
+                                       {"warnings", options.warnings}};
   write_file(folder / "run.json", json.dump(2) + "\n");
 }
 
-RunConduct read_conduct(const fs::path& folder) {
+RunOptions read_options(const fs::path& folder) {
   const fs::path path = folder / "run.json";
   try {
-    const nlohmann::json json = nlohmann::json::parse(content_of(path, largest_conduct));
-    if (json.at("schema") != "voussoir.run" || json.at("schema_version") != conduct_version)
+    const nlohmann::json json = nlohmann::json::parse(content_of(path, largest_options));
+    if (json.at("schema") != "voussoir.run" || json.at("schema_version") != options_version)
       throw BadInput(fmt::format("'{}' was written by another version of this program", path.string()));
-    const RunConduct conduct{json.at("scene_hash"), json.at("threads"), json.at("checkpoint_steps"),
+    const RunOptions options{json.at("scene_hash"), json.at("threads"), json.at("checkpoint_steps"),
                              json.at("checkpoint_seconds"), json.at("warnings")};
-    if (conduct.threads < 1 || conduct.threads > most_threads || conduct.checkpoint_steps < 0 ||
-        !(conduct.checkpoint_seconds >= 0))
+    if (options.threads < 1 || options.threads > most_threads || options.checkpoint_steps < 0 ||
+        !(options.checkpoint_seconds >= 0))
       throw BadInput(
           fmt::format("'{}' is damaged (a number is out of range): start again with 'voussoir run "
                       "--overwrite'",
                       path.string()));
-    return conduct;
+    return options;
   } catch (const nlohmann::json::exception& error) {
     throw BadInput(
         fmt::format("'{}' is damaged ({}): start again with 'voussoir run --overwrite'", path.string(), error.what()));
@@ -147,7 +147,7 @@ Progress<Dim> last_progress(const fs::path& folder, const Prepared<Dim>& scene, 
         fmt::format("no checkpoint can be used: {}; put back what was changed, or start again with 'voussoir "
                     "run --overwrite'",
                     fmt::join(refusals, "; ")));
-  return begin(scene);
+  return initial_progress(scene);
 }
 
 template void save_checkpoint<2>(const fs::path&, const Progress<2>&, const std::string&);

@@ -18,7 +18,7 @@
 namespace voussoir {
 
 // what is run, and how: the results depend on the scene alone
-struct RunConduct {
+struct RunOptions {
   std::string scene_hash;  // LoadedScene::hash
   int threads = 1;
   long long checkpoint_steps = 0;     // between checkpoints; 0: steps do not matter
@@ -27,11 +27,11 @@ struct RunConduct {
 };
 
 // throws OutputError
-void write_conduct(const std::filesystem::path& folder, const RunConduct& conduct);
+void write_options(const std::filesystem::path& folder, const RunOptions& options);
 // throws BadInput with the file's name when it cannot be understood
-RunConduct read_conduct(const std::filesystem::path& folder);
+RunOptions read_options(const std::filesystem::path& folder);
 
-// what a run writes, and what of it a run that goes on writes again
+// what a run writes, and what of it a run that continues writes again
 Outputs run_outputs();
 Outputs resume_outputs();
 

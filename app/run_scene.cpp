@@ -58,7 +58,7 @@ void load_prepared(const Scene& scene, int threads, LoadedScene& loaded) {
 
 template <int Dim>
 Results simulate_prepared(const Prepared<Dim>& prepared, const ProgressHook& hook) {
-  Progress<Dim> progress = begin(prepared);
+  Progress<Dim> progress = initial_progress(prepared);
   Watcher<Dim> watcher;
   watcher.progress = hook;
   simulate(prepared, progress, watcher);

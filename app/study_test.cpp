@@ -262,7 +262,7 @@ TEST_F(Study, ARunThatHangsLosesOneSetting) {
   EXPECT_NE(rows()[2].find("not done after 2 s"), std::string::npos) << rows()[2];
   const auto has_checkpoint = [](const fs::directory_entry& entry) { return fs::exists(entry.path() / "checkpoint"); };
   const fs::directory_iterator runs(folder_ / "out/runs");
-  EXPECT_EQ(std::count_if(runs, {}, has_checkpoint), 1) << "with more time it would go on from there";
+  EXPECT_EQ(std::count_if(runs, {}, has_checkpoint), 1) << "with more time it would continue from there";
   EXPECT_NE(rows()[3].find(",ok,"), std::string::npos) << rows()[3];
 }
 

@@ -3,11 +3,11 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "benchmarks/shapes.hpp"
 #include "core/contact/broad_phase.hpp"
 #include "core/step/neighbours.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::benchmarks {
 namespace {
@@ -57,7 +57,7 @@ void mixed(benchmark::State& state) {
 // slabs of 30 m by 30 m by 3 mm, one upon the other
 void slabs(benchmark::State& state) {
   const int count = static_cast<int>(state.range(0));
-  const double dip = static_cast<double>(state.range(1)) * std::numbers::pi / 180;
+  const double dip = static_cast<double>(state.range(1)) * degree;
   const double thickness = 0.003, half = 15;  // m
   const Matrix<3> turn = Eigen::AngleAxisd(dip, Vector<3>::UnitY()).toRotationMatrix();
   const HalfSpaces<3> slab = shapes::box<3>({-half, -half, -0.5 * thickness}, {half, half, 0.5 * thickness});

@@ -46,7 +46,7 @@ Row read_row(const json& entry) {
   row.stage = parts[3];
   row.delivers = entry.at("label").get<std::string>();
   row.wrong = static_cast<int>(finite(entry, "wrong"));
-  // each thread has its share of the pairs, and Google Benchmark has divided by their number already
+  // each thread has its fraction of the pairs, and Google Benchmark has divided by their number already
   const int pairs_of_thread = static_cast<int>(finite(entry, "pairs"));
   row.pairs = pairs_of_thread * entry.value("threads", 1);
   row.median_ns = finite(entry, "real_time") / std::max(pairs_of_thread, 1);

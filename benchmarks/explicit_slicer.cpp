@@ -54,9 +54,9 @@ ExplicitBlock below(const ExplicitBlock& block, const HalfSpace<3>& plane) {
     const std::pair<int, int> edge = std::minmax(a, b);
     const auto [at, is_new] = made.try_emplace(edge, static_cast<int>(left.vertices.size()));
     if (is_new) {
-      const double share = distance[edge.first] / (distance[edge.first] - distance[edge.second]);
+      const double fraction = distance[edge.first] / (distance[edge.first] - distance[edge.second]);
       left.vertices.push_back(block.vertices[edge.first] +
-                              share * (block.vertices[edge.second] - block.vertices[edge.first]));
+                              fraction * (block.vertices[edge.second] - block.vertices[edge.first]));
       rim.push_back(at->second);
     }
     return at->second;

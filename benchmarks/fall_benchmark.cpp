@@ -1,6 +1,6 @@
 // Twenty thousand polyhedra fall into a box (the case free_fall, a hundred times as many) and come to rest with closed
-// books: what the case asserts of two hundred, the time it takes on all processors, and what a second thread gains.
-// Prints what it found and writes build/reports/benchmarks/fall.csv. Fails when a promise is broken.
+// energy balance: what the case asserts of two hundred, the time it takes on all processors, and what a second thread
+// gains. Prints what it found and writes build/reports/benchmarks/fall.csv. Fails when a promise is broken.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,21 +66,21 @@ int main(int argc, char** argv) {
   shapes::FallPlan plan;
   plan.blocks = blocks;
   plan.side = std::max(1, static_cast<int>(std::sqrt(blocks / layers)));
-  Prepared<3> scene = prepare<3>(parse_scene(shapes::fall_scene(plan, "fall"), "fall", shapes::closed_books));
+  Prepared<3> scene = prepare<3>(parse_scene(shapes::fall_scene(plan, "fall"), "fall", shapes::conservative_contacts));
   scene.settings.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 
   fmt::print("{} polyhedra fall into a box {} wide, on {} threads\n", blocks, plan.side, scene.settings.threads);
   std::fflush(stdout);
   ProgressLine line(true);
   State<3> last;
-  const shapes::FallFindings found = shapes::fall_until_still(
+  const shapes::FallFindings found = shapes::fall_until_rest(
       scene, plan.side * plan.pitch, [&](const State<3>& state) { last = state; },
       [&](const ProgressReport& report) { line.show(report); });
   line.clear();
   const Promise promises[] = {
-      {"kinetic energy at rest, of the drop's", found.kinetic, shapes::still},
-      {"energy the contacts leave open before damping", found.before.contacts, shapes::books_closed},
-      {"energy the contacts leave open at rest", found.end.contacts, shapes::books_closed},
+      {"kinetic energy at rest, of the drop's", found.kinetic, shapes::at_rest},
+      {"energy the contacts leave open before damping", found.before.contacts, shapes::energy_balanced},
+      {"energy the contacts leave open at rest", found.end.contacts, shapes::energy_balanced},
       {"energy the motion leaves open before damping", found.before.motion, shapes::motion_closed},
       {"energy the motion leaves open at rest", found.end.motion, shapes::motion_closed},
       {"contacts without an answer", static_cast<double>(found.counters.unconverged), 0},

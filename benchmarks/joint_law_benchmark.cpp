@@ -13,6 +13,7 @@
 #include "core/step.hpp"
 #include "core/step/joint_forces.hpp"
 #include "core/testing/models.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
@@ -35,7 +36,7 @@ Scene settled(const JointProperties& properties) {
 }
 
 JointProperties plain() {
-  return {"joint", 1e9, 5e8, 35 * shapes::degree, false};
+  return {"joint", 1e9, 5e8, 35 * degree, false};
 }
 
 std::map<std::string, JointProperties> ways() {
@@ -82,7 +83,7 @@ void by_hand(const Model<3>& model, State<3>& state) {
     if (!c.touching()) continue;
     const JointProperties& p = model.properties[c.properties];
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
-    const Stance<3>&at_a = state.stances[a], &at_b = state.stances[b];
+    const CachedPose<3>&at_a = state.poses[a], &at_b = state.poses[b];
     const Vector<3>& n = c.geometry.normal;
     const Vector<3> apart = between(at_a, at_b), drift = at_b.velocity - at_a.velocity;
     const Vector<3> velocity = drift + at_b.spin.cross(c.geometry.point - apart) - at_a.spin.cross(c.geometry.point);

@@ -13,20 +13,20 @@ using Contacts = std::vector<Contact<Dim>>;
 
 // What a query works on. All methods share it, because only one is run at a time: what differs is copied in before.
 template <int Dim>
-struct Desk {
+struct Fixture {
   std::vector<Pair<Dim>> pairs;
   Contacts<Dim> contacts = Contacts<Dim>(pairs_per_workload);
   std::vector<Contact<Dim>*> slots;
 
-  Desk() : pairs(pairs_per_workload) {
+  Fixture() : pairs(pairs_per_workload) {
     for (Contact<Dim>& c : contacts)
       slots.push_back(&c);
   }
 };
 
 template <int Dim>
-Desk<Dim>& desk() {
-  static Desk<Dim> only;
+Fixture<Dim>& fixture() {
+  static Fixture<Dim> only;
   return only;
 }
 

@@ -61,7 +61,7 @@ Pile settled_pile(int kind) {
   return pile;
 }
 
-// copies side by side, walls included; contacts start anew
+// copies side by side, walls included; contacts start again
 Pile side_by_side(const Pile& one, int copies) {
   const int columns = static_cast<int>(std::ceil(std::sqrt(copies)));
   double width = 0;
@@ -161,11 +161,11 @@ void run(const Pile& settled, int kind, int blocks, std::ofstream& csv) {
     row("step", whole[t]);
   }
   csv.flush();
-  std::string shares;
+  std::string fractions;
   for (std::size_t k = 0; k < 5; ++k)
-    shares += fmt::format(" {:9.1f}%", 100 * times[0][k] / whole[0]);
+    fractions += fmt::format(" {:9.1f}%", 100 * times[0][k] / whole[0]);
   fmt::print("{:12} {:6} {:8} {:10.1f} {:10.1f}{} {:9.2f} {:6}\n", shape, blocks, contacts, whole[0] * 1e-3,
-             whole[0] / contacts, shares, whole[0] / whole[1], allocations_of_a_step(pile));
+             whole[0] / contacts, fractions, whole[0] / whole[1], allocations_of_a_step(pile));
   std::fflush(stdout);
 }
 

@@ -45,7 +45,7 @@ paste -d ' ' "$folder/reproducible/answers.txt" "$folder/fast/answers.txt" | awk
   {++pairs; differ += $3 != $10 || $4 != $11 || $5 != $12 || $6 != $13 || $7 != $14}
   $2 != $9 {++decisions}
   $2 == 3 && $9 == 3 {
-    note("point, share of the overlap", sqrt(($3 - $10) ^ 2 + ($4 - $11) ^ 2 + ($5 - $12) ^ 2) / $6)
+    note("point, fraction of the overlap", sqrt(($3 - $10) ^ 2 + ($4 - $11) ^ 2 + ($5 - $12) ^ 2) / $6)
     note("overlap, relative", size($6 - $13) / $6)
     if ($7 > 0) note("area, relative", size($7 - $14) / $7)
   }

@@ -13,6 +13,7 @@
 #include "core/optimise/glpk.hpp"
 #endif
 #include "core/slicing/slice.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::benchmarks {
 namespace {
@@ -36,7 +37,7 @@ std::vector<Cut<3>> three_sets(int n) {
 // Table 4.1: a box of 100 m, three sets of n joints, centres by a Poisson process; persistent, or squares of lognormal
 // size with mean 5 m and deviation 1 m. Blocks of at least 0.4 m (diameter of the inscribed ball), aspect at most 8000.
 std::vector<Cut<3>> table_4_1(int n, bool persistent) {
-  constexpr double dip_direction[] = {122, 112, 9}, dip[] = {8, 80, 85}, degree = std::numbers::pi / 180;
+  constexpr double dip_direction[] = {122, 112, 9}, dip[] = {8, 80, 85};
   constexpr double mean = 5, deviation = 1;
   const double spread = std::sqrt(std::log1p(deviation * deviation / (mean * mean)));
   Random random(41);
@@ -107,7 +108,7 @@ BENCHMARK(non_persistent_table_4_1)
     ->ArgsProduct({{300, 1000}, {0}})
     ->Unit(benchmark::kMillisecond);
 
-// ten thousand joints that are parallel, and that share a line: exact counts
+// ten thousand joints that are parallel, and that fraction a line: exact counts
 void parallel_joints(benchmark::State& state) {
   Random random(1);
   HalfSpaces<3> planes;

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "core/geometry/types.hpp"
+#include "text/angle.hpp"
 #include "verification/case_report.hpp"
 
 namespace voussoir::cases {
@@ -24,7 +24,7 @@ struct View {
 
   // from x and from the horizontal
   View(double azimuth_deg, double height_deg) {
-    const double azimuth = azimuth_deg * std::numbers::pi / 180, height = height_deg * std::numbers::pi / 180;
+    const double azimuth = azimuth_deg * degree, height = height_deg * degree;
     eye = {std::cos(height) * std::cos(azimuth), std::cos(height) * std::sin(azimuth), std::sin(height)};
     right = Vector<3>::UnitZ().cross(eye).normalized();
     up = eye.cross(right);

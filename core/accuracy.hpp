@@ -11,7 +11,7 @@ namespace voussoir {
 inline constexpr std::array<std::string_view, 3> accuracy_levels{"fast", "balanced", "reference"};
 inline constexpr std::array<double, 3> accuracy_promises{0.05, 0.01, 0.001};
 
-// deg: of a smaller critical angle, what a level leaves open is a larger share than it promises
+// deg: of a smaller critical angle, what a level leaves open is a larger fraction than it promises
 inline constexpr double least_promised_angle = 15;
 
 // What a level sets where the scene does not state the key itself. How many points carry a joint face is not among

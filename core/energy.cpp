@@ -39,10 +39,10 @@ void balance(EnergyLedger& ledger) {
   }
   ledger.motion_error = (ledger.kinetic - ledger.kinetic_origin) - to_motion;
   ledger.contact_error = (ledger.elastic - ledger.elastic_origin) + from_springs;
-  ledger.widest = std::max(ledger.widest, std::abs(ledger.unexplained()));
-  ledger.turnover =
-      std::max({ledger.turnover, ledger.kinetic, ledger.elastic, std::abs(ledger.potential()), f[Source::friction],
-                ledger.damping(), std::abs(f[Source::stiffening]), std::abs(ledger.external())});
+  ledger.worst_error = std::max(ledger.worst_error, std::abs(ledger.unexplained()));
+  ledger.largest_energy =
+      std::max({ledger.largest_energy, ledger.kinetic, ledger.elastic, std::abs(ledger.potential()),
+                f[Source::friction], ledger.damping(), std::abs(f[Source::stiffening]), std::abs(ledger.external())});
 }
 
 }  // namespace voussoir

@@ -83,8 +83,8 @@ struct EnergyLedger {
   double elastic = 0;                             // held by the springs of the touching contacts
   double kinetic_origin = 0, elastic_origin = 0;  // at the first step, moved by changes of the model
   double motion_error = 0, contact_error = 0;     // what each balance could not account for
-  double widest = 0;                              // the largest |motion_error + contact_error| so far
-  double turnover = 0;                            // the largest entry so far
+  double worst_error = 0;                         // the largest |motion_error + contact_error| so far
+  double largest_energy = 0;                      // the largest entry so far
   LedgerPhase phase = LedgerPhase::not_begun;
 
   // the flows, each as often as its row says in that column
@@ -97,11 +97,11 @@ struct EnergyLedger {
   // kinetic + elastic + potential + friction + damping + stiffening - external, against the start
   double unexplained() const { return motion_error + contact_error; }
 
-  // the unexplained at its worst as a share of the largest energy the ledger saw
-  double closure() const { return turnover > 0 ? widest / turnover : 0; }
+  // the unexplained at its worst as a fraction of the largest energy the ledger saw
+  double relative_error() const { return largest_energy > 0 ? worst_error / largest_energy : 0; }
 };
 
-// Strikes both balances at the time of the positions: `kinetic`, `elastic` and the flows must be those of this time.
+// Checks both balances at the time of the positions: `kinetic`, `elastic` and the flows must be those of this time.
 void balance(EnergyLedger& ledger);
 
 }  // namespace voussoir

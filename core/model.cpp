@@ -202,7 +202,7 @@ Body<Dim> make_body(std::vector<Polytope<Dim>> parts, double density) {
   for (Polytope<Dim>& p : parts) {
     body.parts.push_back(moved_origin<Dim>(std::move(p), body.reference));
     const Polytope<Dim>& moved = body.parts.back();
-    // integrated anew: moved there, the second moment of a small part far from the origin would be lost
+    // integrated again: moved there, the second moment of a small part far from the origin would be lost
     total.second_moment += integrate(moved.vertices, moved.loops).second_moment;
     body.radius = std::max(body.radius, moved.radius);
     body.size = body.size == 0 ? moved.inscribed_radius : std::min(body.size, moved.inscribed_radius);

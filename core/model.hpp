@@ -30,7 +30,7 @@ struct Body {
   std::array<bool, Dim> free_translation;                // world axes; all true unless restrained
   std::array<bool, spin_freedoms<Dim>> free_rotation;
 
-  bool still() const { return fixed && !prescribed; }
+  bool immobile() const { return fixed && !prescribed; }
 };
 
 // a motion forced upon a body: its forced freedoms are not free while it lasts

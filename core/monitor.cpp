@@ -1,15 +1,14 @@
 #include "core/monitor.hpp"
+#include "text/angle.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace voussoir {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
 constexpr std::size_t rows_kept = 400;
 const char* const axis_names[] = {"x", "y", "z"};
 
@@ -37,12 +36,12 @@ void append_joint(std::vector<double>& values, int joint, const Model<Dim>& mode
     shear += s;
     area += c.geometry.area;
     count += 1;
-    if (n > 0) mobilised = std::max(mobilised, std::atan2(s, n) * degrees);
+    if (n > 0) mobilised = std::max(mobilised, to_degrees(std::atan2(s, n)));
     if (n <= most) continue;
     most = n;
     const Vector<Dim>& upward = model.joints[joint].plane.normal;
     const double along = c.geometry.normal.dot(upward);
-    tilt = std::atan2((c.geometry.normal - along * upward).norm(), std::abs(along)) * degrees;
+    tilt = to_degrees(std::atan2((c.geometry.normal - along * upward).norm(), std::abs(along)));
   }
   values.insert(values.end(), {normal, shear, area, count, mobilised, tilt});
 }
@@ -108,7 +107,7 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
         append(state.motions[m.subject].velocity);
         break;
       case Quantity::rotation:
-        append((degrees * rotation_vector(state.motions[m.subject].rotation)).eval());
+        append(rotation_vector(state.motions[m.subject].rotation).unaryExpr(&to_degrees).eval());
         break;
       case Quantity::angular_velocity:
         append(angular_velocity(model.bodies[m.subject], state.motions[m.subject]));

@@ -16,7 +16,7 @@ inline int team(int threads, std::size_t pieces) {
   return pieces < too_few_for_a_team ? 1 : threads;
 }
 
-// work(i) for each i below `count`; of what it throws, one exception goes on when all are done
+// work(i) for each i below `count`; of what it throws, one exception continues when all are done
 template <class Work>
 void on_threads(int threads, int count, const Work& work) {
   if (threads == 1 || count < 2) {

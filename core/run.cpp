@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/motion/free_fall.hpp"
@@ -18,6 +19,8 @@ namespace {
 // steps between two looks for bodies that fall free; a look costs less than a step
 constexpr long long steps_between_falls = 100;
 
+constexpr double never = std::numeric_limits<double>::infinity();  // s
+
 // sets the scheduled values to those of the time of the positions; true while they still change
 template <int Dim>
 bool follow(const RunSchedule& plan, State<Dim>& state) {
@@ -25,10 +28,10 @@ bool follow(const RunSchedule& plan, State<Dim>& state) {
   bool changing = false;
   if (plan.gravity.ramp > 0) {
     // the sum, not the difference, is what a stage that ends with its ramp reaches exactly
-    const double share = state.time >= began + plan.gravity.ramp ? 1 : elapsed / plan.gravity.ramp;
+    const double fraction = state.time >= began + plan.gravity.ramp ? 1 : elapsed / plan.gravity.ramp;
     const double from = plan.gravity.from;
-    state.schedule.gravity_factor = from + (plan.gravity.to.value_or(1) - from) * share;
-    changing = share < 1;
+    state.schedule.gravity_factor = from + (plan.gravity.to.value_or(1) - from) * fraction;
+    changing = fraction < 1;
   } else if (plan.gravity.to) {
     state.schedule.gravity_factor = *plan.gravity.to;
   }
@@ -120,11 +123,11 @@ void stop_bodies(const Model<Dim>& model, bool relaxing, State<Dim>& state) {
 
 template <int Dim>
 RunProgress<Dim> begin_run(const RunGoal& goal, State<Dim>& state) {
-  state.schedule.ends = goal.end_time;
+  state.schedule.ends = goal.end_time.value_or(never);
   RunProgress<Dim> progress;
   progress.under_way = true;
   progress.unconverged = state.counters.unconverged;
-  if (goal.moved_away > 0)
+  if (goal.moved_away)
     for (const Motion<Dim>& m : state.motions)
       progress.begin.push_back(m.displacement);
   return progress;
@@ -175,7 +178,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
   const auto stop = [&](StopReason reason, const std::string& detail = {}) {
     progress.under_way = reason == StopReason::interrupted;
     if (relaxing && !progress.under_way) end_relaxation(state);
-    if (!progress.under_way) state.schedule.ends = RunGoal{}.end_time;
+    if (!progress.under_way) state.schedule.ends = never;
     report.reason = reason;
     report.detail = detail;
     report.steps = progress.steps;
@@ -207,16 +210,17 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     const bool settled = goal.rest && !changed && report.unbalanced <= settings.equilibrium.unbalanced;
     progress.at_rest = settled ? progress.at_rest + 1 : 0;
     if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
-    if (goal.moved_away > 0 && farthest(model, state, progress.begin) > goal.moved_away)
+    if (goal.moved_away && farthest(model, state, progress.begin) > *goal.moved_away)
       return stop(StopReason::moved_away);
-    if (state.time >= goal.end_time) return stop(StopReason::end_time);
-    if (goal.rest && goal.moved_away == 0 && !changing && progress.steps % steps_between_falls == 0)
+    if (goal.end_time && state.time >= *goal.end_time) return stop(StopReason::end_time);
+    if (goal.rest && !goal.moved_away && !changing && progress.steps % steps_between_falls == 0)
       if (const int body = falling_free(model, state); body >= 0)
         return stop(StopReason::falls_free,
                     fmt::format("{} has left all others behind, {:.3g} m from where it began", label_of(model, body),
                                 state.motions[body].displacement.norm()));
-    if (state.time >= goal.time_limit) return stop(StopReason::time_limit, goal.rest ? restless(model, state) : "");
-    if (goal.step_limit > 0 && progress.steps >= goal.step_limit)
+    if (goal.time_limit && state.time >= *goal.time_limit)
+      return stop(StopReason::time_limit, goal.rest ? restless(model, state) : "");
+    if (goal.step_limit && progress.steps >= *goal.step_limit)
       return stop(StopReason::step_limit, goal.rest ? restless(model, state) : "");
   }
 }

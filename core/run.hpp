@@ -2,7 +2,7 @@
 #pragma once
 
 #include <functional>
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,20 +21,20 @@ enum class StopReason {
   no_contact_answer,
   not_finite,
   falls_free,  // a body that nothing can catch: there will be no rest
-  interrupted  // the hooks asked for a pause: the run goes on when it is called again
+  interrupted  // the hooks asked for a pause: the run continues when it is called again
 };
 
 // what a run aims at; anything left out does not stop it
 struct RunGoal {
   bool rest = false;  // stop at equilibrium
   // s: simulated time at which the run is complete: its steps, as long as each other, end there
-  double end_time = std::numeric_limits<double>::infinity();
-  double time_limit = 1e300;  // s: simulated time at which it is given up
-  long long step_limit = 0;   // of this run; 0: none
-  double moved_away = 0;      // m: stop when a free body is this far from RunProgress::begin; 0: never
+  std::optional<double> end_time = {};
+  std::optional<double> time_limit = {};     // s: simulated time at which it is given up
+  std::optional<long long> step_limit = {};  // of this run
+  std::optional<double> moved_away = {};     // m: stop when a free body is this far from RunProgress::begin
 };
 
-// values that change while the run goes on, from State::schedule.started
+// values that change while the run continues, from State::schedule.started
 struct RunSchedule {
   GravityPlan gravity{};
   double friction_rate = 0;  // rad/s: friction of `properties` falls from `friction_from` to `friction_to`
@@ -49,7 +49,7 @@ struct RunReport {
   double unbalanced = 0;  // the equilibrium measure at the end
 };
 
-// How far a run has come: with it an interrupted run goes on as if nothing had happened.
+// How far a run has come: with it an interrupted run continues as if nothing had happened.
 template <int Dim>
 struct RunProgress {
   bool under_way = false;
@@ -72,7 +72,7 @@ struct RunHooks {
   std::function<bool()> pause;
 };
 
-// Begins, or goes on where `progress` says it is under way; the goal and the schedule must then be the same.
+// Begins, or continues where `progress` says it is under way; the goal and the schedule must then be the same.
 template <int Dim>
 RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& goal, const RunSchedule& schedule,
               State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks = {});

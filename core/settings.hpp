@@ -60,7 +60,7 @@ struct DampingSettings {
   // slower for many blocks, and right where the way to rest is an event, like a fall
   Statics statics = Statics::adaptive;
 
-  // Cundall's non-viscous damping: each force component is lessened by this share when it drives the motion; 0..<1.
+  // Cundall's non-viscous damping: each force component is lessened by this fraction when it drives the motion; 0..<1.
   // Reaches rest, but delays failure; 0 for dynamics, and in a scene's stages of kind run unless it is stated
   double local = 0.7;
 
@@ -69,7 +69,7 @@ struct DampingSettings {
 };
 
 struct TimeSettings {
-  // time step as a share of the limit 2/sqrt(lambda); one-sided contacts gain energy above 0.2 (0.1 without damping,
+  // time step as a fraction of the limit 2/sqrt(lambda); one-sided contacts gain energy above 0.2 (0.1 without damping,
   // which is what a scene's stages of kind run take unless it is stated)
   static constexpr double most_damped = 0.2, most_undamped = 0.1;
   double fraction = most_damped;

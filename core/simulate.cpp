@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -16,17 +15,17 @@
 #include "core/state_hash.hpp"
 #include "core/step.hpp"
 #include "core/step/joint_forces.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
 constexpr long long steps_between_reports = 1000;
 
-// what the ledger may leave unexplained, as a share of the largest energy, before a run is doubted
+// what the ledger may leave unexplained, as a fraction of the largest energy, before a run is doubted
 constexpr double energy_left_open = 0.05;
 
-// the share of that energy from which local damping shapes a motion
+// the fraction of that energy from which local damping shapes a motion
 constexpr double much_damped = 0.1;
 
 // the joint properties whose friction some stage changes: each has a column in the history
@@ -55,7 +54,7 @@ bool has_trials(const Prepared<Dim>& scene) {
 template <int Dim>
 bool anything_moves(const Model<Dim>& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(),
-                     [](const Body<Dim>& body) { return body.present && !body.still(); });
+                     [](const Body<Dim>& body) { return body.present && !body.immobile(); });
 }
 
 const char* kind_of(const StagePlan& stage) {
@@ -93,7 +92,7 @@ struct Simulation {
     std::vector<double> values{now.time, static_cast<double>(progress.stage + 1)};
     if (has_trials(scene)) values.push_back(trial);
     for (const int p : followed)
-      values.push_back(now.schedule.friction[p] * degrees);
+      values.push_back(to_degrees(now.schedule.friction[p]));
     const std::vector<double> monitored = monitor_values<Dim>(scene.monitors, model, now);
     values.insert(values.end(), monitored.begin(), monitored.end());
     return values;
@@ -121,7 +120,7 @@ struct Simulation {
     progress.trial_frames.push_back(trial);
   }
 
-  void tell(const State<Dim>& now, const std::string& detail, double unbalanced, double done) {
+  void report_progress(const State<Dim>& now, const std::string& detail, double unbalanced, double done) {
     if (!watcher.progress) return;
     ProgressReport p;
     p.stage = plan().name;
@@ -147,8 +146,8 @@ struct Simulation {
     results.seconds = seconds_before + std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   }
 
-  // rows, frames and progress while a run goes on; `end` is its end time if known
-  RunHooks<Dim> record_run(double end) {
+  // rows, frames and progress while a run continues; `end` is its end time if known
+  RunHooks<Dim> record_run(std::optional<double> end) {
     const double begin = progress.stage_began;
     return {.with_forces =
                 [this](const State<Dim>& now) {
@@ -158,18 +157,19 @@ struct Simulation {
             .after_step =
                 [this, begin, end](const State<Dim>& now, double unbalanced) {
                   if (now.counters.steps % steps_between_reports == 0)
-                    tell(now, "", unbalanced, std::isfinite(end) ? (now.time - begin) / (end - begin) : -1);
+                    report_progress(now, "", unbalanced, end ? (now.time - begin) / (*end - begin) : -1);
                 },
             .pause = pause()};
   }
 
   // a search records the end of each trial
-  RunHooks<Dim> tell_trials() {
+  RunHooks<Dim> report_trials() {
     return {.with_forces = {},
             .after_step =
                 [this](const State<Dim>& now, double unbalanced) {
                   if (now.counters.steps % steps_between_reports == 0)
-                    tell(now, fmt::format("trial at {:.4f} deg", progress.reduction.target * degrees), unbalanced, -1);
+                    report_progress(now, fmt::format("trial at {:.4f} deg", to_degrees(progress.reduction.target)),
+                                    unbalanced, -1);
                 },
             .pause = pause()};
   }
@@ -197,7 +197,7 @@ struct Simulation {
                        report.unbalanced, settings.equilibrium.unbalanced, and_more(report.detail)));
   }
 
-  // each `execute` goes on with the stage under way; nothing: interrupted
+  // each `execute` continues with the stage under way; nothing: interrupted
 
   std::optional<Executed> execute(const SettlePlan& settle) {
     RunGoal goal;
@@ -234,13 +234,13 @@ struct Simulation {
       if (detour) trial_frame(now, number);
     };
     const ReductionReport report = reduce(model, settings, reduction, state, progress.reduction,
-                                          continuous ? record_run(RunGoal{}.end_time) : tell_trials(), on_trial);
+                                          continuous ? record_run({}) : report_trials(), on_trial);
     if (report.last.reason == StopReason::interrupted) return {};
     judge(report.last, true);
     if (report.bracketed) {
       const bool unique = !results.find("critical_friction");
       const std::string name = unique ? "critical_friction" : plan().name + "_critical_friction";
-      results.values.push_back({name, {report.critical * degrees, "deg", report.error_bar * degrees, report.rule}});
+      results.values.push_back({name, {to_degrees(report.critical), "deg", to_degrees(report.error_bar), report.rule}});
     }
     const bool found = report.message.empty();
     if (!found && results.outcome != Outcome::failed)
@@ -265,7 +265,7 @@ struct Simulation {
     }
   }
 
-  // model and settings of the stage, whether it begins or goes on
+  // model and settings of the stage, whether it begins or continues
   void enter_stage() {
     settings = settings_of(plan(), scene.settings);
     model = apply(std::move(model), plan().change);
@@ -312,7 +312,7 @@ struct Simulation {
     const State<Dim> now = with_forces(state, results.outcome == Outcome::failed);
     finish_rows(now);
     frame(now);
-    tell(state, r.ended, r.unbalanced, 1);
+    report_progress(state, r.ended, r.unbalanced, 1);
   }
 
   // where an accuracy level set how closely an angle is found, its promise ends below some angle
@@ -355,11 +355,11 @@ struct Simulation {
     if (const StagePlan* stage = long_step())
       causes += fmt::format("; steps are long for impacts (time.fraction = {:g} in stage {})",
                             settings_of(*stage, scene.settings).time.fraction, stage->name);
-    if (e.flows[Source::local_damping] > much_damped * e.turnover)
+    if (e.flows[Source::local_damping] > much_damped * e.largest_energy)
       causes += fmt::format(
           "; local damping took {:.2g} of that energy and holds the motion up, so that little energy is "
           "left to compare with (damping.local = 0 shows the true motion)",
-          e.flows[Source::local_damping] / e.turnover);
+          e.flows[Source::local_damping] / e.largest_energy);
     if (causes.empty())
       causes =
           "; areas and normals of contacts change as blocks rock or slide over edges (joint_properties sub_contacts, "
@@ -378,11 +378,11 @@ struct Simulation {
     count_whole_bonds();
     results.state_hash = state_hash(model, state);
     results.energy = state.energy;
-    if (state.energy.closure() > energy_left_open)
+    if (state.energy.relative_error() > energy_left_open)
       results.warnings.push_back(fmt::format(
           "the energy ledger does not close: {:.2g} J, {:.2g} of the largest energy of the run, is unexplained, in the "
           "balance of {}",
-          state.energy.widest, state.energy.closure(), open_balance()));
+          state.energy.worst_error, state.energy.relative_error(), open_balance()));
   }
 
   // false: interrupted
@@ -406,7 +406,7 @@ struct Simulation {
 }  // namespace
 
 template <int Dim>
-Progress<Dim> begin(const Prepared<Dim>& scene) {
+Progress<Dim> initial_progress(const Prepared<Dim>& scene) {
   Progress<Dim> progress;
   progress.state = scene.state;
   progress.results.history.columns = {"time_s", "stage"};
@@ -436,8 +436,8 @@ History history_so_far(const Progress<Dim>& progress) {
 
 template History history_so_far<2>(const Progress<2>&);
 template History history_so_far<3>(const Progress<3>&);
-template Progress<2> begin(const Prepared<2>&);
-template Progress<3> begin(const Prepared<3>&);
+template Progress<2> initial_progress(const Prepared<2>&);
+template Progress<3> initial_progress(const Prepared<3>&);
 template bool simulate<2>(const Prepared<2>&, Progress<2>&, const Watcher<2>&);
 template bool simulate<3>(const Prepared<3>&, Progress<3>&, const Watcher<3>&);
 

@@ -15,7 +15,7 @@ struct ProgressReport {
   long long steps = 0;                    // of the whole simulation
   double time = 0;                        // s simulated
   double unbalanced = 0;                  // the equilibrium measure
-  double done = -1;                       // share of the stage done, 0..1; negative when unknown
+  double done = -1;                       // fraction of the stage done, 0..1; negative when unknown
 };
 
 // Callbacks; each may be empty. None can change the simulation.
@@ -26,15 +26,15 @@ struct Watcher {
   std::function<void(const Model<Dim>&, const State<Dim>&, double time)> frame;
   // the end of a search's trial, counted from 1, that is taken back
   std::function<void(const Model<Dim>&, const State<Dim>&, int trial)> trial_frame;
-  // before every step, with all that a later `simulate` needs to go on; true stops here
+  // before every step, with all that a later `simulate` needs to continue; true stops here
   std::function<bool(const Progress<Dim>&)> pause;
 };
 
 // before the first step
 template <int Dim>
-Progress<Dim> begin(const Prepared<Dim>& scene);
+Progress<Dim> initial_progress(const Prepared<Dim>& scene);
 
-// Goes on until the scene is done (true, results are complete) or the watcher stops it (false).
+// Continues until the scene is done (true, results are complete) or the watcher stops it (false).
 template <int Dim>
 bool simulate(const Prepared<Dim>& scene, Progress<Dim>& progress, const Watcher<Dim>& watcher);
 

@@ -16,7 +16,6 @@ namespace voussoir {
 namespace {
 
 using shapes::block_on_plate;
-using shapes::degree;
 
 StagePlan stage_of(const std::string& name, std::variant<SettlePlan, RunPlan, ReducePlan> plan) {
   StagePlan stage;
@@ -56,7 +55,7 @@ ReducePlan reduction_to(double to, ReductionMethod method = ReductionMethod::bis
 
 template <int Dim>
 Results results_of(const Prepared<Dim>& scene, const Watcher<Dim>& watcher = {}) {
-  Progress<Dim> progress = begin(scene);
+  Progress<Dim> progress = initial_progress(scene);
   EXPECT_TRUE(simulate(scene, progress, watcher));
   return progress.results;
 }
@@ -175,18 +174,18 @@ Prepared<2> bonded_block(double slope, double tension, double cohesion, const st
 // Under its weight, then lifted by a factor of it: a bond holds while the lift is below its strength. It has cohesion,
 // too: without any, what little shear there is breaks it as soon as it is pulled.
 TEST(Bonds, OfTheFirstStageHoldABlockThatIsPulled) {
-  for (const double share : {0.995, 1.005}) {
-    const GravityPlan lift{.ramp = 1, .from = 1, .to = -share};
+  for (const double fraction : {0.995, 1.005}) {
+    const GravityPlan lift{.ramp = 1, .from = 1, .to = -fraction};
     const Results results = results_of(bonded_block(
         0, weight, weight,
         {stage_of("settle", SettlePlan{.gravity = {.ramp = 0.5}}), stage_of("lift", SettlePlan{.gravity = lift})}));
     ASSERT_EQ(results.stages.size(), 2u) << results.message;
     EXPECT_EQ(results.stages[0].ended, "equilibrium");
-    EXPECT_EQ(results.stages[1].ended, share < 1 ? "equilibrium" : "a body falls free") << results.message;
+    EXPECT_EQ(results.stages[1].ended, fraction < 1 ? "equilibrium" : "a body falls free") << results.message;
     ASSERT_TRUE(results.bonds.has_value());
     EXPECT_EQ(results.bonds->made, 1);
-    EXPECT_EQ(results.bonds->whole, share < 1 ? 1 : 0);
-    EXPECT_EQ(results.bonds->broken, share < 1 ? 0 : 1);
+    EXPECT_EQ(results.bonds->whole, fraction < 1 ? 1 : 0);
+    EXPECT_EQ(results.bonds->broken, fraction < 1 ? 0 : 1);
   }
 }
 
@@ -195,12 +194,12 @@ TEST(Bonds, OfTheFirstStageHoldABlockBeyondItsFrictionAngle) {
   const double friction = std::tan(30 * degree);
   for (const double slope : {40 * degree, 50 * degree}) {
     const double needed = weight * (std::sin(slope) - std::cos(slope) * friction);
-    for (const double share : {0.98, 1.02}) {
-      const Results results =
-          results_of(bonded_block(slope, 0, share * needed, {stage_of("settle", SettlePlan{.gravity = {.ramp = 1}})}));
-      EXPECT_EQ(results.stages.at(0).ended, share > 1 ? "equilibrium" : "a body falls free") << results.message;
+    for (const double fraction : {0.98, 1.02}) {
+      const Results results = results_of(
+          bonded_block(slope, 0, fraction * needed, {stage_of("settle", SettlePlan{.gravity = {.ramp = 1}})}));
+      EXPECT_EQ(results.stages.at(0).ended, fraction > 1 ? "equilibrium" : "a body falls free") << results.message;
       EXPECT_EQ(results.bonds->made, 1);
-      EXPECT_EQ(results.bonds->whole, share > 1 ? 1 : 0);
+      EXPECT_EQ(results.bonds->whole, fraction > 1 ? 1 : 0);
     }
   }
   // the slope at which a cohesion of half the block's weight is just enough, by 0.5 = sin a - cos a tan f
@@ -212,7 +211,7 @@ TEST(Bonds, OfTheFirstStageHoldABlockBeyondItsFrictionAngle) {
   }
 }
 
-// What is due when a run is interrupted is due when it goes on; neither threads nor the candidates' skin show.
+// What is due when a run is interrupted is due when it continues; neither threads nor the candidates' skin show.
 TEST(Bonds, ThatAreDueSurviveAnInterruption) {
   for (const int along : {1, 2}) {
     Prepared<3> scene;
@@ -232,7 +231,7 @@ TEST(Bonds, ThatAreDueSurviveAnInterruption) {
     for (const long long stop : {0, 1, 5, 17, 60, 110}) {
       Watcher<3> watcher;
       watcher.pause = [&](const Progress<3>& now) { return now.state.counters.steps == stop; };
-      Progress<3> first = begin(scene);
+      Progress<3> first = initial_progress(scene);
       ASSERT_FALSE(simulate(scene, first, watcher));
       Progress<3> second = read_checkpoint<3>(checkpoint_bytes(first, "hash"), "hash");
       ASSERT_TRUE(simulate(scene, second, {}));

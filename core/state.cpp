@@ -44,17 +44,17 @@ Spin<3> angular_momentum(const Body<3>& body, const Rotation<3>& rotation, const
 }
 
 template <int Dim>
-void find_stances(const Model<Dim>& model, int threads, State<Dim>& state) {
-  state.stances.resize(model.bodies.size());
-  each_on_threads(threads, state.stances.size(), [&](int b) {
+void cache_poses(const Model<Dim>& model, int threads, State<Dim>& state) {
+  state.poses.resize(model.bodies.size());
+  each_on_threads(threads, state.poses.size(), [&](int b) {
     const Body<Dim>& body = model.bodies[b];
     const Motion<Dim>& motion = state.motions[b];
-    state.stances[b] = {body.reference,
-                        motion.displacement,
-                        matrix(motion.rotation),
-                        motion.velocity,
-                        angular_velocity(body, motion),
-                        body.fixed ? 0 : 1 / body.mass};
+    state.poses[b] = {body.reference,
+                      motion.displacement,
+                      matrix(motion.rotation),
+                      motion.velocity,
+                      angular_velocity(body, motion),
+                      body.fixed ? 0 : 1 / body.mass};
   });
 }
 
@@ -77,8 +77,8 @@ void list_by_body(const Model<Dim>& model, State<Dim>& state) {
 
 template State<2> initial_state<2>(const Model<2>&);
 template State<3> initial_state<3>(const Model<3>&);
-template void find_stances<2>(const Model<2>&, int, State<2>&);
-template void find_stances<3>(const Model<3>&, int, State<3>&);
+template void cache_poses<2>(const Model<2>&, int, State<2>&);
+template void cache_poses<3>(const Model<3>&, int, State<3>&);
 template void list_by_body<2>(const Model<2>&, State<2>&);
 template void list_by_body<3>(const Model<3>&, State<3>&);
 

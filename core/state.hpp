@@ -34,7 +34,7 @@ struct Placement {
 
 // where a body is and how it goes, as its contacts ask; rebuilt every step
 template <int Dim>
-struct Stance {
+struct CachedPose {
   Vector<Dim> reference, displacement;  // m
   Matrix<Dim> axes;                     // its frame in world axes
   Vector<Dim> velocity;                 // m/s
@@ -58,7 +58,7 @@ struct Relaxation {
   bool rested = false;                  // it has stopped every body, and none has moved since
   std::vector<double> inertia;          // by body: fictitious over true mass and moments of inertia
   std::vector<Load<Dim>> contact_load;  // by body: of the step before, without weight
-  int until_renewal = 0;                // steps until the inertia is chosen anew
+  int until_renewal = 0;                // steps until the inertia is chosen again
 };
 
 // values that vary within a stage
@@ -135,11 +135,11 @@ struct State {
   std::vector<Contact<Dim>> contacts;    // candidate pairs by (part a, part b); those that touch carry history
   std::vector<SubContact<Dim>> subs;     // as many places for each contact, in their order; none where no joint has any
   std::vector<Placement<Dim>> built;     // where the bodies stood when the candidates were last listed
-  std::vector<Placement<Dim>> counted;   // by body: up to where its travel is counted
-  std::vector<double> travels;           // m, by body: how far any of its points may have gone, all ways added up
-  std::vector<Stance<Dim>> stances;      // by body; rebuilt every step
-  ContactsByBody by_body;                // places in `contacts`; rebuilt with them
-  std::vector<double> frequency;         // rad/s, by body: stiffest mode of the last time-step estimate
+  std::vector<Placement<Dim>> counted_at;  // by body: up to where its travel is counted
+  std::vector<double> path_bounds;         // m, by body: how far any of its points may have gone, all ways added up
+  std::vector<CachedPose<Dim>> poses;      // by body; rebuilt every step
+  ContactsByBody by_body;                  // places in `contacts`; rebuilt with them
+  std::vector<double> frequency;           // rad/s, by body: stiffest mode of the last time-step estimate
   Relaxation<Dim> relaxation;
   Schedule schedule;
   BondTally bonds;
@@ -181,13 +181,13 @@ State<Dim> initial_state(const Model<Dim>& model);
 // The second body's centroid seen from the first's, m: reference positions first, so that small displacements are not
 // lost.
 template <int Dim>
-Vector<Dim> between(const Stance<Dim>& a, const Stance<Dim>& b) {
+Vector<Dim> between(const CachedPose<Dim>& a, const CachedPose<Dim>& b) {
   return (b.reference - a.reference) + (b.displacement - a.displacement);
 }
 
-// State::stances from the motions
+// State::poses from the motions
 template <int Dim>
-void find_stances(const Model<Dim>& model, int threads, State<Dim>& state);
+void cache_poses(const Model<Dim>& model, int threads, State<Dim>& state);
 
 // State::by_body from the contacts
 template <int Dim>

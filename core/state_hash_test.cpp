@@ -17,7 +17,7 @@ namespace {
 // a block that slides on its plate, and a candidate that touches nothing
 template <int Dim>
 struct Sliding {
-  Model<Dim> model = shapes::block_on_plate<Dim>(40 * shapes::degree, 10 * shapes::degree);
+  Model<Dim> model = shapes::block_on_plate<Dim>(40 * degree, 10 * degree);
   State<Dim> state = initial_state(model);
 
   Sliding() {
@@ -89,7 +89,7 @@ void expect_that_bookkeeping_does_not_show() {
   EXPECT_EQ(original.hash().size(), std::string("fnv1a64:").size() + 16);
 }
 
-TEST(StateHash, BookkeepingDoesNotShow) {
+TEST(StateHash, CountersDoNotShow) {
   expect_that_bookkeeping_does_not_show<3>();
   expect_that_bookkeeping_does_not_show<2>();
 }

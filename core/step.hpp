@@ -10,7 +10,7 @@
 namespace voussoir {
 
 // The forces at the positions of now, all but the last stage of a step: afterwards positions, forces and time are those
-// of one moment. Whoever wants them without a step takes a copy of the state, for histories go on.
+// of one moment. To have them without a step, take a copy of the state, for histories continue.
 template <int Dim>
 void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 

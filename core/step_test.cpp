@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <numbers>
 
 #include "core/checkpoint/fields.hpp"
 #include "core/floating_point_traps.hpp"
@@ -19,7 +18,6 @@ namespace {
 
 using shapes::block_on_plate;
 using shapes::body_of;
-using shapes::degree;
 using shapes::density;
 using shapes::gravity;
 using shapes::index_of;

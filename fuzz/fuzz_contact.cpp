@@ -154,7 +154,7 @@ void require_sound(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<
     require(signed_distance(f, seen_by_b) < rounding, "the point is inside b");
 }
 
-// gap or overlap that rounding alone decides, as a share of the smaller inscribed radius
+// gap or overlap that rounding alone decides, as a fraction of the smaller inscribed radius
 constexpr double undecided = 1e-9;
 
 template <int Dim>
@@ -168,7 +168,7 @@ void require_symmetry(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matr
   const bool no_direction =
       outcome.contact.status == ContactStatus::no_normal || other.contact.status == ContactStatus::no_normal;
   if (no_direction) return;  // one part deep inside the other: a tie that rounding breaks
-  // the other pose is rounded anew: what rounding cannot tell either way may come out the other way
+  // the other pose is rounded again: what rounding cannot tell either way may come out the other way
   if (other.contact.status == ContactStatus::undecided || outcome.contact.status == ContactStatus::undecided) return;
   require(other.contact.status == outcome.contact.status, "swapping the parts keeps the status");
   if (!outcome.contact.touching()) return;

@@ -1,4 +1,4 @@
-// Tables: what is written comes back as it was, whatever it holds; what is malformed is told with its place.
+// Tables: what is written comes back as it was, whatever it holds; what is malformed is reported with its place.
 #include "text/csv_table.hpp"
 
 #include <gtest/gtest.h>

@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/plausibility.hpp"
 #include "app/run_scene.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/scene/plausibility.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 // one labelled line; the label only where the block of lines begins
 void line(const char* label, const std::string& text) {
@@ -32,20 +31,20 @@ std::string vector_text(const Vector<Dim>& v) {
 }
 
 std::string orientation(const Vector<2>& normal) {
-  return fmt::format("dip {:g} to the {}", std::acos(std::min(1.0, normal[1])) * degrees,
+  return fmt::format("dip {:g} to the {}", to_degrees(std::acos(std::min(1.0, normal[1]))),
                      normal[0] < 0 ? "left" : "right");
 }
 
 std::string orientation(const Vector<3>& normal) {
-  const double direction = std::atan2(normal[0], normal[1]) * degrees;
-  return fmt::format("dip/dip direction {:.4g}/{:.4g}", std::acos(std::min(1.0, normal[2])) * degrees,
+  const double direction = to_degrees(std::atan2(normal[0], normal[1]));
+  return fmt::format("dip/dip direction {:.4g}/{:.4g}", to_degrees(std::acos(std::min(1.0, normal[2]))),
                      direction < 0 ? direction + 360 : direction);
 }
 
 template <int Dim>
 void print_blocks(const Model<Dim>& model) {
   int fixed = 0, restrained = 0, parts = 0;
-  double smallest = 1e300, largest = 0, whole = 0, mass = 0;
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0, whole = 0, mass = 0;
   for (const Body<Dim>& body : model.bodies) {
     fixed += body.fixed;
     const auto held = [](bool free) { return !free; };
@@ -118,7 +117,7 @@ void print_properties(const Model<Dim>& model) {
     const JointProperties& p = model.properties[k];
     line(k == 0 ? "properties" : "",
          fmt::format("{}: normal {:g}, shear {:g} {}, friction {:g} deg{}", p.name, p.normal_stiffness,
-                     p.shear_stiffness, p.constant_stiffness ? "N/m" : "Pa/m", p.friction * degrees,
+                     p.shear_stiffness, p.constant_stiffness ? "N/m" : "Pa/m", to_degrees(p.friction),
                      used[k] ? "" : "; of no face that may meet another"));
     for (const std::string& law : laws_text(p))
       line("", "  " + law);
@@ -147,8 +146,8 @@ struct PlanText {
     if (!plan.properties.empty()) of = fmt::format("{}", fmt::join(plan.properties, ", "));
     const std::string failure = plan.failure_displacement > 0 ? fmt::format("{:g} m", plan.failure_displacement)
                                                               : std::string("a tenth of the smallest inscribed radius");
-    return fmt::format("reduce the friction of {} from {:g} to {:g} deg {}; failed after {}", of, plan.from * degrees,
-                       plan.to * degrees, how(plan), failure);
+    return fmt::format("reduce the friction of {} from {:g} to {:g} deg {}; failed after {}", of, to_degrees(plan.from),
+                       to_degrees(plan.to), how(plan), failure);
   }
   static std::string gravity(const GravityPlan& plan) {
     if (plan.ramp > 0 && !plan.to && plan.from == 0) return fmt::format(", gravity put on within {:g} s", plan.ramp);
@@ -160,13 +159,13 @@ struct PlanText {
   static std::string how(const ReducePlan& plan) {
     switch (plan.method) {
       case ReductionMethod::bisection:
-        return fmt::format("by bisection to {:g} deg", plan.tolerance * degrees);
+        return fmt::format("by bisection to {:g} deg", to_degrees(plan.tolerance));
       case ReductionMethod::steps:
-        return fmt::format("in steps of {:g} deg", plan.step * degrees);
+        return fmt::format("in steps of {:g} deg", to_degrees(plan.step));
       case ReductionMethod::rate:
-        return fmt::format("at {:g} deg/s", plan.rate * degrees);
+        return fmt::format("at {:g} deg/s", to_degrees(plan.rate));
       case ReductionMethod::two_rates:
-        return fmt::format("at {:g} and {:g} deg/s, extrapolated", plan.rate * degrees, plan.slower_rate * degrees);
+        return fmt::format("at {:g} and {:g} deg/s, extrapolated", to_degrees(plan.rate), to_degrees(plan.slower_rate));
     }
     return "";
   }
@@ -182,7 +181,7 @@ std::string numbers_text(const std::vector<double>& numbers) {
 std::string factor_text(const TimeFactor& factor) {
   std::string text;
   if (factor.frequency > 0)
-    text += fmt::format(", times a sine of {:g} Hz from {:g} deg on", factor.frequency, factor.phase * degrees);
+    text += fmt::format(", times a sine of {:g} Hz from {:g} deg on", factor.frequency, to_degrees(factor.phase));
   if (!factor.times.empty())
     text += fmt::format(", times {} at {} s", numbers_text(factor.factors), numbers_text(factor.times));
   return text;
@@ -221,7 +220,7 @@ std::string change_text(const Change& change) {
   if (!change.fix.empty()) text += "; fixes blocks";
   if (!change.release.empty()) text += "; releases blocks";
   if (!change.remove.empty()) text += "; removes blocks";
-  if (change.friction) text += fmt::format("; friction {:g} deg", *change.friction * degrees);
+  if (change.friction) text += fmt::format("; friction {:g} deg", to_degrees(*change.friction));
   return text;
 }
 
@@ -324,7 +323,7 @@ void print_derived(const Plausibility& plausibility) {
                               bonds->made, bonds->due));
   if (plausibility.overlap > 0)
     line("overlap", fmt::format("about {:.2g} m under a block's own weight, {:.1g} of its inscribed radius",
-                                plausibility.overlap, plausibility.overlap_share));
+                                plausibility.overlap, plausibility.overlap_fraction));
   if (std::isfinite(plausibility.step_limit))
     line("time step", fmt::format("stable below {:.3g} s", plausibility.step_limit));
   for (const StageForecast& stage : plausibility.stages) {

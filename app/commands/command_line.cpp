@@ -33,7 +33,7 @@ using Action = std::function<ExitCode()>;
 
 // memory was asked for and not given: this must not ask again
 int not_enough_memory() {
-  std::fputs("voussoir: not enough memory; a run that was going on can be resumed from its last checkpoint\n", stderr);
+  std::fputs("voussoir: not enough memory; a run that was under way can be resumed from its last checkpoint\n", stderr);
   return static_cast<int>(ExitCode::no_memory);
 }
 
@@ -124,7 +124,7 @@ void add_run(CLI::App& program, RunArguments& arguments, Action& action) {
 }
 
 void add_resume(CLI::App& program, ResumeArguments& arguments, Action& action) {
-  CLI::App* command = program.add_subcommand("resume", "go on with a run that was interrupted");
+  CLI::App* command = program.add_subcommand("resume", "continue with a run that was interrupted");
   command->add_option("folder", arguments.folder, "the folder of its results")->required()->check(plain_text());
   command->add_option("--threads", arguments.threads, "number of threads (default: as before)")
       ->check(CLI::Range(1, 1024));

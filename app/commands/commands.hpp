@@ -35,7 +35,7 @@ struct RunArguments {
   SceneArguments scene;
   std::filesystem::path out;  // empty: results/<name of the scene's file>
   int threads = 1;
-  std::optional<long long> checkpoint_steps;  // of RunConduct where they are stated
+  std::optional<long long> checkpoint_steps;  // of RunOptions where they are stated
   std::optional<double> checkpoint_seconds;
   bool overwrite = false;
   bool quiet = false;
@@ -91,7 +91,8 @@ struct StudyArguments {
 // runs a scene and writes results.json, history.csv, scene.toml and ParaView's files
 ExitCode run_command(const RunArguments& arguments);
 
-// goes on with a run that was interrupted, from its last checkpoint or from its begin; a complete one is left as it is
+// continues with a run that was interrupted, from its last checkpoint or from its begin; a complete one is left as it
+// is
 ExitCode resume_command(const ResumeArguments& arguments);
 
 // says what a scene activates, what follows from its numbers, and what looks wrong; writes nothing

@@ -59,7 +59,7 @@ search for the critical friction writes one at the end of each trial. A cell is 
 | column | meaning |
 |---|---|
 )";
-  for (const std::string& column : begin(example).results.history.columns)
+  for (const std::string& column : initial_progress(example).results.history.columns)
     text += fmt::format("| `{}` | {} |\n", column, meaning_of(column, column_meanings));
   text +=
       "\nThen the columns of each monitor, which begin with its name, here `m`:\n\n| quantity | columns | meaning "

@@ -60,7 +60,7 @@ void print_mechanism(const LimitAnalysis& analysis) {
   if (mechanism.moving.empty()) return line("mechanism", "none");
   line("mechanism",
        fmt::format("{} of {} free blocks move, {} of them turn; {:.3g} % of the kinetic energy is rotation",
-                   mechanism.moving.size(), free, mechanism.turning, 100 * mechanism.rotation_share));
+                   mechanism.moving.size(), free, mechanism.turning, 100 * mechanism.rotation_fraction));
   line("", fmt::format("{:>6} {:>10} {:>10}  {:>9} {:>9} {:>9}  {}", "block", "x m", "y m", "speed", "turning",
                        "rotation", "turns about m"));
   for (const BlockMotion& motion : mechanism.moving) {
@@ -69,7 +69,7 @@ void print_mechanism(const LimitAnalysis& analysis) {
     const std::string centre =
         motion.centre ? fmt::format("({:.4g}, {:.4g})", (*motion.centre)[0], (*motion.centre)[1]) : "translates";
     line("", fmt::format("{:>6} {:>10.4g} {:>10.4g}  {:>9.4f} {:>9.4f} {:>7.2f} %  {}{}", motion.body, place[0],
-                         place[1], motion.speed, motion.turning, 100 * motion.rotation_share, centre,
+                         place[1], motion.speed, motion.turning, 100 * motion.rotation_fraction, centre,
                          body.name.empty() ? "" : " " + body.name));
   }
   line("", "speed of the centroid, turning of the farthest corner about it: of the fastest block their sum is 1");

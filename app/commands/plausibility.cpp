@@ -19,17 +19,17 @@ namespace voussoir {
 namespace {
 
 // thresholds of warnings: where experience says "look again", not where anything breaks
-constexpr double large_overlap_share = 0.01;  // of the inscribed radius: blocks visibly sink into each other
-constexpr double least_overlap_share = 1e-9;  // stiffer than rock can be: rounding becomes visible
-constexpr double large_overlap = 0.01;        // m: joints in rock close by a millimetre or so
-constexpr double many_steps = 1e6;            // hours
-constexpr double few_steps = 10;              // show nothing of a motion
-constexpr double small_step_share = 1e-3;     // of the stable time step, when stated
-constexpr double many_frames = 1e4;           // files
-constexpr double long_interval = 2;           // of output, over the longest stage
-constexpr double many_rows = 1e6;             // of history.csv: a hundred megabytes
-constexpr double relaxed_fraction = 0.9;      // of the stability limit: what relaxation takes for its step
-constexpr double dashpot_error = 0.4;         // of a restitution, over the fraction of the step (cases/bounce)
+constexpr double large_overlap_fraction = 0.01;  // of the inscribed radius: blocks visibly sink into each other
+constexpr double least_overlap_fraction = 1e-9;  // stiffer than rock can be: rounding becomes visible
+constexpr double large_overlap = 0.01;           // m: joints in rock close by a millimetre or so
+constexpr double many_steps = 1e6;               // hours
+constexpr double few_steps = 10;                 // show nothing of a motion
+constexpr double small_step_fraction = 1e-3;     // of the stable time step, when stated
+constexpr double many_frames = 1e4;              // files
+constexpr double long_interval = 2;              // of output, over the longest stage
+constexpr double many_rows = 1e6;                // of history.csv: a hundred megabytes
+constexpr double relaxed_fraction = 0.9;         // of the stability limit: what relaxation takes for its step
+constexpr double dashpot_error = 0.4;            // of a restitution, over the fraction of the step (cases/bounce)
 constexpr double large_dashpot_error = 0.041;
 constexpr double settlement_margin = 10;  // failure displacement over elastic settlement
 constexpr double wide_size_ratio = 100;   // largest over smallest inscribed radius
@@ -60,8 +60,8 @@ double own_weight_overlap(const Model<Dim>& model, const std::vector<bool>& used
   return stiffness > 0 ? body.mass * g / stiffness : 0;
 }
 
-// Time in which a block that bounces on its joint comes down to the share `rest` of its first swing. Local damping
-// (share α) drives every swing inwards with 1-α and outwards with 1+α of the force, the dashpot takes ξω of the
+// Time in which a block that bounces on its joint comes down to the fraction `rest` of its first swing. Local damping
+// (fraction α) drives every swing inwards with 1-α and outwards with 1+α of the force, the dashpot takes ξω of the
 // amplitude per time. Relaxation damps critically.
 double settling_time(double overlap, double g, const DampingSettings& damping, double rest) {
   if (relaxes(true, damping)) return -std::log(rest) / std::sqrt(g / overlap);
@@ -156,29 +156,29 @@ void find_overlaps(const Model<Dim>& model, Plausibility& result) {
     if (!moves(body)) continue;
     const double overlap = own_weight_overlap(model, used, body);
     result.overlap = std::max(result.overlap, overlap);
-    result.overlap_share = std::max(result.overlap_share, overlap / thickest_part(body));
+    result.overlap_fraction = std::max(result.overlap_fraction, overlap / thickest_part(body));
   }
 }
 
 // Weight over stiffness: a wrong unit in density, gravity, stiffness or geometry shows here.
 template <int Dim>
 void judge_overlaps(const Prepared<Dim>& prepared, Plausibility& result) {
-  const double radius = prepared.settings.contact.potential_radius, share = result.overlap_share;
+  const double radius = prepared.settings.contact.potential_radius, fraction = result.overlap_fraction;
   const std::string units = "or check the units of normal_stiffness (Pa/m), density, gravity and the geometry (m)";
-  if (share > radius)
+  if (fraction > radius)
     result.warnings.push_back(
         fmt::format("blocks sink by {:.2g} of their inscribed radius under their own weight, more than "
                     "contact.potential_radius = {:.2g}: raise normal_stiffness, or potential_radius, {}",
-                    share, radius, units));
-  else if (share > large_overlap_share)
+                    fraction, radius, units));
+  else if (fraction > large_overlap_fraction)
     result.warnings.push_back(fmt::format(
-        "blocks sink by {:.2g} of their inscribed radius under their own weight: raise normal_stiffness, {}", share,
+        "blocks sink by {:.2g} of their inscribed radius under their own weight: raise normal_stiffness, {}", fraction,
         units));
-  else if (share > 0 && share < least_overlap_share)
+  else if (fraction > 0 && fraction < least_overlap_fraction)
     result.warnings.push_back(
         fmt::format("blocks sink by only {:.2g} of their inscribed radius under their own weight: lower "
                     "normal_stiffness, {}",
-                    share, units));
+                    fraction, units));
   if (result.overlap > large_overlap)
     result.warnings.push_back(fmt::format(
         "joints close by {:.2g} m under the weight of one block, rock joints by a millimetre: raise normal_stiffness, "
@@ -224,7 +224,7 @@ void judge_first_contacts(const Prepared<Dim>& prepared, const Model<Dim>& model
 template <int Dim>
 void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
                   Plausibility& result) {
-  double smallest = 1e300, largest = 0;
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
   bool anything_moves = model.gravity.norm() > 0 || !model.boundary.empty() ||
                         std::any_of(prepared.stages.begin(), prepared.stages.end(),
                                     [](const StagePlan& s) { return !s.change.force.empty(); });
@@ -414,7 +414,7 @@ void judge_stated_step(const TimeSettings& time, Plausibility& result) {
         "time.step_s = {:.3g} s exceeds the stability limit of {:.2g} s: the blocks will fly apart; lower it, or leave "
         "it out",
         *time.step, result.step_limit));
-  if (*time.step < small_step_share * result.step_limit)
+  if (*time.step < small_step_fraction * result.step_limit)
     result.warnings.push_back(
         fmt::format("time.step_s = {:.3g} s is tiny beside the stability limit of {:.2g} s; is it in s?", *time.step,
                     result.step_limit));

@@ -33,7 +33,7 @@ struct Plausibility {
   double memory = 0;               // bytes that a run asks for, at most
   double step_limit = 0;           // s: stability limit; infinite when no contact is near
   double overlap = 0;              // m: largest over the free bodies, each carrying its own weight; 0 without gravity
-  double overlap_share = 0;        // the same over the body's smallest inscribed radius
+  double overlap_fraction = 0;     // the same over the body's smallest inscribed radius
   std::optional<BondCount> bonds;  // as a stage would make them at the start, where one makes some
   std::vector<StageForecast> stages;
   std::vector<std::string> warnings;  // one line each, with the repair

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::chrono::milliseconds time_between_lines{200};
 
-// a forecast from less than this share of a stage is a guess
-constexpr double share_for_a_forecast = 0.02;
+// a forecast from less than this fraction of a stage is a guess
+constexpr double fraction_for_a_forecast = 0.02;
 
 }  // namespace
 
@@ -59,7 +59,7 @@ std::string ProgressLine::text(const ProgressReport& report, Clock::time_point n
   line += fmt::format(": {} steps, t = {:.4g} s", report.steps, report.time);
   if (report.unbalanced > 0) line += fmt::format(", unbalanced {:.1e}", report.unbalanced);
   if (report.done >= 0) line += fmt::format(", {:.0f} %", 100 * report.done);
-  if (report.done >= share_for_a_forecast && report.done < 1) {
+  if (report.done >= fraction_for_a_forecast && report.done < 1) {
     const double spent = std::chrono::duration<double>(now - stage_began_).count();
     line += ", about " + duration_text(spent * (1 - report.done) / report.done) + " left";
   }

@@ -28,14 +28,14 @@ fs::path results_folder(const RunArguments& arguments) {
   return fs::path("results") / arguments.scene.scene.stem();
 }
 
-RunRecord record_of(const LoadedScene& scene, const RunConduct& conduct) {
+RunRecord record_of(const LoadedScene& scene, const RunOptions& options) {
   RunRecord record;
-  record.warnings = conduct.warnings;
+  record.warnings = options.warnings;
   record.title = scene.title;
   record.dimension = scene.dimension;
   record.input_hash = scene.hash;
   record.features = features();
-  record.threads = conduct.threads;
+  record.threads = options.threads;
   return record;
 }
 
@@ -72,21 +72,21 @@ void print_warnings(const std::vector<std::string>& warnings) {
     tell("voussoir: warning: {}\n", warning);
 }
 
-struct Errand {
+struct RunJob {
   fs::path folder;
-  RunConduct conduct;
+  RunOptions options;
   bool quiet = false;
 };
 
 // when the next checkpoint is due, in steps and in seconds
 class CheckpointClock {
  public:
-  CheckpointClock(const RunConduct& conduct, long long steps, double seconds) : conduct_(conduct) {
+  CheckpointClock(const RunOptions& options, long long steps, double seconds) : options_(options) {
     restart(steps, seconds);
   }
   bool due(long long steps, double seconds) const {
-    return (conduct_.checkpoint_steps > 0 && steps >= steps_ + conduct_.checkpoint_steps) ||
-           (conduct_.checkpoint_seconds > 0 && seconds >= seconds_ + conduct_.checkpoint_seconds);
+    return (options_.checkpoint_steps > 0 && steps >= steps_ + options_.checkpoint_steps) ||
+           (options_.checkpoint_seconds > 0 && seconds >= seconds_ + options_.checkpoint_seconds);
   }
   void restart(long long steps, double seconds) {
     steps_ = steps;
@@ -94,7 +94,7 @@ class CheckpointClock {
   }
 
  private:
-  RunConduct conduct_;
+  RunOptions options_;
   long long steps_ = 0;
   double seconds_ = 0;
 };
@@ -104,12 +104,12 @@ struct WrittenSeries {
   FrameSeries frames, trials;
 };
 
-// the run goes on from where `progress` stands; false: a signal stopped it, with a checkpoint
+// the run continues from where `progress` stands; false: a signal stopped it, with a checkpoint
 template <int Dim>
-bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const Errand& errand, Progress<Dim>& progress,
+bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const RunJob& job, Progress<Dim>& progress,
            WrittenSeries& written) {
-  ProgressLine line(!errand.quiet);
-  CheckpointClock clock(errand.conduct, progress.state.counters.steps, progress.results.seconds);
+  ProgressLine line(!job.quiet);
+  CheckpointClock clock(job.options, progress.state.counters.steps, progress.results.seconds);
   Watcher<Dim> watcher;
   watcher.progress = [&](const ProgressReport& report) { line.show(report); };
   watcher.frame = [&](const Model<Dim>& model, const State<Dim>& state, double time) {
@@ -122,8 +122,8 @@ bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const E
     const bool stop = interruption() != 0;
     const long long steps = now.state.counters.steps;
     if (stop || clock.due(steps, now.results.seconds)) {
-      write_history_csv(errand.folder / "history.csv", history_so_far(now));
-      save_checkpoint(errand.folder, now, scene_hash);
+      write_history_csv(job.folder / "history.csv", history_so_far(now));
+      save_checkpoint(job.folder, now, scene_hash);
       clock.restart(steps, now.results.seconds);
     }
     return stop;
@@ -144,37 +144,37 @@ WrittenSeries cut_back_to(const Progress<Dim>& progress, const fs::path& folder)
   return written;
 }
 
-// begins or goes on, and writes the results
+// begins or continues, and writes the results
 template <int Dim>
-ExitCode carry_out_prepared(const LoadedScene& scene, const Prepared<Dim>& prepared, const Errand& errand) {
+ExitCode carry_out_prepared(const LoadedScene& scene, const Prepared<Dim>& prepared, const RunJob& job) {
   std::vector<std::string> remarks;
-  Progress<Dim> progress = last_progress(errand.folder, prepared, scene.hash, remarks);
+  Progress<Dim> progress = last_progress(job.folder, prepared, scene.hash, remarks);
   print_warnings(remarks);
-  WrittenSeries written = cut_back_to(progress, errand.folder);
+  WrittenSeries written = cut_back_to(progress, job.folder);
 
   note_interruptions();
-  if (!go_on(prepared, scene.hash, errand, progress, written)) {
-    tell("voussoir: interrupted after step {} (t = {:.6g} s): go on with 'voussoir resume {}'\n",
-         progress.state.counters.steps, progress.state.time, errand.folder.string());
+  if (!go_on(prepared, scene.hash, job, progress, written)) {
+    tell("voussoir: interrupted after step {} (t = {:.6g} s): continue with 'voussoir resume {}'\n",
+         progress.state.counters.steps, progress.state.time, job.folder.string());
     return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + interruption());
   }
 
   // results.json comes last: where it is, everything is
   const Results& results = progress.results;
-  write_history_csv(errand.folder / "history.csv", results.history);
-  write_results_json(errand.folder / "results.json", results, record_of(scene, errand.conduct));
-  remove_checkpoints(errand.folder);
-  if (!errand.quiet) {
+  write_history_csv(job.folder / "history.csv", results.history);
+  write_results_json(job.folder / "results.json", results, record_of(scene, job.options));
+  remove_checkpoints(job.folder);
+  if (!job.quiet) {
     print_warnings(results.warnings);
-    print_summary(scene, results, errand.folder);
+    print_summary(scene, results, job.folder);
   } else if (results.outcome != Outcome::done) {
     tell("voussoir: {}: {}\n", outcome_name(results.outcome), results.message);
   }
   return exit_code(results.outcome);
 }
 
-ExitCode carry_out(const LoadedScene& scene, const Errand& errand) {
-  return std::visit([&](const auto& prepared) { return carry_out_prepared(scene, prepared, errand); }, scene.prepared);
+ExitCode carry_out(const LoadedScene& scene, const RunJob& job) {
+  return std::visit([&](const auto& prepared) { return carry_out_prepared(scene, prepared, job); }, scene.prepared);
 }
 
 ExitCode already_complete(const ResumeArguments& arguments) {
@@ -198,22 +198,22 @@ ExitCode exit_code(Outcome outcome) {
 
 ExitCode run_command(const RunArguments& arguments) {
   // nothing is written before the whole scene is known to be good
-  RunConduct conduct;
-  conduct.threads = arguments.threads;
-  if (arguments.checkpoint_steps) conduct.checkpoint_steps = *arguments.checkpoint_steps;
-  if (arguments.checkpoint_seconds) conduct.checkpoint_seconds = *arguments.checkpoint_seconds;
-  const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides, conduct.threads);
+  RunOptions options;
+  options.threads = arguments.threads;
+  if (arguments.checkpoint_steps) options.checkpoint_steps = *arguments.checkpoint_steps;
+  if (arguments.checkpoint_seconds) options.checkpoint_seconds = *arguments.checkpoint_seconds;
+  const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides, options.threads);
   require_sane_size(scene.text, arguments.scene.scene.string() + " with all that it names");  // for it is read again
-  conduct.scene_hash = scene.hash;
-  conduct.warnings = assess(scene).warnings;
-  if (!arguments.quiet) print_warnings(conduct.warnings);
+  options.scene_hash = scene.hash;
+  options.warnings = assess(scene).warnings;
+  if (!arguments.quiet) print_warnings(options.warnings);
 
   // the folder is ours alone, and says what is run before the first step
   const fs::path folder = results_folder(arguments);
   const ClaimedFolder claim(folder, run_outputs(), scene.files, arguments.overwrite);
   write_file(folder / "scene.toml", scene.text);
-  write_conduct(folder, conduct);
-  return carry_out(scene, {folder, conduct, arguments.quiet});
+  write_options(folder, options);
+  return carry_out(scene, {folder, options, arguments.quiet});
 }
 
 ExitCode resume_command(const ResumeArguments& arguments) {
@@ -231,16 +231,16 @@ ExitCode resume_command(const ResumeArguments& arguments) {
     remove_checkpoints(folder);
     return already_complete(arguments);
   }
-  RunConduct conduct = read_conduct(folder);
-  if (arguments.threads) conduct.threads = *arguments.threads;
-  const LoadedScene scene = load_scene(folder / "scene.toml", {}, conduct.threads);
-  if (scene.hash != conduct.scene_hash)
+  RunOptions options = read_options(folder);
+  if (arguments.threads) options.threads = *arguments.threads;
+  const LoadedScene scene = load_scene(folder / "scene.toml", {}, options.threads);
+  if (scene.hash != options.scene_hash)
     throw BadInput(
         fmt::format("'{}' is not the scene that this run began with: put it back, or start again with "
                     "'voussoir run'",
                     (folder / "scene.toml").string()));
   refuse_inputs(folder, resume_outputs(), scene.files);
-  return carry_out(scene, {folder, conduct, arguments.quiet});
+  return carry_out(scene, {folder, options, arguments.quiet});
 }
 
 }  // namespace voussoir

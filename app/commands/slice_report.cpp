@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "app/commands/svg_figure.hpp"
@@ -14,13 +13,12 @@
 #include "core/scene/bodies.hpp"
 #include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/joint_outline.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double degree = std::numbers::pi / 180;
 
 // what all parts of the report look at
 template <int Dim>
@@ -154,7 +152,7 @@ std::string set_text(const JointSet& set, const SetStatistics<Dim>& found) {
   const Moments spacing = moments_of(found.spacings);
   if (!found.spacings.empty())
     text += row("spacing along the mean normal", "m", 1 / found.stated_frequency,
-                {spacing.mean.value, 0}) +  // lines share joints: their spacings are no sample of independent ones
+                {spacing.mean.value, 0}) +  // lines fraction joints: their spacings are no sample of independent ones
             row("its deviation over its mean", "1",
                 set.size_law == SizeLaw::persistent && set.arrangement == Arrangement::equal ? "0" : "1",
                 fmt::format("{:.4g}", spacing.deviation / spacing.mean.value), 0);
@@ -168,8 +166,8 @@ std::string block_text(const BlockSizes& blocks, int dimension) {
   std::string text =
       fmt::format("## Blocks\n\n{} blocks, {:.6g} {} in all.\n\n| blocks up to this size make up | {} |\n|---|---|\n",
                   v.size(), total, unit, unit);
-  for (const int share : {10, 25, 50, 75, 90})
-    text += fmt::format("| {} % of the whole | {:.4g} |\n", share, size_at_share(v, share / 100.0));
+  for (const int fraction : {10, 25, 50, 75, 90})
+    text += fmt::format("| {} % of the whole | {:.4g} |\n", fraction, size_at_fraction(v, fraction / 100.0));
   return text + fmt::format("| smallest block | {:.4g} |\n| largest block | {:.4g} |\n", v.front(), v.back());
 }
 

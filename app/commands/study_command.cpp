@@ -174,19 +174,19 @@ ExitCode study_command(const StudyArguments& arguments) {
   const std::vector<StudyRun> runs = runs_of(plan);
   const ClaimedFolder claim(arguments.out, outputs_of(runs), inputs_of(arguments.plan, runs), arguments.overwrite);
 
-  RunsConduct conduct{arguments.out / "runs", arguments.jobs, arguments.threads, arguments.time_limit, arguments.quiet};
-  conduct.doubt = [&](const fs::path& folder) {
+  RunsOptions options{arguments.out / "runs", arguments.jobs, arguments.threads, arguments.time_limit, arguments.quiet};
+  options.doubt = [&](const fs::path& folder) {
     std::optional<std::string> missing = missing_quantity(folder, plan);
     if (missing && !missing->empty()) missing = arguments.plan.string() + ": " + *missing;
     return missing;
   };
-  if (conduct.jobs == 0) conduct.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const RunsEnded ended = carry_out_runs(runs, conduct);
+  if (options.jobs == 0) options.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const RunsEnded ended = carry_out_runs(runs, options);
   if (ended.interrupted) {
-    tell("voussoir: interrupted: the same command goes on with what is done in '{}'\n", arguments.out.string());
+    tell("voussoir: interrupted: the same command continues with what is done in '{}'\n", arguments.out.string());
     return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + interruption());
   }
-  const std::vector<StudyRow> rows = rows_of(plan, runs, ended, conduct.folder);
+  const std::vector<StudyRow> rows = rows_of(plan, runs, ended, options.folder);
   const fs::path file = arguments.out / "study.csv";
   write_file(file, study_csv(plan, rows));
   return tell_end(rows, ended, file);

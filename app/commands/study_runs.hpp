@@ -16,7 +16,7 @@ struct StudyRun {
   std::string name;  // of its folder: tells scene and program apart from all others; equal runs share one
 };
 
-struct RunsConduct {
+struct RunsOptions {
   std::filesystem::path folder;  // holds a folder for every run
   int jobs = 1;                  // at the same time
   int threads = 1;               // of each run
@@ -33,8 +33,8 @@ struct RunsEnded {
   bool interrupted = false;           // by a signal: what is done is kept, what was going on has a checkpoint
 };
 
-// Does what is not done yet. A failure is repeated at the next call, a run that was interrupted goes on from its
+// Does what is not done yet. A failure is repeated at the next call, a run that was interrupted continues from its
 // checkpoint. Throws BadInput with the doubt about the first run that ended.
-RunsEnded carry_out_runs(const std::vector<StudyRun>& runs, const RunsConduct& conduct);
+RunsEnded carry_out_runs(const std::vector<StudyRun>& runs, const RunsOptions& options);
 
 }  // namespace voussoir

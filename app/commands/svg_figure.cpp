@@ -49,8 +49,8 @@ struct Axis {
   std::vector<double> tics;
 
   double place(double x) const {
-    const double share = logarithmic ? std::log(x / low) / std::log(high / low) : (x - low) / (high - low);
-    return from + share * (to - from);
+    const double fraction = logarithmic ? std::log(x / low) / std::log(high / low) : (x - low) / (high - low);
+    return from + fraction * (to - from);
   }
 };
 
@@ -128,10 +128,10 @@ std::string svg(const Diagram& diagram) {
   const Axis y = linear_axis(0, highest, bottom, top);
 
   std::string text = head(diagram.title) + frame(diagram, x, y);
-  const double share = (right - left) / static_cast<double>(std::max<std::size_t>(1, diagram.curves.size()));
+  const double fraction = (right - left) / static_cast<double>(std::max<std::size_t>(1, diagram.curves.size()));
   for (std::size_t i = 0; i < diagram.curves.size(); ++i) {
     text += drawn(diagram.curves[i], x, y, colour(i));
-    const double at = left + share * static_cast<double>(i);
+    const double at = left + fraction * static_cast<double>(i);
     text += stroke(at, 48, at + 24, 48, colour(i), 2) + label(at + 30, 52, "start", diagram.curves[i].title);
   }
   return text + "</svg>\n";
@@ -139,11 +139,11 @@ std::string svg(const Diagram& diagram) {
 
 std::string stereonet_svg(const std::string& title, const std::vector<PoleSet>& sets) {
   std::string text = head(title);
-  for (const double share : {1.0, 2.0 / 3, 1.0 / 3}) {
+  for (const double fraction : {1.0, 2.0 / 3, 1.0 / 3}) {
     // circles of equal plunge: 0, 30, 60 degrees
-    const double radius = net_radius * std::numbers::sqrt2 * std::sin(share * std::numbers::pi / 4);
+    const double radius = net_radius * std::numbers::sqrt2 * std::sin(fraction * std::numbers::pi / 4);
     text += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{:.1f}\" fill=\"none\" stroke=\"{}\"/>\n", middle_x, middle_y,
-                        radius, share == 1 ? "#606060" : "#e2e2e2");
+                        radius, fraction == 1 ? "#606060" : "#e2e2e2");
   }
   text += stroke(middle_x - net_radius, middle_y, middle_x + net_radius, middle_y, "#e2e2e2", 1);
   text += stroke(middle_x, middle_y - net_radius, middle_x, middle_y + net_radius, "#e2e2e2", 1);

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
 
 #include "app/bad_input.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 
@@ -15,8 +15,6 @@ const char* const associated_flow_caveat =
     "several degrees unsafe (Goodman & Bray's slope: 33.4 for 38.15); confirm it with 'voussoir run'";
 
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 std::string block_name(const Model<2>& model, int body) {
   const std::string& name = model.bodies[body].name;
@@ -74,7 +72,7 @@ void warn_of_changes(const std::vector<StagePlan>& stages, const StagePlan* look
 }
 
 Value bracketed(double low, double high, const std::string& rule) {
-  return {0.5 * (low + high) * degrees, "deg", 0.5 * (high - low) * degrees, rule};
+  return {to_degrees(0.5 * (low + high)), "deg", to_degrees(0.5 * (high - low)), rule};
 }
 
 void seek_friction(const std::vector<std::string>& properties, LimitAnalysis& analysis) {
@@ -100,11 +98,12 @@ void seek_friction(const std::vector<std::string>& properties, LimitAnalysis& an
   }
   if (found.status == LimitStatus::carries_any) {
     analysis.message = "the blocks stand without friction in these joints: no angle is critical";
-    analysis.values.emplace_back("critical_friction", Value{found.stands * degrees, "deg", {}, "stands at this angle"});
+    analysis.values.emplace_back("critical_friction",
+                                 Value{to_degrees(found.stands), "deg", {}, "stands at this angle"});
   }
   if (found.status == LimitStatus::carries_nothing) {
     analysis.values.emplace_back("friction_not_enough",
-                                 Value{found.collapses * degrees, "deg", {}, "fails at the largest angle tried"});
+                                 Value{to_degrees(found.collapses), "deg", {}, "fails at the largest angle tried"});
     analysis.values.emplace_back("force_missing", Value{found.missing, "weight of a block", {}, "at that angle"});
     analysis.message =
         "no friction up to 89 degrees is enough: the mechanism overturns blocks or leaves them without support; look "
@@ -120,7 +119,7 @@ struct LiveLoad {
 };
 
 LiveLoad pushed(const Model<2>& model, double direction, const char* side) {
-  return {fmt::format("horizontal acceleration to the {} at collapse, as a share of gravity", side),
+  return {fmt::format("horizontal acceleration to the {} at collapse, as a fraction of gravity", side),
           "it presses the blocks against what is fixed, or wedges them there",
           loads_of_acceleration(model, {direction * model.gravity.norm(), 0})};
 }

@@ -1,6 +1,7 @@
 #include "app/limit/limit_files.hpp"
 
 #include <fmt/format.h>
+#include <limits>
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,8 @@ struct Frame {
 };
 
 Frame frame_of(const Model<2>& model) {
-  Frame frame{Vector<2>::Constant(1e300), Vector<2>::Constant(-1e300)};
+  Frame frame{Vector<2>::Constant(std::numeric_limits<double>::infinity()),
+              Vector<2>::Constant(-std::numeric_limits<double>::infinity())};
   for (const Body<2>& body : model.bodies) {
     if (body.fixed || !body.present) continue;
     for (const Polytope<2>& part : body.parts)

@@ -32,10 +32,10 @@ Json mechanism_json(const LimitAnalysis& analysis) {
                       {"centroid_m", point(analysis.model.origin + body.reference)},
                       {"velocity", point(v.velocity)},
                       {"spin_per_m", v.spin},
-                      {"rotation_share", motion.rotation_share},
+                      {"rotation_share", motion.rotation_fraction},
                       {"centre_m", motion.centre ? point(*motion.centre) : Json()}});
   }
-  return {{"rotation_share", analysis.mechanism.rotation_share},
+  return {{"rotation_share", analysis.mechanism.rotation_fraction},
           {"turning", analysis.mechanism.turning},
           {"moving", blocks}};
 }

@@ -114,7 +114,7 @@ class FaultTest : public ::testing::Test {
   }
   static std::vector<std::string> resume_arguments(const std::string& out) { return {"resume", out, "--quiet"}; }
 
-  // goes on with what is there, or begins where nothing is
+  // continues with what is there, or begins where nothing is
   Ended finish(const std::string& scene, const std::string& out, int steps) const {
     const bool begun = std::filesystem::exists(std::filesystem::path(out) / "run.json");
     return run({.arguments = begun ? resume_arguments(out) : run_arguments(scene, out, steps)});

@@ -78,8 +78,8 @@ void Clipper::cut_loop(const Loop& loop, Loop& left) {
 int Clipper::vertex_on(int kept, int lost) {
   for (const Cut& cut : cuts_)
     if (cut.kept == kept && cut.lost == lost) return cut.vertex;
-  const double inside = std::min(distances_[kept], 0.0), share = inside / (inside - distances_[lost]);
-  vertices_.push_back(vertices_[kept] + share * (vertices_[lost] - vertices_[kept]));
+  const double inside = std::min(distances_[kept], 0.0), fraction = inside / (inside - distances_[lost]);
+  vertices_.push_back(vertices_[kept] + fraction * (vertices_[lost] - vertices_[kept]));
   alive_.push_back(static_cast<int>(vertices_.size()) - 1);
   cuts_.push_back({kept, lost, static_cast<int>(vertices_.size()) - 1});
   return cuts_.back().vertex;

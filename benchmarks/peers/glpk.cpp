@@ -1,4 +1,4 @@
-// GLPK on the feasibility program: as the core offers it (primal form, everything built anew), and in the form that is
+// GLPK on the feasibility program: as the core offers it (primal form, everything built again), and in the form that is
 // fastest for it (the dual, four rows) with one object for all pairs of a first part, cold and from the basis of the
 // pose before.
 #include <glpk.h>
@@ -18,8 +18,8 @@ struct DeleteProblem {
   void operator()(glp_prob* problem) const { glp_delete_prob(problem); }
 };
 
-// min Σ d_i λ_i  subject to  Σ λ_i a_i = 0, Σ λ_i = 1, λ >= 0. Its optimum is -s (optimise/feasibility_program.hpp): positive
-// when the parts overlap.
+// min Σ d_i λ_i  subject to  Σ λ_i a_i = 0, Σ λ_i = 1, λ >= 0. Its optimum is -s (optimise/feasibility_program.hpp):
+// positive when the parts overlap.
 class DualProgram {
  public:
   // the basic variables: columns, and rows as their negative numbers (in a degenerate optimum some are)

@@ -9,7 +9,7 @@ namespace {
 // a solve takes milliseconds, and all take about as long
 constexpr std::size_t few_pairs = 8;
 
-// m, between its centre and ours: a share of an overlap of 1e-4
+// m, between its centre and ours: a fraction of an overlap of 1e-4
 constexpr double agreement = 1e-7;
 
 std::shared_ptr<Prepared> prepare(const Workload& work) {

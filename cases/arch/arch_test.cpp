@@ -60,7 +60,7 @@ Trial attempt(const std::vector<std::string>& overrides) {
   const auto& prepared = std::get<Prepared<2>>(trial.run.scene.prepared);
   Watcher<2> watcher;
   watcher.frame = [&](const Model<2>&, const State<2>& state, double) { trial.frames.push_back(state); };
-  Progress<2> progress = begin(prepared);
+  Progress<2> progress = initial_progress(prepared);
   simulate(prepared, progress, watcher);
   trial.run.results = std::move(progress.results);
   if (trial.run.results.outcome == Outcome::failed) throw std::runtime_error(trial.run.results.message);

@@ -64,12 +64,12 @@ TEST(Bounce, FirstImpact) {
   const SceneRun run = cases::run("scene.toml");
   const Flight flight(run, gap);
   const reference::BounceResult expected = reference::bounce({mass, stiffness, damping_ratio, drop_speed, gravity});
-  const double share = 2 * damping_ratio * frequency * flight.step;
+  const double fraction = 2 * damping_ratio * frequency * flight.step;
   const std::string source = "spring and dashpot that cannot pull, with gravity (Schwager & Poschel 2007)";
 
-  report.record({"largest overlap", "m", Kind::exact, source, expected.maximum_overlap, {0, share}, first_order},
+  report.record({"largest overlap", "m", Kind::exact, source, expected.maximum_overlap, {0, fraction}, first_order},
                 flight.overlap(), cost(run));
-  report.record({"restitution", "1", Kind::exact, source, expected.restitution, {0, share}, first_order},
+  report.record({"restitution", "1", Kind::exact, source, expected.restitution, {0, fraction}, first_order},
                 flight.speed() / drop_speed, cost(run));
   report.record({"duration of contact",
                  "s",
@@ -87,8 +87,8 @@ TEST(Bounce, FirstImpact) {
                  Kind::exact,
                  source + ", then an arc",
                  top,
-                 {0, 2.5 * share},
-                 "twice the share of the speed, on an arc that starts below the surface by a fifth of its height"},
+                 {0, 2.5 * fraction},
+                 "twice the fraction of the speed, on an arc that starts below the surface by a fifth of its height"},
                 flight.tops().front(), cost(run));
 }
 
@@ -126,14 +126,14 @@ TEST(Bounce, FourthImpact) {
     shown_height.push_back(1e3 * flight.height[i]);
   }
   write_csv("bounce", "height.csv", {"time_ms", "height_mm"}, {shown_time, shown_height});
-  const double share = 2 * damping_ratio * frequency * flight.step;
+  const double fraction = 2 * damping_ratio * frequency * flight.step;
   report.record({"time of the fourth impact",
                  "s",
                  Kind::exact,
                  "arcs and impacts in turn",
                  touch,
-                 {3 * share * touch, 0},
-                 "each of three impacts adds its share of the speed, that is of the time in flight"},
+                 {3 * fraction * touch, 0},
+                 "each of three impacts adds its fraction of the speed, that is of the time in flight"},
                 fourth, cost(run));
 }
 
@@ -169,7 +169,7 @@ TEST(Bounce, ErrorAgainstStep) {
        "leapfrog with a late dashpot",
        1,
        {0.1, 0},
-       "the share of second order is as large as omega dt, below 0.02 for the two smallest steps; the last force "
+       "the fraction of second order is as large as omega dt, below 0.02 for the two smallest steps; the last force "
        "before release adds as much"},
       std::log2(errors[last - 1] / errors[last]));
   report.record({"restitution, extrapolated to no step",
@@ -189,7 +189,7 @@ TEST(Bounce, UndampedKeepsItsEnergy) {
   const SceneRun run =
       cases::run("scene.toml", {"damping.viscous_ratio=0", "time.fraction=0.05", "stage.bounce.duration_s=20"});
   const Flight flight(run, gap);
-  const double half = 0.5 * frequency * flight.step, share = half * half;
+  const double half = 0.5 * frequency * flight.step, fraction = half * half;
   const std::vector<double> tops = flight.tops();
   double last = gap, one = 0, all = 0;
   for (const double top : tops) {
@@ -204,7 +204,7 @@ TEST(Bounce, UndampedKeepsItsEnergy) {
        Kind::limit,
        "conservation of energy",
        0,
-       {1.1 * share, 0, Bound::at_most},
+       {1.1 * fraction, 0, Bound::at_most},
        "met between two steps the spring gives up to (omega dt/2)2 of the energy, left between two it takes as much; a "
        "tenth for gravity and for the highest row beside the top"},
       one, cost(run));
@@ -214,7 +214,7 @@ TEST(Bounce, UndampedKeepsItsEnergy) {
        Kind::limit,
        "conservation of energy",
        0,
-       {3 * 0.42 * std::sqrt(count) * share, 0, Bound::at_most},
+       {3 * 0.42 * std::sqrt(count) * fraction, 0, Bound::at_most},
        "three deviations of a random walk: 0.42 (omega dt/2)2 a bounce when every place in a step is equally likely"},
       all, cost(run));
   report.report("undamped bounces in 20 s", "1", count, "0.05 of the stable step");

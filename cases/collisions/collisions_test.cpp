@@ -4,8 +4,11 @@
 
 #include <limits>
 
-#include "cases/film.hpp"
+#include "cases/case_tools.hpp"
+#include "cases/model_picture.hpp"
+#include "cases/recorded_run.hpp"
 #include "reference/small/small.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -16,11 +19,6 @@ using verification::Kind;
 
 // as the scenes state it: a cube of 1 m
 constexpr double weight = 2500 * 9.81, stiffness = 1e10, edge = 1;
-constexpr double degree = std::numbers::pi / 180;
-
-Film film_of(const std::string& scene) {
-  return film(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene);
-}
 
 int body_named(const Model<3>& model, const std::string& name) {
   return select(model, {.names = {name}, .above = {}, .below = {}, .inside = {}}).front();
@@ -35,9 +33,9 @@ int corners_down(const Model<3>& model, const State<3>& state, int body, double 
 }
 
 // the first frame in which that many corners are down; past the end: none
-std::size_t first_with(const Film& film, int body, double height, int count) {
+std::size_t first_with(const RecordedRun<3>& run, int body, double height, int count) {
   std::size_t i = 0;
-  while (i < film.frames.size() && corners_down(film.model(), film.frames[i], body, height) != count)
+  while (i < run.frames.size() && corners_down(run.model(), run.frames[i], body, height) != count)
     ++i;
   return i;
 }
@@ -65,8 +63,8 @@ const Contact<3>& only_contact(const State<3>& state) {
 }
 
 // The cube lies flat on a plate whose top is at `height`: exact geometry.
-void check_rest(CaseReport& report, const std::string& which, const Film& film, int body, double height) {
-  const Contact<3>& contact = only_contact(film.last());
+void check_rest(CaseReport& report, const std::string& which, const RecordedRun<3>& run, int body, double height) {
+  const Contact<3>& contact = only_contact(run.last());
   const double overlap = weight / (stiffness * edge * edge);
   report.record({"tilt at rest" + which,
                  "rad",
@@ -75,7 +73,7 @@ void check_rest(CaseReport& report, const std::string& which, const Film& film, 
                  0,
                  {1e-6, 0},
                  "the last swing leaves less than half of the overlap, 2.5e-6 m, across the face of 1 m"},
-                tilt(film.model(), film.last(), body), cost(film.run));
+                tilt(run.model(), run.last(), body), cost(run.run));
   report.record({"area of contact at rest" + which,
                  "m2",
                  Kind::exact,
@@ -83,7 +81,7 @@ void check_rest(CaseReport& report, const std::string& which, const Film& film, 
                  edge * edge,
                  {0, 1e-9},
                  "clipping is exact; a tilt below 1e-6 shortens the section by its square"},
-                contact.geometry.area, cost(film.run));
+                contact.geometry.area, cost(run.run));
   report.record({"overlap at rest" + which,
                  "m",
                  Kind::exact,
@@ -91,9 +89,9 @@ void check_rest(CaseReport& report, const std::string& which, const Film& film, 
                  overlap,
                  {0, 1e-6},
                  "the dashpot leaves nothing of the last bounce, but a cube that is left spinning shakes by 1e-7"},
-                contact.geometry.overlap, cost(film.run));
+                contact.geometry.overlap, cost(run.run));
   const double centroid =
-      film.model().origin[2] + film.model().bodies[body].reference[2] + film.last().motions[body].displacement[2];
+      run.model().origin[2] + run.model().bodies[body].reference[2] + run.last().motions[body].displacement[2];
   report.record({"height of the centroid at rest" + which,
                  "m",
                  Kind::exact,
@@ -101,17 +99,17 @@ void check_rest(CaseReport& report, const std::string& which, const Film& film, 
                  height + 0.5 * edge - overlap,
                  {1e-8 * overlap + 1e-12, 0},
                  "as the overlap; a tilt of 1e-6 lifts it by its square"},
-                centroid, cost(film.run));
-  const Vector<3> normal = (film.model().parts[contact.part_a].body == body ? -1 : 1) * contact.geometry.normal;
+                centroid, cost(run.run));
+  const Vector<3> normal = (run.model().parts[contact.part_a].body == body ? -1 : 1) * contact.geometry.normal;
   report.report("spin about the vertical at rest" + which, "rad/s",
-                angular_velocity(film.model().bodies[body], film.last().motions[body]).dot(normal),
-                "a contact acts at one point: nothing resists twisting about its normal", cost(film.run));
+                angular_velocity(run.model().bodies[body], run.last().motions[body]).dot(normal),
+                "a contact acts at one point: nothing resists twisting about its normal", cost(run.run));
 }
 
-void check_sound(CaseReport& report, const std::string& which, const Film& film) {
-  const Counters& counters = film.run.results.counters;
+void check_sound(CaseReport& report, const std::string& which, const RecordedRun<3>& run) {
+  const Counters& counters = run.run.results.counters;
   report.record({"contacts without an answer" + which, "1", Kind::exact, "robustness", 0, {0.5, 0}, "a count"},
-                static_cast<double>(counters.unconverged), cost(film.run));
+                static_cast<double>(counters.unconverged), cost(run.run));
   report.record({"overlaps beyond the potential particle's radius" + which,
                  "1",
                  Kind::exact,
@@ -119,25 +117,27 @@ void check_sound(CaseReport& report, const std::string& which, const Film& film)
                  0,
                  {0.5, 0},
                  "a count"},
-                static_cast<double>(counters.deep_overlaps), cost(film.run));
-  const EnergyLedger& energy = film.run.results.energy;
+                static_cast<double>(counters.deep_overlaps), cost(run.run));
+  const EnergyLedger& energy = run.run.results.energy;
   report.record({"energy that the motion does not account for" + which,
                  "1",
                  Kind::exact,
-                 "work of all forces against kinetic energy, as a share of the largest energy",
+                 "work of all forces against kinetic energy, as a fraction of the largest energy",
                  0,
                  {1e-10, 0},
                  "leapfrog closes to the rounding of some 40 000 steps"},
-                energy.motion_error / energy.turnover, cost(film.run));
-  report.report("energy that the contacts do not account for" + which, "1", energy.contact_error / energy.turnover,
-                "the published normal leans with the edge: see README.md", cost(film.run));
+                energy.motion_error / energy.largest_energy, cost(run.run));
+  report.report("energy that the contacts do not account for" + which, "1",
+                energy.contact_error / energy.largest_energy, "the published normal leans with the edge: see README.md",
+                cost(run.run));
 }
 
-void draw(const std::string& name, const Film& film, const std::vector<std::size_t>& frames, const Camera& camera) {
+void draw(const std::string& name, const RecordedRun<3>& run, const std::vector<std::size_t>& frames,
+          const Camera& camera) {
   std::vector<double> panel, time;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const State<3>& state = film.frames[frames[i]];
-    write_picture("collisions", fmt::format("{}_{}.csv", name, i + 1), film.model(), state, camera);
+    const State<3>& state = run.frames[frames[i]];
+    write_picture("collisions", fmt::format("{}_{}.csv", name, i + 1), run.model(), state, camera);
     panel.push_back(static_cast<double>(i + 1));
     time.push_back(state.time);
   }
@@ -147,10 +147,10 @@ void draw(const std::string& name, const Film& film, const std::vector<std::size
 // Corner, edge, face: in this order, with a contact that grows to the whole face.
 TEST(Collisions, ACornerRollsOntoItsFace) {
   CaseReport report("collisions", {"corner on face: order of corner, edge and face", "tilt at rest, corner on face"});
-  const Film film = film_of("vertex_face.toml");
-  const int cube = body_named(film.model(), "cube");
-  const std::size_t corner = first_with(film, cube, 0, 1), side = first_with(film, cube, 0, 2),
-                    face = first_with(film, cube, 0, 4);
+  const RecordedRun<3> run = record<3>("vertex_face.toml");
+  const int cube = body_named(run.model(), "cube");
+  const std::size_t corner = first_with(run, cube, 0, 1), side = first_with(run, cube, 0, 2),
+                    face = first_with(run, cube, 0, 4);
   report.record({"corner on face: order of corner, edge and face",
                  "1",
                  Kind::exact,
@@ -158,10 +158,10 @@ TEST(Collisions, ACornerRollsOntoItsFace) {
                  1,
                  {0.5, 0},
                  "a yes"},
-                corner < side && side < face && face < film.frames.size(), cost(film.run));
+                corner < side && side < face && face < run.frames.size(), cost(run.run));
   double first_area = 0;
-  for (std::size_t i = 0; i < film.frames.size() && first_area == 0; ++i)
-    for (const Contact<3>& c : film.frames[i].contacts)
+  for (std::size_t i = 0; i < run.frames.size() && first_area == 0; ++i)
+    for (const Contact<3>& c : run.frames[i].contacts)
       if (c.touching()) first_area = c.geometry.area;
   report.record(
       {"corner on face: area when first seen",
@@ -171,43 +171,42 @@ TEST(Collisions, ACornerRollsOntoItsFace) {
        0,
        {0.01, 0, Bound::at_most},
        "the section of this corner is 4.8 u2 (1 over twice the product of the direction cosines), u below 45 mm"},
-      first_area, cost(film.run));
-  check_rest(report, ", corner on face", film, cube, 0);
-  check_sound(report, ", corner on face", film);
+      first_area, cost(run.run));
+  check_rest(report, ", corner on face", run, cube, 0);
+  check_sound(report, ", corner on face", run);
 
   std::vector<double> time, area;
-  for (const State<3>& state : film.frames) {
+  for (const State<3>& state : run.frames) {
     time.push_back(state.time);
     area.push_back(0);
     for (const Contact<3>& c : state.contacts)
       if (c.touching()) area.back() = c.geometry.area;
   }
   write_csv("collisions", "area.csv", {"time_s", "area_m2"}, {time, area});
-  draw("vertex_face", film, {0, corner, (corner + side) / 2, side, (side + face) / 2, film.frames.size() - 1},
+  draw("vertex_face", run, {0, corner, (corner + side) / 2, side, (side + face) / 2, run.frames.size() - 1},
        {-35, 15, {}});
 }
 
 // An edge across an edge: it leans outwards, topples off and lies on the ground.
 TEST(Collisions, AnEdgeOnAnEdgeTopples) {
   CaseReport report("collisions", {"edge on edge: toppled outwards", "tilt at rest, edge on edge"});
-  const Film film = film_of("edge_edge.toml");
-  const int cube = body_named(film.model(), "cube");
+  const RecordedRun<3> run = record<3>("edge_edge.toml");
+  const int cube = body_named(run.model(), "cube");
   const auto first_on = [&](const char* other) {
-    const int it = body_named(film.model(), other);
+    const int it = body_named(run.model(), other);
     std::size_t i = 0;
     const auto touches = [&](const State<3>& state) {
       for (const Contact<3>& c : state.contacts)
-        if (c.touching() && (film.model().parts[c.part_a].body == it || film.model().parts[c.part_b].body == it))
+        if (c.touching() && (run.model().parts[c.part_a].body == it || run.model().parts[c.part_b].body == it))
           return true;
       return false;
     };
-    while (i < film.frames.size() && !touches(film.frames[i]))
+    while (i < run.frames.size() && !touches(run.frames[i]))
       ++i;
     return i;
   };
   const std::size_t upper = first_on("fixed"), ground = first_on("ground");
-  const Vector<3> end =
-      film.model().origin + film.model().bodies[cube].reference + film.last().motions[cube].displacement;
+  const Vector<3> end = run.model().origin + run.model().bodies[cube].reference + run.last().motions[cube].displacement;
   report.record({"edge on edge: the fixed cube is met before the ground",
                  "1",
                  Kind::exact,
@@ -215,7 +214,7 @@ TEST(Collisions, AnEdgeOnAnEdgeTopples) {
                  1,
                  {0.5, 0},
                  "a yes"},
-                upper < ground && ground < film.frames.size(), cost(film.run));
+                upper < ground && ground < run.frames.size(), cost(run.run));
   report.record({"edge on edge: toppled outwards",
                  "1",
                  Kind::exact,
@@ -223,18 +222,18 @@ TEST(Collisions, AnEdgeOnAnEdgeTopples) {
                  1,
                  {0.5, 0},
                  "a yes"},
-                end[0] > 0.5 + 0.5 * edge, cost(film.run));
-  check_rest(report, ", edge on edge", film, cube, -1);
-  check_sound(report, ", edge on edge", film);
-  draw("edge_edge", film,
-       {0, upper, (2 * upper + ground) / 3, (upper + 2 * ground) / 3, ground, film.frames.size() - 1}, {-90, 12, {}});
+                end[0] > 0.5 + 0.5 * edge, cost(run.run));
+  check_rest(report, ", edge on edge", run, cube, -1);
+  check_sound(report, ", edge on edge", run);
+  draw("edge_edge", run, {0, upper, (2 * upper + ground) / 3, (upper + 2 * ground) / 3, ground, run.frames.size() - 1},
+       {-90, 12, {}});
 }
 
 // Two free cubes, no gravity: nothing outside acts, so momentum and its moment stay, whatever the contact does.
 TEST(Collisions, AnImpactKeepsMomentum) {
   CaseReport report("collisions", {"impact: change of momentum", "impact: change of angular momentum"});
-  const Film film = film_of("impact.toml");
-  const Model<3>& model = film.model();
+  const RecordedRun<3> run = record<3>("impact.toml");
+  const Model<3>& model = run.model();
   const auto momentum = [&](const State<3>& state) {
     std::pair<Vector<3>, Vector<3>> sum{Vector<3>::Zero(), Vector<3>::Zero()};
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -246,14 +245,14 @@ TEST(Collisions, AnImpactKeepsMomentum) {
     }
     return sum;
   };
-  const auto before = momentum(film.frames[1]);
+  const auto before = momentum(run.frames[0]);
   double linear = 0, angular = 0, most = 0;
   bool touched = false;
-  for (std::size_t i = 1; i < film.frames.size(); ++i) {
-    const auto now = momentum(film.frames[i]);
+  for (std::size_t i = 1; i < run.frames.size(); ++i) {
+    const auto now = momentum(run.frames[i]);
     linear = std::max(linear, (now.first - before.first).norm());
     angular = std::max(angular, (now.second - before.second).norm());
-    for (const Contact<3>& c : film.frames[i].contacts)
+    for (const Contact<3>& c : run.frames[i].contacts)
       if (c.touching()) {
         touched = true;
         most = std::max(most, c.force.norm());
@@ -263,7 +262,7 @@ TEST(Collisions, AnImpactKeepsMomentum) {
   const double scale = before.first.norm();
   const char* because = "forces are equal and opposite at one point; what is left is rounding of some thousand steps";
   report.record({"impact: change of momentum", "1", Kind::exact, "Newton: conserved", 0, {1e-10, 0}, because},
-                linear / scale, cost(film.run));
+                linear / scale, cost(run.run));
   report.record({"impact: change of angular momentum",
                  "1",
                  Kind::exact,
@@ -271,9 +270,9 @@ TEST(Collisions, AnImpactKeepsMomentum) {
                  0,
                  {1e-10, 0},
                  because},
-                angular / scale, cost(film.run));
-  report.report("impact: largest force seen", "N", most, "of the frames, 1 ms apart", cost(film.run));
-  check_sound(report, ", impact", film);
+                angular / scale, cost(run.run));
+  report.report("impact: largest force seen", "N", most, "of the frames, 1 ms apart", cost(run.run));
+  check_sound(report, ", impact", run);
 }
 
 constexpr double study_end = 0.6;  // s, as study.toml states it
@@ -300,7 +299,7 @@ TEST(Collisions, ACubeFallsOverInTime) {
     while (i < turned.size() && turned[i] < lean)
       ++i;
     ASSERT_LT(i, turned.size());
-    const double share = (lean - turned[i - 1]) / (turned[i] - turned[i - 1]);
+    const double fraction = (lean - turned[i - 1]) / (turned[i] - turned[i - 1]);
     const double expected = reference::fall_over_time(block, start + lean * degree);
     report.record(
         {fmt::format("time to lean by {:.0f} deg more", lean),
@@ -311,7 +310,7 @@ TEST(Collisions, ACubeFallsOverInTime) {
          {0, overlap / arm / start},
          "the edge gives by its overlap, W/k, which moves the pivot against a lean of 8 degrees; rows of 1 ms "
          "between which the angle is taken as straight add 1e-6"},
-        time[i - 1] + share * (time[i] - time[i - 1]), cost(run));
+        time[i - 1] + fraction * (time[i] - time[i - 1]), cost(run));
   }
 }
 

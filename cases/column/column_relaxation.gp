@@ -3,7 +3,7 @@ load style
 set output out
 set logscale xy
 set xlabel 'steps'
-set ylabel 'largest error of the settlement from here on, share'
+set ylabel 'largest error of the settlement from here on, fraction'
 set format y '10^{%T}'
 set xrange [10:1e5]
 plot 'relaxation_100.csv' using 'steps':'error' with lines lc rgb '#d55e00' lw 2 title 'relaxation, 100 blocks', \

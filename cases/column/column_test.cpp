@@ -55,7 +55,7 @@ TEST(Column, SettlesOnItsSprings) {
                  "36 m g/k",
                  settlement,
                  {8 * tolerance, 0},
-                 "eight joints, each with its own share"},
+                 "eight joints, each with its own fraction"},
                 -below, cost(run));
   write_csv("column", "overlaps.csv", {"joint", "overlap_mm", "closed_form_mm"}, {joint, found_mm, expected_mm});
 }

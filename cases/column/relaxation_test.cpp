@@ -81,7 +81,7 @@ double settlement(int blocks) {
   return sum;
 }
 
-// the largest error of the top's place from each row on, as a share of its settlement
+// the largest error of the top's place from each row on, as a fraction of its settlement
 void write_approach(const std::string& file, int blocks, const SceneRun& run) {
   const std::vector<double> time = column(run, "time_s"), top = column(run, "top_displacement_y_m");
   std::vector<double> steps(time.size()), error(time.size());

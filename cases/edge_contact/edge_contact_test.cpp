@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "cases/case_tools.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -14,7 +14,6 @@ using verification::Kind;
 
 // as scene.toml states it: a square prism of 4 m3 on a spring
 constexpr double weight = 2000 * 4 * 10.0, stiffness = 80e6, shear_stiffness = 8e6, overlap = weight / stiffness;
-constexpr double degrees = 180 / std::numbers::pi;
 
 struct Rest {
   double overlap, drift, force, tilt;  // m, m, N, deg
@@ -26,7 +25,7 @@ Rest rest(const SceneRun& run) {
   Rest r;
   r.overlap = -last("upper_displacement_z");
   r.force = last("upper_contact_load_z");
-  r.tilt = std::atan2(across, r.force) * degrees;
+  r.tilt = std::atan2(across, r.force) / degree;
   r.drift = 0;
   const std::vector<double> x = column(run, "upper_displacement_x_m"), y = column(run, "upper_displacement_y_m");
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -68,7 +67,7 @@ void check(CaseReport& report, const std::string& which, const SceneRun& run) {
                  Kind::exact,
                  "common perpendicular of the edges: vertical",
                  0,
-                 {1e-9 * degrees, 0},
+                 {1e-9 / degree, 0},
                  "the contact point is found to 1e-9 of the overlap"},
                 found.tilt, cost(run));
 }
@@ -100,7 +99,7 @@ TEST(EdgeContact, UnevenEdgeIsReported) {
   const SceneRun run = cases::run("uneven.toml");
   const double sideways = std::hypot(value(run, "upper_displacement_x"), value(run, "upper_displacement_y"));
   report.report(
-      "tilt of the normal, uneven edge", "deg", std::asin(shear_stiffness * sideways / weight) * degrees,
+      "tilt of the normal, uneven edge", "deg", std::asin(shear_stiffness * sideways / weight) / degree,
       "each edge points along the bisector of its faces, one upright, one tilted by 8.13 deg; the normal takes the "
       "mean; from the friction that holds the block",
       cost(run));

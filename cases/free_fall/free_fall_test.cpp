@@ -5,7 +5,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "cases/film.hpp"
+#include "cases/case_tools.hpp"
+#include "cases/model_picture.hpp"
+#include "cases/recorded_run.hpp"
 #include "core/testing/fall_scene.hpp"
 #include "core/testing/fall_watch.hpp"
 
@@ -41,16 +43,17 @@ struct Fall {
 
 Fall let_fall(const std::filesystem::path& path, const FallPlan& plan, const std::vector<std::string>& overrides = {}) {
   Fall fall{load_scene(path, overrides), {}, {}};
-  fall.found = fall_until_still(fall.scene(), plan.side * plan.pitch,
-                                [&](const State<3>& state) { fall.frames.push_back(state); });
+  fall.found = fall_until_rest(fall.scene(), plan.side * plan.pitch,
+                               [&](const State<3>& state) { fall.frames.push_back(state); });
   return fall;
 }
 
-// whether the contacts' books are judged, or what they leave open is reported
-enum class Books { open, closed };
+// whether the contacts' energy balance is judged, or what they leave open is reported
+enum class Balance { reported, checked };
 enum class Rest { demanded, optional };
 
-void check(CaseReport& report, const std::string& which, const Fall& fall, Books books, Rest rest = Rest::demanded) {
+void check(CaseReport& report, const std::string& which, const Fall& fall, Balance balance,
+           Rest rest = Rest::demanded) {
   const FallFindings& found = fall.found;
   const verification::Cost cost{found.counters.contact_evaluations, found.seconds};
   const auto at_most = [&](const std::string& quantity, const char* unit, const char* source, double value,
@@ -64,24 +67,24 @@ void check(CaseReport& report, const std::string& which, const Fall& fall, Books
   at_most("deepest corner in the plate or a wall", "m", "no block goes through", found.deepest,
           largest_potential_radius(fall.scene().model, fall.scene().settings.contact.potential_radius),
           "no overlap is beyond the radius of the bluntest block's potential particle");
-  if (rest == Rest::demanded || found.kinetic < still)
-    at_most("kinetic energy at rest", "1", "rest, as a share of the energy of the drop", found.kinetic, still,
+  if (rest == Rest::demanded || found.kinetic < at_rest)
+    at_most("kinetic energy at rest", "1", "rest, as a fraction of the energy of the drop", found.kinetic, at_rest,
             "what was asked of the case; there the fall is ended");
   else
     report.report("kinetic energy at the end, not at rest" + which, "1", found.kinetic,
-                  "a block between two parallel faces goes on turning: contacts that act at points do not resist "
+                  "a block between two parallel faces keeps turning: contacts that act at points do not resist "
                   "(README.md)",
                   cost);
   for (const auto& [when, closure] :
        {std::pair(", before the damping starts", found.before), {", at rest", found.end}}) {
     at_most(std::string("energy that the motion does not account for") + when, "1",
-            "work of all forces against kinetic energy, as a share of the energy of the drop", closure.motion,
+            "work of all forces against kinetic energy, as a fraction of the energy of the drop", closure.motion,
             motion_closed, "leapfrog closes to the rounding of some ten thousand steps of two hundred blocks");
     const std::string quantity = std::string("energy that the contacts do not account for") + when;
-    if (books == Books::closed)
+    if (balance == Balance::checked)
       at_most(quantity, "1",
-              "work of the contacts against springs, dashpots and friction, as a share of the energy of the drop",
-              closure.contacts, books_closed,
+              "work of the contacts against springs, dashpots and friction, as a fraction of the energy of the drop",
+              closure.contacts, energy_balanced,
               "what was asked of the case; what the time step leaves falls with its square (README.md)");
     else
       report.report(quantity + which, "1", closure.contacts,
@@ -117,18 +120,18 @@ TEST(FreeFall, AMixComesToRest) {
   CaseReport report("free_fall", {"contacts without an answer", "overlaps beyond the potential particle's radius",
                                   "deepest corner in the plate or a wall", "kinetic energy at rest"});
   const Fall fall = let_fall(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml", {});
-  check(report, "", fall, Books::open);
+  check(report, "", fall, Balance::reported);
   draw(fall);
 }
 
 TEST(FreeFall, ContactsThatHaveAPotentialKeepTheirBooks) {
   CaseReport report("free_fall");
-  const Fall fall = let_fall(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml", {}, closed_books);
-  check(report, ", on the central path", fall, Books::closed);
+  const Fall fall = let_fall(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml", {}, conservative_contacts);
+  check(report, ", on the central path", fall, Balance::checked);
 }
 
 // Forty blocks until the damping would start, by three kinds of contact and three time steps.
-TEST(FreeFall, BooksCloseWithTheSquareOfTheStep) {
+TEST(FreeFall, TheEnergyBalanceClosesWithTheSquareOfTheStep) {
   CaseReport report("free_fall");
   FallPlan plan;
   plan.blocks = 40;
@@ -142,13 +145,13 @@ TEST(FreeFall, BooksCloseWithTheSquareOfTheStep) {
   const std::vector<double> fractions{1, 0.5, 0.2};
   std::vector<std::vector<double>> open{fractions};
   for (const auto& [name, choice] : contacts) {
-    std::vector<double>& shares = open.emplace_back();
+    std::vector<double>& fractions = open.emplace_back();
     for (const double fraction : fractions) {
       std::vector<std::string> overrides = choice;
       overrides.push_back(fmt::format("time.fraction={}", fraction));
       overrides.push_back("stage.rest.time_limit_s=1e-3");
-      const Film fall = film(scene, Goals::optional, overrides);
-      shares.push_back(closure(fall.last()).contacts);
+      const RecordedRun<3> fall = record<3>(scene, overrides, Demand::no_failure);
+      fractions.push_back(energy_errors(fall.last()).contacts);
       const std::string quantity =
           fmt::format("energy that the contacts of forty blocks leave open, {}, at {} of the limit", name, fraction);
       // seen: 4e-4 and 6e-5, a sixth more or less
@@ -160,12 +163,12 @@ TEST(FreeFall, BooksCloseWithTheSquareOfTheStep) {
                        0,
                        {fraction == 0.2 ? 2e-4 : 1e-3, 0, Bound::at_most},
                        "four times what a step of second order leaves"},
-                      shares.back(), cost(fall.run));
+                      fractions.back(), cost(fall.run));
       else
-        report.report(quantity, "1", shares.back(), "README.md, Limits", cost(fall.run));
+        report.report(quantity, "1", fractions.back(), "README.md, Limits", cost(fall.run));
     }
   }
-  write_csv("free_fall", "books.csv", {"fraction", "published", "multipliers", "central_path"}, open);
+  write_csv("free_fall", "balance.csv", {"fraction", "published", "multipliers", "central_path"}, open);
 }
 
 TEST(FreeFallLong, EveryShapeFalls) {
@@ -176,9 +179,9 @@ TEST(FreeFallLong, EveryShapeFalls) {
     const std::string& shape = regular_polyhedra[kind];
     const std::filesystem::path scene =
         write_scene(shape + ".toml", fall_scene(plan, "Two hundred of one shape: " + shape));
-    check(report, ", " + shape, let_fall(scene, plan), Books::open, Rest::optional);
-    check(report, ", " + shape + ", on the central path", let_fall(scene, plan, closed_books), Books::closed,
-          Rest::optional);
+    check(report, ", " + shape, let_fall(scene, plan), Balance::reported, Rest::optional);
+    check(report, ", " + shape + ", on the central path", let_fall(scene, plan, conservative_contacts),
+          Balance::checked, Rest::optional);
   }
 }
 

@@ -4,18 +4,16 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include "cases/case_tools.hpp"
 #include "reference/small/small.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
 
 using verification::CaseReport;
 using verification::Kind;
-
-constexpr double radians = std::numbers::pi / 180;
 
 // as scene.toml states it
 const reference::FreeRotation box{reference::box_inertia(2000 * 3 * 2 * 1, {3, 2, 1}), {0.1, 2, 0.1}};
@@ -43,7 +41,7 @@ Tumble tumble(const SceneRun& run) {
   Tumble t;
   t.time = column(run, "time_s");
   for (std::size_t i = 0; i < spins.size(); ++i) {
-    const double angle = radians * turns[i].norm();
+    const double angle = degree * turns[i].norm();
     const Eigen::Matrix3d axes =
         Eigen::AngleAxisd(angle, angle > 0 ? Eigen::Vector3d(turns[i].normalized()) : Eigen::Vector3d::UnitX())
             .toRotationMatrix();
@@ -74,7 +72,7 @@ TEST(FreeRotation, FollowsEuler) {
   const Tumble found = tumble(run);
   const double period = reference::free_rotation_period(box);
   const double turn = 2 * run.results.stages.front().time_step;  // rad in a step
-  const double share = turn * turn / 12;
+  const double fraction = turn * turn / 12;
 
   // for the study
   report.reference("box_angular_velocity_x", reference::free_rotation_in_space(box, duration)[0], "rad/s");
@@ -84,7 +82,7 @@ TEST(FreeRotation, FollowsEuler) {
        Kind::exact,
        "Euler (1758), Jacobi's elliptic functions",
        0,
-       {share * duration * steepest, 0},
+       {fraction * duration * steepest, 0},
        "a step of second order turns at a rate wrong by (omega dt)2/12; over 45 s that shifts a curve whose slope is "
        "2 rad/s2 at most"},
       found.largest_error, cost(run));
@@ -101,7 +99,7 @@ TEST(FreeRotation, FollowsEuler) {
                  Kind::exact,
                  "4 K/lambda",
                  period,
-                 {0, 2 * share},
+                 {0, 2 * fraction},
                  "the rate is wrong by (omega dt)2/12; as much again for zeros between rows"},
                 period_of(found), cost(run));
 

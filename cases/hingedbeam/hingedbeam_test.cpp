@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "cases/case_tools.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -18,8 +18,6 @@ using verification::Bound;
 using verification::CaseReport;
 using verification::Check;
 using verification::Kind;
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 // as the scenes state it
 const reference::HingedBeam beam;
@@ -68,7 +66,7 @@ std::vector<HingedBeamLoad> curve(const SceneRun& run) {
   const std::vector<double> thrust = column(run, "abutment_contact_load_x_N", push);
   std::vector<HingedBeamLoad> curve;
   for (std::size_t i = 0; i < turned.size(); ++i)
-    curve.push_back({-turned[i] / degrees, weight[i], -thrust[i]});
+    curve.push_back({-turned[i] * degree, weight[i], -thrust[i]});
   return curve;
 }
 
@@ -77,8 +75,8 @@ HingedBeamLoad at(const std::vector<HingedBeamLoad>& curve, double rotation) {
   const auto after = std::lower_bound(curve.begin() + 1, curve.end() - 1, rotation,
                                       [](const HingedBeamLoad& p, double r) { return p.rotation < r; });
   const HingedBeamLoad &a = after[-1], &b = *after;
-  const double share = (rotation - a.rotation) / (b.rotation - a.rotation);
-  return {rotation, a.weight + share * (b.weight - a.weight), a.thrust + share * (b.thrust - a.thrust)};
+  const double fraction = (rotation - a.rotation) / (b.rotation - a.rotation);
+  return {rotation, a.weight + fraction * (b.weight - a.weight), a.thrust + fraction * (b.thrust - a.thrust)};
 }
 
 // the reference's own curve: the hinge rolls and the joint gives in shear as in the scene
@@ -213,7 +211,7 @@ TEST(HingedBeamWeight, IsHeldUpToThePeak) {
                  {2e-5, 0},
                  "the weight is rounded to 0.5 N, worth 2e-6 rad; rest leaves 1e-6 of the contact force, and what the "
                  "hinge does not slip is of no matter between tall abutments"},
-                -value(held, "block_rotation") / degrees, cost(held));
+                -value(held, "block_rotation") * degree, cost(held));
 
   const double peak = reference::hinged_beam_peak(model).weight;
   const auto under = [&](double weight) {
@@ -222,7 +220,7 @@ TEST(HingedBeamWeight, IsHeldUpToThePeak) {
   };
   const SceneRun below = under(0.99 * peak), above = under(1.01 * peak);
   report.record({"weight held", "1", Kind::exact, "0.99 of the peak", 1, {0, 0}, "it comes to rest"},
-                below.results.outcome == Outcome::done && -value(below, "block_rotation") / degrees < 0.117262,
+                below.results.outcome == Outcome::done && -value(below, "block_rotation") * degree < 0.117262,
                 cost(below));
   const std::vector<double> turned = column(above, "block_rotation_deg", push);
   report.record(
@@ -234,7 +232,7 @@ TEST(HingedBeamWeight, IsHeldUpToThePeak) {
        {0, 0},
        "it passes Goodman's geometric limit, where the hinges are level"},
       above.results.outcome == Outcome::incomplete &&
-          -*std::min_element(turned.begin(), turned.end()) / degrees > reference::hinged_beam_geometric_limit(beam),
+          -*std::min_element(turned.begin(), turned.end()) * degree > reference::hinged_beam_geometric_limit(beam),
       cost(above));
 }
 

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "cases/case_tools.hpp"
 #include "reference/small/small.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -14,8 +14,6 @@ namespace {
 using verification::Bound;
 using verification::CaseReport;
 using verification::Kind;
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 // as scene.toml and plane.toml state it: the joint cuts the middle of a cube or square with sides of 2 m
 constexpr double dip = 30, sliding_friction = 20;
@@ -32,12 +30,12 @@ void PrintTo(const Variant& v, std::ostream* out) {
   *out << v.name;
 }
 
-const double across = 2 / std::cos(dip / degrees);
+const double across = 2 / std::cos(dip * degree);
 const Variant space{"scene.toml", "3-D", "Space", 3, 4, 2 * across};
 const Variant plane{"plane.toml", "2-D", "Plane", 2, 2, across};
 
 reference::Incline incline(double friction_deg) {
-  return {dip / degrees, friction_deg / degrees, gravity, 0};
+  return {dip * degree, friction_deg * degree, gravity, 0};
 }
 
 // times and distances of one stage, from the end of the stage before (from the start of the scene for the first)
@@ -71,7 +69,7 @@ TEST_P(InclineIn, SlidesAtTheDipAndAsNewtonSays) {
   const Variant& v = GetParam();
   CaseReport report("incline", {"critical friction, " + v.name, "distance after 0.5 s, " + v.name});
   const SceneRun run = cases::run(v.scene);
-  const double expected = reference::incline_critical_friction(incline(0)) * degrees;
+  const double expected = reference::incline_critical_friction(incline(0)) / degree;
   if (v.dimension == 3) report.reference("critical_friction", expected, "deg");
   report.record({"critical friction, " + v.name,
                  "deg",
@@ -105,7 +103,7 @@ TEST_P(InclineIn, SettlesElastically) {
   const Variant& v = GetParam();
   CaseReport report("incline");
   const SceneRun run = cases::run(v.scene);
-  const double weight = density * v.volume * gravity, angle = dip / degrees;
+  const double weight = density * v.volume * gravity, angle = dip * degree;
   const double expected = weight / (shear_stiffness * v.area) * std::hypot(std::sin(angle), 0.1 * std::cos(angle));
   report.record({"settlement, " + v.name,
                  "m",
@@ -127,15 +125,16 @@ TEST_P(InclineIn, RestsAboveTheDip) {
   const Path resting = path(run, slide, v.dimension);
   for (const double d : resting.distance)
     farthest = std::max(farthest, d);
-  report.record({"distance in 0.5 s at 31 deg, " + v.name,
-                 "m",
-                 Kind::limit,
-                 "Coulomb (1785): it rests",
-                 0,
-                 {1e-5 * elastic, 0, Bound::at_most},
-                 "what the force left at rest, 1e-6 of the contact force, can do: it swings by twice that share of the "
-                 "elastic displacement in each of three directions"},
-                farthest, cost(run));
+  report.record(
+      {"distance in 0.5 s at 31 deg, " + v.name,
+       "m",
+       Kind::limit,
+       "Coulomb (1785): it rests",
+       0,
+       {1e-5 * elastic, 0, Bound::at_most},
+       "what the force left at rest, 1e-6 of the contact force, can do: it swings by twice that fraction of the "
+       "elastic displacement in each of three directions"},
+      farthest, cost(run));
   write_csv("incline", v.dimension == 3 ? "rest.csv" : "rest_plane.csv", {"time_s", "distance_m"},
             {resting.time, resting.distance});
 }
@@ -163,15 +162,15 @@ TEST(Incline, TheBiasOfARateIsTheOnePredicted) {
   std::vector<double> found, predicted;
   for (const double rate : rates) {
     const SceneRun run = cases::run("rate.toml", {"stage.critical.rate_deg_per_s=" + fmt::format("{}", rate)});
-    const double bias = reference::incline_rate_bias(incline(0), failure_displacement, rate / degrees, local_damping);
-    predicted.push_back(bias * degrees);
+    const double bias = reference::incline_rate_bias(incline(0), failure_displacement, rate * degree, local_damping);
+    predicted.push_back(bias / degree);
     found.push_back(dip - value(run, "critical_friction"));
     report.record({fmt::format("bias at {} deg/s", rate),
                    "deg",
                    Kind::exact,
                    "(6 X cos r2/((1-a) g))^(1/3), friction falling linearly",
                    predicted.back(),
-                   {0, 0.01 + bias * std::tan(dip / degrees) / 6},
+                   {0, 0.01 + bias * std::tan(dip * degree) / 6},
                    "the next term is tan(dip) bias/6; the joint gives 1e-5 of the 0.01 m before it slips, and a step "
                    "moves the angle by less than 0.001 deg: the rest is room"},
                   found.back(), cost(run));
@@ -189,7 +188,7 @@ TEST(Incline, TheBiasOfARateIsTheOnePredicted) {
 
 // Two rates, extrapolated, need no formula.
 TEST(Incline, TwoRatesFindTheDip) {
-  CaseReport report("incline", {"critical friction, two rates", "its error as a share of its error bar"});
+  CaseReport report("incline", {"critical friction, two rates", "its error as a fraction of its error bar"});
   const SceneRun run = cases::run("two_rates.toml");
   const Value found = *run.results.find("critical_friction");
   report.record({"critical friction, two rates",
@@ -200,7 +199,7 @@ TEST(Incline, TwoRatesFindTheDip) {
                  {0.01, 0},
                  "1 % of the bias of the slower rate, 0.4, and the step in time; the next term of the bias is less"},
                 found.value, cost(run));
-  report.record({"its error as a share of its error bar",
+  report.record({"its error as a fraction of its error bar",
                  "1",
                  Kind::limit,
                  "what an error bar is",

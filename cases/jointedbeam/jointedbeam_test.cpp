@@ -6,12 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "cases/case_tools.hpp"
+#include "cases/recorded_run.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -100,16 +101,11 @@ struct BeamRun {
 };
 
 BeamRun run_beam(const JointedBeam& beam, const std::string& scene, const std::vector<std::string>& overrides = {}) {
-  const LoadedScene loaded = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides);
-  const Prepared<2>& prepared = std::get<Prepared<2>>(loaded.prepared);
+  const RecordedRun<2> recorded = record<2>(scene, overrides, Demand::no_failure);
   std::vector<BeamState> states;
-  Watcher<2> watcher;
-  watcher.frame = [&](const Model<2>& model, const State<2>& state, double) {
-    states.push_back(describe(beam, model, state));
-  };
-  Progress<2> progress = begin(prepared);
-  simulate(prepared, progress, watcher);
-  BeamRun run{{}, 0, progress.results};
+  for (const State<2>& state : recorded.frames)
+    states.push_back(describe(beam, recorded.model(), state));
+  BeamRun run{{}, 0, recorded.run.results};
   for (std::size_t i = 0; i < run.results.stages.size(); ++i) {
     if (run.results.stages[i].kind != "settle") continue;
     if (run.results.stages[i].ended == "equilibrium")
@@ -318,8 +314,9 @@ TEST(JointedBeam, ComesNearerWithSubContacts) {
   write_csv("jointedbeam", "sub_contacts.csv", {"sub_contacts", "thrust_percent", "deflection_percent"}, columns);
 }
 
-// One point at the centroid of the overlap bears 4/3 of what a triangle of stress does: the joint is too stiff. One at
-// the analytic centre bears what it should, half of the contact from the edge instead of a third: the arm is short.
+// One point at the centroid of the overlap carries 4/3 of what a triangle of stress does: the joint is too stiff. One
+// at the analytic centre carries what it should, half of the contact from the edge instead of a third: the arm is
+// short.
 TEST(JointedBeam, DeviatesOnOnePointAsItsChainDoes) {
   CaseReport report("jointedbeam");
   const JointedBeam beam = full_block();
@@ -396,7 +393,7 @@ void PrintTo(const Law& law, std::ostream* out) {
   *out << law.name;
 }
 
-constexpr double forty = 40 * std::numbers::pi / 180;
+constexpr double forty = 40 * degree;
 const std::vector<std::string> linear_shear{"shear_law=\"linear\"", "shear_stiffness=1e8", "shear_growth=9.7e4"};
 
 std::vector<std::string> with(std::vector<std::string> keys, const std::vector<std::string>& more) {

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "cases/case_tools.hpp"
 #include "core/law/joint_path.hpp"
 #include "core/scene/scene.hpp"
 #include "reference/jointedbeam/joint.hpp"
 #include "reference/small/shear_curve.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 using verification::CaseReport;
 using verification::Kind;
 
-constexpr double degree = std::numbers::pi / 180, angle = 40 * degree;
+constexpr double angle = 40 * degree;
 
 // Boon (2013), section 4.12; Eq. 6.7 with a scale of slip for a laboratory
 const reference::StressStiffness linear_normal{4e9, 7.4e4, 1}, halved_normal{2e9, 3.7e4, 1},
@@ -30,7 +30,7 @@ double peak_slip(double stress) {
   return 2e-6 * std::pow(stress, 0.213);
 }
 
-// as scene.toml is told them
+// as scene.toml states them
 using Overrides = std::vector<std::string>;
 Overrides stated(const Overrides& keys) {
   Overrides all;

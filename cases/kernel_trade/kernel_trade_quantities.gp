@@ -9,7 +9,7 @@ set yrange [1e-17:10]
 set xrange [50:3000]
 shown(y) = column(y) > 1e-17 ? column(y) : 1e-17
 names = 'point normal overlap area'
-units = '"share of the overlap" "rad" "relative" "relative"'
+units = '"fraction of the overlap" "rad" "relative" "relative"'
 
 set multiplot layout 2,2 margins 0.08,0.76,0.11,0.94 spacing 0.08,0.14
 set key at screen 0.99,0.95 right top vertical

@@ -22,14 +22,14 @@ set logscale xy
 set format y '10^{%T}'
 set yrange [1e-5:1]
 set y2range [0:1]
-set y2label 'share of the contacts'
+set y2label 'fraction of the contacts'
 set y2tics 0.25
 set key at screen 0.995,0.95 right top vertical
 plot 'radius.csv' using 'radius':(column('tilt') > 1e-9 ? column('tilt') : NaN) with linespoints lt 2 \
        title 'tilt of face contacts', \
      '' using 'radius':(column('change') > 1e-9 ? column('change') : NaN) with linespoints lt 1 \
        title 'turn of a corner''s, 1 % more', \
-     '' using 'radius':'deep' axes x1y2 with lines lt 3 title 'deeper than r (share)', \
-     '' using 'radius':'without' axes x1y2 with lines lt 4 title 'no gradient (share)', \
+     '' using 'radius':'deep' axes x1y2 with lines lt 3 title 'deeper than r (fraction)', \
+     '' using 'radius':'without' axes x1y2 with lines lt 4 title 'no gradient (fraction)', \
      'rule.csv' using 'radius':'share' axes x1y2 with lines lt 7 dt 2 title 'the rule'
 unset multiplot

@@ -124,10 +124,11 @@ void report_alternatives(CaseReport& report, const std::vector<Measured>& all) {
     if (m.family == Family::plain_float && m.failed == 0 && (!single || m.worst_of_all() < single->worst_of_all()))
       single = &m;
     if (m.family != Family::centroid && m.family != Family::chebyshev) continue;
-    report.report(fmt::format("point, {} instead", family_names[static_cast<int>(m.family)]), "1", m.median[0],
-                  fmt::format("median, share of the overlap; normal {:.1e} rad, overlap {:.1e}, area {:.1e}; {:.0f} ns "
-                              "in this run",
-                              m.median[1], m.median[2], m.median[3], m.nanoseconds));
+    report.report(
+        fmt::format("point, {} instead", family_names[static_cast<int>(m.family)]), "1", m.median[0],
+        fmt::format("median, fraction of the overlap; normal {:.1e} rad, overlap {:.1e}, area {:.1e}; {:.0f} ns "
+                    "in this run",
+                    m.median[1], m.median[2], m.median[3], m.nanoseconds));
   }
   ASSERT_NE(single, nullptr);
   report.report("least worst error in single precision", "1", single->worst_of_all(),

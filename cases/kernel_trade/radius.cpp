@@ -33,11 +33,11 @@ std::vector<EdgeTilt> edge_tilts() {
   for (const double radius : {1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1})
     for (int k = 1; k <= 24; ++k) {
       // the blocks' edges overhang by twice the distance; the point lies in the middle, by symmetry
-      const double share = k / 16.0, distance = share * radius * size, r = radius * size;
+      const double fraction = k / 16.0, distance = fraction * radius * size, r = radius * size;
       pair.offset = {2 * size - 2 * distance, 0, 2 * size - overlap};
       KernelCounters counters;
       const double tilt = angle(resolve(pair, radius, counters).geometry.normal, Vector<3>::UnitZ());
-      tilts.push_back({radius, share, tilt, std::atan(std::max(r - distance, 0.0) / (r - 0.5 * overlap))});
+      tilts.push_back({radius, fraction, tilt, std::atan(std::max(r - distance, 0.0) / (r - 0.5 * overlap))});
     }
   return tilts;
 }

@@ -8,7 +8,7 @@ namespace voussoir::trade {
 // A face contact whose point lies `distance` from an edge of either block, on opposite sides: both gradients turn
 // towards their edge, by atan(<r - distance>/(r - overlap/2)), and so does the normal.
 struct EdgeTilt {
-  double radius;       // share of the size
+  double radius;       // fraction of the size
   double distance;     // to the edge, over r
   double tilt, exact;  // rad
 };
@@ -19,8 +19,8 @@ std::vector<EdgeTilt> edge_tilts();
 struct AtRadius {
   double radius;        // over the overlap
   double tilt, change;  // rad, means
-  double without;       // share of contacts where a part's gradient vanished: a face's normal stood in
-  double deep;          // share of contacts reported as deeper than r
+  double without;       // fraction of contacts where a part's gradient vanished: a face's normal stood in
+  double deep;          // fraction of contacts reported as deeper than r
   int unsaid;           // contacts without a gradient that were not
 };
 std::vector<AtRadius> at_radii(double overlap);

@@ -50,7 +50,7 @@ inline constexpr std::array family_names{
 // one setting over all pairs
 struct Measured {
   Family family;
-  double tolerance;  // Newton's, or the LP's as a share of the size
+  double tolerance;  // Newton's, or the LP's as a fraction of the size
   int pairs = 0, failed = 0;
 
   // planes looked at, per pair: all of them once for each LP, pivot and Newton iteration, for normal, overlap and area

@@ -2,10 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "cases/case_tools.hpp"
+#include "cases/recorded_run.hpp"
 #include "reference/small/overhang.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -14,18 +15,16 @@ using reference::OverhangStack;
 using verification::CaseReport;
 using verification::Kind;
 
-constexpr double degrees = 180 / std::numbers::pi;
-
 // as the scenes state it
 constexpr double width = 0.5;  // m, in space
 const OverhangStack stack{5, 1, 0.25, 2500 * 9.81 * 0.25, 1e10, 1e10};
-constexpr double stated = 0.9648;  // share of the harmonic overhangs
+constexpr double stated = 0.9648;  // fraction of the harmonic overhangs
 constexpr double hard = 1e11;      // Pa/m
 
 struct Variant {
   std::string scene, name, test;
   int dimension;
-  double apart;  // share from the limit at which the stack is tried
+  double apart;  // fraction from the limit at which the stack is tried
 };
 
 void PrintTo(const Variant& v, std::ostream* out) {
@@ -38,9 +37,9 @@ std::string text(double number) {
   return buffer;
 }
 
-// what turns a scene into a stack that leans out by this share
-std::vector<std::string> leaning(double share, int dimension) {
-  const std::vector<double> overhangs = harmonic_overhangs(stack, share);
+// what turns a scene into a stack that leans out by this fraction
+std::vector<std::string> leaning(double fraction, int dimension) {
+  const std::vector<double> overhangs = harmonic_overhangs(stack, fraction);
   std::vector<std::string> overrides;
   double right = 0;
   for (int j = stack.blocks; j >= 1; --j) {
@@ -56,15 +55,15 @@ std::vector<std::string> leaning(double share, int dimension) {
   return overrides;
 }
 
-SceneRun attempt(const Variant& v, double share, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> overrides = leaning(share, v.dimension);
+SceneRun attempt(const Variant& v, double fraction, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> overrides = leaning(fraction, v.dimension);
   overrides.insert(overrides.end(), more.begin(), more.end());
   return run_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / v.scene, overrides);
 }
 
 // rad, outwards
 double top_turn(const SceneRun& run, const Variant& v) {
-  return (v.dimension == 3 ? value(run, "top_rotation_y") : -value(run, "top_rotation")) / degrees;
+  return (v.dimension == 3 ? value(run, "top_rotation_y") : -value(run, "top_rotation")) * degree;
 }
 
 bool stands(const SceneRun& run) {
@@ -88,7 +87,7 @@ TEST_P(Overhang, EndsWhereElasticJointsEndIt) {
   const reference::OverhangState limit = elastic_overhang_limit(stack);
   const std::string source = "rigid blocks on elastic joints, reference/small/overhang";
 
-  const SceneRun standing = attempt(v, limit.share - v.apart), falling = attempt(v, limit.share + v.apart);
+  const SceneRun standing = attempt(v, limit.fraction - v.apart), falling = attempt(v, limit.fraction + v.apart);
   const std::string because = text(v.apart) + " of the harmonic overhang from the limit, which is 0.0342 below it";
   report.record({above, "1", Kind::exact, source, 1, {0, 0}, because + "; it comes to rest"}, stands(standing),
                 cost(standing));
@@ -96,10 +95,10 @@ TEST_P(Overhang, EndsWhereElasticJointsEndIt) {
       {below, "1", Kind::exact, source, 1, {0, 0}, because + "; the top turns ten times as far as at the limit"},
       falls(falling, v), cost(falling));
 
-  // what the reference leaves out is of second order in the turns, as a share of what elasticity costs
+  // what the reference leaves out is of second order in the turns, as a fraction of what elasticity costs
   const SceneRun scene = run(v.scene);
   const double expected = elastic_overhang(stack, stated).turn;
-  const double left_out = limit.turn * limit.turn * (1 - limit.share);
+  const double left_out = limit.turn * limit.turn * (1 - limit.fraction);
   report.record({turned,
                  "rad",
                  Kind::exact,
@@ -124,7 +123,7 @@ TEST(OverhangOfHardBlocks, IsNearlyHarmonic) {
                                         "joint_properties.dry.shear_stiffness=" + text(hard)};
   OverhangStack harder = stack;
   harder.normal_stiffness = harder.shear_stiffness = hard;
-  const double limit = elastic_overhang_limit(harder).share;
+  const double limit = elastic_overhang_limit(harder).fraction;
   constexpr double apart = 0.001;
   const SceneRun standing = attempt(plane, limit - apart, joints), falling = attempt(plane, 1 + apart, joints);
   const std::string source = "harmonic overhangs, 1.1417 m together";
@@ -143,16 +142,11 @@ TEST(OverhangOfHardBlocks, IsNearlyHarmonic) {
 
 // closed outlines of the stack, and its forces, for the figure
 void draw_stack() {
-  const LoadedScene scene = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "plane.toml");
-  const auto& prepared = std::get<Prepared<2>>(scene.prepared);
-  State<2> last;
-  Watcher<2> watcher;
-  watcher.frame = [&](const Model<2>&, const State<2>& state, double) { last = state; };
-  Progress<2> progress = begin(prepared);
-  simulate(prepared, progress, watcher);
+  const RecordedRun<2> run = record<2>("plane.toml");
+  const State<2>& last = run.last();
   std::ofstream out(verification::case_output("overhang") / "stack.csv");
   out << "x_m,y_m\n";
-  const Model<2>& model = prepared.model;
+  const Model<2>& model = run.model();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].fixed) continue;
     for (const Vector<2>& corner :
@@ -180,17 +174,17 @@ void draw_stack() {
 
 TEST(OverhangFigure, IsDrawn) {
   const Variant plane{"plane.toml", "2-D", "", 2, 0};
-  std::vector<double> share, turn, line, line_turn;
+  std::vector<double> fraction, turn, line, line_turn;
   for (const double s : {0.91, 0.93, 0.945, 0.955, 0.96, 0.963, stated}) {
-    share.push_back(s);
-    turn.push_back(degrees * top_turn(attempt(plane, s), plane));
+    fraction.push_back(s);
+    turn.push_back(to_degrees(top_turn(attempt(plane, s), plane)));
   }
-  const double limit = elastic_overhang_limit(stack).share;
+  const double limit = elastic_overhang_limit(stack).fraction;
   for (int i = 0; i <= 100; ++i) {
     line.push_back(limit - 0.06 * std::pow(1 - i / 100.0, 3));
-    line_turn.push_back(degrees * elastic_overhang(stack, line.back()).turn);
+    line_turn.push_back(to_degrees(elastic_overhang(stack, line.back()).turn));
   }
-  write_csv("overhang", "turn.csv", {"share", "turn_deg"}, {share, turn});
+  write_csv("overhang", "turn.csv", {"share", "turn_deg"}, {fraction, turn});
   write_csv("overhang", "theory.csv", {"share", "turn_deg"}, {line, line_turn});
   write_csv("overhang", "limit.csv", {"share", "turn_deg"}, {{limit, limit}, {0, 1}});
   draw_stack();

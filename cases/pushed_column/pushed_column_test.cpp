@@ -6,8 +6,10 @@
 #include <numbers>
 
 #include "cases/case_tools.hpp"
+#include "cases/recorded_run.hpp"
 #include "core/motion/integrate.hpp"
 #include "reference/pushed_column/pushed_column.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -21,7 +23,7 @@ using verification::Kind;
 constexpr double height = 3, breadth = 1;          // m
 const PushedColumn column_of_scene;                // on 10 GPa/m
 const Push corner{-0.5 * breadth, height, false};  // the upper left one
-constexpr double share = 0.995;                    // of the tipping force
+constexpr double fraction = 0.995;                 // of the tipping force
 const std::string source = "rigid column on a joint without tension, reference/pushed_column";
 
 PushedColumn on(double stiffness) {
@@ -63,21 +65,19 @@ struct Trial {
 };
 
 template <int Dim>
-Trial attempt(const Prepared<Dim>& prepared) {
+Trial attempt(const std::string& scene, const std::vector<std::string>& overrides) {
   constexpr double tipped = 0.2;  // rad: beyond any tilt of equilibrium, short of the ground
-  const int column = prepared.model.bodies[0].fixed ? 1 : 0;
-  const auto tilt = [&](const State<Dim>& state) { return rotation_vector(state.motions[column].rotation).norm(); };
-  Watcher<Dim> watcher;
-  watcher.pause = [&](const Progress<Dim>& now) { return tilt(now.state) > tipped; };
-  Progress<Dim> progress = begin(prepared);
-  const bool ended = simulate(prepared, progress, watcher);
-  if (ended && progress.results.outcome != Outcome::done) throw std::runtime_error(progress.results.message);
-  return {ended, tilt(progress.state), std::move(progress.results)};
+  const auto tilt = [](const Prepared<Dim>& prepared, const State<Dim>& state) {
+    return rotation_vector(state.motions[prepared.model.bodies[0].fixed ? 1 : 0].rotation).norm();
+  };
+  RecordedRun<Dim> run = record<Dim>(
+      scene, overrides, Demand::goals,
+      [&](const Prepared<Dim>& prepared, const State<Dim>& state) { return tilt(prepared, state) > tipped; });
+  return {run.ended, tilt(run.scene(), run.end), std::move(run.run.results)};
 }
 
 Trial attempt(const std::string& scene, const std::vector<std::string>& overrides) {
-  const LoadedScene loaded = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides);
-  return std::visit([](const auto& prepared) { return attempt(prepared); }, loaded.prepared);
+  return scene == "space.toml" ? attempt<3>(scene, overrides) : attempt<2>(scene, overrides);
 }
 
 // The least force that tips, over that of a rigid joint; and the tilts of the trials below it, for the figure.
@@ -115,7 +115,7 @@ Push push_of(const Joint& joint) {
   return {corner.x, corner.y, joint.turns};
 }
 
-// what rest leaves of unbalanced force, 1e-6 of the weight, as a share of the force
+// what rest leaves of unbalanced force, 1e-6 of the weight, as a fraction of the force
 const double unbalanced = 1e-6 * column_of_scene.weight / rigid_push(column_of_scene, corner);
 
 Found judge_tipping(const std::string& scene, const Joint& joint, CaseReport& report) {
@@ -153,14 +153,15 @@ TEST(PushedColumn, TipsEarlierOnSofterJoints) {
               {in_units_of(1e-3, found.tilts), found.forces});
   }
   const double soft = 1 - force[1], stiff = 1 - force[2], bracket = 1e-4;
-  report.record({"power of the stiffness in what is lost",
-                 "1",
-                 Kind::limit,
-                 "the weight's lever loses a/3 + h/2 tilt, least at tilt ~ (W/k)^1/3",
-                 -1.0 / 3,
-                 {bracket / stiff / std::log(100) + 2e-3, 0},
-                 "the bracket as a share of what is lost at 1000 GPa/m; the next power, of the tilt of 5 mrad at 10"},
-                std::log(stiff / soft) / std::log(100));
+  report.record(
+      {"power of the stiffness in what is lost",
+       "1",
+       Kind::limit,
+       "the weight's lever loses a/3 + h/2 tilt, least at tilt ~ (W/k)^1/3",
+       -1.0 / 3,
+       {bracket / stiff / std::log(100) + 2e-3, 0},
+       "the bracket as a fraction of what is lost at 1000 GPa/m; the next power, of the tilt of 5 mrad at 10"},
+      std::log(stiff / soft) / std::log(100));
   // what is lost, taken as a line over k^-1/3, where the line meets k = infinity
   const double x_soft = std::pow(stiffness[1], -1.0 / 3), x_stiff = std::pow(stiffness[2], -1.0 / 3);
   report.record(
@@ -206,7 +207,7 @@ TEST(PushedColumn, LeansAsItsBaseIsPressed) {
   const std::string because = "what the unbalanced force that counts as rest would add to it";
   const auto judge = [&](const std::string& name, const std::string& scene, const Joint& joint) {
     const PushedColumn column = on(joint.stiffness);
-    const double force = share * tipping(column, push_of(joint)).force;
+    const double force = fraction * tipping(column, push_of(joint)).force;
     const Trial trial = attempt(scene, variant(joint, {push_of(scene, force)}));
     ASSERT_TRUE(trial.rests) << name;
     report.record({"tilt at 99.5 %, " + name,
@@ -217,9 +218,9 @@ TEST(PushedColumn, LeansAsItsBaseIsPressed) {
                    {allowed(column, push_of(joint), force), 0},
                    because},
                   trial.tilt, {trial.results.counters.contact_evaluations, trial.results.seconds});
-    const Value* borne = trial.results.find("column_applied_load_x");
-    ASSERT_TRUE(borne);
-    EXPECT_NEAR(borne->value, force * (joint.turns ? std::cos(trial.tilt) : 1), 1e-9 * force) << name;
+    const Value* carried = trial.results.find("column_applied_load_x");
+    ASSERT_TRUE(carried);
+    EXPECT_NEAR(carried->value, force * (joint.turns ? std::cos(trial.tilt) : 1), 1e-9 * force) << name;
   };
   judge("1 GPa/m", "scene.toml", {.stiffness = 1e9});
   judge("10 GPa/m", "scene.toml", {});
@@ -230,7 +231,7 @@ TEST(PushedColumn, LeansAsItsBaseIsPressed) {
   judge("in space", "space.toml", {});
   judge("in space, turning", "space.toml", {.turns = true});
   // the scene as it stands, whose force is rounded
-  report.reference("column_rotation", -tilt_under(column_of_scene, corner, 11559) * 180 / std::numbers::pi, "deg");
+  report.reference("column_rotation", -to_degrees(tilt_under(column_of_scene, corner, 11559)), "deg");
 }
 
 // from the rows of a history: work of the applied force at the column's upper left corner, J/m
@@ -247,11 +248,11 @@ double work_at_corner(const std::vector<double>& force, const std::vector<double
 std::vector<double> tilts_of(const SceneRun& run, int stage) {
   std::vector<double> tilts = column(run, "column_rotation_deg", stage);
   for (double& tilt : tilts)
-    tilt *= -std::numbers::pi / 180;
+    tilt *= -degree;
   return tilts;
 }
 
-// grown in time, at three shares of the stable step and on two joints
+// grown in time, at three fractions of the stable step and on two joints
 TEST(PushedColumn, LeansAsFarWhenItIsPushedSlowly) {
   constexpr int push = 2, less = 3, none = 4;
   CaseReport report("pushed_column");
@@ -261,7 +262,7 @@ TEST(PushedColumn, LeansAsFarWhenItIsPushedSlowly) {
       "of the last growth";
   for (const auto& [stiffness, fraction] : {std::pair(1e10, 0.8), {1e10, 0.2}, {1e11, 0.8}}) {
     const PushedColumn joint = on(stiffness);
-    const double force = share * tipping(joint, corner).force;
+    const double force = fraction * tipping(joint, corner).force;
     const SceneRun slow = run("slow.toml", variant({.stiffness = stiffness},
                                                    {push_of("slow.toml", force), "time.fraction=" + text(fraction)}));
     const std::string name = text(stiffness / 1e9) + " GPa/m, " + text(fraction) + " of the step";
@@ -279,11 +280,10 @@ TEST(PushedColumn, LeansAsFarWhenItIsPushedSlowly) {
     if (stiffness != 1e10 || fraction != 0.2) continue;
     // the ledger's work so far, by a run that ends there
     const double by_rows = work_at_corner(forces, column(slow, "column_displacement_x_m", push), tilts);
-    const LoadedScene scene = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "slow.toml",
-                                         variant({}, {push_of("slow.toml", force), "time.fraction=" + text(fraction)}));
-    Prepared<2> first = std::get<Prepared<2>>(scene.prepared);
-    first.stages.resize(push);
-    const double booked = attempt(first).results.energy.flows[Source::applied_forces];
+    LoadedScene first = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "slow.toml",
+                                   variant({}, {push_of("slow.toml", force), "time.fraction=" + text(fraction)}));
+    std::get<Prepared<2>>(first.prepared).stages.resize(push);
+    const double in_ledger = simulate_scene(first).energy.flows[Source::applied_forces];
     report.record({"work of the push",
                    "J",
                    Kind::exact,
@@ -292,7 +292,7 @@ TEST(PushedColumn, LeansAsFarWhenItIsPushedSlowly) {
                    {0, 1e-4},
                    "rows 20 ms apart, 1e-3 of the push's growth, by the trapezoidal rule; each row's force is "
                    "a step older than its way"},
-                  booked, cost(slow));
+                  in_ledger, cost(slow));
 
     // replaced, and ended
     const double smaller = 11300;
@@ -308,7 +308,7 @@ TEST(PushedColumn, LeansAsFarWhenItIsPushedSlowly) {
     report.record({"tilt when it has ended",
                    "rad",
                    Kind::exact,
-                   "the weight is borne by the whole base",
+                   "the weight is carried by the whole base",
                    0,
                    {upright, 0},
                    "the unbalanced force that counts as rest, at the top of the column, over the rocking stiffness of "
@@ -326,7 +326,7 @@ TEST(FreeBlocks, GoAsTheirForcesSay) {
   constexpr double duration = 1.6, step = 5e-4, mass = 2500, inertia = mass / 6;  // s, s, kg, kg m²
   const double pi = std::numbers::pi, w = 2 * pi * 1.25, sine = 10e3, thrust = 2500, arm = 0.4;
   const std::string because = "leapfrog: a twelfth of the square of the step times the frequency, of the way";
-  const reference::Ride ride = reference::shaken_ride(sine / mass, w, 30 * pi / 180, duration);
+  const reference::Ride ride = reference::shaken_ride(sine / mass, w, 30 * degree, duration);
   report.record({"way of a shaken block",
                  "m",
                  Kind::exact,
@@ -357,11 +357,11 @@ TEST(FreeBlocks, GoAsTheirForcesSay) {
                  "deg",
                  Kind::exact,
                  "a constant moment",
-                 spiral.turn * 180 / pi,
+                 to_degrees(spiral.turn),
                  {0, 1e-9},
                  "leapfrog is exact for it: rounding"},
                 value(free, "spun_rotation_z"), cost(free));
-  EXPECT_LT(free.results.energy.closure(), 1e-12);
+  EXPECT_LT(free.results.energy.relative_error(), 1e-12);
 
   // the work of both forces is the motion's energy; the ledger is half a step ahead
   const double pace = thrust / mass;  // of the spun block: its speed by a difference of the closed form

@@ -29,8 +29,8 @@ inline Verdict worse(Verdict a, Verdict b) {
 struct Judgement {
   Verdict verdict = Verdict::not_asked;
   std::string reason;  // of a wrong answer
-  // error as a share of what the promise allows; above 1 is wrong, and 0 when the answer is yes or no
-  double share = 0;
+  // error as a fraction of what the promise allows; above 1 is wrong, and 0 when the answer is yes or no
+  double fraction = 0;
 };
 
 using Judgements = std::array<Judgement, kernels>;

@@ -14,22 +14,23 @@ namespace {
 using exact::Quad;
 using exact::to_double;
 
-// as in judge_meeting.cpp: exact for planes within 64 units of rounding of the coordinates
+// as in judge_pair.cpp: exact for planes within 64 units of rounding of the coordinates
 constexpr double unit_rounding = std::numeric_limits<double>::epsilon() / 2;
 constexpr double whole_chain = 64 * unit_rounding;
 
-// make_block's own tolerances (slicing/block.cpp): corners closer than this share of the extent are one, and a plane
-// that cuts off no ball larger than this share of the inscribed radius is dropped
+// make_block's own tolerances (slicing/block.cpp): corners closer than this fraction of the extent are one, and a plane
+// that cuts off no ball larger than this fraction of the inscribed radius is dropped
 constexpr double merged = 1e-10;
 
-// a block called empty leaves no more room than this share of the coordinates
+// a block called empty leaves no more room than this fraction of the coordinates
 constexpr double room = 1e-10;
 
 // What dropping such a plane may add to the volume: V >= radius x surface / 3, and a cap that holds only such a ball is
 // a few of its diameters thick
 constexpr double dropped_volume = 1e-9;
 
-// slice's tolerance: a joint whose section holds no circle larger than this share of the inscribed radius does not cut
+// slice's tolerance: a joint whose section holds no circle larger than this fraction of the inscribed radius does not
+// cut
 constexpr double cut_tolerance = 1e-10;
 
 Judgement wrong(std::string reason) {
@@ -80,18 +81,18 @@ Judgement judge_part(const Polytope<3>& part, double band, double* spread_of_vol
                   exact::solid(exact::grown(faces, band))};
   const double extent = extent_of(part.vertices, part.centre);
   const double low = to_double(b.inner.volume), high = to_double(b.outer.volume), spread = high - low;
-  const double volume_share =
+  const double volume_fraction =
       std::abs(to_double(Quad(part.mass.volume) - b.middle.volume)) / (0.5 * spread + merged * merged * high);
-  if (!(volume_share <= 1))
+  if (!(volume_fraction <= 1))
     return wrong(fmt::format("volume {:.17g}, exactly {:.17g}, bracket {:.3g}", part.mass.volume,
                              to_double(b.middle.volume), spread));
 
-  // the centroid moves by no more than the share of the volume that moved, times the extent
+  // the centroid moves by no more than the fraction of the volume that moved, times the extent
   double centroid_error = 0;
   for (int k = 0; k < 3; ++k)
     centroid_error = std::max(centroid_error, std::abs(to_double(Quad(part.mass.centroid[k]) - b.middle.centroid[k])));
-  const double centroid_share = centroid_error / (spread / high * 2 * extent + band);
-  if (!(centroid_share <= 1)) return wrong(fmt::format("centroid off by {:.3g}", centroid_error));
+  const double centroid_fraction = centroid_error / (spread / high * 2 * extent + band);
+  if (!(centroid_fraction <= 1)) return wrong(fmt::format("centroid off by {:.3g}", centroid_error));
 
   // the body's tensor about its centroid
   const Body<3> body = make_body<3>({part}, 1);
@@ -105,12 +106,12 @@ Judgement judge_part(const Polytope<3>& part, double band, double* spread_of_vol
           expected += b.middle.second_moment[k][k];
       inertia_error = std::max(inertia_error, std::abs(to_double(Quad(tensor(i, j)) - expected)));
     }
-  const double inertia_share = inertia_error / (4 * extent * extent * spread + 4 * band * extent * high);
-  if (!(inertia_share <= 1))
+  const double inertia_fraction = inertia_error / (4 * extent * extent * spread + 4 * band * extent * high);
+  if (!(inertia_fraction <= 1))
     return wrong(fmt::format("inertia off by {:.3g} of {:.3g}", inertia_error, tensor.trace()));
 
   // supports in the faces' directions and in some others
-  double support_share = 0;
+  double support_fraction = 0;
   for (std::size_t f = 0; f < part.faces.size() + 7; ++f) {
     const Vector<3> u = f < part.faces.size()
                             ? part.faces[f].normal
@@ -118,14 +119,15 @@ Judgement judge_part(const Polytope<3>& part, double band, double* spread_of_vol
     const double found = support(part.vertices, u), least = support(b.inner.corners, u),
                  most = support(b.outer.corners, u);
     const double allowed = merged * extent + band;
-    support_share = std::max({support_share, (least - found) / allowed, (found - most) / allowed});
+    support_fraction = std::max({support_fraction, (least - found) / allowed, (found - most) / allowed});
   }
-  if (!(support_share <= 1)) return wrong(fmt::format("a vertex is off by {:.3g} of what is promised", support_share));
+  if (!(support_fraction <= 1))
+    return wrong(fmt::format("a vertex is off by {:.3g} of what is promised", support_fraction));
   // a face that bounds nothing may stand only where rounding cannot tell that it does not
   for (const HalfSpace<3>& f : part.faces)
     if (support(b.outer.corners, f.normal) < f.offset) return wrong("a face that bounds nothing");
   if (spread_of_volume) *spread_of_volume = spread;
-  return {Verdict::correct, "", std::max({volume_share, centroid_share, inertia_share, support_share})};
+  return {Verdict::correct, "", std::max({volume_fraction, centroid_fraction, inertia_fraction, support_fraction})};
 }
 
 Judgement judge_refusal(const exact::Planes& planes, BlockStatus status, double coordinates) {
@@ -186,11 +188,11 @@ Judgement judge_pieces(const Polytope<3>& block, const HalfSpace<3>& joint) {
     const Judgement j = judge_part(piece, whole_chain * std::max(piece.radius, block.radius), &spread);
     spreads += spread;
     if (j.verdict == Verdict::wrong) return j;
-    judgement.share = std::max(judgement.share, j.share);
+    judgement.fraction = std::max(judgement.fraction, j.fraction);
   }
   const double sum = pieces[0].mass.volume + pieces[1].mass.volume, whole = to_double(exact::solid(faces).volume);
-  const double share = std::abs(sum - whole) / (dropped_volume * whole + spreads);
-  if (share > 1) return wrong(fmt::format("the pieces' volumes miss the block's by {:.3g}", sum / whole - 1));
+  const double fraction = std::abs(sum - whole) / (dropped_volume * whole + spreads);
+  if (fraction > 1) return wrong(fmt::format("the pieces' volumes miss the block's by {:.3g}", sum / whole - 1));
   return judgement;
 }
 

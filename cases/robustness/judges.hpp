@@ -7,7 +7,7 @@
 namespace voussoir::atlas {
 
 // decision (with the LP's value), centre, normal, overlap and area of two bodies that meet
-Judgements judge_meeting(const Meeting& meeting);
+Judgements judge_pair(const Meeting& meeting);
 
 // a block made of the planes
 Judgement judge_block(const HalfSpaces<3>& planes);

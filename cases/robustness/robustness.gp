@@ -36,7 +36,7 @@ do for [i=1:5] {
       fc rgb word(colours, i) fs solid 1 border rgb '#606060'
   set label i word(names, i) at screen x + 0.028, screen 0.971 left
 }
-set label 9 'depth, share of the smaller block''s inscribed diameter: gap (plane misses) to the left of 0, overlap (cap cut off) to the right' \
+set label 9 'depth, fraction of the smaller block''s inscribed diameter: gap (plane misses) to the left of 0, overlap (cap cut off) to the right' \
     at screen 0.5, screen 0.018 center
 
 do for [a=1:6] {

@@ -95,7 +95,7 @@ void check(CaseReport& report, const Atlas& atlas) {
                   static_cast<double>(t.wrong));
     report.report(fmt::format("answers, {}", kernel_names[k]), "1", static_cast<double>(t.answers()),
                   fmt::format("{} correct, {} warned, {} refused", t.correct, t.warned, t.refused));
-    report.report(fmt::format("largest share of the promised error, {}", kernel_names[k]), "1", t.worst_share,
+    report.report(fmt::format("largest fraction of the promised error, {}", kernel_names[k]), "1", t.worst_fraction,
                   "1 would be the promise itself");
   }
 }

@@ -62,7 +62,7 @@ void judge_pair(const Shapes& s, const Place& place, Random& random, Judgements&
     refuse_all(all, {Kernel::decision, Kernel::centre, Kernel::normal, Kernel::overlap, Kernel::area});
     return;
   }
-  Judgements pair = judge_meeting(meet(a.part, b.part, place, shapes::integer(random, 0, most_kinds - 1), random));
+  Judgements pair = judge_pair(meet(a.part, b.part, place, shapes::integer(random, 0, most_kinds - 1), random));
   for (const Kernel k : {Kernel::decision, Kernel::centre, Kernel::normal, Kernel::overlap, Kernel::area})
     of(all, k) = of(pair, k);
 }
@@ -75,7 +75,7 @@ void Tally::add(const Judgement& judgement, const std::string& where) {
       return;
     case Verdict::correct:
       ++correct;
-      worst_share = std::max(worst_share, judgement.share);
+      worst_fraction = std::max(worst_fraction, judgement.fraction);
       return;
     case Verdict::warned:
       ++warned;

@@ -15,7 +15,7 @@ struct Grid {
 
 struct Tally {
   long long correct = 0, warned = 0, refused = 0, wrong = 0;
-  double worst_share = 0;            // of the promised error, among the right answers
+  double worst_fraction = 0;         // of the promised error, among the right answers
   std::vector<std::string> reasons;  // of the first wrong answers
 
   void add(const Judgement& judgement, const std::string& where);

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "cases/case_tools.hpp"
 #include "reference/roofwedge/roofwedge.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -19,7 +19,6 @@ namespace {
 using verification::CaseReport;
 using verification::Kind;
 
-constexpr double degrees = 180 / std::numbers::pi;
 constexpr int settle = 2;
 
 // as scene.toml and unequal.toml state them
@@ -29,8 +28,8 @@ constexpr std::array<double, 3> unequal_dips{60, 65, 55}, unequal_directions{20,
 reference::RoofWedge roof_wedge(const std::array<double, 3>& dips, const std::array<double, 3>& directions) {
   reference::RoofWedge wedge;
   for (int i = 0; i < 3; ++i) {
-    wedge.planes[i].dip = dips[i] / degrees;
-    wedge.planes[i].dip_direction = directions[i] / degrees;
+    wedge.planes[i].dip = dips[i] * degree;
+    wedge.planes[i].dip_direction = directions[i] * degree;
   }
   return wedge;
 }
@@ -65,7 +64,7 @@ TEST(RoofWedge, FallsWhereJointRelaxationSays) {
                         {"critical friction, ks = kn/5", "soft_shear.toml", {}, regular(9.81, 2e6)}};
   for (const auto& v : variants) {
     const SceneRun run = cases::run(v.scene, v.overrides);
-    const double expected = reference::first_slip(v.wedge).friction * degrees;
+    const double expected = reference::first_slip(v.wedge).friction / degree;
     if (&v == variants) report.reference("critical_friction", expected, "deg");
     check(report, v.name, expected, tight, why, value(run, "critical_friction"), run);
   }
@@ -79,9 +78,9 @@ TEST(RoofWedge, OneOfUnequalJointsSlipsLongBefore) {
   double mobilised = 0;
   for (const char* joint : {"A", "B", "C"})
     mobilised = std::max(mobilised, column(run, std::string(joint) + "_mobilised_friction_deg", settle).back());
-  check(report, "first slip of unequal joints", reference::first_slip(wedge).friction * degrees, tight, why, mobilised,
+  check(report, "first slip of unequal joints", reference::first_slip(wedge).friction / degree, tight, why, mobilised,
         run);
-  check(report, "critical friction of unequal joints", reference::collapse(wedge).friction * degrees, 0.04,
+  check(report, "critical friction of unequal joints", reference::collapse(wedge).friction / degree, 0.04,
         "0.03 between the elastic-plastic wedge and a dynamic one of the same joints (reference/roofwedge), and as for "
         "equal joints",
         value(run, "critical_friction"), run);
@@ -94,7 +93,7 @@ TEST(RoofWedge, NeedsMoreFrictionTheHeavierItIs) {
   for (const double g : {2.5, 5.0, 7.5, 12.5, 20.0}) {
     const SceneRun run = cases::run("scene.toml", {"gravity=[0,0,-" + std::to_string(g) + "]"});
     gravity.push_back(g / 9.81);
-    expected.push_back(reference::first_slip(regular(g)).friction * degrees);
+    expected.push_back(reference::first_slip(regular(g)).friction / degree);
     found.push_back(value(run, "critical_friction"));
     if (g == 20) check(report, "critical friction, twice the weight", expected.back(), tight, why, found.back(), run);
   }
@@ -102,7 +101,7 @@ TEST(RoofWedge, NeedsMoreFrictionTheHeavierItIs) {
   std::vector<double> weights, curve;
   for (double w = 0.1; w < 2.2; w += 0.05) {
     weights.push_back(w);
-    curve.push_back(reference::first_slip(regular(9.81 * w)).friction * degrees);
+    curve.push_back(reference::first_slip(regular(9.81 * w)).friction / degree);
   }
   write_csv("roofwedge", "closed_form.csv", {"weight", "friction_deg"}, {weights, curve});
 }
@@ -121,7 +120,7 @@ reference::RoofWedge under_stress(double stress, double stiffness_ratio = 1) {
 }
 
 double slip_deg(const reference::RoofWedge& wedge) {
-  return reference::first_slip(wedge).friction * degrees;
+  return reference::first_slip(wedge).friction / degree;
 }
 
 // softer joints swing more slowly and need as much longer to come to rest
@@ -191,7 +190,7 @@ TEST(RoofWedge, FallsAtTheStressThatArrivesFromTheSides) {
   check(report, "critical friction, stress from the sides, blocks free to turn on 16 points a face",
         slip_deg(under_stress(arrived_stress(free))), tight, why_of_arrived, value(free, "critical_friction"), free);
 
-  // where a face bears no moment, or gives way by millimetres, what arrives is another stress
+  // where a face carries no moment, or gives way by millimetres, what arrives is another stress
   const auto tell = [&](const std::string& name, const SceneRun& other) {
     const std::array<double, 3> pressure = arrived_pressure(other);
     report.report("critical friction, stress from the sides, " + name, "deg", value(other, "critical_friction"),
@@ -208,7 +207,7 @@ TEST(RoofWedge, FallsAtTenMetresPerSecondSquaredByTheSidesToo) {
   CaseReport report("roofwedge");
   const SceneRun run = press(applied, 1, stiffness, {"gravity=[0,0,-10]"});
   check(report, "critical friction at 10 m/s2, stress from the sides",
-        reference::first_slip(regular(10)).friction * degrees, tight, why_of_arrived, value(run, "critical_friction"),
+        reference::first_slip(regular(10)).friction / degree, tight, why_of_arrived, value(run, "critical_friction"),
         run);
 }
 

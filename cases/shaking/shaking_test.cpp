@@ -6,6 +6,7 @@
 
 #include "cases/case_tools.hpp"
 #include "reference/small/small.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -13,11 +14,10 @@ namespace {
 using verification::CaseReport;
 using verification::Kind;
 
-constexpr double degrees = 180 / std::numbers::pi;
 constexpr int settle = 1, shake = 2;
 
 // as scene.toml and plane.toml state it: the joint cuts the middle of a cube or square with sides of 2 m
-const reference::ShakenIncline shaken{{10 / degrees, 30 / degrees, 9.81, 0}, 0.4, 2};
+const reference::ShakenIncline shaken{{10 * degree, 30 * degree, 9.81, 0}, 0.4, 2};
 constexpr double density = 2000, shear_stiffness = 10e9;
 
 // s since the shaking began: the block rests on the plane at both

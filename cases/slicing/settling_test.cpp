@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "cases/film.hpp"
+#include "cases/case_tools.hpp"
+#include "cases/model_picture.hpp"
+#include "cases/recorded_run.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -12,7 +14,7 @@ using verification::Bound;
 using verification::CaseReport;
 using verification::Kind;
 
-// what the fixed blocks bear, the mean force of a contact, and the largest overlap as a share of the smaller block
+// what the fixed blocks carry, the mean force of a contact, and the largest overlap as a fraction of the smaller block
 struct Contacts {
   Vector<3> on_fixed = Vector<3>::Zero();  // N
   double mean_force = 0;                   // N
@@ -46,7 +48,7 @@ double kinetic(const Model<3>& model, const State<3>& state) {
   return sum;
 }
 
-void check(CaseReport& report, const std::string& which, const Film& settled) {
+void check(CaseReport& report, const std::string& which, const RecordedRun<3>& settled) {
   const Model<3>& model = settled.model();
   const State<3>& state = settled.last();
   const Results& results = settled.run.results;
@@ -70,7 +72,8 @@ void check(CaseReport& report, const std::string& which, const Film& settled) {
 
   const double released = -state.energy.potential();
   record(
-      "kinetic energy at rest", "1", Kind::limit, "rest, as a share of what gravity did", 0, {1e-6, 0, Bound::at_most},
+      "kinetic energy at rest", "1", Kind::limit, "rest, as a fraction of what gravity did", 0,
+      {1e-6, 0, Bound::at_most},
       "momentum times frequency is below u = 1e-4 of the mean contact force: such a block holds some u² = 1e-8 of what "
       "its springs do, and a hundred times that where its springs are the softest",
       kinetic(model, state) / released);
@@ -79,7 +82,7 @@ void check(CaseReport& report, const std::string& which, const Film& settled) {
          std::abs(state.energy.motion_error) / released);
   record("energy that is not accounted for", "1", Kind::limit, "the drift beyond which a run is doubted", 0,
          {0.05, 0, Bound::at_most}, "core/simulate.cpp: areas and normals of contacts change while blocks settle",
-         state.energy.closure());
+         state.energy.relative_error());
 
   const Contacts now = contacts(model, state);
   const double out_of_balance = blocks * settled.scene().settings.equilibrium.unbalanced * now.mean_force;
@@ -90,7 +93,7 @@ void check(CaseReport& report, const std::string& which, const Film& settled) {
          now.on_fixed[0]);
   record("thrust on the walls, northward", "N", Kind::exact, "equilibrium of the whole", 0, {out_of_balance, 0},
          balance, now.on_fixed[1]);
-  record("largest overlap", "1", Kind::limit, "a share of the smaller block's inscribed radius", 0,
+  record("largest overlap", "1", Kind::limit, "a fraction of the smaller block's inscribed radius", 0,
          {settled.scene().settings.contact.potential_radius, 0, Bound::at_most},
          "beyond it the contact normal of the potential particle is no longer that of the faces", now.largest_overlap);
 
@@ -136,7 +139,7 @@ std::uint32_t colour(double way) {
   return way < 1e-4 ? 0xdeebf7 : way < 3e-4 ? 0x9ecae1 : way < 1e-3 ? 0x3182bd : way < 1e-2 ? 0xe69f00 : 0xd55e00;
 }
 
-void draw(const Film& settled) {
+void draw(const RecordedRun<3>& settled) {
   const State<3>& state = settled.last();
   const Camera camera{-55,
                       32,
@@ -146,28 +149,25 @@ void draw(const Film& settled) {
   write_objects("slicing", "settled.gp", picture(settled.model(), state, camera));
 }
 
-Film settle(const std::string& scene, const std::vector<std::string>& overrides = {}) {
-  return film(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, Goals::demanded, overrides);
-}
-
 TEST(SlicingSettling, ACornerOfItComesToRest) {
   CaseReport report("slicing", {"settling: weight on floor and walls"});
-  const Film settled = settle("bench.toml", {"domain.box.max=[2.8, 2.2, 2.6]",
-                                             "excavations.bench.box={ min = [1.4, -1, 1.3], max = [4, 4, 4] }",
-                                             "blocks.east.box={ min = [2.8, -1, 0], max = [4, 4, 4] }",
-                                             "blocks.north.box={ min = [0, 2.2, 0], max = [2.8, 4, 4] }"});
+  const RecordedRun<3> settled =
+      record<3>("bench.toml",
+                {"domain.box.max=[2.8, 2.2, 2.6]", "excavations.bench.box={ min = [1.4, -1, 1.3], max = [4, 4, 4] }",
+                 "blocks.east.box={ min = [2.8, -1, 0], max = [4, 4, 4] }",
+                 "blocks.north.box={ min = [0, 2.2, 0], max = [2.8, 4, 4] }"});
   check(report, "", settled);
   draw(settled);
 }
 
 TEST(SlicingSettling, ThreeHundredBlocksRestByRelaxation) {
   CaseReport report("slicing");
-  check(report, ", 327 blocks by relaxation", settle("rock_mass.toml", {"damping.statics=\"adaptive\""}));
+  check(report, ", 327 blocks by relaxation", record<3>("rock_mass.toml", {"damping.statics=\"adaptive\""}));
 }
 
 TEST(SlicingSettlingLong, TwentyFiveHundredBlocksComeToRest) {
   CaseReport report("slicing");
-  const Film settled = settle("settling.toml");
+  const RecordedRun<3> settled = record<3>("settling.toml");
   check(report, ", 2500 blocks", settled);
   draw(settled);
 }
@@ -176,7 +176,7 @@ TEST(SlicingSettlingLong, TwentyFiveHundredBlocksComeToRest) {
 TEST(SlicingSettlingLong, TwentyFiveHundredBlocksRestByRelaxation) {
   CaseReport report("slicing");
   check(report, ", 2500 blocks by relaxation",
-        settle("settling.toml", {"damping.statics=\"adaptive\"", "joint_properties.rock.sub_contacts=2"}));
+        record<3>("settling.toml", {"damping.statics=\"adaptive\"", "joint_properties.rock.sub_contacts=2"}));
 }
 
 }  // namespace

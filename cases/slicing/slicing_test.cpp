@@ -7,7 +7,6 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <numbers>
 
 #include "cases/case_tools.hpp"
 #include "core/model.hpp"
@@ -15,6 +14,7 @@
 #include "core/scene/scene.hpp"
 #include "core/slicing/clump.hpp"
 #include "reference/slicing/arrangement.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -23,8 +23,6 @@ using reference::Line2;
 using verification::Bound;
 using verification::CaseReport;
 using verification::Kind;
-
-constexpr double degree = std::numbers::pi / 180;
 
 // volumes are sums of up to 1e5 terms, each within some ulp of the whole
 constexpr double conserved = 1e-12;

@@ -1,4 +1,4 @@
-# the angle at which each variant of the slope is lost, by three roads
+# the angle at which each variant of the slope is lost, by three methods
 load style
 set output out
 set ylabel 'critical friction (deg)'

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <optional>
 
 #include "app/limit/limit_analysis.hpp"
 #include "cases/case_tools.hpp"
-#include "cases/slump/loss.hpp"
+#include "cases/slump/collapse.hpp"
 #include "reference/slump/elastoplastic.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -20,10 +20,9 @@ namespace {
 using verification::CaseReport;
 using verification::Kind;
 
-constexpr double degrees = 180 / std::numbers::pi;
 constexpr double reference_bracket = 0.005;  // deg
-constexpr double moves = 0.1;                // of the farthest corner's way: as the reference's blocks are told apart
-constexpr double turns = 1e-3;  // share of rotation in the kinetic energy: more than settling and rounding leave
+constexpr double moves = 0.1;   // of the farthest corner's way: as the reference's blocks are distinguished
+constexpr double turns = 1e-3;  // fraction of rotation in the kinetic energy: more than settling and rounding leave
 
 struct Variant {
   double dip, base_dip;       // deg
@@ -32,7 +31,7 @@ struct Variant {
   std::string label;  // what differs from S0
 
   reference::LayeredSlope slope() const {
-    return {dip / degrees, base_dip / degrees, thickness, spacing, 50, layers, 2500, 9.81, 10e9, 10e9};
+    return {dip * degree, base_dip * degree, thickness, spacing, 50, layers, 2500, 9.81, 10e9, 10e9};
   }
 
   std::string name() const {
@@ -102,17 +101,17 @@ std::filesystem::path write_scene(const Variant& v) {
 
 // How a slope is lost: which of its layers, and whether by rotation.
 struct Manner {
-  double friction = 0;         // deg
-  double rotation_share = 0;   // of the kinetic energy
-  int moving = 0;              // blocks
-  std::vector<int> of_layers;  // those of each layer, from the face
+  double friction = 0;           // deg
+  double rotation_fraction = 0;  // of the kinetic energy
+  int moving = 0;                // blocks
+  std::vector<int> of_layers;    // those of each layer, from the face
 
-  bool rotates() const { return rotation_share > turns; }
+  bool rotates() const { return rotation_fraction > turns; }
 };
 
 int layer_of(const Variant& v, const Model<2>& model, int body) {
   const Vector<2> place = model.origin + model.bodies[body].reference;
-  const double dip = v.dip / degrees;
+  const double dip = v.dip * degree;
   return static_cast<int>((place[0] * std::sin(dip) - place[1] * std::cos(dip)) / v.thickness);
 }
 
@@ -135,7 +134,7 @@ double farthest_corner(const Body<2>& body, const BodyVelocity& motion) {
 }
 
 Manner manner_of(const Variant& v, const Model<2>& model, double friction, const std::vector<BodyVelocity>& motions) {
-  Manner manner{friction, describe_mechanism(model, motions).rotation_share, 0, std::vector<int>(v.layers)};
+  Manner manner{friction, describe_mechanism(model, motions).rotation_fraction, 0, std::vector<int>(v.layers)};
   double most = 0;
   for (std::size_t b = 0; b < motions.size(); ++b)
     most = std::max(most, farthest_corner(model.bodies[b], motions[b]));
@@ -155,20 +154,21 @@ Manner by_limit_analysis(const Variant& v, const std::filesystem::path& scene) {
 
 Manner without_dilation(const Variant& v, const Model<2>& model) {
   const reference::SlopeCollapse collapse =
-      reference::elastoplastic_collapse(v.slope(), 60 / degrees, 1 / degrees, reference_bracket / degrees);
+      reference::elastoplastic_collapse(v.slope(), 60 * degree, 1 * degree, reference_bracket * degree);
   const std::vector<std::vector<int>> layers = layered_blocks(v, model);
   std::vector<BodyVelocity> motions(model.bodies.size());
   for (const reference::SlopeBlockMotion& block : collapse.motion)
     motions[layers.at(block.layer).at(block.row)] = {{block.x, block.y}, block.turn};
-  return manner_of(v, model, 0.5 * (collapse.stands + collapse.collapses) * degrees, motions);
+  return manner_of(v, model, 0.5 * (collapse.stands + collapse.collapses) / degree, motions);
 }
 
-Manner by_distinct_elements(const Variant& v, const Loss<2>& loss) {
-  std::vector<BodyVelocity> motions(loss.model().bodies.size());
-  for (const BlockLoss& block : motions_of_loss(loss))
-    motions[block.body] = {loss.lost.motions[block.body].displacement - loss.settled.motions[block.body].displacement,
-                           block.turn};
-  return manner_of(v, loss.model(), value(loss.run, "critical_friction"), motions);
+Manner by_distinct_elements(const Variant& v, const Collapse<2>& collapse) {
+  std::vector<BodyVelocity> motions(collapse.model().bodies.size());
+  for (const CollapsedBlock& block : motions_at_collapse(collapse))
+    motions[block.body] = {
+        collapse.failed.motions[block.body].displacement - collapse.settled.motions[block.body].displacement,
+        block.turn};
+  return manner_of(v, collapse.model(), value(collapse.run, "critical_friction"), motions);
 }
 
 std::string words(const Manner& m) {
@@ -176,11 +176,11 @@ std::string words(const Manner& m) {
   for (const int count : m.of_layers)
     layers += fmt::format("{}{}", layers.empty() ? "" : "+", count);
   return fmt::format("{}: blocks of each layer {}; {:.3g} % of the kinetic energy in rotation",
-                     m.rotates() ? "rotation" : "translation", layers, 100 * m.rotation_share);
+                     m.rotates() ? "rotation" : "translation", layers, 100 * m.rotation_fraction);
 }
 
 // as each method lost a variant; only limit analysis is cheap enough for all of them in every build
-struct Losses {
+struct Answers {
   Manner limit;
   std::optional<Manner> plastic, dem;
 };
@@ -189,7 +189,7 @@ std::string number(const std::optional<Manner>& manner) {
   return manner ? fmt::format("{}", manner->friction) : "";
 }
 
-void write_table(const std::vector<Losses>& all) {
+void write_table(const std::vector<Answers>& all) {
   std::ofstream out(verification::case_output("slump") / "variants.csv");
   out << "variant,limit_deg,plastic_deg,dem_deg\n";
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -198,15 +198,15 @@ void write_table(const std::vector<Losses>& all) {
   if (!out) throw std::runtime_error("cannot write variants.csv");
 }
 
-void judge(CaseReport& report, const Variant& v, const Losses& lost) {
+void judge(CaseReport& report, const Variant& v, const Answers& found) {
   const std::string name = ", " + v.label, source = "elastic, perfectly plastic blocks without dilation";
-  const Manner& limit = lost.limit;
+  const Manner& limit = found.limit;
   EXPECT_TRUE(limit.rotates()) << v.label;
-  if (!lost.plastic) {
+  if (!found.plastic) {
     report.report("critical friction, limit analysis" + name, "deg", limit.friction, words(limit));
     return;
   }
-  const Manner& plastic = *lost.plastic;
+  const Manner& plastic = *found.plastic;
   report.report("critical friction, without dilation" + name, "deg", plastic.friction, words(plastic));
   report.record({"critical friction, limit analysis" + name,
                  "deg",
@@ -218,7 +218,7 @@ void judge(CaseReport& report, const Variant& v, const Losses& lost) {
                 limit.friction);
   EXPECT_EQ(limit.of_layers, plastic.of_layers) << v.label;
   EXPECT_TRUE(plastic.rotates()) << v.label;
-  if (!lost.dem) return;
+  if (!found.dem) return;
   report.record(
       {"critical friction, DEM" + name,
        "deg",
@@ -228,29 +228,29 @@ void judge(CaseReport& report, const Variant& v, const Losses& lost) {
        {0.2, 0},
        "elastic corners give way before they carry what rigid ones do: 0.1 for S0 at this stiffness (README), "
        "twice that where blocks are larger. " +
-           words(*lost.dem)},
-      lost.dem->friction);
+           words(*found.dem)},
+      found.dem->friction);
   // the second layer is as weak as the first one and may follow where it has gone
-  EXPECT_EQ(lost.dem->of_layers.front(), plastic.of_layers.front()) << v.label;
-  EXPECT_TRUE(lost.dem->rotates()) << v.label;
+  EXPECT_EQ(found.dem->of_layers.front(), plastic.of_layers.front()) << v.label;
+  EXPECT_TRUE(found.dem->rotates()) << v.label;
 }
 
-enum class Roads { limit_only, two, three };
+enum class Methods { limit_only, two, three };
 
 template <class Choice>
-void try_variants(CaseReport& report, const Choice& roads_of) {
-  std::vector<Losses> all;
+void try_variants(CaseReport& report, const Choice& methods_of) {
+  std::vector<Answers> all;
   for (const Variant& v : variants) {
     const std::filesystem::path scene = write_scene(v);
-    const Roads roads = roads_of(v);
-    Losses lost{by_limit_analysis(v, scene), {}, {}};
-    if (roads != Roads::limit_only) {
+    const Methods methods = methods_of(v);
+    Answers found{by_limit_analysis(v, scene), {}, {}};
+    if (methods != Methods::limit_only) {
       const LoadedScene loaded = load_scene(scene);
-      lost.plastic = without_dilation(v, std::get<Prepared<2>>(loaded.prepared).model);
+      found.plastic = without_dilation(v, std::get<Prepared<2>>(loaded.prepared).model);
     }
-    if (roads == Roads::three) lost.dem = by_distinct_elements(v, lose<2>(scene));
-    judge(report, v, lost);
-    all.push_back(lost);
+    if (methods == Methods::three) found.dem = by_distinct_elements(v, run_to_collapse<2>(scene));
+    judge(report, v, found);
+    all.push_back(found);
   }
   write_table(all);
 }
@@ -258,14 +258,14 @@ void try_variants(CaseReport& report, const Choice& roads_of) {
 TEST(SlumpVariants, AreLostAsBlocksThatDoNotDilate) {
   CaseReport report("slump", {"critical friction, limit analysis, dip 70°", "critical friction, DEM, 1 layer"});
   try_variants(report, [](const Variant& v) {
-    if (v.layers == 1) return Roads::three;
-    return v.dip == 70 || v.base_dip == 0 || v.spacing == 16 ? Roads::two : Roads::limit_only;
+    if (v.layers == 1) return Methods::three;
+    return v.dip == 70 || v.base_dip == 0 || v.spacing == 16 ? Methods::two : Methods::limit_only;
   });
 }
 
 TEST(SlumpVariantsLong, AreLostByDistinctElements) {
   CaseReport report("slump");
-  try_variants(report, [](const Variant&) { return Roads::three; });
+  try_variants(report, [](const Variant&) { return Methods::three; });
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
-#include <numbers>
 
 #include "cases/case_tools.hpp"
 #include "core/step.hpp"
@@ -16,6 +15,7 @@
 #include "core/step/joint_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/neighbours.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -86,7 +86,7 @@ struct Pressed {
 template <int Dim>
 constexpr double face = Dim == 2 ? width : width* width;
 
-// as a share of the distributed joint
+// as a fraction of the distributed joint
 struct Stiffness {
   double normal = 0, shear = 0, rocking = 0, spin = 1, spin_strength = 1;
 };
@@ -114,7 +114,7 @@ Stiffness stiffness_of(int along) {
     s.spin = -Pressed<3>(along).go(still, {0, 0, small}).moment[2] / (ks * polar * small);
     // the mean distance of a square's points from its middle
     const double mean = width * (std::sqrt(2) + std::asinh(1)) / 6;
-    const double strength = std::tan(friction_deg * std::numbers::pi / 180) * kn * depth * face<3> * mean;
+    const double strength = std::tan(friction_deg * degree) * kn * depth * face<3> * mean;
     s.spin_strength = -Pressed<3>(along).go(still, {0, 0, slide}).moment[2] / strength;
   }
   return s;
@@ -170,7 +170,7 @@ void measure(CaseReport& report, const std::string& file) {
     if (Dim == 3) report.report("spin strength" + name, "1", s.spin_strength, "of the distributed joint");
     report.report("contact in a step" + name, "ns", time, "processor time, fastest of twenty rounds of this run");
     // what a logarithmic axis can show: rounding stands at 1e-8
-    const auto error = [](double share) { return std::max(1e-8, std::abs(share - 1)); };
+    const auto error = [](double fraction) { return std::max(1e-8, std::abs(fraction - 1)); };
     const std::array row{static_cast<double>(along),
                          std::pow(along, Dim - 1),
                          error(s.normal),

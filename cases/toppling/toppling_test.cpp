@@ -3,11 +3,11 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "cases/case_tools.hpp"
 #include "reference/small/small.hpp"
 #include "reference/small/toppling.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -16,8 +16,6 @@ using reference::BlockMode;
 using reference::InclinedBlock;
 using verification::CaseReport;
 using verification::Kind;
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 // as the scenes state it
 constexpr double breadth = 1, height = 2, weight = 2500 * 9.81 * breadth * height, stiffness = 100e9;
@@ -47,14 +45,14 @@ std::string text(double number) {
 
 // deg: the slope, or where it slides the friction angle, at which the block overturns on its elastic joint
 double overturns_at(double slope_deg) {
-  return degrees * reference::overturning_angle(breadth, height, weight * std::cos(slope_deg / degrees), stiffness);
+  return to_degrees(reference::overturning_angle(breadth, height, weight * std::cos(slope_deg * degree), stiffness));
 }
 
 // two points on either side of each of the four borders, and one far inside each region
 std::vector<Point> points() {
   constexpr double apart = 0.3, steep = 35;  // deg
   const double flat = 20, overturns = overturns_at(26), sliding = overturns_at(steep);
-  const double both = degrees * reference::least_toppling_friction({breadth, height, steep / degrees, 0});
+  const double both = to_degrees(reference::least_toppling_friction({breadth, height, steep * degree, 0}));
   return {{flat, flat + apart},
           {flat, flat - apart},
           {overturns - apart, 40},
@@ -71,7 +69,7 @@ std::vector<Point> points() {
 
 // the reference's mode, on elastic joints: the borders of overturning lie where the joint puts them
 BlockMode expected_mode(const Point& p) {
-  const InclinedBlock block{breadth, height, p.slope / degrees, p.friction / degrees};
+  const InclinedBlock block{breadth, height, p.slope * degree, p.friction * degree};
   const double overturns = overturns_at(p.slope);
   if (std::min(p.slope, p.friction) < overturns) return p.slope < p.friction ? BlockMode::stays : BlockMode::slides;
   // between the elastic border and the rigid one all friction angles above the border hold the block's foot
@@ -92,7 +90,7 @@ struct Start {
 };
 
 Start start(const Variant& v, const Point& p) {
-  const double along = 9.81 * std::sin(p.slope / degrees), into = -9.81 * std::cos(p.slope / degrees);
+  const double along = 9.81 * std::sin(p.slope * degree), into = -9.81 * std::cos(p.slope * degree);
   const std::string middle = v.dimension == 3 ? ", 0, " : ", ";
   Start start;
   start.run = run(v.scene, {"gravity=[" + text(along) + middle + text(into) + "]",
@@ -101,7 +99,7 @@ Start start(const Variant& v, const Point& p) {
   const std::vector<double> turn =
       column(start.run, v.dimension == 3 ? "column_rotation_y_deg" : "column_rotation_deg");
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    start.turn = (v.dimension == 3 ? 1 : -1) * turn[i] / degrees;
+    start.turn = (v.dimension == 3 ? 1 : -1) * turn[i] * degree;
     // of the lower corner, breadth/2 down the slope and height/2 below the centroid
     start.slip = moved[i] + 0.5 * breadth * (std::cos(start.turn) - 1) - 0.5 * height * std::sin(start.turn);
     if (start.turn > started) break;
@@ -144,13 +142,13 @@ INSTANTIATE_TEST_SUITE_P(Both, Toppling,
                                          Variant{"scene.toml", "3-D", "Space", 3}),
                          [](const auto& chosen) { return chosen.param.test; });
 
-// What the map says of points where statics says something else: inertia shares in the balance.
+// What the map says of points where statics says something else: inertia enters the balance.
 TEST(TopplingMap, IsNotThatOfStatics) {
   std::vector<double> slope, least;
-  const double rigid = degrees * std::atan(breadth / height), end = 50;
+  const double rigid = to_degrees(std::atan(breadth / height)), end = 50;
   for (int i = 0; i <= 100; ++i) {
     slope.push_back(rigid + 1e-9 + (end - rigid) * i / 100);
-    least.push_back(degrees * reference::least_toppling_friction({breadth, height, slope.back() / degrees, 0}));
+    least.push_back(to_degrees(reference::least_toppling_friction({breadth, height, slope.back() * degree, 0})));
   }
   write_csv("toppling", "toppling_alone.csv", {"slope_deg", "friction_deg", "rigid_deg"},
             {slope, least, std::vector<double>(slope.size(), rigid)});
@@ -160,22 +158,22 @@ TEST(TopplingMap, IsNotThatOfStatics) {
                 "26.565 for a rigid block; the points stand on either side of the elastic border");
   int apart = 0;
   for (const Point& p : points()) {
-    const InclinedBlock block{breadth, height, p.slope / degrees, p.friction / degrees};
+    const InclinedBlock block{breadth, height, p.slope * degree, p.friction * degree};
     apart += block_mode(block) != block_mode_of_statics(block);
   }
-  EXPECT_GE(apart, 3) << "the points tell the two maps apart";
+  EXPECT_GE(apart, 3) << "the points distinguish the two maps";
 }
 
 // A stage of kind run at its defaults: nothing holds the column up but its inertia.
 TEST(TopplingColumn, FallsAsFastAsARigidBlock) {
   CaseReport report("toppling");
   const SceneRun run = cases::run("two_blocks.toml");
-  constexpr double b = 1, h = 3, g = 9.81, slope = 20 / degrees, turn = 45 / degrees;
+  constexpr double b = 1, h = 3, g = 9.81, slope = 20 * degree, turn = 45 * degree;
   const double start = slope - std::atan(b / h);
   const double expected =
       reference::fall_over_time({1, (b * b + h * h) / 3, 0.5 * std::hypot(b, h), start, g}, start + turn);
   const std::vector<double> time = column(run, "time_s"), rotation = column(run, "lower_rotation_deg");
-  const auto after = std::find_if(rotation.begin(), rotation.end(), [](double deg) { return deg < -turn * degrees; });
+  const auto after = std::find_if(rotation.begin(), rotation.end(), [](double deg) { return deg < -turn / degree; });
   ASSERT_NE(after, rotation.end()) << "it does not topple";
   report.record({"time in which a column of two blocks has turned by 45 deg",
                  "s",
@@ -190,7 +188,7 @@ TEST(TopplingColumn, FallsAsFastAsARigidBlock) {
 // Goodman & Bray's slope: an angle at which it is known to stand, one at which it is known to fall, and a bracket
 SceneRun judge_columns(const std::string& which, const std::vector<std::string>& overrides) {
   CaseReport report("toppling");
-  const double expected = degrees * reference::stepped_columns_friction({});
+  const double expected = to_degrees(reference::stepped_columns_friction({}));
   report.reference("stepped columns, critical friction", expected, "deg");
   SceneRun done = run("columns.toml", overrides);
   const double bar = *done.results.find("critical_friction")->error_bar;

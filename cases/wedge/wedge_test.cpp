@@ -5,12 +5,12 @@
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "cases/case_tools.hpp"
 #include "core/accuracy.hpp"
 #include "reference/wedge/wedge.hpp"
 #include "reference/wedge/wedge_path.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -19,17 +19,15 @@ using verification::CaseReport;
 using verification::Check;
 using verification::Kind;
 
-constexpr double degrees = 180 / std::numbers::pi;
-
 // joints and slope face as scene.toml states them
 constexpr double face_dip = 70, face_dip_direction = 182, face_height = 1;
 
 reference::Wedge wedge(double dip_a, double direction_a, double dip_b, double direction_b) {
   reference::Wedge w;
-  w.a.dip = dip_a / degrees;
-  w.a.dip_direction = direction_a / degrees;
-  w.b.dip = dip_b / degrees;
-  w.b.dip_direction = direction_b / degrees;
+  w.a.dip = dip_a * degree;
+  w.a.dip_direction = direction_a * degree;
+  w.b.dip = dip_b * degree;
+  w.b.dip_direction = direction_b * degree;
   return w;
 }
 
@@ -43,7 +41,7 @@ Check angle_check(const std::string& quantity, Kind kind, const std::string& sou
 // The closed form: rotations restrained, ks = kn/10.
 TEST(Wedge, BisectionFindsTheClosedForm) {
   CaseReport report("wedge", {"critical friction"});
-  const double expected = *reference::critical_friction(thesis_wedge) * degrees;
+  const double expected = *reference::critical_friction(thesis_wedge) / degree;
   const SceneRun scene = run("scene.toml");
   report.reference("critical_friction", expected, "deg");
   report.record(
@@ -58,7 +56,7 @@ TEST(Wedge, BisectionFindsTheClosedForm) {
 TEST(Wedge, StiffShearFollowsTheElasticPlasticPath) {
   CaseReport report("wedge");
   const reference::WedgeFaces faces =
-      reference::wedge_faces(thesis_wedge, face_dip / degrees, face_dip_direction / degrees, face_height);
+      reference::wedge_faces(thesis_wedge, face_dip * degree, face_dip_direction * degree, face_height);
   std::vector<double> ratios{0.1, 0.2, 0.5, 1, 1.5, 2}, found, path;
   for (const double ratio : ratios) {
     reference::ElasticPlasticWedge block;
@@ -66,7 +64,7 @@ TEST(Wedge, StiffShearFollowsTheElasticPlasticPath) {
     block.area_a = faces.area_a;
     block.area_b = faces.area_b;
     block.shear_stiffness = ratio;
-    path.push_back(reference::elastic_plastic_path(block).critical_friction * degrees);
+    path.push_back(reference::elastic_plastic_path(block).critical_friction / degree);
     const SceneRun scene = run("scene.toml", {fmt::format("joint_properties.rock.shear_stiffness={}", ratio * 10e6)});
     found.push_back(value(scene, "critical_friction"));
     report.record(
@@ -82,7 +80,7 @@ TEST(Wedge, StiffShearFollowsTheElasticPlasticPath) {
 // Settings by [accuracy] level keep what the level promises.
 TEST(Wedge, LevelsKeepTheirPromises) {
   CaseReport report("wedge");
-  const double expected = *reference::critical_friction(thesis_wedge) * degrees;
+  const double expected = *reference::critical_friction(thesis_wedge) / degree;
   for (std::size_t k = 0; k < accuracy_levels.size(); ++k) {
     const std::string level(accuracy_levels[k]);
     const SceneRun scene = run("level.toml", {"accuracy.level=" + level});
@@ -100,7 +98,7 @@ TEST(Wedge, LevelsKeepTheirPromises) {
 // Friction lowered step by step, as in the thesis: displacement grows without bound at the critical angle.
 TEST(Wedge, StepwiseReduction) {
   CaseReport report("wedge");
-  const double expected = *reference::critical_friction(thesis_wedge) * degrees;
+  const double expected = *reference::critical_friction(thesis_wedge) / degree;
   const SceneRun scene = run("steps.toml");
   report.record(angle_check("critical friction, stepwise", Kind::exact, "Hoek & Bray (1974)", expected, 0.05,
                             "half a step of 0.05, and the bias of elastic settlement (0.002 at ks = kn/10)"),
@@ -193,13 +191,13 @@ TEST(Wedge, TurnedAndMoved) {
 std::vector<std::string> overrides(const reference::Wedge& w) {
   const reference::WedgeSolution solution = reference::solve_wedge(w);
   // a face that dips steeply along the line lets the line daylight
-  const double dip = std::min(85.0, solution.line_plunge * degrees + 30);
-  return {fmt::format("joints.A.dip={:.17g}", w.a.dip * degrees),
-          fmt::format("joints.A.dip_direction={:.17g}", w.a.dip_direction * degrees),
-          fmt::format("joints.B.dip={:.17g}", w.b.dip * degrees),
-          fmt::format("joints.B.dip_direction={:.17g}", w.b.dip_direction * degrees),
+  const double dip = std::min(85.0, solution.line_plunge / degree + 30);
+  return {fmt::format("joints.A.dip={:.17g}", w.a.dip / degree),
+          fmt::format("joints.A.dip_direction={:.17g}", w.a.dip_direction / degree),
+          fmt::format("joints.B.dip={:.17g}", w.b.dip / degree),
+          fmt::format("joints.B.dip_direction={:.17g}", w.b.dip_direction / degree),
           fmt::format("domain.planes.slope face.dip={:.17g}", dip),
-          fmt::format("domain.planes.slope face.dip_direction={:.17g}", solution.line_trend * degrees)};
+          fmt::format("domain.planes.slope face.dip_direction={:.17g}", solution.line_trend / degree)};
 }
 
 // how many wedges of each kind to draw
@@ -225,7 +223,7 @@ void try_random_wedges(CaseReport& report, unsigned seed, Draw wanted) {
     int& count = !kind.non_degenerate ? drawn.borderline : on_both ? drawn.both : drawn.single;
     const int enough = !kind.non_degenerate ? wanted.borderline : on_both ? wanted.both : wanted.single;
     // a flat line would leave the model's domain
-    if (count >= enough || solution.line_plunge * degrees < 15) continue;
+    if (count >= enough || solution.line_plunge / degree < 15) continue;
     ++count;
 
     const SceneRun scene = run("scene.toml", overrides(w));
@@ -236,10 +234,10 @@ void try_random_wedges(CaseReport& report, unsigned seed, Draw wanted) {
                                          count, dip_a, direction_a, dip_b, direction_b);
     if (!kind.non_degenerate) {
       report.report(name, "deg", value(scene, "critical_friction"),
-                    fmt::format("closed form {:.3f}; {}", *critical * degrees, kind.reason), cost(scene));
+                    fmt::format("closed form {:.3f}; {}", *critical / degree, kind.reason), cost(scene));
       continue;
     }
-    expected_deg.push_back(*critical * degrees);
+    expected_deg.push_back(*critical / degree);
     found_deg.push_back(value(scene, "critical_friction"));
     report.record(
         angle_check(name, Kind::exact, "Hoek & Bray (1974); " + reference::describe(solution.mode), expected_deg.back(),

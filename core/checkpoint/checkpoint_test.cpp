@@ -1,4 +1,4 @@
-// Checkpoints: a run that is stopped anywhere and goes on from its bytes ends in the same bits; bytes that are not
+// Checkpoints: a run that is stopped anywhere and continues from its bytes ends in the same bits; bytes that are not
 // whole are refused.
 #include "core/checkpoint/checkpoint.hpp"
 
@@ -12,7 +12,6 @@ namespace voussoir {
 namespace {
 
 using shapes::block_on_plate;
-using shapes::degree;
 using shapes::jointed_box;
 using shapes::model_of;
 
@@ -50,12 +49,12 @@ Progress<Dim> through_bytes(const Progress<Dim>& progress) {
 
 template <int Dim>
 Progress<Dim> whole_run(const Prepared<Dim>& scene) {
-  Progress<Dim> progress = begin(scene);
+  Progress<Dim> progress = initial_progress(scene);
   EXPECT_TRUE(simulate(scene, progress, {}));
   return progress;
 }
 
-// goes on until `count` steps were done in all; true: the scene ended before
+// continues until `count` steps were done in all; true: the scene ended before
 template <int Dim>
 bool run_until(const Prepared<Dim>& scene, long long count, Progress<Dim>& progress) {
   Watcher<Dim> watcher;
@@ -75,7 +74,7 @@ TEST(Checkpoint, EveryStepMayBeTheLastBeforeAnInterruption) {
   ASSERT_GE(steps, 200);
   const std::string expected = end_of(whole);
   for (long long k = 0; k <= 200; ++k) {
-    Progress<3> first = begin(scene);
+    Progress<3> first = initial_progress(scene);
     ASSERT_FALSE(run_until(scene, k, first));
     Progress<3> second = through_bytes(first);
     ASSERT_TRUE(simulate(scene, second, {}));
@@ -91,7 +90,7 @@ void expect_search_survives(const ReducePlan& plan) {
   EXPECT_TRUE(whole.results.find("critical_friction"));
 
   // again and again, at intervals that fit nothing
-  Progress<Dim> progress = begin(scene);
+  Progress<Dim> progress = initial_progress(scene);
   int interruptions = 0;
   for (long long k = 97; !run_until(scene, k, progress); k += 97) {
     progress = through_bytes(progress);
@@ -118,7 +117,7 @@ TEST(Checkpoint, ASearchForTheCriticalFrictionGoesOn) {
 }
 
 Progress<2> small_progress(const Prepared<2>& scene) {
-  Progress<2> progress = begin(scene);
+  Progress<2> progress = initial_progress(scene);
   EXPECT_FALSE(run_until(scene, 50, progress));
   return progress;
 }

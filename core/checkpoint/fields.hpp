@@ -58,8 +58,8 @@ void serialize(Archive& archive, Load<Dim>& l) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, ContactGeometry<Dim>& g) {
-  auto& [point, normal, overlap, area, firmness, face_a, face_b] = g;
-  archive(point, normal, overlap, area, firmness, face_a, face_b);
+  auto& [point, normal, overlap, area, stiffness_factor, face_a, face_b] = g;
+  archive(point, normal, overlap, area, stiffness_factor, face_a, face_b);
 }
 
 template <class Archive, int Dim>
@@ -85,8 +85,8 @@ void serialize(Archive& archive, Contact<Dim>& c) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, SubContact<Dim>& s) {
-  auto& [point, overlap, spread, gyration2, area, history, force] = s;
-  archive(point, overlap, spread, gyration2, area, history, force);
+  auto& [point, overlap, overlap_variance, gyration2, area, history, force] = s;
+  archive(point, overlap, overlap_variance, gyration2, area, history, force);
 }
 
 template <class Archive, int Dim>
@@ -127,18 +127,18 @@ void serialize(Archive& archive, EnergyFlows& f) {
 
 template <class Archive>
 void serialize(Archive& archive, EnergyLedger& e) {
-  auto& [flows, kinetic, elastic, kinetic_origin, elastic_origin, motion_error, contact_error, widest, turnover,
-         phase] = e;
-  archive(flows, kinetic, elastic, kinetic_origin, elastic_origin, motion_error, contact_error, widest, turnover,
-          phase);
+  auto& [flows, kinetic, elastic, kinetic_origin, elastic_origin, motion_error, contact_error, worst_error,
+         largest_energy, phase] = e;
+  archive(flows, kinetic, elastic, kinetic_origin, elastic_origin, motion_error, contact_error, worst_error,
+          largest_energy, phase);
 }
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
-  // stances, loads by source with their stiffness, and lists by body are rebuilt before they are read
-  auto& [motions, loads, loads_of, stiffened, contacts, subs, built, counted, travels, stances, by_body, frequency,
+  // poses, loads by source with their stiffness, and lists by body are rebuilt before they are read
+  auto& [motions, loads, loads_of, stiffened, contacts, subs, built, counted_at, path_bounds, poses, by_body, frequency,
          relaxation, schedule, bonds, time, time_step, step_allowed, energy, counters] = s;
-  archive(motions, loads, contacts, subs, built, counted, travels, frequency, relaxation, schedule, bonds, time,
+  archive(motions, loads, contacts, subs, built, counted_at, path_bounds, frequency, relaxation, schedule, bonds, time,
           time_step, step_allowed, energy, counters);
 }
 

@@ -6,7 +6,7 @@
 namespace voussoir {
 namespace {
 
-// a part that goes on beyond 2^64 times its slack is open: coordinates resolve no more than 2^53 of them
+// a part that continues beyond 2^64 times its slack is open: coordinates resolve no more than 2^53 of them
 constexpr int doublings = 64;
 
 // g(t) of Eq. 3.37 and the plane that has it

@@ -124,10 +124,10 @@ void choose_cells(const std::vector<Box<Dim>>& boxes, PairSearch<Dim>& s) {
 // the smallest power of two that holds the box
 template <int Dim>
 int level_of(const PairSearch<Dim>& s, const Box<Dim>& box) {
-  const double share = extent(box) / s.cell;
-  if (share == 0) return s.lowest;
+  const double fraction = extent(box) / s.cell;
+  if (fraction == 0) return s.lowest;
   int exponent = 0;
-  const bool power = std::frexp(share, &exponent) == 0.5;
+  const bool power = std::frexp(fraction, &exponent) == 0.5;
   return std::max(s.lowest, power ? exponent - 1 : exponent);
 }
 

@@ -13,6 +13,7 @@
 
 #include "core/testing/contacts.hpp"
 #include "core/testing/exact_contacts.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
@@ -190,10 +191,9 @@ TEST(OverlapAlong, MeetsPlanesNearlyParallelToItExactly) {
       int face_a = -1, face_b = -1;
       const Vector<3> point(0, 0, 0), n = Vector<3>::UnitZ();
       ASSERT_TRUE(overlap_along<3>(planes, faces_a, point, n, overlap, face_a, face_b));
-      const std::vector<Quad> ends =
+      const std::vector<std::optional<Quad>> ends =
           exact::distances_along(exact::planes_of(planes), faces_a, 6, exact::point_of(point), exact::point_of(n));
-      const Quad expected = *std::min_element(ends.begin(), ends.begin() + faces_a) +
-                            *std::min_element(ends.begin() + faces_a, ends.end());
+      const Quad expected = exact::nearest(ends, 0, faces_a) + exact::nearest(ends, faces_a, 6);
       EXPECT_NEAR(overlap, to_double(expected), 1e-13 * overlap);
       EXPECT_EQ(face_a, toward > 0 ? faces_a - 1 : 4);
     }
@@ -265,7 +265,7 @@ TEST(SectionArea, TurnsWithTheNormalNearACorner) {
   const HalfSpaces<3> cube = shapes::cube<3>(1);
   for (const double near : {0.3, 1e-3, 1e-9})
     for (int degrees = 0; degrees <= 90; ++degrees) {
-      const double angle = degrees * std::numbers::pi / 180;
+      const double angle = degrees * degree;
       const Vector<3> n = Vector<3>(std::sin(angle), 0.3, std::cos(angle)).normalized();
       expect_exact_section(cube, Vector<3>::Constant(1 - near), n, 2 * std::numbers::sqrt3);
     }

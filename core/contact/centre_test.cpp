@@ -23,13 +23,13 @@ constexpr double ulp = std::numeric_limits<double>::epsilon();
 
 // ---- A1: depth by aspect by offset ----------------------------------------------------------------------------------
 
-// what a stop rule promises: the point, as a share of the region in every direction; overlap and area, of themselves
+// what a stop rule promises: the point, as a fraction of the region in every direction; overlap and area, of themselves
 struct Level {
   double newton_tolerance, point, value;
 };
 constexpr Level timed{1e-3, 1e-4, 1e-6}, reference{1e-9, 1e-9, 1e-9};
 
-// Rounded poses and slacks leave open what they leave open: this share of a region as thin as the overlap, in every
+// Rounded poses and slacks leave open what they leave open: this fraction of a region as thin as the overlap, in every
 // direction, since a normal turned by 1 ulp moves the centre along a patch by ulp/overlap of the patch.
 double left_open(double size, double overlap) {
   return 16 * ulp * size / overlap;
@@ -188,9 +188,9 @@ TEST(Centre, IsFoundFromNextToTheBoundary) {
       const HalfSpaces<3> planes =
           shapes::placed<3>(shapes::box<3>({-1, -1, -thin}, {1, 1, thin}), axes, Vector<3>::Zero());
       // near a face, an edge, a corner: 10^-k of the half width away from it, where the coordinates' rounding lets it
-      const double share = std::pow(10.0, -k);
+      const double fraction = std::pow(10.0, -k);
       for (int kind = 1; kind <= 3; ++kind) {
-        Vector<3> start(kind > 2 ? 1 - share : 0.3, kind > 1 ? -1 + share : 0.2, thin * (1 - share));
+        Vector<3> start(kind > 2 ? 1 - fraction : 0.3, kind > 1 ? -1 + fraction : 0.2, thin * (1 - fraction));
         start = axes * start;
         const bool inside = std::all_of(planes.begin(), planes.end(),
                                         [&](const HalfSpace<3>& p) { return signed_distance<3>(p, start) < 0; });

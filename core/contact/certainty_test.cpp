@@ -23,8 +23,8 @@ constexpr std::uint64_t seed = 20240;
 void print(const Tally& tally) {
   for (const auto& [what, count] : tally.counts)
     fmt::print("  {:9} {}\n", count, what);
-  for (const auto& [what, share] : tally.worst)
-    fmt::print("  {:9.3g} of the promise: {}\n", share, what);
+  for (const auto& [what, fraction] : tally.worst)
+    fmt::print("  {:9.3g} of the promise: {}\n", fraction, what);
 }
 
 template <int Dim>
@@ -87,7 +87,7 @@ TEST(Certainty, CentresAreReachedFromNextToAPlane) {
   expect_no_promise_broken<3>({376981, 484610});
 }
 
-// in eight parts, so that one that was interrupted need not begin anew: --gtest_filter=*AMillionPairsLong*/3
+// in eight parts, so that one that was interrupted need not begin again: --gtest_filter=*AMillionPairsLong*/3
 class AMillionPairsLong : public testing::TestWithParam<int> {};
 
 TEST_P(AMillionPairsLong, HoldNoWrongAnswer) {

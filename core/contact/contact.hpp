@@ -26,7 +26,7 @@ struct ContactGeometry {
   Vector<Dim> normal = Vector<Dim>::Zero();  // unit, from the first to the second
   double overlap = 0;                        // m, positive
   double area = 0;                           // m² (2-D: m, unit thickness); 0 when no law asked for it
-  double firmness = 1;                       // share of a constant normal stiffness that acts (ContactNormal)
+  double stiffness_factor = 1;               // fraction of a constant normal stiffness that acts (ContactNormal)
   int face_a = -1, face_b = -1;  // the faces that end the searches along the normal, or lean on each other most
 };
 
@@ -57,7 +57,7 @@ template <int Dim>
 struct SubContact {
   Vector<Dim> point = Vector<Dim>::Zero();  // m, where its force acts; relative as the contact's
   double overlap = 0;                       // m, mean over the cell
-  double spread = 0;                        // m², variance of the overlap over the cell
+  double overlap_variance = 0;              // m², variance of the overlap over the cell
   double gyration2 = 0;                     // m²: square of the radius of gyration of the cell's section
   double area = 0;                          // m² (2-D: m); 0: the cell does not touch
   JointState<Dim> history;

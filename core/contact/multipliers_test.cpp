@@ -31,7 +31,7 @@ void expect_face_on_face() {
     ASSERT_TRUE(r.contact.touching());
     const ContactGeometry<Dim>& g = r.contact.geometry;
     EXPECT_NEAR(g.overlap, depth, rounding);
-    EXPECT_NEAR(g.firmness, 1, rounding);
+    EXPECT_NEAR(g.stiffness_factor, 1, rounding);
     EXPECT_LT((g.normal - Vector<Dim>::Unit(Dim - 1)).norm(), rounding);
     EXPECT_NEAR(g.area, Dim == 3 ? 0.49 : 0.7, area_tolerance);
     EXPECT_EQ(cube.faces[g.face_a].normal[Dim - 1], 1);
@@ -62,14 +62,14 @@ void expect_corner_in_face(std::uint64_t seed) {
     const ContactGeometry<Dim>& g = contact.geometry;
     EXPECT_NEAR(g.overlap, depth, rounding);
     EXPECT_LT((g.normal - Vector<Dim>::Unit(Dim - 1)).norm(), rounding);
-    EXPECT_LT(g.firmness, 1);
+    EXPECT_LT(g.stiffness_factor, 1);
     EXPECT_EQ(large.faces[g.face_a].normal[Dim - 1], 1);
 
     // seen from the other
     const ContactGeometry<Dim> back =
         touch<Dim>(small, large, turn.transpose(), -turn.transpose() * offset, by_multipliers).contact.geometry;
     EXPECT_NEAR(back.overlap, g.overlap, rounding);
-    EXPECT_NEAR(back.firmness, g.firmness, rounding);
+    EXPECT_NEAR(back.stiffness_factor, g.stiffness_factor, rounding);
     EXPECT_LT((turn * back.normal + g.normal).norm(), rounding);
   }
 }
@@ -123,7 +123,7 @@ TEST(Multipliers, ANeedlesTipHasTheFacesNormal) {
         // the ball in the tip keeps from the face what it keeps from the needle's planes
         EXPECT_LE(contact.geometry.overlap, depth * (1 + 2 * slope));
         EXPECT_GE(contact.geometry.overlap, (settings.point == ContactPoint::chebyshev ? 0.99 : 0.9) * depth);
-        EXPECT_NEAR(contact.geometry.firmness, 4 * slope * slope, 0.1 * 4 * slope * slope);
+        EXPECT_NEAR(contact.geometry.stiffness_factor, 4 * slope * slope, 0.1 * 4 * slope * slope);
       }
     }
   }
@@ -141,7 +141,7 @@ TEST(Multipliers, OneDeepInsideTheOtherHasNoNormal) {
 // the value of the program or of its barrier
 template <int Dim>
 double depth(const ContactGeometry<Dim>& g) {
-  return 0.5 * g.overlap * std::sqrt(g.firmness);
+  return 0.5 * g.overlap * std::sqrt(g.stiffness_factor);
 }
 
 // What is smoothed is never deeper than what it smooths, so that a force begins at zero, and comes close to it.
@@ -159,9 +159,9 @@ void expect_less_by_the_smoothing(std::uint64_t seed) {
     const Vector<Dim> offset = (outside - shapes::power_of_ten(random, -6, -0.5) * size) * along;
     const Contact<Dim> exact = touch<Dim>(a, b, turn, offset, by_multipliers).contact;
     if (!exact.touching()) continue;
-    for (const double share : {1e-2, 1e-3, 1e-5}) {
+    for (const double fraction : {1e-2, 1e-3, 1e-5}) {
       ContactSettings settings = smoothed;
-      settings.smoothing = share;
+      settings.smoothing = fraction;
       const Contact<Dim> contact = touch<Dim>(a, b, turn, offset, settings).contact;
       ASSERT_TRUE(contact.touching());
       EXPECT_GT(contact.proof.margin, 0);
@@ -169,7 +169,7 @@ void expect_less_by_the_smoothing(std::uint64_t seed) {
       // each plane adds the logarithm of its distance over the part's diameter at most, near ones that of the smoothing
       const double planes = static_cast<double>(a.faces.size() + b.faces.size());
       EXPECT_GE(depth<Dim>(contact.geometry),
-                depth<Dim>(exact.geometry) - share * size * (3 * planes + 4 * std::log(1 / share)));
+                depth<Dim>(exact.geometry) - fraction * size * (3 * planes + 4 * std::log(1 / fraction)));
       pressed += contact.geometry.overlap > 0;
     }
   }
@@ -186,13 +186,13 @@ TEST(CentralPathContact, FaceOnFaceIsCarriedInTheMiddleAndWalksAsItRocks) {
   const Vector<3> offset(0, 0, 0.99);
   const double weight = smoothed.smoothing * cube.inscribed_radius;
   double before = 0;
-  for (const double share : {0.0, 0.1, 0.3, 1.0, 3.0, 10.0}) {
-    const double angle = share * weight;
+  for (const double fraction : {0.0, 0.1, 0.3, 1.0, 3.0, 10.0}) {
+    const double angle = fraction * weight;
     const Matrix<3> turn = Eigen::AngleAxisd(angle, Vector<3>::UnitY()).toRotationMatrix();
     const ContactGeometry<3> g = touch<3>(cube, cube, turn, offset, smoothed).contact.geometry;
     // the sides carry what their distances leave them, and nothing of it counts
-    EXPECT_LT(g.firmness, 1);
-    EXPECT_GT(g.firmness, 1 - 100 * weight - angle);
+    EXPECT_LT(g.stiffness_factor, 1);
+    EXPECT_GT(g.stiffness_factor, 1 - 100 * weight - angle);
     EXPECT_LT((g.normal - Vector<3>::UnitZ()).norm(), angle + 1e-9);
     EXPECT_LE(g.overlap, 0.01 + angle);
     EXPECT_NEAR(g.point[1], 0, 1e-6);
@@ -201,7 +201,7 @@ TEST(CentralPathContact, FaceOnFaceIsCarriedInTheMiddleAndWalksAsItRocks) {
     // the two sides, 2 µ/t each, hold what the tilt wins, half the sine.
     const double x = std::abs(g.point[0]);
     if (angle > 0) {
-      EXPECT_NEAR(2 / (0.5 - x) - 2 / (0.5 + x), 0.5 * share, 0.05 * share);
+      EXPECT_NEAR(2 / (0.5 - x) - 2 / (0.5 + x), 0.5 * fraction, 0.05 * fraction);
       EXPECT_GT(x, before);
     } else {
       EXPECT_NEAR(x, 0, 1e-6);
@@ -238,7 +238,7 @@ constexpr int steps = 8000;
 // of the force that a spring of 1 N/m puts on B around a closed path, J
 struct Loop {
   double work = 0;
-  double without_firmness = 0;  // were the stiffness the same for faces, edges and corners
+  double with_equal_stiffness = 0;  // were the stiffness the same for faces, edges and corners
   double force_times_path = 0;
 };
 
@@ -267,9 +267,9 @@ Loop loop_around(const Polytope<3>& a, const Polytope<3>& b, Random& random, dou
     const Vector<3> seen = turned(phase).transpose() * (g.point - place(phase));
     const Vector<3> moved =
         place(phase + half) + turned(phase + half) * seen - place(phase - half) - turned(phase - half) * seen;
-    loop.work += g.firmness * g.overlap * g.normal.dot(moved);
-    loop.without_firmness += g.overlap * g.normal.dot(moved);
-    loop.force_times_path += g.firmness * g.overlap * moved.norm();
+    loop.work += g.stiffness_factor * g.overlap * g.normal.dot(moved);
+    loop.with_equal_stiffness += g.overlap * g.normal.dot(moved);
+    loop.force_times_path += g.stiffness_factor * g.overlap * moved.norm();
   }
   return loop;
 }
@@ -284,7 +284,7 @@ Loop loops(std::uint64_t seed, double turning, const ContactSettings& settings) 
       const Polytope<3> a = shapes::block<3>(solids[i].planes), b = shapes::block<3>(solids[j].planes);
       const Loop loop = loop_around(a, b, random, 0.05, turning, settings);
       sum.work += std::abs(loop.work);
-      sum.without_firmness += std::abs(loop.without_firmness);
+      sum.with_equal_stiffness += std::abs(loop.with_equal_stiffness);
       sum.force_times_path += loop.force_times_path;
     }
   return sum;
@@ -298,7 +298,7 @@ void expect_a_potential(double turning) {
   ASSERT_GT(ours.force_times_path, 0);
   EXPECT_LT(ours.work, allowed * ours.force_times_path);
   EXPECT_GT(published.work, 10 * allowed * published.force_times_path);
-  EXPECT_GT(ours.without_firmness, allowed * ours.force_times_path);
+  EXPECT_GT(ours.with_equal_stiffness, allowed * ours.force_times_path);
   // smoothed, it jumps nowhere
   const Loop smooth = loops(95, turning, smoothed);
   ASSERT_GT(smooth.force_times_path, 0);

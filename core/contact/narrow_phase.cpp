@@ -27,7 +27,7 @@ bool separates(const Pair<Dim>& pair, const Vector<Dim>& axis, double support_a,
 
 // whether the plane that separated the parts before still does
 template <int Dim>
-bool still_separated(const Pair<Dim>& pair, Contact<Dim>& contact, KernelCounters& counters) {
+bool remains_separated(const Pair<Dim>& pair, Contact<Dim>& contact, KernelCounters& counters) {
   const Proof<Dim>& proof = contact.proof;
   if (proof.kind != ProofKind::separating_axis || !separates(pair, Vector<Dim>(proof.axis), proof.support, contact))
     return false;
@@ -117,7 +117,7 @@ void resolve_batch(std::span<const Pair<Dim>> pairs, const ContactSettings& sett
     const Pair<Dim>& pair = pairs[i];
     Contact<Dim>& contact = *contacts[i];
     const Proof<Dim>& proof = contact.proof;
-    if (still_separated(pair, contact, counters)) continue;
+    if (remains_separated(pair, contact, counters)) continue;
     KernelTask<Dim>& task = tasks[count] = kernel_task(pair, settings, contact);
     // persistent contacts are resolved together, below
     if (proof.kind == ProofKind::interior_point)
@@ -148,7 +148,7 @@ void narrow_phase(std::span<const Pair<Dim>> pairs, const ContactSettings& setti
   counters.evaluations += static_cast<long long>(pairs.size());
   if (!simd_kernel_suits(settings, solvers)) {
     for (std::size_t i = 0; i < pairs.size(); ++i)
-      if (!still_separated(pairs[i], *contacts[i], counters))
+      if (!remains_separated(pairs[i], *contacts[i], counters))
         resolve_without_simd(pairs[i], settings, solvers, *contacts[i], counters);
     return;
   }

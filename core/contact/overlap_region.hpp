@@ -15,8 +15,8 @@ struct OverlapRegion {
 // Clips space by the planes of both parts, seen from `inside`, any point strictly inside all of them, and stretched so
 // that the region is about a ball. So, however thin the region, in every direction the centroid is right to 1e-12 of
 // its extent there, and the volume to 1e-12 of itself, beyond what the rounding of offsets and normals leaves open: 4
-// ulp of the coordinates, which over the thickness are a share of it. False when `inside` is not, or when the region is
-// open or thinner than its coordinates resolve.
+// ulp of the coordinates, which over the thickness are a fraction of it. False when `inside` is not, or when the region
+// is open or thinner than its coordinates resolve.
 template <int Dim>
 bool overlap_region(const HalfSpaces<Dim>& planes, const Vector<Dim>& inside, OverlapRegion<Dim>& region);
 

@@ -15,7 +15,7 @@
 namespace voussoir {
 namespace {
 
-// regions thinner than this many roundings of a slack have no centre that could be told from its surroundings
+// regions thinner than this many roundings of a slack have no centre that could be distinguished from its surroundings
 constexpr double hardly_thicker = 4096;
 
 template <int Dim>
@@ -287,7 +287,7 @@ struct Resolver {
     }
     normal /= length;
     overlap = std::max(-value / length, 0.0);
-    contact.geometry.firmness = 4 * length * length;
+    contact.geometry.stiffness_factor = 4 * length * length;
     return true;
   }
 

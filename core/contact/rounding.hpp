@@ -5,8 +5,8 @@
 
 namespace voussoir {
 
-// a slack's rounding as a share of the coordinates it was computed from: the products and sums of two rotated vectors
-// lose at most 13 half-ulps
+// a slack's rounding as a fraction of the coordinates it was computed from: the products and sums of two rotated
+// vectors lose at most 13 half-ulps
 inline constexpr double slack_rounding = 4 * std::numeric_limits<double>::epsilon();
 
 // gradients that differ by less give no direction

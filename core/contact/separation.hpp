@@ -9,7 +9,7 @@
 
 namespace voussoir {
 
-// rounding of a vertex's projection on an axis, as a share of the coordinates: two rotations and a sum
+// rounding of a vertex's projection on an axis, as a fraction of the coordinates: two rotations and a sum
 inline constexpr double projection_rounding = 8 * std::numeric_limits<double>::epsilon();
 
 // nothing of the part lies beyond this along the axis

@@ -29,7 +29,7 @@ struct Ruler {
 
 // what a cell's section is worth
 template <int Flat>
-struct Share {
+struct CellArea {
   double area = 0;
   Eigen::Matrix<double, Flat, 1> centroid;
   Eigen::Matrix<double, Flat, Flat> moment;  // about the centroid, over the area, m²
@@ -94,11 +94,11 @@ void visit_cells(const HalfSpaces<2>& planes, const Vector<2>& normal, double re
       high = std::min(high, place(slope > 0 ? ruler.high(i) : ruler.low(i)));
     }
     if (!(high > low)) continue;
-    Share<1> share;
-    share.area = high - low;
-    share.centroid[0] = 0.5 * (low + high);
-    share.moment(0, 0) = share.area * share.area / 12;
-    visit(i, share);
+    CellArea<1> piece;
+    piece.area = high - low;
+    piece.centroid[0] = 0.5 * (low + high);
+    piece.moment(0, 0) = piece.area * piece.area / 12;
+    visit(i, piece);
   }
 }
 
@@ -128,22 +128,22 @@ void cut_strip(const Polygon& polygon, const Ruler<2>& ruler, int cell, Polygon&
 }
 
 // area, centroid and second moment, by triangles around the first corner
-Share<2> measure(const Polygon& polygon) {
-  Share<2> share;
+CellArea<2> measure(const Polygon& polygon) {
+  CellArea<2> piece;
   Vector<2> first_moment = Vector<2>::Zero();
   Matrix<2> second = Matrix<2>::Zero();
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
     const Vector<2> u = polygon[k] - polygon[0], v = polygon[k + 1] - polygon[0];
     const double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
-    share.area += area;
+    piece.area += area;
     first_moment += area / 3 * (u + v);
     second += area / 12 * (u * u.transpose() + v * v.transpose() + (u + v) * (u + v).transpose());
   }
-  if (!(share.area > 0)) return share;
-  const Vector<2> from_corner = first_moment / share.area;
-  share.centroid = polygon[0] + from_corner;
-  share.moment = second / share.area - from_corner * from_corner.transpose();
-  return share;
+  if (!(piece.area > 0)) return piece;
+  const Vector<2> from_corner = first_moment / piece.area;
+  piece.centroid = polygon[0] + from_corner;
+  piece.moment = second / piece.area - from_corner * from_corner.transpose();
+  return piece;
 }
 
 template <class Visit>
@@ -156,8 +156,8 @@ void visit_cells(const HalfSpaces<3>& planes, const Vector<3>& normal, double re
     if (strip.size() < 3) continue;
     for (int j = 0; j < rulers[1].cells; ++j) {
       cut_strip(strip, rulers[1], j, spare, cell);
-      const Share<2> share = measure(cell);
-      if (share.area > 0) visit(i * rulers[1].cells + j, share);
+      const CellArea<2> piece = measure(cell);
+      if (piece.area > 0) visit(i * rulers[1].cells + j, piece);
     }
   }
 }
@@ -173,12 +173,12 @@ void hand_over(const JointState<Dim>& history, std::span<SubContact<Dim>> subs) 
   for (SubContact<Dim>& sub : subs) {
     sub.history = {};
     if (!(sub.area > 0)) continue;
-    const double share = sub.area / area;
+    const double fraction = sub.area / area;
     sub.history = history;
     sub.history.point = sub.point;
-    sub.history.shear_force *= share;
-    sub.history.dashpot *= share;
-    sub.history.area *= share;
+    sub.history.shear_force *= fraction;
+    sub.history.dashpot *= fraction;
+    sub.history.area *= fraction;
   }
 }
 
@@ -205,18 +205,18 @@ void divide(const Pair<Dim>& pair, int along, Contact<Dim>& contact, std::span<S
 
   for (SubContact<Dim>& sub : subs)
     sub.area = 0;
-  visit_cells(planes, normal, 4 * std::min(a.radius, b.radius), rulers, [&](int cell, const Share<Dim - 1>& share) {
+  visit_cells(planes, normal, 4 * std::min(a.radius, b.radius), rulers, [&](int cell, const CellArea<Dim - 1>& piece) {
     SubContact<Dim>& sub = subs[cell];
-    const Vector<Dim> centroid = axes * share.centroid;
+    const Vector<Dim> centroid = axes * piece.centroid;
     int end_a, end_b;
     if (!overlap_along<Dim>(planes, faces_a, centroid, normal, sub.overlap, end_a, end_b) || !(sub.overlap > 0)) return;
     // the overlap falls off with the slopes of the two faces that end it: its centre of pressure
     const Vector<Dim>&p = planes[end_a].normal, &q = planes[end_b].normal;
     const auto gradient = (axes.transpose() * (q / q.dot(normal) - p / p.dot(normal))).eval();
-    const auto lean = (share.moment * gradient).eval();
-    sub.area = share.area;
-    sub.spread = gradient.dot(lean);
-    sub.gyration2 = share.moment.trace();
+    const auto lean = (piece.moment * gradient).eval();
+    sub.area = piece.area;
+    sub.overlap_variance = gradient.dot(lean);
+    sub.gyration2 = piece.moment.trace();
     sub.point = pair.axes * (point + centroid + axes * (lean / sub.overlap));
   });
 

@@ -27,7 +27,7 @@ using shapes::Random;
 constexpr std::uint64_t seed = 20241;
 constexpr double ulp = std::numeric_limits<double>::epsilon();
 
-// what a turned or rescaled pair may differ by, in shares of its size (radius of A + radius of B)
+// what a turned or rescaled pair may differ by, in fractions of its size (radius of A + radius of B)
 constexpr double turned_rounding = 16 * ulp, other_rounding = 64 * ulp;
 
 // the point is then as exact as its slacks: what is compared is rounding, not the stop rule
@@ -80,7 +80,7 @@ Bits bits_of(const Contact<Dim>& c, double unit = 1) {
   add<Dim>(bits, c.geometry.point, unit);
   add<Dim>(bits, c.geometry.normal, 1);
   add(bits, c.geometry.overlap * unit);
-  add(bits, c.geometry.firmness);
+  add(bits, c.geometry.stiffness_factor);
   add(bits, c.geometry.area * (Dim == 3 ? unit * unit : unit));
   add(bits, c.proof.margin * unit);
   add<Dim>(bits, c.proof.point, unit);
@@ -95,8 +95,8 @@ Bits bits_of(const Contact<Dim>& c, double unit = 1) {
   return bits;
 }
 
-// Of faces folded by 1e-10 rad one cuts off just what make_block may drop: whether it goes hangs on their order, and in
-// another frame or unit on rounding. Only in that family may a block have lost one.
+// Of faces folded by 1e-10 rad one cuts off just what make_block may drop: whether it goes depends on their order, and
+// in another frame or unit on rounding. Only in that family may a block have lost one.
 template <int Dim>
 bool as_many_faces(const Posed<Dim>& p, const Posed<Dim>& q, bool folded) {
   const bool same = p.a.faces.size() == q.a.faces.size() && p.b.faces.size() == q.b.faces.size();
@@ -139,7 +139,7 @@ void expect_any_power_of_two(const Posed<Dim>& p, const Contact<Dim>& answer, Ra
 // ---- rounding -------------------------------------------------------------------------------------------------------
 
 // Decisions agree; only within the undecided band may one be given and the other not, and never two that contradict.
-// That the overlap has no best direction (no_normal) may hang on rounding; that there is one may not.
+// That the overlap has no best direction (no_normal) may depend on rounding; that there is one may not.
 bool agree(ContactStatus s, ContactStatus t) {
   for (ContactStatus* status : {&s, &t})
     if (*status == ContactStatus::no_normal) *status = ContactStatus::touching;
@@ -147,7 +147,7 @@ bool agree(ContactStatus s, ContactStatus t) {
                     std::max(s, t) <= ContactStatus::touching);
 }
 
-// What the overlap may differ by when every plane's offset rounds anew by so much, to first order: the centre moves by
+// What the overlap may differ by when every plane's offset rounds again by so much, to first order: the centre moves by
 // sqrt(Σ (rounding/slack)²) in the metric of the region, and across the region the overlap changes by itself.
 template <int Dim>
 double first_order(const Posed<Dim>& p, const Contact<Dim>& c, double rounding) {
@@ -163,7 +163,7 @@ double first_order(const Posed<Dim>& p, const Contact<Dim>& c, double rounding) 
 
 // the same contact in another frame or unit
 template <int Dim>
-void expect_near(const Posed<Dim>& p, const Contact<Dim>& c, const Contact<Dim>& other, double share,
+void expect_near(const Posed<Dim>& p, const Contact<Dim>& c, const Contact<Dim>& other, double fraction,
                  const std::string& how) {
   EXPECT_TRUE(agree(c.status, other.status))
       << how << ": " << static_cast<int>(c.status) << ", then " << static_cast<int>(other.status);
@@ -171,7 +171,7 @@ void expect_near(const Posed<Dim>& p, const Contact<Dim>& c, const Contact<Dim>&
   // deeper than the potential's radius several faces may be equally near, and any of them gives the normal
   const double radius = reference.potential_radius * std::min(p.a.inscribed_radius, p.b.inscribed_radius);
   if (c.geometry.overlap > radius) return;
-  EXPECT_NEAR(other.geometry.overlap, c.geometry.overlap, first_order<Dim>(p, c, share * p.size())) << how;
+  EXPECT_NEAR(other.geometry.overlap, c.geometry.overlap, first_order<Dim>(p, c, fraction * p.size())) << how;
 }
 
 // a quarter turn about an axis: coordinates change places and signs

@@ -110,7 +110,7 @@ TEST(Containment, IsAContactOrANamedFailure) {
       ++touching;
       EXPECT_NEAR(r.contact.geometry.normal.norm(), 1, exact);
       EXPECT_GE(r.contact.geometry.overlap, 0.2);
-      EXPECT_GT(r.counters.normal_fallbacks + r.counters.deep_overlaps, 0);  // told, not hidden
+      EXPECT_GT(r.counters.normal_fallbacks + r.counters.deep_overlaps, 0);  // reported, not hidden
     } else {
       EXPECT_EQ(r.contact.status, ContactStatus::no_normal);
     }

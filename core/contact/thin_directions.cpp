@@ -67,9 +67,9 @@ std::vector<Vector<Dim>> thin_directions(std::span<const TurnedPart<Dim>> parts)
 
   std::vector<Vector<Dim>> chosen;
   for (const Candidate& c : candidates) {
-    const bool told = std::any_of(chosen.begin(), chosen.end(),
-                                  [&](const Vector<Dim>& d) { return std::abs(d.dot(c.direction)) > alike; });
-    if (!told && chosen.size() + 1 < Dim) chosen.push_back(c.direction);
+    const bool known = std::any_of(chosen.begin(), chosen.end(),
+                                   [&](const Vector<Dim>& d) { return std::abs(d.dot(c.direction)) > alike; });
+    if (!known && chosen.size() + 1 < Dim) chosen.push_back(c.direction);
   }
   return chosen;
 }

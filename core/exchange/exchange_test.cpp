@@ -1,4 +1,4 @@
-// Tables and surfaces: what is written comes back, what is malformed is told with its place.
+// Tables and surfaces: what is written comes back, what is malformed is reported with its place.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -25,8 +25,8 @@ using shapes::uniform;
 
 constexpr double ulp = std::numeric_limits<double>::epsilon();
 
-// make_block drops a plane that would cut off less than this share of the inscribed radius (block.hpp); what cuts off
-// half or twice as much is on a known side of it
+// make_block drops a plane that would cut off less than this fraction of the inscribed radius (block.hpp); what cuts
+// off half or twice as much is on a known side of it
 constexpr double dropped = 1e-10;
 
 // ---- mass -----------------------------------------------------------------------------------------------------------

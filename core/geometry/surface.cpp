@@ -100,9 +100,9 @@ int crossing_between(int from, int to, Solid<Dim>& solid, Scratch& scratch) {
   const auto [i, j] = std::minmax(from, to);
   for (const Crossing& known : scratch.crossings)
     if (known.i == i && known.j == j) return known.point;
-  const double share = scratch.distance[i] / (scratch.distance[i] - scratch.distance[j]);
+  const double fraction = scratch.distance[i] / (scratch.distance[i] - scratch.distance[j]);
   const int point = static_cast<int>(solid.points.size());
-  solid.points.push_back(solid.points[i] + share * (solid.points[j] - solid.points[i]));
+  solid.points.push_back(solid.points[i] + fraction * (solid.points[j] - solid.points[i]));
   scratch.crossings.push_back({i, j, point});
   return point;
 }
@@ -215,7 +215,7 @@ Vector<Dim> common_point(const Matrix<Dim>& normals, const Vector<Dim>& offsets)
   return point + inverse * (offsets - normals * point);
 }
 
-// The vertex anew from Dim of the planes through it, each chosen to lean most against those before: cutting left the
+// The vertex again from Dim of the planes through it, each chosen to lean most against those before: cutting left the
 // rounding of the box.
 template <int Dim>
 void sharpen(Vector<Dim>& point, const HalfSpaces<Dim>& faces, std::span<const int> through) {

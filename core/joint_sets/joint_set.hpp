@@ -36,7 +36,7 @@ struct JointSet {
 
   // exactly one: mean distance along the mean normal, or area per volume P32 (2-D: length per area P21)
   std::optional<double> spacing, intensity;  // m; 1/m
-  double persistence = 1;  // with spacing: share of the planes at this spacing that is joint (Einstein et al. 1983)
+  double persistence = 1;  // with spacing: fraction of the planes at this spacing that is joint (Einstein et al. 1983)
   Arrangement arrangement = Arrangement::poisson;  // of persistent joints
 
   std::uint64_t seed = 0;

@@ -11,12 +11,12 @@
 #include "core/joint_sets/random_stream.hpp"
 #include "core/joint_sets/statistics.hpp"
 #include "core/testing/shapes.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180;
 constexpr double errors = 4.5;
 
 template <int Dim>
@@ -178,7 +178,7 @@ TEST(Outline, AreaInsideIsExact) {
 
 // ---- intensity
 
-// over many seeds: the mean is what was stated, and the errors told are the deviation that seeds have
+// over many seeds: the mean is what was stated, and the errors reported are the deviation that seeds have
 template <int Dim>
 void expect_intensity(JointSet set, const Polytope<Dim>& domain, const Polytope<Dim>& probe, int seeds) {
   const Vector<Dim> origin = Vector<Dim>::Zero();
@@ -386,9 +386,9 @@ TEST(Statistics, SpacingsOnScanlines) {
 }
 
 TEST(Statistics, SharesOfBlocks) {
-  EXPECT_EQ(size_at_share({1, 2, 3, 4}, 0.1), 1);
-  EXPECT_EQ(size_at_share({1, 2, 3, 4}, 0.5), 3);
-  EXPECT_EQ(size_at_share({1, 2, 3, 4}, 0.9), 4);
+  EXPECT_EQ(size_at_fraction({1, 2, 3, 4}, 0.1), 1);
+  EXPECT_EQ(size_at_fraction({1, 2, 3, 4}, 0.5), 3);
+  EXPECT_EQ(size_at_fraction({1, 2, 3, 4}, 0.9), 4);
   const Moments m = moments_of({1, 2, 3, 4});
   EXPECT_DOUBLE_EQ(m.mean.value, 2.5);
   EXPECT_DOUBLE_EQ(m.deviation, std::sqrt(5.0 / 3));

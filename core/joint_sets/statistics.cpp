@@ -204,11 +204,11 @@ Moments moments_of(const std::vector<double>& sample) {
   return moments;
 }
 
-double size_at_share(const std::vector<double>& ascending, double share) {
+double size_at_fraction(const std::vector<double>& ascending, double fraction) {
   const double total = std::accumulate(ascending.begin(), ascending.end(), 0.0);
   double sum = 0;
   for (const double x : ascending)
-    if ((sum += x) >= share * total) return x;
+    if ((sum += x) >= fraction * total) return x;
   return ascending.empty() ? 0 : ascending.back();
 }
 

@@ -49,8 +49,8 @@ struct Moments {
 };
 Moments moments_of(const std::vector<double>& sample);
 
-// the size that holds `share` of the total: of volumes ascending, the smallest that with all below it makes up the
-// share
-double size_at_share(const std::vector<double>& ascending, double share);
+// the size that holds `fraction` of the total: of volumes ascending, the smallest that with all below it makes up the
+// fraction
+double size_at_fraction(const std::vector<double>& ascending, double fraction);
 
 }  // namespace voussoir

@@ -85,7 +85,7 @@ Vector<3> carried(const Vector<3>& shear, const Vector<3>& old_normal, const Vec
 template <int Dim>
 JointForce<Dim> elastic_coulomb(const JointProperties& properties, double friction, double dashpot,
                                 const JointKinematics<Dim>& kinematics, Vector<Dim>& shear) {
-  const double normal_stiffness = properties.normal_stiffness * kinematics.area * kinematics.firmness;
+  const double normal_stiffness = properties.normal_stiffness * kinematics.area * kinematics.stiffness_factor;
   const double shear_stiffness = properties.shear_stiffness * kinematics.area;
   const double spring = normal_stiffness * kinematics.overlap;
   const double normal_force = std::max(spring + dashpot * kinematics.closing_speed, 0.0);  // a NaN stays one
@@ -105,7 +105,7 @@ JointForce<Dim> elastic_coulomb(const JointProperties& properties, double fricti
   }
   result.force = normal_force * kinematics.normal + shear;
   result.dashpot = normal_force - spring;
-  result.elastic = 0.5 * (spring * kinematics.overlap + normal_stiffness * kinematics.spread);
+  result.elastic = 0.5 * (spring * kinematics.overlap + normal_stiffness * kinematics.overlap_variance);
   if (shear_stiffness > 0) result.elastic += 0.5 * shear.squaredNorm() / shear_stiffness;
   return result;
 }

@@ -9,14 +9,14 @@ namespace voussoir {
 // motion of the second body relative to the first at the contact, over the last step
 template <int Dim>
 struct JointKinematics {
-  Vector<Dim> normal;        // unit, from the first to the second
-  double overlap = 0;        // m, mean over the area
-  double spread = 0;         // m², its variance; it stores energy only
-  double area = 0;           // m²; 1 for a constant stiffness
-  double firmness = 1;       // share of a constant normal stiffness that acts
-  double closing_speed = 0;  // m/s
-  Vector<Dim> slip;          // tangential displacement increment, m
-  double turn = 0;           // rad: spin of the two bodies about the normal, 3-D only
+  Vector<Dim> normal;           // unit, from the first to the second
+  double overlap = 0;           // m, mean over the area
+  double overlap_variance = 0;  // m², its variance; it stores energy only
+  double area = 0;              // m²; 1 for a constant stiffness
+  double stiffness_factor = 1;  // fraction of a constant normal stiffness that acts
+  double closing_speed = 0;     // m/s
+  Vector<Dim> slip;             // tangential displacement increment, m
+  double turn = 0;              // rad: spin of the two bodies about the normal, 3-D only
 };
 
 template <int Dim>
@@ -26,7 +26,7 @@ struct JointForce {
   double elastic = 0;       // J held by the normal and the shear spring
   double friction = 0;  // J lost to slip in this step: mean of the old and the new shear force times the plastic slip,
                         // never negative
-  double dashpot = 0;   // N: the dashpot's share of the normal force
+  double dashpot = 0;   // N: the dashpot's fraction of the normal force
   double stiffening = 0;   // J the shear spring lost as it grew stiffer under its force; negative: gained
   bool snap_back = false;  // friction fell faster than the spring could unload
 };

@@ -149,7 +149,7 @@ JointForce<Dim> joint_law(const JointProperties& p, double friction, double dash
   }
   result.force = normal_force() * kinematics.normal + shear;
   result.dashpot = normal_force() - normal.stress * area;
-  result.elastic = normal.energy * area + 0.5 * normal.stiffness * area * kinematics.spread;
+  result.elastic = normal.energy * area + 0.5 * normal.stiffness * area * kinematics.overlap_variance;
   if (stiffness > 0) result.elastic += 0.5 * shear.squaredNorm() / stiffness;
   return result;
 }

@@ -10,13 +10,12 @@
 
 #include "core/law/joint_path.hpp"
 #include "core/testing/shapes.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
 
 using shapes::Random;
-
-constexpr double degree = std::numbers::pi / 180;
 
 // roundings of a few functions, relative
 constexpr double rounding = 1e-13;
@@ -262,7 +261,7 @@ TEST(ShearLaw, ConstantNormalStiffnessRaisesTheStress) {
 // -----------------------------------------------------------------------------------------------------------
 
 // Random paths in all laws: what slips away is never negative, and what the forces did on the joint is stored, lost or
-// booked as stiffening. The last holds to the error of the trapezoid rule: small steps.
+// counted as stiffening. The last holds to the error of the trapezoid rule: small steps.
 TEST(JointEnergy, DissipationIsNeverNegative) {
   Random random(41);
   constexpr int paths = 100000, length = 8;
@@ -306,16 +305,16 @@ TEST(JointEnergy, WorkIsStoredLostOrBooked) {
       const int steps = fine ? 4000 : 1000;
       JointState<2> history;
       Vector<2> force = Vector<2>::Zero();
-      double work = 0, lost = 0, stiffening = 0, elastic = 0, turnover = 0;
+      double work = 0, lost = 0, stiffening = 0, elastic = 0, largest_energy = 0;
       for (std::size_t leg = 1; leg < std::size(corners); ++leg)
         for (int i = 1; i <= steps; ++i) {
-          const double share = static_cast<double>(i) / steps;
+          const double fraction = static_cast<double>(i) / steps;
           const double du = (corners[leg][0] - corners[leg - 1][0]) / steps,
                        ds = (corners[leg][1] - corners[leg - 1][1]) / steps;
           JointKinematics<2> k;
           k.normal = {0, 1};
           k.area = 1;
-          k.overlap = corners[leg - 1][0] + share * (corners[leg][0] - corners[leg - 1][0]);
+          k.overlap = corners[leg - 1][0] + fraction * (corners[leg][0] - corners[leg - 1][0]);
           k.slip = {ds, 0};
           const JointForce<2> answer = joint_law<2>(p, p.friction, 0, k, history);
           // the joint pushes along +y as it closes, and against the slip
@@ -324,9 +323,9 @@ TEST(JointEnergy, WorkIsStoredLostOrBooked) {
           lost += answer.friction;
           stiffening += answer.stiffening;
           elastic = answer.elastic;
-          turnover = std::max(turnover, work);
+          largest_energy = std::max(largest_energy, work);
         }
-      errors[fine] = std::abs(elastic + lost + stiffening - work) / turnover;
+      errors[fine] = std::abs(elastic + lost + stiffening - work) / largest_energy;
     }
     EXPECT_LT(errors[1], 2e-4) << p.name;
     if (errors[0] > 1e-9) {

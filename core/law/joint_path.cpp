@@ -25,13 +25,14 @@ double overlap_between(const JointProperties& p, const JointPath& path, double s
   return high;
 }
 
-struct Walker {
+// a piece of joint of 1 m², in the laboratory
+struct Specimen {
   const JointProperties& properties;
   JointState<2> history;
   JointPathPoint now;
   std::vector<JointPathPoint> points;
 
-  void go(double overlap, double slip) {
+  void load(double overlap, double slip) {
     JointKinematics<2> k;
     k.normal = {0, 1};
     k.overlap = overlap;
@@ -60,19 +61,19 @@ struct Walker {
 }  // namespace
 
 std::vector<JointPathPoint> follow(const JointProperties& properties, const JointPath& path) {
-  Walker walker{properties, {}, {}, {}};
+  Specimen specimen{properties, {}, {}, {}};
   const double closed = overlap_at(properties, path.normal_stress);
   for (int i = 0; i <= path.steps; ++i)
-    walker.go(closed * i / path.steps, 0);
-  walker.history.bonded = path.bonded;
+    specimen.load(closed * i / path.steps, 0);
+  specimen.history.bonded = path.bonded;
   if (path.unload)
     for (int i = path.steps - 1; i >= 0; --i)
-      walker.go(closed * i / path.steps, 0);
+      specimen.load(closed * i / path.steps, 0);
 
   const auto shear_to = [&](double from, double to) {
     for (int i = 1; i <= path.steps; ++i) {
       const double slip = from + (to - from) * i / path.steps, rise = path.dilation * std::abs(slip);
-      walker.go(overlap_between(properties, path, closed, rise, walker.history.bonded), slip);
+      specimen.load(overlap_between(properties, path, closed, rise, specimen.history.bonded), slip);
     }
   };
   if (path.slip != 0 && path.cycles == 0) shear_to(0, path.slip);
@@ -81,7 +82,7 @@ std::vector<JointPathPoint> follow(const JointProperties& properties, const Join
     shear_to(path.slip, -path.slip);
     shear_to(-path.slip, 0);
   }
-  return std::move(walker.points);
+  return std::move(specimen.points);
 }
 
 }  // namespace voussoir

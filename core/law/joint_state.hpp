@@ -11,7 +11,7 @@ struct JointState {
   Vector<Dim> normal = Vector<Dim>::Zero();       // of the step before
   Vector<Dim> point = Vector<Dim>::Zero();        // m, of the step before, relative as the contact's
   double plastic_slip = 0;                        // m, accumulated: β
-  double dashpot = 0;                             // N: its share of the normal force, of the step before
+  double dashpot = 0;                             // N: its fraction of the normal force, of the step before
   double area = 0;                                // m², of the step before; 1 for a constant stiffness
   double shear_stiffness = 0;                     // Pa/m, of the step before, where a law lets it vary; else 0
   bool bonded = false;                            // tension and cohesion are intact, both or neither

@@ -13,8 +13,8 @@ constexpr double simplex_tolerance = 1e-11;
 // pivots by rows and columns; the simplex method takes one or two, and may turn in circles for ever
 constexpr int most_pivots = 100;
 
-// A pivot is at least this share of the largest entry of its row. GLPK's own 0.1 left forces out of balance by 1e-5 in
-// a wall of 400 blocks and found the first basis of one of 900 singular; this costs no time that could be measured.
+// A pivot is at least this fraction of the largest entry of its row. GLPK's own 0.1 left forces out of balance by 1e-5
+// in a wall of 400 blocks and found the first basis of one of 900 singular; this costs no time that could be measured.
 constexpr double pivot_tolerance = 0.9;
 
 bool is_usable(const LinearProgram& program) {

@@ -1,15 +1,14 @@
 #include "core/limit/limit.hpp"
+#include "text/angle.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 namespace voussoir {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr double largest_factor = 1e6;                // of weights: what carries more, carries any
@@ -69,11 +68,11 @@ void add_force(const Model<2>& model, const Rows& rows, const Interface& face, c
     if (model.bodies[body].fixed) continue;
     const Vector<2> on_body = body == face.body_b ? force : Vector<2>(-force);
     const std::array<int, 3>& row = rows.of_body[body];
-    const double share = force_unit(rows, face) / rows.weight[body];
-    add_entry(column, row[0], share * on_body[0]);
-    add_entry(column, row[1], share * on_body[1]);
+    const double fraction = force_unit(rows, face) / rows.weight[body];
+    add_entry(column, row[0], fraction * on_body[0]);
+    add_entry(column, row[1], fraction * on_body[1]);
     const Vector<2> arm = point - model.bodies[body].reference;
-    add_entry(column, row[2], share * moment(arm, on_body)[0] / rows.lever[body]);
+    add_entry(column, row[2], fraction * moment(arm, on_body)[0] / rows.lever[body]);
   }
 }
 
@@ -101,7 +100,7 @@ void add_ends(const Model<2>& model, const Rows& rows, const std::vector<Interfa
   }
 }
 
-// what loads are to the free freedoms, as shares of each body's weight
+// what loads are to the free freedoms, as fractions of each body's weight
 void for_each_load(const Rows& rows, const Loads& loads, const auto& use) {
   for (std::size_t b = 0; b < loads.size(); ++b) {
     const std::array<int, 3>& row = rows.of_body[b];
@@ -165,11 +164,11 @@ LinearProgram equilibrium(const Model<2>& model, const Rows& rows, const std::ve
   LinearProgram program;
   program.right_side.assign(rows.count, 0);
   add_ends(model, rows, interfaces, program);
-  for_each_load(rows, dead, [&](int row, double share) { program.right_side[row] = -share; });
+  for_each_load(rows, dead, [&](int row, double fraction) { program.right_side[row] = -fraction; });
   return program;
 }
 
-// the least sum of forces that must be added for equilibrium, each as a share of its body's weight
+// the least sum of forces that must be added for equilibrium, each as a fraction of its body's weight
 struct Margin {
   ProgramSolution solution;
   Certificate certificate;
@@ -229,10 +228,11 @@ LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>&
                acceleration = of_dead > 0 ? of_dead : acceleration_of(model, live);
   const Rows rows = number_rows(model, acceleration);
   if (rows.count == 0) return result.status = LimitStatus::nothing_free, result;
-  double largest_share = 0;  // of a weight, the live load's: the program's factor is that of the load over it
+  double largest_fraction = 0;  // of a weight, the live load's: the program's factor is that of the load over it
   if (acceleration > 0)
-    for_each_load(rows, live, [&](int, double share) { largest_share = std::max(largest_share, std::abs(share)); });
-  if (largest_share == 0) return result.status = LimitStatus::no_load, result;
+    for_each_load(rows, live,
+                  [&](int, double fraction) { largest_fraction = std::max(largest_fraction, std::abs(fraction)); });
+  if (largest_fraction == 0) return result.status = LimitStatus::no_load, result;
 
   // the dead load first: without it there is no factor to look for
   if (of_dead > 0) {
@@ -248,14 +248,14 @@ LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>&
 
   LinearProgram program = equilibrium(model, rows, interfaces, dead);
   ProgramColumn factor{-1, 0, largest_factor, {}};
-  for_each_load(rows, live, [&](int row, double share) { add_entry(factor, row, share / largest_share); });
+  for_each_load(rows, live, [&](int row, double fraction) { add_entry(factor, row, fraction / largest_fraction); });
   program.columns.push_back(factor);
   const ProgramSolution solution = solve(program);
   ++result.evidence.programs;
   if (solution.status != ProgramStatus::optimal) return result.status = LimitStatus::solver_failed, result;
 
   const Certificate certificate = judge(program, solution);
-  result.factor = solution.x.back() / largest_share;
+  result.factor = solution.x.back() / largest_fraction;
   if (solution.x.back() >= largest_factor) result.status = LimitStatus::carries_any;
   result.state = {read_forces(rows, interfaces, solution.x), read_velocities(rows, solution.y)};
   result.evidence.gap = std::abs(certificate.primal - certificate.dual) / std::max(1.0, std::abs(certificate.primal));

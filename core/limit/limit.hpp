@@ -63,7 +63,7 @@ Loads loads_of_acceleration(const Model<2>& model, const Vector<2>& acceleration
 Loads loads_of_applied_forces(const Model<2>& model);                               // at a factor of 1
 
 // The largest factor of the live loads that is carried together with the dead ones, at the friction and cohesion of the
-// interfaces. The gap is that of the largest share that the live load then is of a body's weight, relative to the
+// interfaces. The gap is that of the largest fraction that the live load then is of a body's weight, relative to the
 // larger of 1 and it.
 LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& dead,
                             const Loads& live);

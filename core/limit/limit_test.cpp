@@ -4,17 +4,16 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <numbers>
 #include <sstream>
 
 #include "core/limit/limit.hpp"
 #include "core/limit/mechanism.hpp"
 #include "core/scene/scene.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double bracket = 1.01e-6 * degree;  // of find_critical_friction, as the header states it
 constexpr double rounding = 1e-9;             // of a small program's sums
 
@@ -131,7 +130,7 @@ TEST(LinearPrograms, AreSolvedAndJudged) {
   EXPECT_LE(certificate.primal_violation, rounding);
   EXPECT_LE(certificate.dual_violation, rounding);
 
-  // a worse point opens the gap; a wrong one, and wrong multipliers, are told
+  // a worse point opens the gap; a wrong one, and wrong multipliers, are reported
   solution.x = {2, 2, 0};
   EXPECT_NEAR(judge(program, solution).primal, -6, rounding);
   solution.x = {1, 3.5, 0};
@@ -465,7 +464,7 @@ TEST(Toppling, ShowsWhatAssociatedFlowCosts) {
   const Mechanism mechanism = describe_mechanism(model, found.state.velocities);
   ASSERT_EQ(mechanism.moving.size(), 10u);
   for (const BlockMotion& motion : mechanism.moving)
-    EXPECT_EQ(motion.rotation_share > 1e-3, std::stoi(model.bodies[motion.body].name.substr(7)) > 3);
+    EXPECT_EQ(motion.rotation_fraction > 1e-3, std::stoi(model.bodies[motion.body].name.substr(7)) > 3);
   expect_proven(model, faces, found);
 }
 

@@ -20,7 +20,7 @@ Mechanism describe_mechanism(const Model<2>& model, const std::vector<BodyVeloci
     if (motion.speed + motion.turning <= at_rest) continue;
     const double rotating = body.inertia[0] * spin * spin;
     const double energy = rotating + body.mass * velocity.squaredNorm();
-    motion.rotation_share = rotating / energy;
+    motion.rotation_fraction = rotating / energy;
     if (motion.turning > at_rest * (motion.speed + motion.turning)) {
       ++mechanism.turning;
       motion.centre = model.origin + body.reference + Vector<2>(-velocity[1], velocity[0]) / spin;
@@ -29,7 +29,7 @@ Mechanism describe_mechanism(const Model<2>& model, const std::vector<BodyVeloci
     of_rotation += rotating;
     mechanism.moving.push_back(motion);
   }
-  if (all > 0) mechanism.rotation_share = of_rotation / all;
+  if (all > 0) mechanism.rotation_fraction = of_rotation / all;
   return mechanism;
 }
 

@@ -90,7 +90,7 @@ void kick_spin(const Body<3>& body, const Load<3>& load, const KickRule& rule, S
   kick.kinetic += 0.5 * momentum_before.dot(motion.angular_momentum.cwiseQuotient(body.inertia));
 }
 
-// turns the body about its principal axis k by the share of a step; the momentum seen from the body turns back
+// turns the body about its principal axis k by the fraction of a step; the momentum seen from the body turns back
 void turn_about(int k, double dt, const Body<3>& body, Motion<3>& motion) {
   Spin<3>& momentum = motion.angular_momentum;
   const double half_angle = 0.5 * dt * momentum[k] / body.inertia[k];
@@ -186,18 +186,18 @@ std::vector<Kick<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std
 
 template <int Dim>
 double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& state) {
-  struct Borne {
+  struct ContactForces {
     double forces = 0;  // N
     long long touching = 0;
   };
-  const auto bear = [&](int i, Borne& sum) {
+  const auto add_contact = [&](int i, ContactForces& sum) {
     const Contact<Dim>& c = state.contacts[i];
     if (!c.touching()) return;
     sum.forces += c.force.norm();
     ++sum.touching;
   };
-  Borne all;
-  for (const Borne& some : sums_in_groups<Borne>(threads, state.contacts.size(), bear)) {
+  ContactForces all;
+  for (const ContactForces& some : sums_in_groups<ContactForces>(threads, state.contacts.size(), add_contact)) {
     all.forces += some.forces;
     all.touching += some.touching;
   }

@@ -50,7 +50,7 @@ std::vector<Kick<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std
 // force left after damping each component against its velocity: f - α |f| sign(v)
 double damped(double force, double velocity, double local_damping);
 
-// The largest share of the mean contact force that a body's unbalanced force and momentum still amount to (see
+// The largest fraction of the mean contact force that a body's unbalanced force and momentum still amount to (see
 // EquilibriumSettings); infinity when bodies move without any contact. Under relaxation the momentum is that of the
 // fictitious inertia, since this is what swings. Found on as many threads.
 template <int Dim>

@@ -180,7 +180,7 @@ struct EnergyError {
   double largest = 0, drift = 0;  // relative to the energy at the start
 };
 
-// One freedom under a force that has a potential, undamped, at a share of the stable step. Energy is taken where
+// One freedom under a force that has a potential, undamped, at a fraction of the stable step. Energy is taken where
 // velocity and position belong to the same time.
 template <class Force, class Potential>
 EnergyError energy_error(double start, double dt, long long steps, Force force, Potential potential) {
@@ -211,9 +211,9 @@ EnergyError energy_error(double start, double dt, long long steps, Force force, 
 }
 
 // mass 1 on a spring of stiffness 1: the stable step is 2
-EnergyError harmonic(double share, long long steps) {
+EnergyError harmonic(double fraction, long long steps) {
   return energy_error(
-      1, 2 * share, steps, [](double x) { return -x; }, [](double x) { return 0.5 * x * x; });
+      1, 2 * fraction, steps, [](double x) { return -x; }, [](double x) { return 0.5 * x * x; });
 }
 
 // the same mass under gravity 1 on the joint law's one-sided contact, where it would rest at an overlap of 1
@@ -226,19 +226,19 @@ double weight_and_contact(double y) {
   return elastic_coulomb<2>(one_sided, 0.5, 0, k, shear).force[1] - 1;
 }
 
-EnergyError bouncing(double height, double share, long long steps) {
-  return energy_error(height, 2 * share, steps, weight_and_contact,
+EnergyError bouncing(double height, double fraction, long long steps) {
+  return energy_error(height, 2 * fraction, steps, weight_and_contact,
                       [](double y) { return y + (y < 0 ? 0.5 * y * y : 0); });
 }
 
 // A spring keeps its energy at any stable step. A contact that opens does so only where the times of impact repeat: a
 // low bounce, here from a height of 2 static overlaps.
 void expect_energy(long long steps) {
-  for (const double share : {0.01, 0.05, 0.1}) {
-    const EnergyError swing = harmonic(share, steps);
-    EXPECT_LE(swing.largest, 1.1 * share * share) << share;  // (ω dt / 2)² is the method's own
-    EXPECT_LE(std::abs(swing.drift), 1e-6) << share;
-    EXPECT_LE(std::abs(bouncing(2, share, steps).drift), share <= 0.05 ? 1e-6 : 1e-2) << share;
+  for (const double fraction : {0.01, 0.05, 0.1}) {
+    const EnergyError swing = harmonic(fraction, steps);
+    EXPECT_LE(swing.largest, 1.1 * fraction * fraction) << fraction;  // (ω dt / 2)² is the method's own
+    EXPECT_LE(std::abs(swing.drift), 1e-6) << fraction;
+    EXPECT_LE(std::abs(bouncing(2, fraction, steps).drift), fraction <= 0.05 ? 1e-6 : 1e-2) << fraction;
   }
 }
 
@@ -251,16 +251,16 @@ TEST(MotionExtremesLong, EnergyOver1e7StepsAtEachShareOfTheLimit) {
   expect_energy(steps);
   fmt::print("largest relative error and drift of the energy in 1e7 steps\n{:>8} {:>20} {:>20} {:>20}\n", "dt/limit",
              "spring", "bounce from 2", "bounce from 10");
-  for (const double share : {0.01, 0.05, 0.1, 0.2, 0.5, 0.8}) {
-    fmt::print("{:8}", share);
-    for (const auto& [name, error] : {std::pair{"spring", harmonic(share, steps)},
-                                      {"bounce_from_2", bouncing(2, share, steps)},
-                                      {"bounce_from_10", bouncing(10, share, steps)}}) {
+  for (const double fraction : {0.01, 0.05, 0.1, 0.2, 0.5, 0.8}) {
+    fmt::print("{:8}", fraction);
+    for (const auto& [name, error] : {std::pair{"spring", harmonic(fraction, steps)},
+                                      {"bounce_from_2", bouncing(2, fraction, steps)},
+                                      {"bounce_from_10", bouncing(10, fraction, steps)}}) {
       fmt::print("   {:8.1e} {:8.0e}", error.largest, error.drift);
-      RecordProperty(fmt::format("{}_at_{}", name, share), fmt::format("{:.3g} {:.3g}", error.largest, error.drift));
+      RecordProperty(fmt::format("{}_at_{}", name, fraction), fmt::format("{:.3g} {:.3g}", error.largest, error.drift));
     }
     fmt::print("\n");
-    EXPECT_LE(std::abs(harmonic(share, steps).drift), 1e-6) << share;
+    EXPECT_LE(std::abs(harmonic(fraction, steps).drift), 1e-6) << fraction;
   }
 }
 
@@ -274,8 +274,8 @@ TEST(MotionExtremes, ABounceChangesTheEnergyByASquareOfTheStep) {
   body.free_translation = {false, true};
   body.free_rotation.fill(false);
   for (const double height : {1.0, 2.0, 10.0, 100.0, 1000.0})
-    for (const double share : {0.01, 0.05, 0.1, 0.2}) {
-      const double dt = 2 * share, speed = std::sqrt(2 * height);
+    for (const double fraction : {0.01, 0.05, 0.1, 0.2}) {
+      const double dt = 2 * fraction, speed = std::sqrt(2 * height);
       const int bounces = 2000;
       double largest = 0, sum = 0, squares = 0;
       for (int i = 0; i < bounces; ++i) {
@@ -295,10 +295,10 @@ TEST(MotionExtremes, ABounceChangesTheEnergyByASquareOfTheStep) {
         sum += change;
         squares += change * change;
       }
-      EXPECT_LE(largest, 1.01 * share * share) << "height " << height << ", share " << share;
-      EXPECT_GE(largest, 0.01 * share * share);  // it is of that order: the test sees what it bounds
+      EXPECT_LE(largest, 1.01 * fraction * fraction) << "height " << height << ", share " << fraction;
+      EXPECT_GE(largest, 0.01 * fraction * fraction);  // it is of that order: the test sees what it bounds
       if (height >= 100) {
-        EXPECT_LE(std::abs(sum), 5 * std::sqrt(squares)) << "height " << height << ", share " << share;
+        EXPECT_LE(std::abs(sum), 5 * std::sqrt(squares)) << "height " << height << ", share " << fraction;
       }
     }
 }
@@ -342,9 +342,9 @@ void expect_safe_and_useful_step(std::uint64_t seed, int sets) {
     for (int b = 1; b < free; ++b)
       heaviest = std::max({heaviest, mass(b) / mass(0), mass(0) / mass(b)});
     const double limit = 2 / std::sqrt(assembly.largest_eigenvalue());
-    const double share = estimate_time_step(assembly.model, {}, {}, assembly.state).limit / limit;
-    lowest = std::min(lowest, share);
-    highest = std::max(highest, share);
+    const double fraction = estimate_time_step(assembly.model, {}, {}, assembly.state).limit / limit;
+    lowest = std::min(lowest, fraction);
+    highest = std::max(highest, fraction);
   }
   // two eigenvalue solvers, and moments of inertia that differ by 1e6: 1e6 roundings
   EXPECT_LE(highest, 1 + 1e-9);

@@ -404,17 +404,17 @@ TEST(TimeStep, WithADashpotTheLimitIsWhereTheStepBreaks) {
   for (const double xi : {0.0, 0.1, 0.5, 1.0, 3.0}) {
     const double limit = estimate_time_step(model, {}, {.local = 0, .viscous_ratio = xi}, state).limit;
     const double dashpot = 2 * xi * std::sqrt(1e9 * body.mass);
-    for (const double share : {0.99, 1.01}) {
+    for (const double fraction : {0.99, 1.01}) {
       Motion<2> motion;
       motion.displacement = {1e-3, 0};
       double largest = 0;
       for (int i = 0; i < 3000; ++i) {
         Load<2> load;
         load.force[0] = -1e9 * motion.displacement[0] - dashpot * motion.velocity[0];
-        advance<2>(body, load, {}, {share * limit, share * limit}, motion);
+        advance<2>(body, load, {}, {fraction * limit, fraction * limit}, motion);
         largest = std::max(largest, std::abs(motion.displacement[0]));
       }
-      EXPECT_EQ(largest < 1, share < 1) << "damping ratio " << xi << ", share of the limit " << share;
+      EXPECT_EQ(largest < 1, fraction < 1) << "damping ratio " << xi << ", fraction of the limit " << fraction;
     }
   }
 }

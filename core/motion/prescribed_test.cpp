@@ -1,4 +1,4 @@
-// Prescribed motion: it goes where it is told, pays for it, ends with its stage and survives an interruption.
+// Prescribed motion: it goes where the scene says, pays for it, ends with its stage and survives an interruption.
 #include "core/motion/prescribed.hpp"
 #include "core/load/time_factor.hpp"
 
@@ -15,7 +15,6 @@ namespace voussoir {
 namespace {
 
 using shapes::block_on_plate;
-using shapes::degree;
 using shapes::index_of;
 
 // roundings of some thousand steps, each an ulp of the largest value
@@ -56,7 +55,7 @@ Prepared<Dim> scene_of(const Model<Dim>& model, std::vector<StagePlan> stages, d
 
 template <int Dim>
 Progress<Dim> whole_run(const Prepared<Dim>& scene) {
-  Progress<Dim> progress = begin(scene);
+  Progress<Dim> progress = initial_progress(scene);
   EXPECT_TRUE(simulate(scene, progress, {}));
   EXPECT_EQ(progress.results.outcome, Outcome::done) << progress.results.message;
   return progress;
@@ -92,7 +91,7 @@ void expect_press() {
   EXPECT_NEAR(state.energy.elastic, work, 1e-8 * work);
   const double half_a_step_on = 0.5 * state.time_step * speed * stiffness * pressed;
   EXPECT_NEAR(state.energy.flows[Source::prescribed_motion], work + half_a_step_on, 1e-8 * work);
-  EXPECT_LT(state.energy.closure(), overlap_rounding);
+  EXPECT_LT(state.energy.relative_error(), overlap_rounding);
 }
 
 TEST(Prescribed, PressesAJointAndPaysForIt) {
@@ -110,11 +109,11 @@ TEST(Prescribed, LeavesTheOtherFreedomsFree) {
   const Progress<2> end = whole_run(scene_of(model, {run_of("lift", 0.2, {lift})}, 1e-3));
   EXPECT_NEAR(end.state.motions[block].displacement[1], 0.5 * end.state.time, rounding);
   EXPECT_NEAR(end.state.motions[block].displacement[0], 1.5 * end.state.time * end.state.time, 1e-12);
-  EXPECT_LT(end.state.energy.closure(), rounding);
+  EXPECT_LT(end.state.energy.relative_error(), rounding);
 }
 
-// a base that shakes: its way is the integral of what it was told, a block that sticks goes with it, and the books
-// close
+// a base that shakes: its way is the integral of what the scene says, a block that sticks goes with it, and the energy
+// balance close
 template <int Dim>
 void expect_shaken() {
   const Model<Dim> model = block_on_plate<Dim>(0, 60 * degree);
@@ -132,7 +131,7 @@ void expect_shaken() {
   EXPECT_EQ(end.state.motions[plate].displacement[Dim - 1], 0);
   // the block's acceleration of ω v shears the joint by micrometres
   EXPECT_NEAR(end.state.motions[block].displacement[0], way, 2e-5);
-  EXPECT_LT(end.state.energy.closure(), 1e-3);
+  EXPECT_LT(end.state.energy.relative_error(), 1e-3);
 }
 
 TEST(Prescribed, ShakesABase) {
@@ -238,13 +237,13 @@ TEST(Prescribed, EndsWithItsStage) {
   const std::vector<MovePlan> both = {move_of<2>("block", 1, 1), move_of<2>("plate", 1, -1)};
   const Prepared<2> scene = scene_of(model, {run_of("part", 0.1, both), run_of("fly", 0.1)}, 1e-3);
   const Progress<2> end = whole_run(scene);
-  EXPECT_NEAR(end.state.motions[block].displacement[1], end.state.time, rounding);  // free, it goes on
+  EXPECT_NEAR(end.state.motions[block].displacement[1], end.state.time, rounding);  // free, it keeps moving
   EXPECT_EQ(end.state.motions[plate].velocity[1], 0);                               // fixed, it stands
   const Model<2> last = apply(apply(model, scene.stages[0].change), scene.stages[1].change);
   EXPECT_TRUE(last.prescribed.empty());
   EXPECT_FALSE(last.bodies[block].free_translation[0]);
   EXPECT_TRUE(last.bodies[block].free_translation[1]);
-  EXPECT_TRUE(last.bodies[plate].still());
+  EXPECT_TRUE(last.bodies[plate].immobile());
 }
 
 // all that is left at the end but for the clock
@@ -261,7 +260,7 @@ TEST(Prescribed, GoesOnFromACheckpoint) {
       scene_of(model, {run_of("shake", 0.02, {move_of<2>("plate", 0, 0.3, factor)}), run_of("rest", 0.005)}, 1e-4);
   const std::string expected = end_of(whole_run(scene));
   for (long long k = 0; k < 250; k += 7) {
-    Progress<2> first = begin(scene);
+    Progress<2> first = initial_progress(scene);
     Watcher<2> watcher;
     watcher.pause = [k](const Progress<2>& p) { return p.state.counters.steps >= k; };
     ASSERT_FALSE(simulate(scene, first, watcher));

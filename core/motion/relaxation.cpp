@@ -11,13 +11,13 @@
 namespace voussoir {
 namespace {
 
-// The step as a share of a body's stability limit: near one, since work goes with its inverse. A body that may turn
+// The step as a fraction of a body's stability limit: near one, since work goes with its inverse. A body that may turn
 // takes less: its face's contact point moves as it rocks, which makes rocking up to √3 times as fast as the limit knows
 // (in the plane: the centre of a gap of width w and overlap u, turned by θ, moves by θ w²/(4u); moment k w³ θ/4).
-constexpr double share_of_limit = 0.9, share_turning = 0.5;
+constexpr double fraction_of_limit = 0.9, fraction_turning = 0.5;
 
-// A body at rest is first only nudged, by this share of a kick: blocks that just touch have no joint yet, and what they
-// slip before it closes would meet no resistance.
+// A body at rest is first only nudged, by this fraction of a kick: blocks that just touch have no joint yet, and what
+// they slip before it closes would meet no resistance.
 constexpr double nudge = 1e-3;
 
 // Damping times step, at least. Sliding meets no stiffness, so what slides at constant speed would slide for ever; a
@@ -37,7 +37,7 @@ void stop_bodies(State<Dim>& state) {
   }
 }
 
-// what relaxation and motion do not share: the time step, and the energy that stopping takes
+// what relaxation and motion do not fraction: the time step, and the energy that stopping takes
 template <int Dim>
 void change_ways(State<Dim>& state) {
   state.frequency.clear();
@@ -46,13 +46,13 @@ void change_ways(State<Dim>& state) {
 }
 
 template <int Dim>
-double share(const Body<Dim>& body) {
+double fraction_of_own_limit(const Body<Dim>& body) {
   return std::any_of(body.free_rotation.begin(), body.free_rotation.end(), [](bool free) { return free; })
-             ? share_turning
-             : share_of_limit;
+             ? fraction_turning
+             : fraction_of_limit;
 }
 
-// The inertia with which a body's limit 2/ω times its share is the common step, stiffness having grown by the area
+// The inertia with which a body's limit 2/ω times its fraction is the common step, stiffness having grown by the area
 // margin. A body keeps its own until one of its contacts outgrows its rating; at every tenth step all are renewed.
 template <int Dim>
 void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
@@ -62,12 +62,12 @@ void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>
   if (!renewed) return;
   if (state.step_allowed == 0)
     state.step_allowed =
-        settings.time.step.value_or(std::isfinite(renewed->limit) ? share_of_limit * renewed->limit : 0);
+        settings.time.step.value_or(std::isfinite(renewed->limit) ? fraction_of_limit * renewed->limit : 0);
   demand_time_step(state);
   // a body that was not looked at has its frequency still, and so the same inertia to the bit
   state.relaxation.inertia.assign(model.bodies.size(), 1);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const double to_limit = 0.5 * state.step_allowed * state.frequency[b] / share(model.bodies[b]);
+    const double to_limit = 0.5 * state.step_allowed * state.frequency[b] / fraction_of_own_limit(model.bodies[b]);
     if (to_limit > 0) state.relaxation.inertia[b] = area_margin * to_limit * to_limit;
   }
 }
@@ -154,8 +154,8 @@ void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>&
   static thread_local std::vector<KickRule> rules;
   rules.clear();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const double share = at_rest(state.motions[b]) ? nudge : 1;
-    rules.push_back({.keeps = (1 - half) / (1 + half), .gain = share / (r.inertia[b] * (1 + half))});
+    const double fraction = at_rest(state.motions[b]) ? nudge : 1;
+    rules.push_back({.keeps = (1 - half) / (1 + half), .gain = fraction / (r.inertia[b] * (1 + half))});
   }
   const auto& kicks = advance_bodies<Dim>(model, settings.threads, rules, {dt, dt}, state);
   std::vector<Load<Dim>>& taken = state.loads_of[Source::relaxation];  // all that the loads do

@@ -14,7 +14,6 @@ namespace {
 using shapes::block_on_plate;
 using shapes::body_of;
 using shapes::box;
-using shapes::degree;
 using shapes::gravity;
 using shapes::index_of;
 
@@ -133,11 +132,11 @@ TEST(Relaxation, TheLedgerSaysWhatItCan) {
   EXPECT_LT(e.flows[Source::friction],
             1e-30 * e.flows[Source::gravity]);  // none slips; areas round, and what is lost takes its shear
   EXPECT_GT(e.flows[Source::relaxation], 0);
-  // springs under a weight hold half of what it gave; rest leaves its share, the touching faces' first step a little
+  // springs under a weight hold half of what it gave; rest leaves its fraction, the touching faces' first step a little
   // more
   EXPECT_NEAR(e.elastic, 0.5 * e.flows[Source::gravity], 1e-3 * e.elastic);
   EXPECT_NEAR(e.flows[Source::relaxation], 0.5 * e.flows[Source::gravity], 1e-3 * e.elastic);
-  EXPECT_LT(e.closure(), 1e-3);
+  EXPECT_LT(e.relative_error(), 1e-3);
 }
 
 // what rests after a relaxation starts to move at its own time: v = g t after the first full kick, no half step ahead

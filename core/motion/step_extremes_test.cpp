@@ -13,7 +13,6 @@ namespace voussoir {
 namespace {
 
 using shapes::block_on_plate;
-using shapes::degree;
 using shapes::gravity;
 using shapes::index_of;
 

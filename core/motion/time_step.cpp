@@ -144,8 +144,8 @@ bool outgrown(const Model<Dim>& model, const State<Dim>& state, const Contact<Di
                              c.area_rated;
 }
 
-// Free bodies to be looked at anew.
-struct Asked {
+// Free bodies whose estimate is to be renewed.
+struct BodiesToUpdate {
   std::vector<int> place;  // by body: in `bodies`, or -1
   std::vector<int> bodies;
 
@@ -161,21 +161,21 @@ struct Asked {
   }
 };
 
-// What a contact adds to one of its bodies that is asked: stiffness, or what may strike it. The contact is rated anew
-// by the first that is asked.
+// What a contact adds to one of the bodies to update: stiffness, or what may strike it. The first of its bodies that is
+// updated rates the contact again.
 template <int Dim>
-void bear(const Model<Dim>& model, const Asked& asked, State<Dim>& state, int place, int body,
-          Stiffness<Dim>& stiffness, double& impact) {
+void add_contact(const Model<Dim>& model, const BodiesToUpdate& updated, State<Dim>& state, int place, int body,
+                 Stiffness<Dim>& stiffness, double& impact) {
   Contact<Dim>& c = state.contacts[place];
   if (c.status == ContactStatus::apart) return;
   const int ia = model.parts[c.part_a].body, ib = model.parts[c.part_b].body;
   const bool fixed_a = model.bodies[ia].fixed, fixed_b = model.bodies[ib].fixed;
-  const bool asked_a = asked.place[ia] >= 0, asked_b = asked.place[ib] >= 0;
+  const bool updates_a = updated.place[ia] >= 0, updates_b = updated.place[ib] >= 0;
   const double factor = fixed_a || fixed_b ? 1 : 2;
   const auto rate = [&](double area) {
-    if (body == ib && asked_a) return;
-    // a body that is not asked has counted on no more than the rating so far
-    const bool both = (asked_a || fixed_a) && (asked_b || fixed_b);
+    if (body == ib && updates_a) return;
+    // a body that is not updated has counted on no more than the rating so far
+    const bool both = (updates_a || fixed_a) && (updates_b || fixed_b);
     c.area_rated = both ? area_margin * area : std::min(c.area_rated, area_margin * area);
   };
   if (!c.touching()) {
@@ -187,7 +187,7 @@ void bear(const Model<Dim>& model, const Asked& asked, State<Dim>& state, int pl
   const JointProperties& p = model.properties[c.properties];
   const auto subs = subs_of(std::as_const(state), static_cast<std::size_t>(place));
   rate(c.geometry.area * stiffening<Dim>(p, c, subs));
-  const Vector<Dim> apart = between(state.stances[ia], state.stances[ib]);
+  const Vector<Dim> apart = between(state.poses[ia], state.poses[ib]);
   // `gyration2` times the area: what the cell about its own point adds to rocking and spin, at most
   const auto add_cell = [&](const Vector<Dim>& point, double overlap, double area, double gyration2) {
     const Tangent now = tangent(p, overlap);
@@ -204,17 +204,17 @@ void bear(const Model<Dim>& model, const Asked& asked, State<Dim>& state, int pl
     if (s.area > 0) add_cell(s.point, s.overlap, s.area / unit, s.gyration2);
 }
 
-// the estimate, anew for the bodies asked for
+// the estimate, renewed for these bodies
 template <int Dim>
 TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
-                          const Asked& asked, State<Dim>& state) {
+                          const BodiesToUpdate& updated, State<Dim>& state) {
   state.frequency.resize(model.bodies.size(), 0);
-  each_on_threads(settings.threads, asked.bodies.size(), [&](int i) {
-    const int body = asked.bodies[i];
+  each_on_threads(settings.threads, updated.bodies.size(), [&](int i) {
+    const int body = updated.bodies[i];
     Stiffness<Dim> stiffness = Stiffness<Dim>::Zero();
     double impact = 0;  // N/m that may act at the radius
     for (const int place : contacts_of(state, body))
-      bear(model, asked, state, place, body, stiffness, impact);
+      add_contact(model, updated, state, place, body, stiffness, impact);
     state.frequency[body] = std::sqrt(stiffest(model, body, state.motions[body].rotation, stiffness, impact,
                                                state.stiffened.empty() ? BodyStiffness() : state.stiffened[body]));
   });
@@ -237,12 +237,12 @@ TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, con
 template <int Dim>
 TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
                                     State<Dim>& state) {
-  static thread_local Asked asked;
-  asked.begin(model.bodies.size());
+  static thread_local BodiesToUpdate updated;
+  updated.begin(model.bodies.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    asked.add(model, static_cast<int>(b));
+    updated.add(model, static_cast<int>(b));
   state.frequency.clear();
-  return estimate(model, settings, damping, asked, state);
+  return estimate(model, settings, damping, updated, state);
 }
 
 template <int Dim>
@@ -250,18 +250,18 @@ std::optional<TimeStepEstimate> renew_time_step(const Model<Dim>& model, const S
                                                 const DampingSettings& damping, State<Dim>& state) {
   if (state.frequency.empty()) return estimate_time_step(model, settings, damping, state);
   static thread_local std::vector<char> own_grown;
-  static thread_local Asked asked;
+  static thread_local BodiesToUpdate updated;
   std::vector<char>& grown = own_grown;  // by contact: this thread's, filled by all
   grown.resize(state.contacts.size());
   each_on_threads(settings.threads, grown.size(), [&](int i) { grown[i] = outgrown(model, state, state.contacts[i]); });
-  asked.begin(model.bodies.size());
+  updated.begin(model.bodies.size());
   for (std::size_t i = 0; i < grown.size(); ++i) {
     if (!grown[i]) continue;
-    asked.add(model, model.parts[state.contacts[i].part_a].body);
-    asked.add(model, model.parts[state.contacts[i].part_b].body);
+    updated.add(model, model.parts[state.contacts[i].part_a].body);
+    updated.add(model, model.parts[state.contacts[i].part_b].body);
   }
-  if (asked.bodies.empty()) return {};
-  return estimate(model, settings, damping, asked, state);
+  if (updated.bodies.empty()) return {};
+  return estimate(model, settings, damping, updated, state);
 }
 
 template <int Dim>

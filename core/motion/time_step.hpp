@@ -14,7 +14,7 @@ struct TimeStepEstimate {
   double step = 0;   // s: what the settings make of it; 0 when neither a contact nor the settings give one
 };
 
-// an area may grow by this factor before the step must be estimated anew: `step` leaves room for it
+// an area may grow by this factor before the step must be estimated again: `step` leaves room for it
 inline constexpr double area_margin = 1.1;
 
 // Steps between two looks at every body's stiffness. They see what got softer, while contacts that got stiffer ask for
@@ -30,7 +30,7 @@ template <int Dim>
 TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
                                     State<Dim>& state);
 
-// The same, anew only for bodies at a contact that is stiffer than it was rated, or new; the others keep their
+// The same, again only for bodies at a contact that is stiffer than it was rated, or new; the others keep their
 // frequency. In a pile some contact grows at nearly every step, but few do. Nothing when none has grown; every body
 // when there is no estimate yet.
 template <int Dim>

@@ -17,7 +17,7 @@ template <int Dim>
 void add_work(const Model<Dim>& model, int threads, const std::vector<Kick<Dim>>& kicks, State<Dim>& state) {
   EnergyLedger& energy = state.energy;
   const auto work = [&](int b, Work& sum) {
-    if (model.bodies[b].still()) return;
+    if (model.bodies[b].immobile()) return;
     const Kick<Dim>& kick = kicks[b];
     sum.kinetic += kick.kinetic;
     for (std::size_t i = 0; i < load_count; ++i) {

@@ -68,7 +68,7 @@ CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const Cen
 
   Vector<Dim> moved = Vector<Dim>::Zero();
   Matrix<Dim> frame;
-  bool settled = false;  // near the centre the frame stays: a new one rounds anew, which thin regions magnify
+  bool settled = false;  // near the centre the frame stays: a new one rounds again, which thin regions magnify
   for (; result.iterations < request.limit; ++result.iterations) {
     if (!settled) {
       for (std::size_t i = 0; i < count; ++i)

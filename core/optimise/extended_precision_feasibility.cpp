@@ -8,11 +8,11 @@
 namespace voussoir {
 namespace {
 
-// rounding in the sums below, as a share of their terms: 2^-96, some bits above what DoubleDouble promises
+// rounding in the sums below, as a fraction of their terms: 2^-96, some bits above what DoubleDouble promises
 constexpr double sum_rounding = 0x1p-96;
 
-// A plane violated by no more than this share of the coordinates holds. Far below what the answer in double can tell,
-// far above what a basis with a condition of 10^10 leaves of 106 bits.
+// A plane violated by no more than this fraction of the coordinates holds. Far below what the answer in double can
+// tell, far above what a basis with a condition of 10^10 leaves of 106 bits.
 constexpr double violation_rounding = 0x1p-64;
 
 template <int Dim>

@@ -14,8 +14,8 @@ namespace {
 // a plane enters against multipliers only by more than rounding
 constexpr double multiplier_rounding = 1e-11;
 
-// a plane violated by no more than this share of the coordinates holds: on rounding alone, degenerate bases would pivot
-// for ever
+// a plane violated by no more than this fraction of the coordinates holds: on rounding alone, degenerate bases would
+// pivot for ever
 constexpr double violation_rounding = 16 * std::numeric_limits<double>::epsilon();
 
 // each gains the digits that the inverse has
@@ -24,7 +24,7 @@ constexpr int refinement_steps = 3;
 // a multiplier below this is negative: its basis bounds nothing
 constexpr double negative_multiplier = -8 * std::numeric_limits<double>::epsilon();
 
-// what a value may be off as a share of the planes' extent; if it may be more it is computed once more in extended
+// what a value may be off as a fraction of the planes' extent; if it may be more it is computed once more in extended
 // precision
 constexpr double value_rounding = 16 * std::numeric_limits<double>::epsilon();
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "core/geometry/half_space.hpp"
 
@@ -24,9 +25,10 @@ struct FeasibilityResult {
 template <int Dim>
 struct FeasibilityRequest {
   const std::array<int, Dim + 1>* start =
-      nullptr;                // planes whose normals contain 0 in their hull; null: a start is built
-  double stop_above = 1e300;  // m: stop as soon as s is proven larger (the parts are separated)
-  double tolerance = 0;       // m: a plane violated by no more than this holds
+      nullptr;  // planes whose normals contain 0 in their hull; null: a start is built
+  // m: stop as soon as s is proven larger (the parts are separated)
+  double stop_above = std::numeric_limits<double>::infinity();
+  double tolerance = 0;  // m: a plane violated by no more than this holds
 };
 
 template <int Dim>

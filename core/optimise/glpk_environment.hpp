@@ -7,7 +7,7 @@
 
 namespace voussoir {
 
-// GLPK keeps one environment per thread and frees it only when told
+// GLPK keeps one environment per thread and frees it only when asked
 struct GlpkEnvironment {
   GlpkEnvironment() {
     glp_init_env();

@@ -21,7 +21,7 @@ using Ipopt::Number;
 
 constexpr double ipopt_tolerance = 1e-10;  // of the scaled problem, whose slacks start at 1
 
-// Newton's step from the answer may change no slack by more than this share, beyond the rounding of the slacks
+// Newton's step from the answer may change no slack by more than this fraction, beyond the rounding of the slacks
 constexpr double accepted_step = 1e-9;
 constexpr double roundings = 16;  // operations behind a slack and a step, in units of rounding
 

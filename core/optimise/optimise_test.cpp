@@ -368,12 +368,12 @@ void expect_newton_in_long_double(std::uint64_t seed, int trials) {
     const oracle::RealVector<Dim> expected = oracle::analytic_centre<Dim>(planes, oracle::RealVector<Dim>::Zero());
     ASSERT_LT(oracle::barrier<Dim>(planes, expected).decrement, 1e-14L);
     // the centre does not depend on where the search starts
-    for (const double share : {0.0, 0.5, 0.999999}) {
+    for (const double fraction : {0.0, 0.5, 0.999999}) {
       Vector<Dim> start = shapes::direction<Dim>(random);
       double reach = 1e300;
       for (const HalfSpace<Dim>& p : planes)
         if (p.normal.dot(start) > 0) reach = std::min(reach, p.offset / p.normal.dot(start));
-      start *= share * reach;
+      start *= fraction * reach;
       const CentreResult<Dim> r = solve_analytic_centre<Dim>(planes, {start});
       ASSERT_EQ(r.status, CentreStatus::converged);
       EXPECT_LT((r.point.template cast<oracle::Real>() - expected).norm(), centre_tolerance);
@@ -469,7 +469,7 @@ TEST(Feasibility, ASmallMultiplierIsNotRounding) {
 }
 
 // Two blocks of a sliced rock mass that touch along an edge and have turned by 1e-10: opposite faces of two joints,
-// whose bases have an inverse of 1e10. Updates of it, and ratios told apart by its rounding, pivoted in a circle.
+// whose bases have an inverse of 1e10. Updates of it, and ratios distinguished by its rounding, pivoted in a circle.
 TEST(Feasibility, BlocksAlongAnEdgeBetweenJointsAreAnswered) {
   const HalfSpaces<3> planes{
       {{-0x1.d3818faa3d4e2p-1, 0x1.79c4fa9bd7368p-2, -0x1.63a1a7e0b738dp-3}, 0x1.034c8b4bc15a2p-3},

@@ -188,12 +188,12 @@ HalfSpaces<3> face_on_face(std::mt19937& random, double overlap) {
   return planes;
 }
 
-// how much any slack changes from one point to the other, as a share of it
+// how much any slack changes from one point to the other, as a fraction of it
 double apart(const HalfSpaces<3>& planes, const Vector<3>& from, const Vector<3>& to) {
-  double share = 0;
+  double fraction = 0;
   for (const HalfSpace<3>& p : planes)
-    share = std::max(share, std::abs(p.normal.dot(to - from)) / -signed_distance(p, from));
-  return share;
+    fraction = std::max(fraction, std::abs(p.normal.dot(to - from)) / -signed_distance(p, from));
+  return fraction;
 }
 
 // Iterations per solve for 20 face-on-face pairs, mean of overlaps 1e-2 to 1e-10 (in brackets: of the thinnest):

@@ -100,8 +100,8 @@ Results some_results() {
   results.energy.flows[Source::gravity] = 12;
   results.energy.flows[Source::local_damping] = 1;
   results.energy.flows[Source::dashpots] = 2;
-  results.energy.turnover = 12;
-  results.energy.widest = 3;
+  results.energy.largest_energy = 12;
+  results.energy.worst_error = 3;
   results.warnings = {"late doubt"};
   results.state_hash = fingerprint("state");
   results.seconds = 1.5;

@@ -39,7 +39,7 @@ inline constexpr const char* trial_series = "trial_";
 // The files of both series that are there, whichever run wrote them: frames and collections, relative to the folder.
 std::vector<std::filesystem::path> series_files(const std::filesystem::path& folder);
 
-// The series of a run that goes on from a checkpoint with frames at these times: frames beyond it, which will be
+// The series of a run that continues from a checkpoint with frames at these times: frames beyond it, which will be
 // written again, are removed, and the collections name what is left. Throws OutputError.
 FrameSeries cut_back(const std::filesystem::path& folder, const std::vector<double>& times,
                      const std::string& name = {});

@@ -84,7 +84,7 @@ Json energy_json(const EnergyLedger& energy, NumberWriter& number) {
       {"external", energy.external()},
       {"stiffening", energy.flows[Source::stiffening]},
       {"unexplained", energy.unexplained()},
-      {"closure", energy.closure()},
+      {"closure", energy.relative_error()},
   };
   Json json = {{"unit", "J"}};
   for (const auto& [name, value] : entries)

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "core/motion/relaxation.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 // without a stated displacement, a body that moved by this fraction of its inscribed radius has failed
 constexpr double default_failure_fraction = 0.1;
@@ -62,7 +60,7 @@ struct Attempt {
 };
 
 // The ways of searching stand at the end, each in one place. A way goes through its trials by their numbers, so that an
-// interrupted search, called again with its progress, goes on in the trial that was under way.
+// interrupted search, called again with its progress, continues in the trial that was under way.
 template <int Dim>
 struct Search {
   const Model<Dim>& model;
@@ -132,7 +130,7 @@ struct Search {
     goal.rest = !attempt.falls;
     goal.moved_away = failure_displacement;
     goal.step_limit = plan.step_limit - progress.trial_steps;
-    if (relaxes_first(attempt)) goal.step_limit = std::min(goal.step_limit, round());
+    if (relaxes_first(attempt)) goal.step_limit = std::min(*goal.step_limit, round());
     if (attempt.falls) goal.time_limit = progress.time_limit;
     const RunSchedule schedule{{}, progress.friction_rate, progress.friction_from, progress.target, properties};
     Settings own = settings;
@@ -238,7 +236,7 @@ struct Search {
       return;
     }
     report.message += fmt::format("; stable at {:.6g} deg, ", progress.stable / degree);
-    // of the ways that go on to seek rest only a bisection knows a failed angle, from its second trial on
+    // of the ways that continue to seek rest only a bisection knows a failed angle, from its second trial on
     if (plan.method != ReductionMethod::bisection || attempt.number == 1) {
       report.message += "no failed angle is known";
       return;

@@ -16,13 +16,13 @@ struct ReductionReport {
   double stable = 0, failed = 0;  // rad: lowest stable, highest failed
   double critical = 0;            // rad
   double error_bar = 0;           // rad: what the search leaves open
-  std::string rule;               // how failure was told
+  std::string rule;               // the sign of failure
   std::string message;            // why there is no answer, or none within the tolerance; empty: the search is complete
   RunReport last;                 // the last run
   double unbalanced = -1;  // the equilibrium measure of the state that is left; negative where no rest was sought
 };
 
-// Where a search stands: with it an interrupted one goes on as if nothing had happened.
+// Where a search stands: with it an interrupted one continues as if nothing had happened.
 template <int Dim>
 struct ReductionProgress {
   int trial = 0;                                // from 0, which is the start at `from`
@@ -67,7 +67,7 @@ std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& pl
 // damping of the flutter holds up the slide, while local damping does not end a slide whose forces are nearly in
 // balance. Afterwards the state is the last stable one (rates: the failed one). A bisection with a trial that stays
 // undecided ends there, with the bracket that it has and a message. A search that the hooks interrupted (`last.reason`)
-// goes on when it is called again with its progress.
+// continues when it is called again with its progress.
 template <int Dim>
 ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,
                        ReductionProgress<Dim>& progress, const RunHooks<Dim>& hooks = {},

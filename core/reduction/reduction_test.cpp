@@ -12,7 +12,6 @@ namespace voussoir {
 namespace {
 
 using shapes::block_on_plate;
-using shapes::degree;
 using shapes::gravity;
 using shapes::index_of;
 
@@ -141,7 +140,7 @@ TEST(Reduction, ATrialThatStaysUndecidedLeavesTheBracketKnownSoFar) {
   scene.stages.resize(1);
   scene.stages[0].name = "critical";
   scene.stages[0].plan = plan;
-  Progress<2> progress = begin(scene);
+  Progress<2> progress = initial_progress(scene);
   ASSERT_TRUE(simulate(scene, progress, {}));
   EXPECT_EQ(progress.results.outcome, Outcome::incomplete);
   EXPECT_NE(progress.results.message.find("neither rest nor failure"), std::string::npos) << progress.results.message;

@@ -51,7 +51,7 @@ Node number(double value, const Place& place) {
   return node;
 }
 
-// a fixed step leaves the share of the limit without meaning
+// a fixed step leaves the fraction of the limit without meaning
 bool is_settled(const Node& table, const LevelSetting& setting) {
   return table.find(setting.key) || (setting.table == "time" && table.find("step_s"));
 }

@@ -8,6 +8,7 @@
 #include "core/accuracy.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/scene.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
@@ -68,7 +69,7 @@ TEST(AccuracyLevel, SetsWhatTheSceneLeavesOut) {
 TEST(AccuracyLevel, LeavesWhatTheSceneStates) {
   const std::string level = "accuracy = { level = \"reference\" }\ntime = { fraction = 0.15 }\n";
   const Scene scene = parse(level, {"stage.critical.tolerance_deg=3", "equilibrium.unbalanced=1e-7"});
-  EXPECT_NEAR(reduction(scene).tolerance, 3 * 3.14159265358979 / 180, 1e-12);
+  EXPECT_NEAR(reduction(scene).tolerance, 3 * degree, 1e-12);
   EXPECT_EQ(scene.settings.time.fraction, 0.15);
   EXPECT_EQ(scene.settings.equilibrium.unbalanced, 1e-7);
   EXPECT_EQ(scene.from_level.size(), 1u) << "the ramp alone";

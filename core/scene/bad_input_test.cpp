@@ -1,4 +1,4 @@
-// Every mistake a user can make is told in one line: file, line, key, value found, what is allowed, the repair.
+// Every mistake a user can make is reported in one line: file, line, key, value found, what is allowed, the repair.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -13,7 +13,7 @@ using namespace bad_scenes;
 class Bad : public testing::TestWithParam<BadInput> {};
 
 TEST_P(Bad, IsToldInOneLine) {
-  expect_told(GetParam());
+  expect_reported(GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -341,7 +341,8 @@ TEST(GoodScene, IsAccepted) {
   EXPECT_EQ(complaint_about(good_scene), "");
 }
 
-// anything at all is either accepted or told, never a crash: the good scene cut short and with each character replaced
+// anything at all is either accepted or refused in words, never a crash: the good scene cut short and with each
+// character replaced
 TEST(Damaged, NeverCrashes) {
   for (std::size_t i = 0; i < good_scene.size(); ++i) {
     for (const char c : {'[', '=', '"', '-'}) {

@@ -9,7 +9,7 @@ using namespace bad_scenes;
 class BadLoad : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadLoad, IsToldInOneLine) {
-  expect_told(GetParam());
+  expect_reported(GetParam());
 }
 
 const std::string moving = "[[stage]]\nname = \"push\"\nkind = \"run\"\nduration_s = 1\n[[stage.move]]\n";

@@ -45,7 +45,7 @@ std::string repair_of(const KeyRow& row) {
   return row.repair.empty() ? example_of(row) : "; " + std::string(row.repair);
 }
 
-// examples stand for 3-D scenes; in 2-D only the number of entries is told
+// examples stand for 3-D scenes; in 2-D only the number of entries is reported
 std::string vector_rule(const KeyRow& row, std::size_t count) {
   std::string rule =
       "must be " + (count == 1 ? std::string("one number") : "a list of " + std::to_string(count) + " numbers");
@@ -282,7 +282,7 @@ void Checker::value(const KeyRow& row, const Node& node, const std::string& path
   }
 }
 
-// behind a number; a share needs none
+// behind a number; a ratio needs none
 std::string unit_of(const KeyRow& row) {
   return row.unit.empty() || row.unit == "1" ? "" : " " + std::string(row.unit);
 }

@@ -52,7 +52,7 @@ addressed by their name, or by their number from 1 where they have none (`--set 
 written as in the file; a word needs no quotes. A key that the file leaves out can be set as well. So a name may hold
 any characters but '.' and '=', and is unique in its list. Every text is one line of UTF-8 without control characters.
 
-A value outside the range that a key allows is refused. One outside its usual range is told as a warning before the run:
+A value outside the range that a key allows is refused. One outside its usual range is reported as a warning before the run:
 most often its unit is wrong.
 
 Blocks are chosen by selectors: by name, by the side of joints or by a point inside, never by number. A block is chosen

@@ -5,8 +5,8 @@
 namespace voussoir {
 namespace {
 
-// a corner of an outline lies in the joint's plane within this share of its distance from the joint's point: far above
-// the rounding of coordinates and angles of six digits, far below what anyone would state as out of the plane
+// a corner of an outline lies in the joint's plane within this fraction of its distance from the joint's point: far
+// above the rounding of coordinates and angles of six digits, far below what anyone would state as out of the plane
 constexpr double in_plane = 1e-4;
 
 std::vector<Vector<2>> corners_of(const JointSpec& joint, const Vector<3>& normal, const Outline<3>& outline,

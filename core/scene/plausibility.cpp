@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "core/scene/bodies.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/keys/ranges.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
@@ -21,19 +21,19 @@ constexpr double least_block = 0.01, most_block = 500;
 constexpr double widest_ratio = 300;
 
 // stiffness in shear over that across the joint: tests on rock joints give 0.01 to 1
-constexpr double least_shear_share = 0.005;
+constexpr double least_shear_fraction = 0.005;
 
-// a coordinate of less than this share of the scene is next to its zero; given in km, any coordinate is
-constexpr double small_share = 1e-3;
+// a coordinate of less than this fraction of the scene is next to its zero; given in km, any coordinate is
+constexpr double small_fraction = 1e-3;
 
-// two gaps of a regular series differ by less, as a share of the larger
+// two gaps of a regular series differ by less, as a fraction of the larger
 constexpr double series_tolerance = 5e-4;
 
 // a coordinate in radians, turned into degrees, is a whole number of them but for what its digits leave out, degrees
 constexpr double whole_degree = 0.002;
 
 // smaller blocks so far from the scene's centre have lost half of their digits
-constexpr double lost_share = 1e-9;
+constexpr double lost_fraction = 1e-9;
 
 using Warnings = std::vector<std::string>;
 
@@ -68,7 +68,7 @@ const Node* entry(const Node& node, std::size_t place) {
 
 // any direction from 0 to 360 degrees is one; what gives radians away are their digits
 bool is_radians_of_whole_degrees(double x) {
-  const double degrees = x * 180 / std::numbers::pi;
+  const double degrees = to_degrees(x);
   return degrees > 1 && degrees <= 360 && std::abs(degrees - std::round(degrees)) < whole_degree;
 }
 
@@ -85,15 +85,15 @@ struct TableJudge {
                                    "is unusual, " + plausible_text(row) + " is usual; " +
                                        (row.mistake.empty() ? "is the value right?" : std::string(row.mistake))));
     else if (row.mistake == keys::angle_mistake && is_radians_of_whole_degrees(size))
-      warnings.push_back(complaint(
-          node, path, "is " + text(size * 180 / std::numbers::pi) + " deg in radians; " + std::string(row.mistake)));
+      warnings.push_back(
+          complaint(node, path, "is " + text(to_degrees(size)) + " deg in radians; " + std::string(row.mistake)));
     if (is_coordinate(row) && has_small_entry(node))
       warnings.push_back(complaint(node, path,
                                    "holds a coordinate that is next to nothing in a scene of " + text(extent) +
                                        " m; coordinates are in m, was it given in km?"));
   }
 
-  bool is_small(double x) const { return x != 0 && std::abs(x) <= small_share * extent; }
+  bool is_small(double x) const { return x != 0 && std::abs(x) <= small_fraction * extent; }
 
   bool has_small_entry(const Node& node) const {
     for (std::size_t k = 0; const Node* number = entry(node, k); ++k)
@@ -162,7 +162,7 @@ void judge_properties(const PropertiesSpec& spec, Warnings& warnings) {
     warnings.push_back(complaint(
         spec.subject, "shear_stiffness",
         "exceeds" + other + "; joints are softer in shear: were the two swapped, or is the " + "unit of one wrong?"));
-  if (p.shear_stiffness < least_shear_share * p.normal_stiffness)
+  if (p.shear_stiffness < least_shear_fraction * p.normal_stiffness)
     warnings.push_back(
         complaint(spec.subject, "shear_stiffness",
                   "is tiny beside" + other + ", 0.01 to 1 times it is usual; is the unit of one wrong?"));
@@ -237,7 +237,7 @@ void judge_sizes(const Scene& scene, const Model<Dim>& model, Warnings& warnings
                        described(model, thinnest) + "; is a coordinate of one in the wrong unit" +
                        (thinnest.name.empty() ? ", or is it a sliver (slicing.smallest_inscribed_radius)?" : "?"));
   for (const Body<Dim>& body : model.bodies)
-    if (body.size < lost_share * body.reference.norm()) {
+    if (body.size < lost_fraction * body.reference.norm()) {
       warnings.push_back(file + described(model, body) + " lies " + text(body.reference.norm()) +
                          " m from the scene's centre, where its size of " + text(body.size) +
                          " m loses its digits; is a coordinate in the wrong unit?");
@@ -304,7 +304,7 @@ void judge_factors(const StageSpec& stage, Warnings& warnings) {
       if (plan && !factor.times.empty() && factor.times.back() > plan->duration)
         warnings.push_back(complaint(
             spec.subject, "times_s",
-            "goes on beyond duration_s (" + text(plan->duration) + "), when the stage ends; is the table in s?"));
+            "continues beyond duration_s (" + text(plan->duration) + "), when the stage ends; is the table in s?"));
     }
 }
 

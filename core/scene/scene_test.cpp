@@ -9,11 +9,10 @@
 #include <numbers>
 
 #include "core/scene/plausibility.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 const std::string wedge = R"(title = "Sliding wedge"
 dimension = 3
@@ -81,15 +80,15 @@ TEST(ReadScene, TakesWhatIsStatedInRadians) {
   EXPECT_EQ(s.title, "Sliding wedge");
   EXPECT_EQ(s.dimension, 3);
   ASSERT_EQ(s.joints.size(), 2u);
-  EXPECT_DOUBLE_EQ(s.joints[0].plane.dip, 40 * deg);
-  EXPECT_DOUBLE_EQ(s.joints[1].plane.dip_direction, 220 * deg);
+  EXPECT_DOUBLE_EQ(s.joints[0].plane.dip, 40 * degree);
+  EXPECT_DOUBLE_EQ(s.joints[1].plane.dip_direction, 220 * degree);
   EXPECT_FALSE(s.joints[0].properties);
   EXPECT_TRUE(s.domain->planes.at(0).keep_below);
   EXPECT_EQ(s.settings.damping.local, 0.5);
   ASSERT_EQ(s.stages.size(), 2u);
   const auto& reduce = std::get<ReducePlan>(s.stages[1].plan.plan);
-  EXPECT_DOUBLE_EQ(reduce.from, 60 * deg);
-  EXPECT_DOUBLE_EQ(reduce.tolerance, 0.01 * deg);
+  EXPECT_DOUBLE_EQ(reduce.from, 60 * degree);
+  EXPECT_DOUBLE_EQ(reduce.tolerance, 0.01 * degree);
   EXPECT_EQ(reduce.method, ReductionMethod::bisection);
   EXPECT_FALSE(s.stages[0].plan.damping);
   EXPECT_EQ(s.monitors.at(0).quantities.size(), 3u);
@@ -255,11 +254,11 @@ TEST(Select, TakesConditionsTogether) {
 
 TEST(Set, ReachesTablesByNameNumberAndValuesNotInTheFile) {
   const auto set = [](const std::string& text) { return parse(wedge, {text}); };
-  EXPECT_DOUBLE_EQ(set("joints.A.dip=65").joints[0].plane.dip, 65 * deg);
-  EXPECT_DOUBLE_EQ(set("joints.2.dip = 65").joints[1].plane.dip, 65 * deg);
-  EXPECT_DOUBLE_EQ(set("domain.planes.slope face.dip=60").domain->planes[0].plane.dip, 60 * deg);
+  EXPECT_DOUBLE_EQ(set("joints.A.dip=65").joints[0].plane.dip, 65 * degree);
+  EXPECT_DOUBLE_EQ(set("joints.2.dip = 65").joints[1].plane.dip, 65 * degree);
+  EXPECT_DOUBLE_EQ(set("domain.planes.slope face.dip=60").domain->planes[0].plane.dip, 60 * degree);
   EXPECT_DOUBLE_EQ(std::get<ReducePlan>(set("stage.reduce.tolerance_deg=0.1").stages[1].plan.plan).tolerance,
-                   0.1 * deg);
+                   0.1 * degree);
   EXPECT_EQ(*set("gravity=[0,0,-5]").gravity, (std::vector<double>{0, 0, -5}));
   EXPECT_EQ(set("domain.box.max=[5, 4, 0]").domain->box->max[0], 5);
   EXPECT_EQ(set("contact.skin=0.3").settings.contact.skin, 0.3);
@@ -277,7 +276,8 @@ TEST(Set, ReachesTablesByNameNumberAndValuesNotInTheFile) {
   EXPECT_EQ(set("damping={ local = 0.1 }").settings.damping.local, 0.1);
   EXPECT_EQ(set("output.frames=false").output.frames, false);
   // in order: a later one sees the earlier
-  EXPECT_DOUBLE_EQ(parse(wedge, {"joints.A.name=C", "joints.C.dip=1", "joints.C.dip=2"}).joints[0].plane.dip, 2 * deg);
+  EXPECT_DOUBLE_EQ(parse(wedge, {"joints.A.name=C", "joints.C.dip=1", "joints.C.dip=2"}).joints[0].plane.dip,
+                   2 * degree);
 }
 
 TEST(CanonicalText, ForgetsLayoutAndRemembersMeaning) {
@@ -319,7 +319,7 @@ TEST(Plausibility, KnowsTheSignsOfWrongUnits) {
       "[[stage]]\nname = \"shake\"\nkind = \"run\"\nduration_s = 2\n[[stage.move]]\nbelow = [\"A\"]\n"
       "velocity = [0.1, 0, 0]\nfactors = [0, 1]\ntimes_s = ";
   EXPECT_EQ(warnings(wedge + shake + "[0, 2]\n"), "");
-  EXPECT_NE(warnings(wedge + shake + "[0, 2000]\n").find("goes on beyond duration_s (2)"), std::string::npos);
+  EXPECT_NE(warnings(wedge + shake + "[0, 2000]\n").find("continues beyond duration_s (2)"), std::string::npos);
 }
 
 TEST(Plausibility, TellsAJointThatCutsNothing) {

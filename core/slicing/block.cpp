@@ -59,7 +59,7 @@ std::vector<Vector<Dim>> sorted(std::vector<Vector<Dim>> points) {
   return points;
 }
 
-// Bounded iff the recession cone {a_i·x <= 0} holds no direction: along no axis, either way, can a point go on for
+// Bounded iff the recession cone {a_i·x <= 0} holds no direction: along no axis, either way, can a point continue for
 // ever.
 template <int Dim>
 bool bounded(const HalfSpaces<Dim>& planes) {

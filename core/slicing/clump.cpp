@@ -10,9 +10,9 @@
 namespace voussoir {
 namespace {
 
-// Two faces that share less than this of the smaller one's area (and, in lengths, less than its root) touch at an edge:
-// above the rounding of their corners, below any contact that could carry load.
-constexpr double least_share = 1e-9;
+// Two faces that fraction less than this of the smaller one's area (and, in lengths, less than its root) touch at an
+// edge: above the rounding of their corners, below any contact that could carry load.
+constexpr double least_fraction = 1e-9;
 
 // a corner beyond a joint's extent by no more than this times the extent's or the face's size lies in it
 constexpr double extent_rounding = 1e-9;
@@ -101,7 +101,7 @@ SharedFace shared(const std::vector<Polytope<Dim>>& parts, const Cut<Dim>& cut, 
     if (f != above.face) region = clipped<Dim>(region, other.faces[f]);
   if (region.empty()) return face;
   const double area = size_of(region);
-  if (area <= least_share * std::min(size, size_of(corners(other, above.face)))) return face;
+  if (area <= least_fraction * std::min(size, size_of(corners(other, above.face)))) return face;
   face.area = area;
   const double reach = std::isinf(cut.extent.radius) ? 0 : cut.extent.radius;
   const double rounding = extent_rounding * (reach + (below.high - below.low).norm());

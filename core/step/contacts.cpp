@@ -56,8 +56,8 @@ struct Tally {
 
 // the contacts [first, last) of the list, in one batch
 template <int Dim>
-void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& state, QueryLevel level, double gap, int first,
-             int last, Tally& tally) {
+void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& state, QueryLevel level, double gap,
+             int first, int last, Tally& tally) {
   static thread_local std::vector<Pair<Dim>> pairs;
   static thread_local std::vector<Contact<Dim>*> waiting;
   static thread_local std::vector<char> touched;  // of those that wait, before
@@ -137,7 +137,7 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
   const int count = static_cast<int>(state.contacts.size());
   const QueryLevel level = needs_area(model) ? QueryLevel::area : QueryLevel::overlap;
   const double gap = closed_gap(model);
-  find_stances(model, settings.threads, state);
+  cache_poses(model, settings.threads, state);
   count_travels(model, settings, state);
   // batches that stay in the cache, and enough of them for every thread
   const int batch = std::clamp(count / settings.threads + 1, 16, 256), batches = (count + batch - 1) / batch;

@@ -41,7 +41,7 @@ struct PairMotion {
 
 template <int Dim>
 PairMotion<Dim> motion_of(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
-  const Stance<Dim>&a = state.stances[model.parts[c.part_a].body], &b = state.stances[model.parts[c.part_b].body];
+  const CachedPose<Dim>&a = state.poses[model.parts[c.part_a].body], &b = state.poses[model.parts[c.part_b].body];
   return {between(a, b), b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
 }
 
@@ -49,14 +49,14 @@ PairMotion<Dim> motion_of(const Model<Dim>& model, const State<Dim>& state, cons
 template <int Dim>
 struct Bearing {
   Vector<Dim> point, normal;
-  double overlap, area;  // m, m²; the area is 1, or a share of it, for a constant stiffness
-  double spread = 0;     // m², variance of the overlap
-  double share = 1;      // of the contact's area
-  double firmness = 1;   // of a constant stiffness
+  double overlap, area;         // m, m²; the area is 1, or a fraction of it, for a constant stiffness
+  double overlap_variance = 0;  // m², variance of the overlap
+  double fraction = 1;          // of the contact's area
+  double stiffness_factor = 1;  // of a constant stiffness
 };
 
-// what the books get from some contacts, J
-struct Booked {
+// what some contacts add to the energy ledger, J
+struct JointSums {
   double elastic = 0, friction = 0, dashpots = 0, stiffening = 0;
   long long snap_backs = 0, bonds_made = 0;
 };
@@ -75,21 +75,21 @@ template <int Dim>
 // the answer of a joint with laws of its own
 template <int Dim>
 JointForce<Dim> answer_of_laws(const JointProperties& properties, double friction, double damping,
-                               const JointKinematics<Dim>& k, Booked& booked, JointState<Dim>& history) {
+                               const JointKinematics<Dim>& k, JointSums& sums, JointState<Dim>& history) {
   const double stiffness = damping > 0 ? normal_answer(properties, k.overlap, history.bonded).stiffness : 0;
   const JointForce<Dim> answer = joint_law<Dim>(properties, friction, damping * std::sqrt(stiffness), k, history);
-  booked.stiffening += answer.stiffening;
-  if (answer.snap_back) ++booked.snap_backs;
+  sums.stiffening += answer.stiffening;
+  if (answer.snap_back) ++sums.snap_backs;
   return answer;
 }
 
-// Force on the second body; the history goes on. Inlined by force: the call and what it passes would cost a plain joint
-// some percent of its law (benchmarks/price_of_laws.sh).
+// Force on the second body; the history continues. Inlined by force: the call and what it passes would cost a plain
+// joint some percent of its law (benchmarks/price_of_laws.sh).
 template <int Dim>
 [[gnu::always_inline]] inline Vector<Dim> joint_force(const JointProperties& properties, const Settings& settings,
                                                       const State<Dim>& state, const PairMotion<Dim>& motion,
                                                       const Bearing<Dim>& at, int friction_of, JointState<Dim>& history,
-                                                      Booked& booked) {
+                                                      JointSums& sums) {
   // the slip is the one of the step that led here
   const double dt = state.time_step;
   const Vector<Dim>& n = at.normal;
@@ -98,9 +98,9 @@ template <int Dim>
   JointKinematics<Dim> k;
   k.normal = n;
   k.overlap = at.overlap;
-  k.spread = at.spread;
+  k.overlap_variance = at.overlap_variance;
   k.area = at.area;
-  k.firmness = at.firmness;
+  k.stiffness_factor = at.stiffness_factor;
   k.closing_speed = -velocity.dot(n);
 
   // a new contact has no shear yet, and slips as long as it has been closed; a standing one carries its shear to the
@@ -119,7 +119,7 @@ template <int Dim>
       const double left = k.area / history.area;
       const double stiffness =
           history.area * (history.shear_stiffness > 0 ? history.shear_stiffness : properties.shear_stiffness);
-      if (stiffness > 0) booked.friction += 0.5 * history.shear_force.squaredNorm() / stiffness * (1 - left);
+      if (stiffness > 0) sums.friction += 0.5 * history.shear_force.squaredNorm() / stiffness * (1 - left);
       history.shear_force *= left;
     }
     history.shear_force = carried(history.shear_force, history.normal, n, k.turn);
@@ -130,16 +130,16 @@ template <int Dim>
 
   // the dashpot over the root of the normal stiffness; between two immobile bodies there is nothing to damp
   const double friction = state.schedule.friction[friction_of];
-  const double damping =
-      settings.damping.viscous_ratio > 0 && motion.inverse_mass > 0 && !state.relaxation.under_way
-          ? 2 * settings.damping.viscous_ratio * std::sqrt(k.area * k.firmness / motion.inverse_mass * at.share)
-          : 0;
+  const double damping = settings.damping.viscous_ratio > 0 && motion.inverse_mass > 0 && !state.relaxation.under_way
+                             ? 2 * settings.damping.viscous_ratio *
+                                   std::sqrt(k.area * k.stiffness_factor / motion.inverse_mass * at.fraction)
+                             : 0;
   const JointForce<Dim> answer = properties.laws.is_plain()
                                      ? plain_answer<Dim>(properties, friction, damping, k, history)
-                                     : answer_of_laws<Dim>(properties, friction, damping, k, booked, history);
-  booked.elastic += answer.elastic;
-  booked.friction += answer.friction;
-  booked.dashpots += 0.5 * (history.dashpot * closing_before + answer.dashpot * k.closing_speed) * dt;
+                                     : answer_of_laws<Dim>(properties, friction, damping, k, sums, history);
+  sums.elastic += answer.elastic;
+  sums.friction += answer.friction;
+  sums.dashpots += 0.5 * (history.dashpot * closing_before + answer.dashpot * k.closing_speed) * dt;
   history.normal = n;
   history.point = at.point;
   history.dashpot = answer.dashpot;
@@ -170,20 +170,20 @@ void bond_what_presses(const JointProperties& properties, std::size_t place, Sta
 // The joint of one contact, or of each of its cells; inlined as above.
 template <int Dim>
 [[gnu::always_inline]] inline void answer(const Model<Dim>& model, const Settings& settings, std::size_t place,
-                                          State<Dim>& state, Booked& booked) {
+                                          State<Dim>& state, JointSums& sums) {
   Contact<Dim>& c = state.contacts[place];
   if (!c.touching()) return;
   const JointProperties& properties = model.properties[c.properties];
   if (c.bond_due) [[unlikely]]
-    bond_what_presses(properties, place, state, booked.bonds_made);
+    bond_what_presses(properties, place, state, sums.bonds_made);
   const PairMotion<Dim> motion = motion_of(model, state, c);
   if (c.cells == 0) {
     Bearing<Dim> at{c.geometry.point, c.geometry.normal, c.geometry.overlap, c.geometry.area};
     if (properties.constant_stiffness) {
       at.area = 1;
-      at.firmness = c.geometry.firmness;
+      at.stiffness_factor = c.geometry.stiffness_factor;
     }
-    c.force = joint_force<Dim>(properties, settings, state, motion, at, c.properties, c.history, booked);
+    c.force = joint_force<Dim>(properties, settings, state, motion, at, c.properties, c.history, sums);
     return;
   }
   // each cell answers for itself; the contact keeps what they are together
@@ -201,8 +201,8 @@ template <int Dim>
     const double area = properties.constant_stiffness ? s.area / whole : s.area;
     const bool bonded = s.history.bonded;
     s.force = joint_force<Dim>(properties, settings, state, motion,
-                               {s.point, c.geometry.normal, s.overlap, area, s.spread, s.area / whole}, c.properties,
-                               s.history, booked);
+                               {s.point, c.geometry.normal, s.overlap, area, s.overlap_variance, s.area / whole},
+                               c.properties, s.history, sums);
     c.force += s.force;
     c.history.shear_force += s.history.shear_force;
     c.history.plastic_slip += s.area / whole * s.history.plastic_slip;
@@ -217,8 +217,8 @@ template <int Dim>
 template <int Dim>
 void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   state.energy.elastic = 0;
-  const auto work = [&](int i, Booked& sum) { answer(model, settings, static_cast<std::size_t>(i), state, sum); };
-  for (const Booked& b : sums_in_groups<Booked>(settings.threads, state.contacts.size(), work)) {
+  const auto work = [&](int i, JointSums& sum) { answer(model, settings, static_cast<std::size_t>(i), state, sum); };
+  for (const JointSums& b : sums_in_groups<JointSums>(settings.threads, state.contacts.size(), work)) {
     state.energy.elastic += b.elastic;
     state.energy.flows[Source::friction] += b.friction;
     state.energy.flows[Source::dashpots] += b.dashpots;

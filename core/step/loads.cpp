@@ -14,7 +14,7 @@ void push(const Model<Dim>& model, const State<Dim>& state, int place, int body,
   const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
   const bool on_b = body == b;
   Vector<Dim> centroid = Vector<Dim>::Zero();  // of this body, from that of the first
-  if (on_b) centroid = between(state.stances[a], state.stances[b]);
+  if (on_b) centroid = between(state.poses[a], state.poses[b]);
   Spin<Dim> turn = Spin<Dim>::Zero();  // of the force on the second body, about the centroid of this one
   const auto add = [&](const Vector<Dim>& point, const Vector<Dim>& force) {
     turn += moment(Vector<Dim>(point - centroid), force);
@@ -52,7 +52,7 @@ void boundary_stress_loads(const Model<Dim>& model, int threads, const State<Dim
   each_on_threads(threads, model.boundary.size(), [&](int i) {
     const BoundaryForces<Dim>& loaded = model.boundary[i];
     for (const DeadLoad<Dim>& load : loaded.forces)
-      loads[loaded.body] += load_of(load, state.stances[loaded.body].axes);
+      loads[loaded.body] += load_of(load, state.poses[loaded.body].axes);
   });
 }
 
@@ -65,7 +65,7 @@ Vector<Dim> force_of(const AppliedForce<Dim>& f, const State<Dim>& state) {
 template <int Dim>
 void applied_loads(const Model<Dim>& model, int, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
   for (const AppliedForce<Dim>& f : model.applied) {
-    const Matrix<Dim>& axes = state.stances[f.body].axes;
+    const Matrix<Dim>& axes = state.poses[f.body].axes;
     const Vector<Dim> force = force_of(f, state);
     loads[f.body] += load_of<Dim>({f.place, f.turns_with_body ? Vector<Dim>(axes * force) : force}, axes);
   }

@@ -29,7 +29,7 @@ void add_gravity_ramp(const Model<Dim>& model, State<Dim>& state) {
   state.schedule.last_gravity_factor = state.schedule.gravity_factor;
   if (growth == 0 || state.energy.phase == LedgerPhase::not_begun) return;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].still())
+    if (!model.bodies[b].immobile())
       state.energy.flows[Source::gravity_ramp] -=
           growth * model.bodies[b].mass * model.gravity.dot(state.motions[b].displacement);
 }

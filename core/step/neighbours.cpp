@@ -21,7 +21,7 @@ namespace {
 constexpr double candidate_reach = 0.5 * (1 + 1e-9);
 
 // faces that part by less than this times the smallest inscribed radius are a closed joint still, for make_bonds
-constexpr double closed_share = 1e-3;
+constexpr double closed_fraction = 1e-3;
 
 // a few roundings: what is multiplied by these is a lower, an upper bound of what it would be without any
 constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
@@ -69,9 +69,9 @@ Box<Dim> bounds(const Model<Dim>& model, const State<Dim>& state, int part, doub
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const PartId id = model.parts[part];
   const Body<Dim>& body = model.bodies[id.body];
-  Box<Dim> box{Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity), id.body, body.still()};
+  Box<Dim> box{Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity), id.body, body.immobile()};
   if (!body.present) return box;
-  const Stance<Dim>& at = state.stances[id.body];
+  const CachedPose<Dim>& at = state.poses[id.body];
   for (const Vector<Dim>& v : body.parts[id.part].vertices) {
     const Vector<Dim> x = at.axes * v;
     box.low = box.low.cwiseMin(x);
@@ -113,7 +113,7 @@ void find_thin_spans(const Model<Dim>& model, const Settings& settings, const St
   const std::size_t parts = model.parts.size(), sampled = std::min(parts, most_sampled);
   for (std::size_t i = 0; i < sampled; ++i) {
     const int part = static_cast<int>(parts * i / sampled);
-    sample.push_back({&model.polytope(part), state.stances[model.parts[part].body].axes});
+    sample.push_back({&model.polytope(part), state.poses[model.parts[part].body].axes});
   }
   const std::vector<Vector<Dim>> directions = thin_directions<Dim>(sample);
   thin.directions = directions.size();
@@ -121,7 +121,7 @@ void find_thin_spans(const Model<Dim>& model, const Settings& settings, const St
   if (directions.empty()) return;
   each_on_threads(settings.threads, parts, [&](int part) {
     const int body = model.parts[part].body;
-    const Stance<Dim>& at = state.stances[body];
+    const CachedPose<Dim>& at = state.poses[body];
     const Vector<Dim> centroid = at.reference + at.displacement;
     const double reach = margin + coordinate_rounding * (model.bodies[body].radius + centroid.norm());
     for (std::size_t k = 0; k < directions.size(); ++k) {
@@ -162,7 +162,7 @@ bool outdated(const Model<Dim>& model, const Settings& settings, const State<Dim
   if (state.built.size() != model.bodies.size()) return true;
   std::atomic<bool> left = false;
   each_on_threads(settings.threads, model.bodies.size(), [&](int b) {
-    if (!model.bodies[b].still() && moved(model.bodies[b], state.built[b], state.motions[b]) > 0.5 * skin)
+    if (!model.bodies[b].immobile() && moved(model.bodies[b], state.built[b], state.motions[b]) > 0.5 * skin)
       left.store(true, std::memory_order_relaxed);
   });
   return left;
@@ -204,17 +204,17 @@ std::size_t most_candidates(std::size_t parts) {
 // adds what each body has moved since the last step; rounded upwards, so that it bounds
 template <int Dim>
 void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  if (state.travels.size() != model.bodies.size()) {
-    note_placements(state, state.counted);
-    state.travels.assign(state.motions.size(), 0);
+  if (state.path_bounds.size() != model.bodies.size()) {
+    note_placements(state, state.counted_at);
+    state.path_bounds.assign(state.motions.size(), 0);
   }
-  each_on_threads(settings.threads, state.travels.size(), [&](int b) {
-    if (model.bodies[b].still()) return;
+  each_on_threads(settings.threads, state.path_bounds.size(), [&](int b) {
+    if (model.bodies[b].immobile()) return;
     const Motion<Dim>& now = state.motions[b];
-    double& travel = state.travels[b];
-    const double way = moved(model.bodies[b], state.counted[b], now);
+    double& travel = state.path_bounds[b];
+    const double way = moved(model.bodies[b], state.counted_at[b], now);
     if (way > 0) travel = (travel + upwards * way) * upwards;
-    state.counted[b] = {now.displacement, now.rotation};
+    state.counted_at[b] = {now.displacement, now.rotation};
   });
 }
 
@@ -222,7 +222,7 @@ template <int Dim>
 double closed_gap(const Model<Dim>& model) {
   const bool bonds = std::any_of(model.properties.begin(), model.properties.end(),
                                  [](const JointProperties& p) { return p.laws.bond; });
-  return bonds ? closed_share * smallest_size(model) : 0;
+  return bonds ? closed_fraction * smallest_size(model) : 0;
 }
 
 template <int Dim>
@@ -268,7 +268,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   std::vector<Contact<Dim>>& renewed = own_renewed;
   std::vector<SubContact<Dim>>& renewed_subs = own_subs;
   std::vector<int>& origin = own_origin;  // of each pair: its place in the old list, or -1
-  find_stances(model, settings.threads, state);
+  cache_poses(model, settings.threads, state);
   boxes.resize(model.parts.size());
   each_on_threads(settings.threads, boxes.size(),
                   [&](int part) { boxes[part] = bounds(model, state, part, candidate_reach * skin); });

@@ -19,7 +19,7 @@ class TooManyNeighbours : public std::runtime_error {
 // more. Blocks have some twenty neighbours; joints through one point bring all of theirs together there.
 std::size_t most_candidates(std::size_t parts);
 
-// Candidate pairs, listed anew when a body may have moved out of its skin: all that may come near each other until
+// Candidate pairs, listed again when a body may have moved out of its skin: all that may come near each other until
 // then. Throws TooManyNeighbours before it asks for memory for them.
 template <int Dim>
 void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
@@ -31,13 +31,13 @@ void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>
 // m, of the bodies of a contact together
 template <int Dim>
 double travelled(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
-  return state.travels[model.parts[c.part_a].body] + state.travels[model.parts[c.part_b].body];
+  return state.path_bounds[model.parts[c.part_a].body] + state.path_bounds[model.parts[c.part_b].body];
 }
 
 // two parts as the kernel sees them, where their bodies stand
 template <int Dim>
 Pair<Dim> pair_of(const Model<Dim>& model, const State<Dim>& state, int part_a, int part_b, QueryLevel level) {
-  const Stance<Dim>&at_a = state.stances[model.parts[part_a].body], &at_b = state.stances[model.parts[part_b].body];
+  const CachedPose<Dim>&at_a = state.poses[model.parts[part_a].body], &at_b = state.poses[model.parts[part_b].body];
   return {&model.polytope(part_a),
           &model.polytope(part_b),
           at_a.axes,

@@ -71,8 +71,8 @@ int most_pairs_of_a_slab(int count, double dip) {
 
 TEST(Neighbours, OfASlabAreFewAtAnyDip) {
   for (const double dip : {0.0, 1.0, 30.0, 45.0, 60.0, 89.0, 90.0}) {
-    EXPECT_LE(most_pairs_of_a_slab<3>(300, dip * shapes::degree), 12) << dip;
-    EXPECT_LE(most_pairs_of_a_slab<2>(300, dip * shapes::degree), 12) << dip;
+    EXPECT_LE(most_pairs_of_a_slab<3>(300, dip * degree), 12) << dip;
+    EXPECT_LE(most_pairs_of_a_slab<2>(300, dip * degree), 12) << dip;
   }
 }
 
@@ -116,7 +116,7 @@ bool may_touch(const Model<Dim>& model, int part_a, int part_b) {
 // of all pairs, by the narrow phase alone
 template <int Dim>
 Pairs touching_pairs(const Model<Dim>& model, State<Dim> state) {
-  find_stances(model, 1, state);
+  cache_poses(model, 1, state);
   Pairs touching;
   for (int a = 0; a < static_cast<int>(model.parts.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(model.parts.size()); ++b) {
@@ -181,11 +181,11 @@ void expect_none_missed(std::uint64_t seed, bool clumps) {
     EXPECT_TRUE(pairs_of(again) == pairs);
 
     const std::set<std::pair<int, int>> known(pairs.begin(), pairs.end());
-    for (const double share : {0.0, 0.499, 0.499}) {
+    for (const double fraction : {0.0, 0.499, 0.499}) {
       State<Dim> moved = state;
       for (std::size_t b = 0; b < model.bodies.size(); ++b)
         if (!model.bodies[b].fixed)
-          moved.motions[b].displacement = share * skin_of(model, settings) * shapes::direction<Dim>(random);
+          moved.motions[b].displacement = fraction * skin_of(model, settings) * shapes::direction<Dim>(random);
       for (const std::pair<int, int>& pair : touching_pairs(model, moved)) {
         ++touching;
         EXPECT_TRUE(known.contains(pair)) << pair.first << ' ' << pair.second;
@@ -237,7 +237,7 @@ void expect_that_it_lasts(std::uint64_t seed) {
     state.motions[1].displacement =
         shapes::uniform(random, 0, 1) * (radius_a + radius_b) * shapes::direction<Dim>(random);
     const auto seen = [&](State<Dim>& at) {
-      find_stances(model, 1, at);
+      cache_poses(model, 1, at);
       return pair_of(model, at, 0, 1, QueryLevel::decision);
     };
     const auto moved = [&](double way_a, double way_b) {
@@ -248,8 +248,8 @@ void expect_that_it_lasts(std::uint64_t seed) {
     };
     const Nearness now = nearness(seen(state), radius_a, radius_b);
     (now.near ? near : apart) += 1;
-    const double share = shapes::uniform(random, 0, 1);
-    EXPECT_EQ(moved(share * 0.999 * now.lasts, (1 - share) * 0.999 * now.lasts), now.near) << trial;
+    const double fraction = shapes::uniform(random, 0, 1);
+    EXPECT_EQ(moved(fraction * 0.999 * now.lasts, (1 - fraction) * 0.999 * now.lasts), now.near) << trial;
 
     const double way = shapes::power_of_ten(random, -3, -1);
     if (may_come_near(seen(state), radius_a, radius_b, way)) continue;
@@ -274,7 +274,7 @@ TEST(Neighbours, WhatItsVerticesDoNotTellIsNear) {
     body.parts[0].vertex_error = std::numeric_limits<double>::infinity();
   State<3> state = initial_state(model);
   state.motions[1].displacement = {100, 0, 0};
-  find_stances(model, 1, state);
+  cache_poses(model, 1, state);
   const Pair<3> pair = pair_of(model, state, 0, 1, QueryLevel::decision);
   EXPECT_TRUE(nearness(pair, model.bodies[0].radius, model.bodies[1].radius).near);
   EXPECT_TRUE(may_come_near(pair, model.bodies[0].radius, model.bodies[1].radius, 0.1));

@@ -50,7 +50,7 @@ auto velocity_at(const Vector<Dim>& arm) {
 template <int Dim>
 void set_contacts(const Model<Dim>& model, const std::vector<Contact<Dim>>& contacts, State<Dim>& state) {
   state.contacts = contacts;
-  find_stances(model, 1, state);
+  cache_poses(model, 1, state);
   list_by_body(model, state);
 }
 

@@ -1,4 +1,4 @@
-// A good scene, and how each mistake put into it must be told.
+// A good scene, and how each mistake put into it must be reported.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -98,7 +98,7 @@ inline std::string by_name(const testing::TestParamInfo<BadInput>& info) {
   return info.param.name;
 }
 
-inline void expect_told(const BadInput& bad) {
+inline void expect_reported(const BadInput& bad) {
   const std::string text = edited(bad);
   const std::string message = complaint_about(text);
   ASSERT_NE(message, "") << "accepted";

@@ -23,7 +23,7 @@ inline constexpr double area_tolerance = 1e-6;
 // the cosine of half of that
 inline constexpr double halfway_to_a_corner = 0.887;
 
-// a gap below this share of the size is decided by rounding: ContactSettings::tolerance with room
+// a gap below this fraction of the size is decided by rounding: ContactSettings::tolerance with room
 inline constexpr double undecided = 1e-11;
 
 // the same for the LP's value, which is closer to the rounding: twice the tolerance of a unit cube's half edge
@@ -88,7 +88,7 @@ void expect_sound(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<D
   EXPECT_LT(g.face_a, static_cast<int>(a.faces.size()));
   EXPECT_GE(g.face_b, 0);
   EXPECT_LT(g.face_b, static_cast<int>(b.faces.size()));
-  // the planes above are rounded anew: 1e-16 of slack is the input's own uncertainty
+  // the planes above are rounded again: 1e-16 of slack is the input's own uncertainty
   const auto barrier = oracle::barrier<Dim>(planes, g.point.template cast<oracle::Real>());
   EXPECT_TRUE(barrier.interior);
   EXPECT_LT(static_cast<double>(barrier.decrement), point_tolerance + 1e-14 / g.overlap);

@@ -95,9 +95,9 @@ std::optional<QuadVector> centre_of(const Barrier& barrier) {
     const Newton newton(barrier, x);
     const QuadVector y = solve(newton.hessian, newton.gradient);
     const Quad decrement = newton.length(y);
-    const Quad share = decrement < full_step ? Quad(1) : 1 / (1 + decrement);
+    const Quad fraction = decrement < full_step ? Quad(1) : 1 / (1 + decrement);
     for (int k = 0; k < 3; ++k)
-      x[k] -= share * y[k];
+      x[k] -= fraction * y[k];
     if (!inside(barrier, x)) return {};
     if (decrement < converged) return x;
   }
@@ -135,15 +135,22 @@ Rational rational(Quad q) {
 
 }  // namespace
 
-std::vector<Quad> distances_along(const Planes& planes, int faces_a, int faces_b, const Point& point,
-                                  const Point& normal) {
-  std::vector<Quad> distances;
+std::vector<std::optional<Quad>> distances_along(const Planes& planes, int faces_a, int faces_b, const Point& point,
+                                                 const Point& normal) {
+  std::vector<std::optional<Quad>> distances;
   for (int i = 0; i < faces_a + faces_b; ++i) {
     const Rational along = dot(planes[i].normal, normal), slope = i < faces_a ? along : Rational(-along);
-    distances.push_back(sgn(slope) > 0 ? to_quad(Rational((planes[i].offset - dot(planes[i].normal, point)) / slope))
-                                       : Quad(no_end));
+    distances.emplace_back();
+    if (sgn(slope) > 0) distances.back() = to_quad(Rational((planes[i].offset - dot(planes[i].normal, point)) / slope));
   }
   return distances;
+}
+
+Quad nearest(const std::vector<std::optional<Quad>>& distances, int first, int count) {
+  std::optional<Quad> least;
+  for (int i = first; i < first + count; ++i)
+    if (distances[i] && (!least || *distances[i] < *least)) least = distances[i];
+  return least.value();
 }
 
 std::optional<ConvergedContact> converged_contact(const Planes& planes, int faces_a, int faces_b, const Point& start,
@@ -167,9 +174,8 @@ std::optional<ConvergedContact> converged_contact(const Planes& planes, int face
     point[k] = start[k] + rational((*centre)[k]);
     normal[k] = rational(result.normal[k]);
   }
-  const std::vector<Quad> distances = distances_along(planes, faces_a, faces_b, point, normal);
-  const auto of_b_from = distances.begin() + faces_a;
-  result.overlap = *std::min_element(distances.begin(), of_b_from) + *std::min_element(of_b_from, distances.end());
+  const std::vector<std::optional<Quad>> distances = distances_along(planes, faces_a, faces_b, point, normal);
+  result.overlap = nearest(distances, 0, faces_a) + nearest(distances, faces_a, faces_b);
   result.section = section(planes, point, normal);
   return result;
 }

@@ -11,7 +11,7 @@ namespace voussoir::exact {
 struct ConvergedContact {
   QuadVector from_start{};  // the centre, relative to the start
   Quad distance = 0;    // of the start from it, in the metric of the barrier's Hessian there: along any direction the
-                        // start is off by no more than this share of the region
+                        // start is off by no more than this fraction of the region
   QuadVector normal{};  // unit; 0 when those of the parts are equal
   Quad overlap = 0;     // along it
   Section section;
@@ -22,10 +22,12 @@ struct ConvergedContact {
 std::optional<ConvergedContact> converged_contact(const Planes& planes, int faces_a, int faces_b, const Point& start,
                                                   double radius);
 
-// How far each plane of A lies ahead of the point along a normal, each plane of B behind it (Eq. 3.36); `no_end` for
+// How far each plane of A lies ahead of the point along a normal, each plane of B behind it (Eq. 3.36); nothing for
 // planes that the search never meets.
-inline constexpr double no_end = 1e300;
-std::vector<Quad> distances_along(const Planes& planes, int faces_a, int faces_b, const Point& point,
-                                  const Point& normal);
+std::vector<std::optional<Quad>> distances_along(const Planes& planes, int faces_a, int faces_b, const Point& point,
+                                                 const Point& normal);
+
+// the least of `count` of them from `first` on, one of which is met
+Quad nearest(const std::vector<std::optional<Quad>>& distances, int first, int count);
 
 }  // namespace voussoir::exact

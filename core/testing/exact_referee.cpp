@@ -83,7 +83,7 @@ Corner meet(const std::vector<Line>& lines, int first, int second) {
   return c;
 }
 
-// a sum of a few terms whose value exceeds this share of the terms has the right sign in double: some 64 roundings
+// a sum of a few terms whose value exceeds this fraction of the terms has the right sign in double: some 64 roundings
 constexpr double decided = 1e-14;
 
 // sign of how far the corner lies beyond the line; in double where that decides, else exactly

@@ -59,18 +59,18 @@ inline std::string box_line(const std::string& name, const Corner& low, const Co
                      low[0], low[1], low[2], high[0], high[1], high[2]);
 }
 
-// What the scene is overridden by for contacts whose force has a potential, and a step that keeps their books. Corners
-// are four times as soft then, so the stiffness is four times as large, and blocks go in deeper than potential
+// What the scene is overridden by for contacts whose force has a potential, and a step that keeps their energy balance.
+// Corners are four times as soft then, so the stiffness is four times as large, and blocks go in deeper than potential
 // particles would allow, of which there are none.
 inline constexpr double smoothing = 1e-3;
-inline const std::vector<std::string> closed_books{"contact.normal=multipliers",
-                                                   "contact.point=central_path",
-                                                   fmt::format("contact.smoothing={}", smoothing),
-                                                   "contact.newton_tolerance=1e-3",
-                                                   "contact.potential_radius=0.2",
-                                                   "joint_properties.rock.normal_stiffness=1e8",
-                                                   "joint_properties.rock.shear_stiffness=5e7",
-                                                   "time.fraction=0.7"};
+inline const std::vector<std::string> conservative_contacts{"contact.normal=multipliers",
+                                                            "contact.point=central_path",
+                                                            fmt::format("contact.smoothing={}", smoothing),
+                                                            "contact.newton_tolerance=1e-3",
+                                                            "contact.potential_radius=0.2",
+                                                            "joint_properties.rock.normal_stiffness=1e8",
+                                                            "joint_properties.rock.shear_stiffness=5e7",
+                                                            "time.fraction=0.7"};
 
 // the plate, four walls and the blocks, as TOML
 inline std::string fall_blocks(const FallPlan& plan) {

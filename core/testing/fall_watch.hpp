@@ -22,8 +22,8 @@ inline double kinetic_energy(const Model<3>& model, const State<3>& state) {
   return sum;
 }
 
-// as a share of the energy that the fall has set free
-inline double kinetic_share(const Model<3>& model, const State<3>& state) {
+// as a fraction of the energy that the fall has set free
+inline double kinetic_fraction(const Model<3>& model, const State<3>& state) {
   return kinetic_energy(model, state) / -state.energy.potential();
 }
 
@@ -45,40 +45,41 @@ inline double deepest_corner(const Model<3>& model, const State<3>& state, doubl
 }
 
 // radius of the bluntest block's potential particle, m
-inline double largest_potential_radius(const Model<3>& model, double share) {
+inline double largest_potential_radius(const Model<3>& model, double fraction) {
   double bluntest = 0;
   for (const Body<3>& body : model.bodies)
     if (!body.fixed) bluntest = std::max(bluntest, body.size);
-  return share * bluntest;
+  return fraction * bluntest;
 }
 
-// what the ledger could not account for, as shares of the energy that the fall has set free
-struct Closure {
+// what the ledger could not account for, as fractions of the energy that the fall has set free
+struct EnergyErrors {
   double motion, contacts;
 };
-inline Closure closure(const State<3>& state) {
+inline EnergyErrors energy_errors(const State<3>& state) {
   const double work = -state.energy.potential();
   return {std::abs(state.energy.motion_error) / work, std::abs(state.energy.contact_error) / work};
 }
 
 // what a fall promises
-inline constexpr double still = 1e-6;         // kinetic energy at rest, as a share of that of the drop
-inline constexpr double books_closed = 1e-3;  // the contacts' books, and the motion's, which know rounding alone
+inline constexpr double at_rest = 1e-6;  // kinetic energy at rest, as a fraction of that of the drop
+inline constexpr double energy_balanced =
+    1e-3;  // the contacts' energy balance, and the motion's, which know rounding alone
 inline constexpr double motion_closed = 1e-10;
 
 struct FallFindings {
-  Closure before{INFINITY, INFINITY}, end{};  // before the damping starts; at the end
-  double kinetic = 0;                         // share, at the end
-  double deepest = 0;                         // m, over all frames
+  EnergyErrors before{INFINITY, INFINITY}, end{};  // before the damping starts; at the end
+  double kinetic = 0;                              // fraction, at the end
+  double deepest = 0;                              // m, over all frames
   Counters counters;
   double time = 0, seconds = 0;  // simulated; wall clock
 };
 
 // Falls until next to nothing moves, whatever single blocks still do, or until the scene ends. `frame` sees the begin,
 // what the scene's output asks for, and the end.
-inline FallFindings fall_until_still(const Prepared<3>& scene, double width,
-                                     const std::function<void(const State<3>&)>& frame = {},
-                                     const std::function<void(const ProgressReport&)>& report = {}) {
+inline FallFindings fall_until_rest(const Prepared<3>& scene, double width,
+                                    const std::function<void(const State<3>&)>& frame = {},
+                                    const std::function<void(const ProgressReport&)>& report = {}) {
   constexpr int steps_between_looks = 100;
   FallFindings found;
   Watcher<3> watcher;
@@ -92,17 +93,17 @@ inline FallFindings fall_until_still(const Prepared<3>& scene, double width,
   long long next_look = 0;
   watcher.pause = [&](const Progress<3>& now) {
     if (now.stage == 0) return false;
-    if (!std::isfinite(found.before.contacts)) found.before = closure(now.state);
+    if (!std::isfinite(found.before.contacts)) found.before = energy_errors(now.state);
     if (now.state.counters.steps < next_look) return false;
     next_look = now.state.counters.steps + steps_between_looks;
-    return kinetic_share(scene.model, now.state) < still;
+    return kinetic_fraction(scene.model, now.state) < at_rest;
   };
   const auto start = std::chrono::steady_clock::now();
-  Progress<3> progress = begin(scene);
+  Progress<3> progress = initial_progress(scene);
   simulate(scene, progress, watcher);
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  found.end = closure(progress.state);
-  found.kinetic = kinetic_share(scene.model, progress.state);
+  found.end = energy_errors(progress.state);
+  found.kinetic = kinetic_fraction(scene.model, progress.state);
   look(progress.state);
   found.counters = progress.state.counters;
   found.time = progress.state.time;

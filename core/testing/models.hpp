@@ -6,12 +6,12 @@
 #include "core/model.hpp"
 #include "core/slicing/slice.hpp"
 #include "core/testing/shapes.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::shapes {
 
-inline constexpr double gravity = 9.81;                   // m/s²
-inline constexpr double density = 2600;                   // kg/m³
-inline constexpr double degree = std::numbers::pi / 180;  // rad
+inline constexpr double gravity = 9.81;  // m/s²
+inline constexpr double density = 2600;  // kg/m³
 
 template <int Dim>
 Model<Dim> model_of(std::vector<Body<Dim>> bodies, double friction = 35 * degree) {

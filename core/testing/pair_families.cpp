@@ -299,9 +299,9 @@ void make_pair_of(Case<Dim>& c, Family family, Random& random) {
 // a step: 1e-6 .. 1e-3 of the size, often the slower the finer
 template <int Dim>
 void move(Case<Dim>& c, Random& random) {
-  const double share = power_of_ten(random, -6, -3), size = std::min(c.a.inscribed_radius, c.b.inscribed_radius);
-  c.rotation_after = small_turn<Dim>(random, share * uniform(random, 0, 1)) * c.rotation;
-  c.offset_after = c.offset + share * size * shapes::direction<Dim>(random);
+  const double fraction = power_of_ten(random, -6, -3), size = std::min(c.a.inscribed_radius, c.b.inscribed_radius);
+  c.rotation_after = small_turn<Dim>(random, fraction * uniform(random, 0, 1)) * c.rotation;
+  c.offset_after = c.offset + fraction * size * shapes::direction<Dim>(random);
 }
 
 constexpr std::array family_names{"L1 random", "L1 regular", "L1 joint-cut", "L2 folded",       "L4 far",

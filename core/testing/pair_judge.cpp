@@ -25,7 +25,7 @@ using exact::to_quad;
 
 constexpr double ulp = std::numeric_limits<double>::epsilon();
 
-// the promise's share of the pair's size
+// the promise's fraction of the pair's size
 constexpr double promised = 64 * ulp;
 
 // and of an area: rounding of a sum over the section's corners
@@ -119,7 +119,7 @@ class Judge {
         return;
       case ContactStatus::undecided:
         count("undecided");
-        share("undecided band", std::abs(value), promised * scene_.size);
+        record("undecided band", std::abs(value), promised * scene_.size);
         return;
       case ContactStatus::no_normal:
         if (level == QueryLevel::decision) return broken("no normal where none was asked for", value);
@@ -135,18 +135,19 @@ class Judge {
 
   void program() {
     if (!scene_.answered) return broken("the program has no answer", 0);
-    share("program's value", std::abs(Rational(Rational(scene_.answer) - scene_.value).get_d()),
-          promised * scene_.size);
+    record("program's value", std::abs(Rational(Rational(scene_.answer) - scene_.value).get_d()),
+           promised * scene_.size);
   }
 
   void values(const ContactGeometry<Dim>& g) {
     count("values");
-    share("length of the normal", std::abs(g.normal.norm() - 1), unit_length);
+    record("length of the normal", std::abs(g.normal.norm() - 1), unit_length);
     const Point x = exact::point_of(g.point), n = exact::point_of(g.normal);
-    const std::vector<Quad> distance = exact::distances_along(scene_.planes, scene_.faces_a, scene_.faces_b, x, n);
-    const auto middle = distance.begin() + scene_.faces_a;
-    const Quad end_a = *std::min_element(distance.begin(), middle), end_b = *std::min_element(middle, distance.end());
-    share("overlap", std::abs(to_double(g.overlap - end_a - end_b)), promised * scene_.size);
+    const std::vector<std::optional<Quad>> distance =
+        exact::distances_along(scene_.planes, scene_.faces_a, scene_.faces_b, x, n);
+    const Quad end_a = exact::nearest(distance, 0, scene_.faces_a),
+               end_b = exact::nearest(distance, scene_.faces_a, scene_.faces_b);
+    record("overlap", std::abs(to_double(g.overlap - end_a - end_b)), promised * scene_.size);
     face("face of A", g.face_a, scene_.faces_a, 0, end_a, distance);
     face("face of B", g.face_b, scene_.faces_b, scene_.faces_a, end_b, distance);
     exact::Section section = exact::section(scene_.planes, x, n);
@@ -156,16 +157,18 @@ class Judge {
     }
     const double allowed =
         promised_area * to_double(section.area) + promised * scene_.size * to_double(section.sensitivity);
-    share("area", std::abs(to_double(g.area - section.area)), allowed);
+    record("area", std::abs(to_double(g.area - section.area)), allowed);
   }
 
-  // half the overlap times the root of the firmness is minus the value of the barrier, which lies above the program's
+  // half the overlap times the root of the stiffness_factor is minus the value of the barrier, which lies above the
+  // program's
   void pressed(const ContactGeometry<Dim>& g) {
     count(g.overlap > 0 ? "pressed" : "not yet pressed");
-    share("length of the normal", std::abs(g.normal.norm() - 1), unit_length);
-    const double deeper = 0.5 * g.overlap * std::sqrt(g.firmness) + scene_.value.get_d();
-    share("not deeper than the program", std::max(deeper, 0.0), promised * scene_.size);
-    if (!(g.overlap >= 0 && g.firmness > 0 && g.firmness < 1 + unit_length)) broken("overlap or firmness", g.firmness);
+    record("length of the normal", std::abs(g.normal.norm() - 1), unit_length);
+    const double deeper = 0.5 * g.overlap * std::sqrt(g.stiffness_factor) + scene_.value.get_d();
+    record("not deeper than the program", std::max(deeper, 0.0), promised * scene_.size);
+    if (!(g.overlap >= 0 && g.stiffness_factor > 0 && g.stiffness_factor < 1 + unit_length))
+      broken("overlap or stiffness_factor", g.stiffness_factor);
   }
 
   void same_decision(const Contact<Dim>& decision, const Contact<Dim>& whole) {
@@ -194,7 +197,7 @@ class Judge {
         return;
       case ProofKind::separating_axis: {
         count("proofs by an axis");
-        share("length of the axis", std::abs(proof.axis.norm() - 1), unit_length);
+        record("length of the axis", std::abs(proof.axis.norm() - 1), unit_length);
         const Rational end_of_a = scene_.support(true, proof.axis), start_of_b = -scene_.support(false, -proof.axis);
         if (end_of_a > Rational(proof.support))
           broken("axis: A beyond support, by ulp of the size", in_ulp(end_of_a - Rational(proof.support)));
@@ -209,10 +212,10 @@ class Judge {
   }
 
   void face(const std::string& name, int number, int faces, int first, const Quad& end,
-            const std::vector<Quad>& distance) {
+            const std::vector<std::optional<Quad>>& distance) {
     if (number < 0 || number >= faces) return broken(name + ": none", number);
-    if (distance[first + number] == Quad(exact::no_end)) return broken(name + ": never met along the normal", number);
-    share(name, to_double(distance[first + number] - end), promised * scene_.size);
+    if (!distance[first + number]) return broken(name + ": never met along the normal", number);
+    record(name, to_double(*distance[first + number] - end), promised * scene_.size);
   }
 
   // in the plane: what the section gains at its two ends when every plane moves out by 1
@@ -242,7 +245,7 @@ class Judge {
   }
   double in_ulp(const Rational& excess) const { return excess.get_d() / (ulp * scene_.size); }
   void count(const std::string& what) { ++tally_.counts[start_ + what]; }
-  void share(const std::string& what, double error, double allowed) {
+  void record(const std::string& what, double error, double allowed) {
     const double used = error <= allowed && allowed == 0 ? 0 : error / allowed;
     double& worst = tally_.worst[start_ + what];
     worst = std::max(worst, used);
@@ -347,8 +350,8 @@ void read_back(const std::string& text, Tally& tally, std::map<std::string, Brok
 void Tally::add(const Tally& other) {
   for (const auto& [what, count] : other.counts)
     counts[what] += count;
-  for (const auto& [what, share] : other.worst)
-    worst[what] = std::max(worst[what], share);
+  for (const auto& [what, used] : other.worst)
+    worst[what] = std::max(worst[what], used);
 }
 
 template <int Dim>
@@ -394,8 +397,8 @@ std::string judge_all(std::uint64_t seed, long long first, long long last, int p
     std::string text;
     for (const auto& [what, count] : own.counts)
       text += fmt::format("count\t{}\t{}\n", what, count);
-    for (const auto& [what, share] : own.worst)
-      text += fmt::format("worst\t{}\t{}\n", what, share);
+    for (const auto& [what, used] : own.worst)
+      text += fmt::format("worst\t{}\t{}\n", what, used);
     for (const auto& [promise, b] : broken)
       text += fmt::format("broken\t{}\t{}\t{}\t{}\t{}\n", promise, b.times, b.number, b.faces, b.figures);
     return text;

@@ -34,11 +34,11 @@ TEST(Step, AMovingPileAsksForNoMemory) {
   const std::vector<double> frequency = state.frequency;
   expect_no_memory_asked(model, settings, state);
 
-  // something must have happened: the time step was estimated anew, as it is when a pair meets or a contact grows
+  // something must have happened: the time step was estimated again, as it is when a pair meets or a contact grows
   EXPECT_NE(state.frequency, frequency);
 }
 
-// long enough for the inertia to be chosen anew
+// long enough for the inertia to be chosen again
 TEST(Step, ARelaxingPileAsksForNoMemory) {
   const Model<3> model = shapes::model_of<3>(shapes::jointed_box());
   Settings settings;

@@ -14,7 +14,7 @@ namespace {
 
 Progress<2> whole_run(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const Prepared<2> scene = prepare<2>(parse_scene(text, "scene.toml", overrides));
-  Progress<2> progress = begin(scene);
+  Progress<2> progress = initial_progress(scene);
   EXPECT_TRUE(simulate(scene, progress, {}));
   EXPECT_EQ(progress.results.outcome, Outcome::done) << progress.results.message;
   return progress;

@@ -35,7 +35,7 @@ double root(const std::function<double(double)>& f, double low, double high, dou
 // m: far below what the checks resolve, far above rounding
 constexpr double position_width = 1e-16;
 
-// of the search for a height: forces meet to this share of stiffness times depth, 5 mN
+// of the search for a height: forces meet to this fraction of stiffness times depth, 5 mN
 constexpr int most_secants = 30;
 constexpr double forces_meet = 1e-9;
 
@@ -94,8 +94,8 @@ Balance balanced(const HingedBeamModel& model, double rotation, double y) {
   const HingedBeam& beam = model.beam;
   // the block's breadth exceeds the room it has by what its two corners press in together
   const double excess = 0.5 * (beam.length * std::cos(rotation) + beam.depth * std::sin(rotation) - beam.length);
-  constexpr double share = 0.5;  // the two ends differ by some hundredths of it
-  const double middle = 0.5 * beam.length, reach = share * excess;
+  constexpr double fraction = 0.5;  // the two ends differ by some hundredths of it
+  const double middle = 0.5 * beam.length, reach = fraction * excess;
   const double x = root([&](double at) { return balance(model, rotation, at, y).residual; }, middle - reach,
                         middle + reach, position_width);
   return balance(model, rotation, x, y);
@@ -123,7 +123,7 @@ double argmax(const std::function<double(double)>& f, double low, double high) {
   return 0.5 * (low + high);
 }
 
-// shares of the geometric limit between which every model here has its peak
+// fractions of the geometric limit between which every model here has its peak
 constexpr double peak_from = 0.1, peak_to = 0.6;
 
 }  // namespace

@@ -9,7 +9,7 @@ double span_of(const JointedBeam& beam) {
   return beam.blocks * beam.length;
 }
 
-// shares of the height that are tried
+// fractions of the height that are tried
 constexpr int trials = 1000;
 
 struct Arch {
@@ -17,7 +17,7 @@ struct Arch {
   double stress = 0, rise_lost = 0;  // Pa, m
 };
 
-// Equilibrium and shortening of the arch with compressed share `n`: rise Z0 = T (1 - 2n/3) at first, Z under load,
+// Equilibrium and shortening of the arch with compressed fraction `n`: rise Z0 = T (1 - 2n/3) at first, Z under load,
 // greatest stress γ S²/(4 n Z), arch length S + 8 Z0²/(3 S) shortened by its mean stress over the modulus.
 Arch arch(const JointedBeam& beam, double gravity, double n) {
   const double span = span_of(beam), modulus = beam.joint.normal.constant * span / (beam.blocks + 1);
@@ -64,14 +64,14 @@ VoussoirBeam voussoir_beam(const JointedBeam& beam, double gravity) {
   return best;
 }
 
-double voussoir_beam_limit(const JointedBeam& beam, double share) {
+double voussoir_beam_limit(const JointedBeam& beam, double fraction) {
   double low = 0, high = 1;
-  while (voussoir_beam(beam, high).buckling < share)
+  while (voussoir_beam(beam, high).buckling < fraction)
     high *= 2;
   constexpr double width = 1e-3;  // g
   while (high - low > width) {
     const double middle = 0.5 * (low + high);
-    (voussoir_beam(beam, middle).buckling < share ? low : high) = middle;
+    (voussoir_beam(beam, middle).buckling < fraction ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }

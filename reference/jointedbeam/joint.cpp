@@ -8,7 +8,7 @@
 namespace voussoir::reference {
 namespace {
 
-// a force this share below the limit of friction counts as at it
+// a force this fraction below the limit of friction counts as at it
 constexpr double at_limit = 1e-9;
 
 // The two faces as the mean of their directions sees them: places along the joint are measured from the left face's
@@ -92,7 +92,7 @@ double analytic_centre(const Meeting& m) {
   return 0.5 * (low + high);
 }
 
-// what one cell of the face, from `low` to `high`, bears
+// what one cell of the face, from `low` to `high`, carries
 Cell cell_of(const JointLaw& law, double width, const Meeting& m, double low, double high) {
   Cell cell;
   if (!(high > low)) return cell;

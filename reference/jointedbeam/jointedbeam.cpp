@@ -20,7 +20,7 @@ namespace {
 constexpr double way = 1e-5, turn = 1e-4, load = 1;
 // of the differences that make the Jacobian: far above rounding (1e-17 m of overlap), far below an overlap (1e-6 m)
 constexpr double nudge = 1e-10, nudge_turn = 1e-9;
-// forces balance to this share of thrust or weight: 1e-7 N
+// forces balance to this fraction of thrust or weight: 1e-7 N
 constexpr double balanced = 1e-9;
 constexpr int most_iterations = 60;
 // a step that finds no equilibrium is halved so often
@@ -94,7 +94,7 @@ void place(Problem& p, const gsl_vector* x) {
 }
 
 // moments are divided by the height
-double share(const Problem& p, int k) {
+double fraction(const Problem& p, int k) {
   return 1 / (k == 2 ? p.scale * p.chain.beam.height : p.scale);
 }
 
@@ -109,14 +109,14 @@ int evaluate(const gsl_vector* x, void* data, gsl_vector* f) {
   const int n = p.chain.beam.blocks;
   gsl_vector_set_zero(f);
   for (int b = 0; b < n; ++b)
-    gsl_vector_set(f, 3 * b + 1, -share(p, 1) * p.chain.weight() * p.chain.gravity);
+    gsl_vector_set(f, 3 * b + 1, -fraction(p, 1) * p.chain.weight() * p.chain.gravity);
   for (int joint = 0; joint <= n; ++joint) {
     const Six loads = loads_of(p.chain, joint);
     for (int k = 0; k < 6; ++k) {
       const int block = joint + k / 3 - 1;
       if (block < 0 || block >= n) continue;
       double& sum = *gsl_vector_ptr(f, 3 * block + k % 3);
-      sum += share(p, k % 3) * loads[k];
+      sum += fraction(p, k % 3) * loads[k];
     }
   }
   gsl_vector_set(f, 3 * n, missing(p));
@@ -144,7 +144,7 @@ int differentiate(const gsl_vector* x, void* data, gsl_matrix* jacobian) {
         const int felt = joint + k / 3 - 1;
         if (felt < 0 || felt >= n) continue;
         double& entry = *gsl_matrix_ptr(jacobian, 3 * felt + k % 3, i);
-        entry += share(p, k % 3) * slope(high[k], low[k]);
+        entry += fraction(p, k % 3) * slope(high[k], low[k]);
       }
     }
     q = at + step;
@@ -155,7 +155,7 @@ int differentiate(const gsl_vector* x, void* data, gsl_matrix* jacobian) {
     gsl_matrix_set(jacobian, 3 * n, i, slope(high, low));
   }
   for (int b = 0; b < n; ++b)
-    gsl_matrix_set(jacobian, 3 * b + 1, 3 * n, -share(p, 1) * p.chain.weight() * load);
+    gsl_matrix_set(jacobian, 3 * b + 1, 3 * n, -fraction(p, 1) * p.chain.weight() * load);
   if (p.control == Control::gravity) gsl_matrix_set(jacobian, 3 * n, 3 * n, 1);
   return GSL_SUCCESS;
 }
@@ -257,7 +257,7 @@ double thrust_at_one(const JointedBeam& beam, double closure, const BeamSteps& s
 }  // namespace
 
 double abutment_closure(const JointedBeam& beam, const BeamSteps& steps) {
-  // without weight every joint bears the same stress; weight adds thrust, never takes it, so closure is at most this
+  // without weight every joint carries the same stress; weight adds thrust, never takes it, so closure is at most this
   const double stress = beam.thrust / (beam.height * beam.width);
   double high = 1e-9;
   while (normal_stress(beam.joint.normal, high) < stress)
@@ -275,7 +275,7 @@ double abutment_closure(const JointedBeam& beam, const BeamSteps& steps) {
   gsl_set_error_handler_off();
   const std::unique_ptr<gsl_root_fsolver, decltype(&gsl_root_fsolver_free)> solver(
       gsl_root_fsolver_alloc(gsl_root_fsolver_brent), gsl_root_fsolver_free);
-  // half of it gives less than the thrust: a joint bears at least in proportion, and one power of 4 more
+  // half of it gives less than the thrust: a joint carries at least in proportion, and one power of 4 more
   if (!solver || gsl_root_fsolver_set(solver.get(), &function, 0.4 * high, high) != GSL_SUCCESS)
     throw std::domain_error("jointed beam: the closure for this thrust is not bracketed");
   constexpr int most = 60;

@@ -29,7 +29,7 @@ struct BeamJoint {
   Point point;                   // m: the thrust line's place in the joint, displaced
   Point force;                   // N, of the left body on the right one
   double normal = 0, shear = 0;  // N, along the joint's own axes
-  double sliding = 0;            // share of the normal force that is on cells at the limit of friction
+  double sliding = 0;            // fraction of the normal force that is on cells at the limit of friction
   double open = 0;               // m of the face
   double slip = 0;               // m, of the right face upwards
 };
@@ -61,8 +61,8 @@ double abutment_closure(const JointedBeam& beam, const BeamSteps& steps = {});
 std::vector<BeamState> raise_gravity(const JointedBeam& beam, const std::vector<double>& gravities,
                                      std::optional<double> closure = {}, const BeamSteps& steps = {});
 
-// The same path with the deflection raised instead of gravity, from 1 g to `deflection`: it goes on where gravity must
-// fall to keep the balance.
+// The same path with the deflection raised instead of gravity, from 1 g to `deflection`: it continues where gravity
+// must fall to keep the balance.
 std::vector<BeamState> raise_deflection(const JointedBeam& beam, double deflection, const BeamSteps& steps = {});
 
 // greatest gravity of a path by the parabola through its three highest points
@@ -78,18 +78,19 @@ BeamLimit limit_of(const std::vector<BeamState>& path);
 double least_thrust(const JointedBeam& beam, double gravity, double deflection = 0);
 
 // The voussoir beam of Diederichs & Kaiser (1999), Int. J. Rock Mech. Min. Sci. 36, 97-117: a parabolic arch of
-// compression, triangular stress over the share N of the height at abutments and mid-span, shortened by its mean stress
-// (2/3 + N)/3 of the greatest; of the N for which an arch exists, that of least stress. Their iteration for the rise
-// under load is a cubic, which is solved. The modulus is that of the joints, the stiffness at no stress times span over
-// joints; no prestress, no shear in joints. It is an estimate, not a bound: N near 0.75, so a thrust of W L/(4 height).
+// compression, triangular stress over the fraction N of the height at abutments and mid-span, shortened by its mean
+// stress (2/3 + N)/3 of the greatest; of the N for which an arch exists, that of least stress. Their iteration for the
+// rise under load is a cubic, which is solved. The modulus is that of the joints, the stiffness at no stress times span
+// over joints; no prestress, no shear in joints. It is an estimate, not a bound: N near 0.75, so a thrust of W L/(4
+// height).
 struct VoussoirBeam {
-  double compressed = 0;  // N: share of the height
+  double compressed = 0;  // N: fraction of the height
   double thrust = 0;      // N
   double deflection = 0;  // m
-  double buckling = 0;    // share of N for which there is no arch; 1: none at all
+  double buckling = 0;    // fraction of N for which there is no arch; 1: none at all
 };
 VoussoirBeam voussoir_beam(const JointedBeam& beam, double gravity);
-// g: where no arch is left (`share` = 1), or so many of the N are gone (their design limit: 0.35)
-double voussoir_beam_limit(const JointedBeam& beam, double share = 1);
+// g: where no arch is left (`fraction` = 1), or so many of the N are gone (their design limit: 0.35)
+double voussoir_beam_limit(const JointedBeam& beam, double fraction = 1);
 
 }  // namespace voussoir::reference

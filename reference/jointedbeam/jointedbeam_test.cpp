@@ -1,4 +1,5 @@
 #include "reference/jointedbeam/jointedbeam.hpp"
+#include "text/angle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +9,11 @@
 #include <vector>
 
 using namespace voussoir::reference;
+using voussoir::degree;
 
 namespace {
 
-constexpr double degrees = 3.14159265358979323846 / 180, millimetre = 1e-3;
+constexpr double millimetre = 1e-3;
 
 JointedBeam full_block() {
   JointedBeam beam;
@@ -27,7 +29,7 @@ JointedBeam half_block() {
 
 // cells do not slip by themselves, as in the values known before
 JointedBeam without_slip(JointedBeam beam) {
-  beam.joint.friction.angle = 89 * degrees;
+  beam.joint.friction.angle = 89 * degree;
   return beam;
 }
 
@@ -119,7 +121,7 @@ TEST(BeamJoint, hardens_along_the_closed_form) {
     const double stress = f.normal / (height * width), shear = f.shear / (height * width);
     EXPECT_NEAR(stress, 10e9 * overlap, 1e-6);
     const double p = history.cells[0].plastic_slip, peak = 2e-6 * std::pow(stress, 0.213);
-    EXPECT_NEAR(shear, stress * std::tan(40 * degrees) * (1 - std::exp(-p / peak)), 1e-9 * stress) << steps;
+    EXPECT_NEAR(shear, stress * std::tan(40 * degree) * (1 - std::exp(-p / peak)), 1e-9 * stress) << steps;
     EXPECT_NEAR(shear / (1.9e6 * std::pow(stress, 0.7)) + p, slip, 1e-12 * slip + 1e-18) << steps;
     EXPECT_GT(f.sliding, 0);
   }
@@ -200,7 +202,7 @@ TEST(JointedBeam, does_not_depend_on_its_steps) {
   JointedBeam beam = with_cells(full_block(), 8, CellClosure::mean);
   beam.joint.normal = {2e9, 3.7e4, 1};
   beam.joint.shear = {0, 1.9e6, 0.7};
-  beam.joint.friction = {.angle = 40 * degrees, .peak_slip = 2e-6, .peak_power = 0.213};
+  beam.joint.friction = {.angle = 40 * degree, .peak_slip = 2e-6, .peak_power = 0.213};
   const double closure = 79.64e-6;
   const BeamState coarse = raise_gravity(beam, {20}, closure).at(0);
   const BeamState fine = raise_gravity(beam, {20}, closure, {.gravity = 0.05}).at(0);
@@ -272,7 +274,7 @@ TEST(JointedBeam, of_two_blocks_is_the_closed_form_and_tends_to_three_hinges) {
     beam.joint.normal = power == 0 ? StressStiffness{k, 0, 1} : StressStiffness{0, k * m, power};
     const BeamState s = raise_gravity(beam, {gravity}, closure).at(0);
     const TwoBlocks expected = two_blocks(beam, k, m, closure, weight_of_all(beam, gravity));
-    // the closed form leaves out what the arm loses by sinking, a share of rotation times length over height
+    // the closed form leaves out what the arm loses by sinking, a fraction of rotation times length over height
     EXPECT_NEAR(s.thrust / expected.thrust, 1, 2 * expected.rotation) << m;
     EXPECT_NEAR(s.blocks[1].rotation / expected.rotation, 1, 4 * expected.rotation) << m;
     EXPECT_NEAR((s.deflection + s.joints[0].slip) / (expected.rotation * beam.length), 1, 4 * expected.rotation) << m;
@@ -307,7 +309,7 @@ TEST(JointedBeam, closure_gives_the_thrust_at_one_g) {
   EXPECT_NEAR(abutment_closure(full_block()) / (7 * 60 / (10e9 * 0.046 * 0.046)), 1, 1e-3);
 }
 
-// their own iteration, for one share of the height
+// their own iteration, for one fraction of the height
 TEST(VoussoirBeam, is_the_iteration_of_Diederichs_and_Kaiser) {
   const JointedBeam beam = half_block();
   const double gravity = 30, span = 0.276, modulus = 10e9 * span / 7, load = 1207 * 9.81 * gravity;

@@ -31,7 +31,7 @@ double rigid_push(const PushedColumn& column, const Push& push) {
 
 double push_at(const PushedColumn& c, const Push& push, double tilt) {
   if (!(tilt > 0)) throw std::invalid_argument("pushed column: it must lean");
-  constexpr int rounds = 30;  // the length depends on the force by a share of the tilt only
+  constexpr int rounds = 30;  // the length depends on the force by a fraction of the tilt only
   const double half = 0.5 * tilt, along_normal = push.turns ? -std::sin(half) : std::sin(half);
   double force = 0, pressed = 0;
   for (int i = 0; i < rounds; ++i) {

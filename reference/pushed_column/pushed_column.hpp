@@ -29,7 +29,7 @@ double rigid_push(const PushedColumn& column, const Push& push);
 // Throws std::invalid_argument where the whole base is pressed, or the tilt is none.
 double push_at(const PushedColumn& column, const Push& push, double tilt);
 
-// The largest of them, which no column can bear, and its tilt: against a/3, which falls with growing tilt, stands h/2
+// The largest of them, which no column can carry, and its tilt: against a/3, which falls with growing tilt, stands h/2
 // tilt, which grows. The sum is least at tilt³ = 2W/(9 k h²), where a = 3 h tilt: it lacks 3/2 h tilt of b/2, so that
 // the joint costs by the power -1/3 of its stiffness.
 struct Tipping {

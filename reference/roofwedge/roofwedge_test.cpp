@@ -1,18 +1,17 @@
 #include "reference/roofwedge/roofwedge.hpp"
+#include "text/angle.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 using namespace voussoir::reference;
+using voussoir::degree;
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 RoofWedge wedge_of(std::array<double, 3> dips, std::array<double, 3> directions) {
   RoofWedge w;
@@ -49,7 +48,7 @@ TEST(RoofWedge, has_its_published_numbers) {
   EXPECT_NEAR(first_slip(thesis_wedge(9.81)).friction / degree, 34.318632, 5.1e-7);
 }
 
-// the closed surface of the wedge carries no resultant area, and what the joints bear is what was cut and its weight
+// the closed surface of the wedge carries no resultant area, and what the joints carry is what was cut and its weight
 TEST(RoofWedge, faces_close_and_forces_balance) {
   RoofWedge w = unequal_wedge();
   w.stress = {60e3, 45e3, 10e3, 2e3, -3e3, 5e3};

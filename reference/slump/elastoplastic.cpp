@@ -8,7 +8,7 @@
 namespace voussoir::reference {
 namespace {
 
-// a trial rests when no block's force is farther from balance than this share of the mean weight
+// a trial rests when no block's force is farther from balance than this fraction of the mean weight
 constexpr double balanced = 1e-7;
 // it has collapsed when a corner has moved by this many times the elastic displacement under the whole height's weight
 constexpr double far_away = 30;

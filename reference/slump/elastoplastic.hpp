@@ -34,7 +34,7 @@ struct SlopeCollapse {
 };
 
 // The blocks settle at `from`; friction is then bisected between `from`, which must hold them, and `to`, which must
-// not, to a bracket of `tolerance`; every trial goes on from the last equilibrium. Displacements are small: the
+// not, to a bracket of `tolerance`; every trial continues from the last equilibrium. Displacements are small: the
 // geometry stays, so that only the ratio of the stiffnesses matters. Throws std::runtime_error where an end of the
 // range is on the wrong side, or a trial neither comes to rest nor moves away.
 SlopeCollapse elastoplastic_collapse(const LayeredSlope& slope, double from, double to, double tolerance);

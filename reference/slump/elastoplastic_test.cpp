@@ -1,16 +1,14 @@
 // The slope of blocks that slip without opening: against closed forms where it has them, and against itself.
 #include "reference/slump/elastoplastic.hpp"
+#include "text/angle.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace voussoir::reference {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 LayeredSlope slope_s0() {
   return {60 * degree, 5 * degree, 4, 8, 50, 3, 2500, 9.81, 1e10, 1e10};

@@ -87,8 +87,8 @@ Quaternion product(const Quaternion& a, const Quaternion& b) {
 }
 
 // a + share * b
-Quaternion sum(const Quaternion& a, double share, const Quaternion& b) {
-  return {a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2], a[3] + share * b[3]};
+Quaternion sum(const Quaternion& a, double fraction, const Quaternion& b) {
+  return {a[0] + fraction * b[0], a[1] + fraction * b[1], a[2] + fraction * b[2], a[3] + fraction * b[3]};
 }
 
 constexpr double largest_turn = 0.005;  // rad in a step of the attitude

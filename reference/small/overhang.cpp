@@ -50,16 +50,16 @@ std::vector<double> distances_after(const OverhangStack& stack, const std::vecto
 
 // The stack at rest; no distances when it falls. From the untilted stack the distances fall towards the largest
 // solution, if there is one, without ever passing it.
-OverhangState rest(const OverhangStack& stack, double share) {
+OverhangState rest(const OverhangStack& stack, double fraction) {
   constexpr int limit = 1'000'000;
   constexpr double still = 1e-14;
-  const std::vector<double> overhangs = harmonic_overhangs(stack, share);
-  OverhangState state{share, std::vector<double>(stack.blocks, 0.5 * (1 - share) * stack.length), {}, 0};
+  const std::vector<double> overhangs = harmonic_overhangs(stack, fraction);
+  OverhangState state{fraction, std::vector<double>(stack.blocks, 0.5 * (1 - fraction) * stack.length), {}, 0};
   for (int i = 0; i < limit; ++i) {
     const std::vector<double> next = distances_after(stack, overhangs, state.distance);
     double change = 0;
     for (int j = 0; j < stack.blocks; ++j) {
-      if (!(next[j] > 0)) return {share, {}, {}, 0};
+      if (!(next[j] > 0)) return {fraction, {}, {}, 0};
       change = std::max(change, std::abs(next[j] - state.distance[j]));
     }
     state.distance = next;
@@ -72,15 +72,15 @@ OverhangState rest(const OverhangStack& stack, double share) {
         throw std::invalid_argument("elastic_overhang: a joint is pressed along its whole length");
     return state;
   }
-  return {share, {}, {}, 0};
+  return {fraction, {}, {}, 0};
 }
 
 }  // namespace
 
-std::vector<double> harmonic_overhangs(const OverhangStack& stack, double share) {
+std::vector<double> harmonic_overhangs(const OverhangStack& stack, double fraction) {
   std::vector<double> overhangs;
   for (int j = 1; j <= stack.blocks; ++j)
-    overhangs.push_back(share * stack.length / (2 * j));
+    overhangs.push_back(fraction * stack.length / (2 * j));
   return overhangs;
 }
 
@@ -109,8 +109,8 @@ OverhangState elastic_overhang_limit(const OverhangStack& stack) {
   return limit;
 }
 
-OverhangState elastic_overhang(const OverhangStack& stack, double share) {
-  OverhangState found = rest(stack, share);
+OverhangState elastic_overhang(const OverhangStack& stack, double fraction) {
+  OverhangState found = rest(stack, fraction);
   if (found.distance.empty()) throw std::invalid_argument("elastic_overhang: beyond the limit");
   return found;
 }

@@ -20,13 +20,13 @@ TEST(Overhang, IsHalfTheHarmonicSum) {
 
 // the claim of the header: weights lie (1 - s) L/2 inside, by summing centroids
 TEST(Overhang, LeavesAllWeightsAlikeInside) {
-  for (const double share : {1.0, 0.9}) {
-    const std::vector<double> overhangs = harmonic_overhangs(stack_of(6), share);
+  for (const double fraction : {1.0, 0.9}) {
+    const std::vector<double> overhangs = harmonic_overhangs(stack_of(6), fraction);
     double edge = 0, sum = 0;  // right end of the block, from that of the top; of the centroids above
     for (int j = 0; j < 6; ++j) {
       sum += edge - 0.5;
       edge -= overhangs[j];
-      EXPECT_NEAR(edge - sum / (j + 1), 0.5 * (1 - share), 1e-15) << "joint " << j + 1;
+      EXPECT_NEAR(edge - sum / (j + 1), 0.5 * (1 - fraction), 1e-15) << "joint " << j + 1;
     }
   }
 }
@@ -35,7 +35,7 @@ TEST(Overhang, LosesACubeRootToOneElasticJoint) {
   const OverhangStack one = stack_of(1);
   const double root = std::cbrt(2 * one.weight * one.height / (9 * one.normal_stiffness));
   const OverhangState limit = elastic_overhang_limit(one);
-  EXPECT_NEAR((1 - limit.share) / (3 / one.length * root), 1, limit.turn);  // the first order
+  EXPECT_NEAR((1 - limit.fraction) / (3 / one.length * root), 1, limit.turn);  // the first order
   EXPECT_NEAR(limit.distance[0] / root, 1, 0.01);  // a double root: known to the root of the bracket
 }
 
@@ -67,19 +67,19 @@ TEST(Overhang, IsTheFirstOrdersForMoreBlocks) {
   for (const int blocks : {2, 5}) {
     OverhangStack stack = stack_of(blocks);
     const OverhangState limit = elastic_overhang_limit(stack);
-    EXPECT_NEAR((1 - limit.share) / first_order_loss(stack), 1, limit.turn) << blocks;
+    EXPECT_NEAR((1 - limit.fraction) / first_order_loss(stack), 1, limit.turn) << blocks;
     stack.normal_stiffness /= 8;
     stack.shear_stiffness /= 8;
     const OverhangState softer = elastic_overhang_limit(stack);
-    EXPECT_NEAR((1 - softer.share) / (1 - limit.share), 2, 2 * softer.turn) << blocks;
+    EXPECT_NEAR((1 - softer.fraction) / (1 - limit.fraction), 2, 2 * softer.turn) << blocks;
   }
 }
 
 TEST(Overhang, TurnsLessBelowTheLimit) {
   const OverhangStack stack = stack_of(3);
-  const OverhangState limit = elastic_overhang_limit(stack), below = elastic_overhang(stack, limit.share - 0.001);
+  const OverhangState limit = elastic_overhang_limit(stack), below = elastic_overhang(stack, limit.fraction - 0.001);
   EXPECT_LT(below.turn, limit.turn);
-  EXPECT_THROW(elastic_overhang(stack, limit.share + 0.001), std::invalid_argument);
+  EXPECT_THROW(elastic_overhang(stack, limit.fraction + 0.001), std::invalid_argument);
 }
 
 TEST(Overhang, RefusesJointsThatAreTooSoft) {

@@ -5,12 +5,14 @@
 #include <stdexcept>
 
 #include "reference/small/small.hpp"
+#include "text/angle.hpp"
 
 using namespace voussoir::reference;
+using voussoir::degree;
 
 namespace {
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
+constexpr double pi = std::numbers::pi;
 
 const ShakenIncline example{{10 * degree, 30 * degree, 9.81, 0}, 0.4, 2};
 

@@ -18,12 +18,12 @@ TEST(ShearCurve, worked_values) {
 
 // the other way round: slip by shear stress, with the logarithm in place of the search
 TEST(ShearCurve, inverts_the_slip_at_a_stress) {
-  for (const double share : {0.01, 0.3, 0.7, 0.99}) {
-    const double hard = share * 2e6 * std::tan(0.6);
-    const double hard_slip = hard / 5e10 - scale * std::log1p(-share);
+  for (const double fraction : {0.01, 0.3, 0.7, 0.99}) {
+    const double hard = fraction * 2e6 * std::tan(0.6);
+    const double hard_slip = hard / 5e10 - scale * std::log1p(-fraction);
     EXPECT_NEAR(hardening_shear(curve, scale, hard_slip), hard, 1e-12 * hard);
-    const double soft = 2e6 * (std::tan(0.6) - share * drop);
-    const double soft_slip = soft / 5e10 - scale * std::log1p(-share);
+    const double soft = 2e6 * (std::tan(0.6) - fraction * drop);
+    const double soft_slip = soft / 5e10 - scale * std::log1p(-fraction);
     EXPECT_NEAR(softening_shear(curve, drop, scale, soft_slip), soft, 1e-12 * soft);
   }
 }

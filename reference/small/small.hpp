@@ -43,7 +43,7 @@ struct ShakenPosition {
 ShakenPosition shaken_block(const ShakenIncline& shaken, double time);
 
 // How far below the plane's angle (rad) a friction angle that falls at `rate` (rad/s, > 0) has got when the block has
-// slid by `distance` (m, > 0), local damping taking the share `damping` (0..<1) of the force that drives it:
+// slid by `distance` (m, > 0), local damping taking the fraction `damping` (0..<1) of the force that drives it:
 // (6 X cos(angle) r^2/((1 - damping) g))^(1/3), the leading term. With the next one it is 1 + tan(angle) bias/6 times
 // this.
 double incline_rate_bias(const Incline& incline, double distance, double rate, double damping);

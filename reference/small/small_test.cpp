@@ -11,12 +11,14 @@
 #include <stdexcept>
 
 #include "reference/ode.hpp"
+#include "text/angle.hpp"
 
 using namespace voussoir::reference;
+using voussoir::degree;
 
 namespace {
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
+constexpr double pi = std::numbers::pi;
 
 // --- incline
 
@@ -285,16 +287,16 @@ TEST(FreeRotation, in_space_circles_about_the_momentum) {
   const FreeRotation disc{{1, 1, 1.8}, {0.3, 0, 2}};
   const double momentum = std::hypot(0.3, 3.6);
   const std::array<double, 3> along{0.3 / momentum, 0, 3.6 / momentum};
-  const double share = 0.3 * along[0] + 2 * along[2];
-  const std::array<double, 3> across{0.3 - share * along[0], 0, 2 - share * along[2]};
+  const double fraction = 0.3 * along[0] + 2 * along[2];
+  const std::array<double, 3> across{0.3 - fraction * along[0], 0, 2 - fraction * along[2]};
   for (const double t : {0.0, 1.0, 20.0}) {
     const double angle = momentum * t;
     const auto w = free_rotation_in_space(disc, t);
     // along x (y) the momentum's cross product with what lies across it: in the y direction alone
     const double sideways = along[2] * across[0] - along[0] * across[2];
-    EXPECT_NEAR(w[0], share * along[0] + std::cos(angle) * across[0], 1e-9);
+    EXPECT_NEAR(w[0], fraction * along[0] + std::cos(angle) * across[0], 1e-9);
     EXPECT_NEAR(w[1], std::sin(angle) * sideways, 1e-9);
-    EXPECT_NEAR(w[2], share * along[2] + std::cos(angle) * across[2], 1e-9);
+    EXPECT_NEAR(w[2], fraction * along[2] + std::cos(angle) * across[2], 1e-9);
   }
   // any body keeps its energy, which is the spin times the momentum
   const FreeRotation box{{1, 1.3, 2}, {0.1, 2, 0.1}};

@@ -15,7 +15,7 @@ enum class BlockMode { stays, slides, topples, slides_and_topples };
 const char* name_of(BlockMode mode);
 
 // The map of four quadrants (Ashby 1971; Hoek & Bray 1977): slides where slope > friction, topples where
-// tan slope > b/h. Right at rest; once it moves, inertia shares in the balance.
+// tan slope > b/h. Right at rest; once it moves, inertia enters the balance.
 BlockMode block_mode_of_statics(const InclinedBlock& block);
 
 // The mode in which a rigid block starts from rest (Sagaseta 1986, Rock Mech. Rock Eng. 19, 261-266).

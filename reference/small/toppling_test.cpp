@@ -1,19 +1,17 @@
 #include "reference/small/toppling.hpp"
+#include "text/angle.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace voussoir::reference {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
-
 InclinedBlock block_at(double slope_deg, double friction_deg) {
-  return {1, 2, slope_deg / degrees, friction_deg / degrees};
+  return {1, 2, slope_deg * degree, friction_deg * degree};
 }
 
 TEST(Toppling, HasFourModes) {
@@ -38,11 +36,11 @@ TEST(Toppling, IsThatOfStaticsWhereItRests) {
 
 TEST(Toppling, NeedsTheFrictionOfABlockThatTurns) {
   // all borders meet where the block is just about to topple
-  EXPECT_NEAR(least_toppling_friction(block_at(std::atan(0.5) * degrees + 1e-9, 30)), std::atan(0.5), 1e-9);
+  EXPECT_NEAR(least_toppling_friction(block_at(std::atan(0.5) / degree + 1e-9, 30)), std::atan(0.5), 1e-9);
   EXPECT_THROW(least_toppling_friction(block_at(20, 30)), std::invalid_argument);
 
   // Newton's laws of a block that turns about its corner: acceleration of the centroid from moments about it
-  const double b = 1, h = 2, slope = 35 / degrees, g = 9.81;
+  const double b = 1, h = 2, slope = 35 * degree, g = 9.81;
   double low = 0, high = 100;  // of the angular acceleration
   for (int i = 0; i < 200; ++i) {
     const double a = 0.5 * (low + high);
@@ -53,7 +51,7 @@ TEST(Toppling, NeedsTheFrictionOfABlockThatTurns) {
   }
   const double needed = std::atan((g * std::sin(slope) - 0.5 * low * h) / (g * std::cos(slope) + 0.5 * low * b));
   EXPECT_NEAR(least_toppling_friction(block_at(35, 30)), needed, 1e-12);
-  EXPECT_NEAR(needed * degrees, 28.67, 0.02);
+  EXPECT_NEAR(needed / degree, 28.67, 0.02);
 }
 
 TEST(Toppling, ComesEarlierOnElasticJoints) {

@@ -1,16 +1,15 @@
 #include "reference/tunnel/bolted_ring.hpp"
+#include "text/angle.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 using namespace voussoir::reference;
+using voussoir::degree;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 // Boon (2013), section 5.4: D 10 m, centre 25 m deep at 2700 kg/m3, 0.2 GN/m per joint, s_mean 0.77 m, unit thickness.
 BoltedRing boon_ring(double shear_modulus, double poisson_ratio) {

@@ -44,8 +44,8 @@ struct RingLiningForces {
 };
 
 // With C = E R (1 - nu_s^2)/(E_s A_s (1 - nu^2)) and F = E R^3 (1 - nu_s^2)/(E_s I_s (1 - nu^2)); the mean thrust tends
-// to lining_hoop_force without interface as I/(A R^2) -> 0 (the ring's bending adds that share to its hoop stiffness).
-// Throws std::invalid_argument on values out of range.
+// to lining_hoop_force without interface as I/(A R^2) -> 0 (the ring's bending adds that fraction to its hoop
+// stiffness). Throws std::invalid_argument on values out of range.
 RingLiningForces ring_lining(const RingLining& lining, LiningContact contact);
 
 double thrust_at(const RingLiningForces& forces, double angle_from_crown);  // N per metre

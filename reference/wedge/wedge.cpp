@@ -1,4 +1,5 @@
 #include "reference/wedge/wedge.hpp"
+#include "text/angle.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -22,7 +23,7 @@ constexpr double smallest_sine = 1e-9;
 constexpr double rounding = 1e-12;
 
 constexpr double least_plunge_deg = 15;
-constexpr double least_normal_share = 0.05;
+constexpr double least_normal_fraction = 0.05;
 constexpr double least_clearance = 0.3;
 
 Vector3d to_eigen(const Vector3& v) {
@@ -182,15 +183,15 @@ WedgeClass classify_wedge(const Wedge& wedge) {
   const double clearance_a = to_eigen(down_dip(dry.a.dip, dry.a.dip_direction)).dot(frame.n_b);
   const double clearance_b = to_eigen(down_dip(dry.b.dip, dry.b.dip_direction)).dot(frame.n_a);
 
-  const double plunge_deg = solution.line_plunge * 180 / half_turn;
+  const double plunge_deg = to_degrees(solution.line_plunge);
   if (plunge_deg < least_plunge_deg - rounding * 180)
     return {false, "the line of intersection plunges " + number(plunge_deg) + " degrees, below 15"};
 
   const bool both = solution.mode == WedgeMode::both_planes;
   const double share_a = solution.normal_force_a / dry.weight, share_b = solution.normal_force_b / dry.weight;
-  if ((both || solution.mode == WedgeMode::plane_a) && share_a < least_normal_share)
+  if ((both || solution.mode == WedgeMode::plane_a) && share_a < least_normal_fraction)
     return {false, "plane A carries " + number(share_a) + " of the weight, below 0.05"};
-  if ((both || solution.mode == WedgeMode::plane_b) && share_b < least_normal_share)
+  if ((both || solution.mode == WedgeMode::plane_b) && share_b < least_normal_fraction)
     return {false, "plane B carries " + number(share_b) + " of the weight, below 0.05"};
 
   if (both && clearance_a > -least_clearance)

@@ -7,8 +7,8 @@
 // A block on two planes by limit equilibrium: the rigid wedge of rock slope engineering, general form.
 //
 // Sources: Hoek & Bray (1974), Rock Slope Engineering, wedge failure (factor of safety, contact lost on one plane);
-// Warburton (1981), Vector stability analysis of an arbitrary polyhedral rock block, IJRMMS 18, 415-427 (the modes told
-// apart with vectors). No moments: the block only translates.
+// Warburton (1981), Vector stability analysis of an arbitrary polyhedral rock block, IJRMMS 18, 415-427 (the modes
+// distinguished apart with vectors). No moments: the block only translates.
 //
 // x east, y north, z up; angles in radians; forces in any one unit. The block lies above both planes: the normal of a
 // plane points up and into the block (a vertical plane's normal points along its dip direction).

@@ -1,4 +1,5 @@
 #include "reference/wedge/wedge_path.hpp"
+#include "text/angle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +9,10 @@
 #include <stdexcept>
 
 using namespace voussoir::reference;
+using voussoir::degree;
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 Wedge wedge(double dip_a, double direction_a, double dip_b, double direction_b) {
   Wedge w;

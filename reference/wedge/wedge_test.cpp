@@ -1,4 +1,5 @@
 #include "reference/wedge/wedge.hpp"
+#include "text/angle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,16 +8,15 @@
 #include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 using namespace voussoir::reference;
+using voussoir::degree;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double rounding = 1e-11;  // a few hundred rounding units: sums of sines and one 3 x 3 solve
 
 WedgePlane plane(double dip_deg, double dip_direction_deg, double friction_deg = 0) {

@@ -43,7 +43,7 @@ struct Batch : Fields<Dim> {
   Components<Real, Dim> moved;   // contact frame
   Real least;                    // smallest slack
   Components<Real, Dim> normal;  // along the frame's rows
-  Real bound, firmness;          // on the central path alone
+  Real bound, stiffness_factor;  // on the central path alone
   Real overlap, area, iterations;
   typename L::Number face_a, face_b;
 

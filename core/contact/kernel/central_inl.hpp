@@ -146,7 +146,7 @@ HWY_INLINE typename L::Real barrier_value(Batch<L, Dim>& m) {
   return m.bound - m.smoothing * (L::pick(logarithms) + L::real(2));
 }
 
-// Normal and overlap from the barrier's gradient g over the first part's planes, and the share of a stiffness, 4 g².
+// Normal and overlap from the barrier's gradient g over the first part's planes, and the fraction of a stiffness, 4 g².
 template <class L, int Dim>
 HWY_INLINE void measure_by_barrier(Batch<L, Dim>& m) {
   using Real = typename L::Real;
@@ -167,7 +167,7 @@ HWY_INLINE void measure_by_barrier(Batch<L, Dim>& m) {
   const Real safe = select(m.good, length, one);
   m.normal = scaled(one / safe, g);
   m.overlap = larger(-value, zero) / safe;
-  m.firmness = L::real(4) * length * length;
+  m.stiffness_factor = L::real(4) * length * length;
   Real most;
   const auto closeness = [&](int slot) HWY_ATTR { return m.get(m.inverse_at, slot); };
   L::find_largest(m.part[0], 0, closeness, most, m.face_a);

@@ -181,7 +181,7 @@ HWY_INLINE void deliver(const Batch<L, Dim>& m, QueryLevel level, std::span<Kern
     task.magnified = !OnPath && magnified(overlap[lane], margins[lane]);
     if (Dim == 2 || level < QueryLevel::area) continue;
     const SectionList& list = lists[lane];
-    if (!list.found_anew) continue;
+    if (!list.found_again) continue;
     contact.proof.section_size = list.size;
     for (int k = 0; k < list.size; ++k) {
       const int plane = unpadded(list.planes[k], task.planes_a, m.quads_a);
@@ -192,11 +192,11 @@ HWY_INLINE void deliver(const Batch<L, Dim>& m, QueryLevel level, std::span<Kern
 }
 
 template <class L, int Dim>
-HWY_INLINE void deliver_firmness(const Batch<L, Dim>& m, std::span<KernelTask<Dim>> tasks) {
-  double firmness[L::width];
-  L::put(m.firmness, firmness);
+HWY_INLINE void deliver_stiffness_factor(const Batch<L, Dim>& m, std::span<KernelTask<Dim>> tasks) {
+  double stiffness_factor[L::width];
+  L::put(m.stiffness_factor, stiffness_factor);
   for (std::size_t lane = 0; lane < tasks.size(); ++lane)
-    if (tasks[lane].answered) tasks[lane].contact->geometry.firmness = firmness[lane];
+    if (tasks[lane].answered) tasks[lane].contact->geometry.stiffness_factor = stiffness_factor[lane];
 }
 
 // what no distance between points of the part exceeds
@@ -245,7 +245,7 @@ void persistent_group(std::span<KernelTask<Dim>> tasks, const KernelOptions& opt
     resolve_from_point(m, level, options.newton_tolerance, options.newton_limit, lists);
   }
   deliver<OnPath>(m, level, tasks, lists, counters);
-  if (OnPath && level >= QueryLevel::overlap) deliver_firmness(m, tasks);
+  if (OnPath && level >= QueryLevel::overlap) deliver_stiffness_factor(m, tasks);
 }
 
 template <bool OnPath, int Dim>

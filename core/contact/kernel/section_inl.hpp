@@ -1,6 +1,6 @@
 // The section of the overlap region by the contact plane: the polygon {y : q·y <= 1}, given by scaled planes q. Its
 // corners lie on consecutive planes of a cyclic list, which is kept from step to step; where it no longer holds, the
-// list is found anew.
+// list is found again.
 #if defined(VOUSSOIR_SECTION_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOUSSOIR_SECTION_INL
 #undef VOUSSOIR_SECTION_INL
@@ -173,7 +173,7 @@ HWY_INLINE void rebuild_sections(const SectionPlanes<L>& planes, const Slots (&p
     }
     int list[most_corners], size;
     lists[lane].size = 0;
-    lists[lane].found_anew = true;
+    lists[lane].found_again = true;
     if (!find_section(alone, quads, list, size, areas[lane])) {
       failed[lane] = 1;
       areas[lane] = 0;

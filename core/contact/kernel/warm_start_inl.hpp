@@ -141,7 +141,7 @@ HWY_INLINE void newton_direction(const typename L::Real (&sums)[Dim + Dim * (Dim
   }
 }
 
-// one slot's share of the gradient, Σ p, and of the Hessian, Σ wp pᵀ
+// one slot's fraction of the gradient, Σ p, and of the Hessian, Σ wp pᵀ
 template <class Wide, int K>
 HWY_INLINE void accumulate(const Components<Wide, 2>& p, const Components<Wide, 2>& wp, Wide (&acc)[K]) {
   acc[0] = acc[0] + p[0];

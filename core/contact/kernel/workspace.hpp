@@ -35,13 +35,13 @@ inline constexpr double smallest_binormal2 = 1e-4;
 // a corner beyond a plane of the section by more is not a corner; rounding is 1e-16 in these scaled planes
 inline constexpr double corner_tolerance = 1e-13;
 
-// an entering plane takes a multiplier only by more than rounding, as a share of the terms
+// an entering plane takes a multiplier only by more than rounding, as a fraction of the terms
 inline constexpr double exchange_rounding = 1024 * std::numeric_limits<double>::epsilon();
 
 // pivots are 2 to 9; more means rounding turns in circles
 inline constexpr int most_exchanges = 60;
 
-// the LP may stop when its point is inside by this share of the best it could still find
+// the LP may stop when its point is inside by this fraction of the best it could still find
 inline constexpr double well_inside = 0.2;
 
 // primal-dual steps stop short of the boundary
@@ -85,7 +85,7 @@ struct Fields {
 struct SectionList {
   static constexpr int most = std::tuple_size_v<decltype(Proof<3>::section)>;
   int size = 0;
-  bool found_anew = false;     // not the list that came in
+  bool found_again = false;    // not the list that came in
   std::array<int, 16> planes;  // `size` of them, then the first again and again
 };
 static_assert(SectionList::most < std::tuple_size_v<decltype(SectionList::planes)>);

@@ -16,13 +16,13 @@ KeyTable damping_keys() {
      .breaks = "adaptive is for what is nearly at rest; where the way to rest is an event, as in a fall, choose local"},
     {.key = "local", .members = {in(&DampingSettings::local)}, .unit = "1", .range = fraction,
      .plausible = {.low = 0.01, .high = 0.95, .or_zero = true}, .example = "0",
-     .meaning = "share by which each force component is lessened when it drives the motion (Cundall); a stage takes what "
+     .meaning = "fraction by which each force component is lessened when it drives the motion (Cundall); a stage takes what "
          "it leaves out from the scene; 0 in stages of kind run where neither states it",
      .repair = "0 for dynamics, 0.7 to reach rest",
      .breaks = "0 never comes to rest by itself; above 0.9 failure is delayed"},
     {.key = "viscous_ratio", .members = {in(&DampingSettings::viscous_ratio)}, .unit = "1", .range = {0, 10},
      .plausible = {.low = 1e-3, .high = 1, .or_zero = true}, .example = "0.1",
-     .meaning = "dashpot normal to every contact, as a share of critical damping",
+     .meaning = "dashpot normal to every contact, as a fraction of critical damping",
      .breaks = "large values shorten the time step"},
   }};
 }

@@ -57,7 +57,7 @@ KeyTable joint_set_keys() {
      .meaning = "extent down the dip over that along the strike: 1 makes discs and squares; 3-D only"},
     {.key = "persistence", .members = {in(&JointSet::persistence)}, .unit = "1", .range = {0, 1, true},
      .plausible = {0.01, 1}, .example = "0.6", .when = {"size", "constant|exponential|lognormal"},
-     .meaning = "with spacing: that of planes, of whose area this share is joint (Einstein et al. 1983); 1: the spacing is "
+     .meaning = "with spacing: that of planes, of whose area this fraction is joint (Einstein et al. 1983); 1: the spacing is "
          "that of joints met along the mean normal"},
     {.key = "arrangement", .members = {one_of(&JointSet::arrangement,
          {{"poisson", Arrangement::poisson}, {"equal", Arrangement::equal}})},

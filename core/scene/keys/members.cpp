@@ -1,4 +1,5 @@
 #include "core/scene/keys/members.hpp"
+#include "text/angle.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -20,9 +21,9 @@ std::string toml_text(double value) {
 
 // the division rounds: of the numbers nearby, the shortest that reads back the same
 std::string degrees_text(double radians) {
-  const double degrees = radians / radians_per_degree;
+  const double degrees = radians / degree;
   for (double scale = 1; scale <= 1e9; scale *= 10)
-    if (const double rounded = std::round(degrees * scale) / scale; rounded * radians_per_degree == radians)
+    if (const double rounded = std::round(degrees * scale) / scale; rounded * degree == radians)
       return toml_text(rounded);
   return toml_text(degrees);
 }

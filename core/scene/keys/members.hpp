@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <concepts>
-#include <numbers>
 #include <optional>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
 #include "core/scene/key_row.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::keys {
 
@@ -55,7 +55,6 @@ void take(const Node& node, std::optional<T>& target) {
 
 std::string toml_text(double value);
 
-inline constexpr double radians_per_degree = std::numbers::pi / 180;
 std::string degrees_text(double radians);
 
 inline std::string toml_text(bool value) {
@@ -142,7 +141,7 @@ KeyMember in(T Owner::*at, KeyType type = type_of(static_cast<const T*>(nullptr)
 template <class Owner, class T>
 KeyMember degrees(T Owner::*at) {
   return key_member(
-      at, KeyType::number, [](const Node& value, T& target) { target = value.number * radians_per_degree; },
+      at, KeyType::number, [](const Node& value, T& target) { target = value.number * degree; },
       [](std::optional<double> radians) { return radians ? degrees_text(*radians) : ""; });
 }
 

@@ -18,7 +18,7 @@ KeyTable stage_change_keys() {
     {.key = "move", .type = tables, .when = {"kind", "run"},
      .holds = {"label", "motion", "move", "factor", "selector"},
      .meaning = "blocks whose motion is prescribed while the stage lasts, whatever the load on them; their other "
-         "freedoms stay as they are, those of a fixed block are held. Afterwards a fixed block stands, a free one goes on"},
+         "freedoms stay as they are, those of a fixed block are held. Afterwards a fixed block stands, a free one keeps moving"},
     {.key = "friction_deg", .members = {degrees(&Change::friction)}, .unit = "deg", .range = friction_range,
      .plausible = plausible_friction, .example = "30",
      .meaning = "friction angle of every joint from this stage on", .mistake = friction_mistake},

@@ -9,7 +9,7 @@ KeyTable time_keys() {
   return {"time", {
     {.key = "fraction", .members = {in(&TimeSettings::fraction)}, .unit = "1", .range = {0, 1, true},
      .plausible = {1e-3, 0.5}, .example = "0.1",
-     .meaning = "time step as a share of the stability limit; in stages of kind run 0.1 where it is not stated",
+     .meaning = "time step as a fraction of the stability limit; in stages of kind run 0.1 where it is not stated",
      .breaks = "above 0.2 (0.1 without damping) contacts that open and close gain energy"},
     {.key = "step_s", .members = {in(&TimeSettings::step)}, .unit = "s", .range = {0, 1e9, true},
      .plausible = {5e-7, 0.02}, .example = "1e-4",
@@ -23,7 +23,7 @@ KeyTable equilibrium_keys() {
   return {"equilibrium", {
     {.key = "unbalanced", .members = {in(&EquilibriumSettings::unbalanced)}, .unit = "1", .range = {0, 1, true},
      .plausible = {1e-8, 1e-5}, .example = "1e-7",
-     .meaning = "at rest when for every free block unbalanced force and momentum stay below this share of the mean "
+     .meaning = "at rest when for every free block unbalanced force and momentum stay below this fraction of the mean "
          "contact force",
      .breaks = "too loose: a slow slide passes as rest"},
     {.key = "window", .members = {in(&EquilibriumSettings::window)}, .unit = "steps", .range = {1, 1e6},

@@ -2,7 +2,7 @@
 # Builds the probe with a compiler and flags of its own and compares the hashes it prints with those of a reference
 # probe; then looks for fused multiply-adds in it. Skipped by name (77) where the compiler cannot do what is asked.
 #   same_bits.sh <source> <folder> <reference probe> <compiler> <flags> <probe's options> <run> [<run> …]
-# A run is what else this build's probe is told, such as "--threads 4"; "" for nothing.
+# A run is what else this build's probe is given, such as "--threads 4"; "" for nothing.
 set -euo pipefail
 source=$1 folder=$2 reference=$3 compiler=$4 flags=$5 options=$6
 shift 6

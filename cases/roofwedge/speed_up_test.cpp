@@ -2,29 +2,28 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
-#include "cases/saving.hpp"
+#include "cases/speed_up.hpp"
 #include "reference/roofwedge/roofwedge.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
 
 // long: the thesis' way takes a million and a half steps
 TEST(RoofWedgeSavingLong, BisectionAgainstTheThesisRate) {
-  constexpr double degrees = 180 / std::numbers::pi;
   reference::RoofWedge wedge;
   for (int i = 0; i < 3; ++i) {
-    wedge.planes[i].dip = 60 / degrees;
-    wedge.planes[i].dip_direction = (30 + 120 * i) / degrees;
+    wedge.planes[i].dip = 60 * degree;
+    wedge.planes[i].dip_direction = (30 + 120 * i) * degree;
   }
   wedge.gravity = 9.81;
-  const SoughtAngle sought{reference::first_slip(wedge).friction * degrees, "Goodman, Shi & Boyle (1982)",
+  const SoughtAngle sought{reference::first_slip(wedge).friction / degree, "Goodman, Shi & Boyle (1982)",
                            "as demanded; the bracket leaves 0.02"};
   verification::CaseReport report("roofwedge", {"critical friction, bisection over ten degrees"});
   const SceneRun thesis = run("thesis_rate.toml");
   expect_honest_bar(report, sought, "the thesis' rate", thesis);
-  expect_saving(report, sought, "bisection over ten degrees", run("narrow.toml"), thesis);
+  expect_speed_up(report, sought, "bisection over ten degrees", run("narrow.toml"), thesis);
 }
 
 }  // namespace

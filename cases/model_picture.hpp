@@ -1,47 +1,17 @@
-// A scene run with its frames kept, and pictures of them: blocks as shaded faces.
+// Pictures of a model in space: blocks as shaded faces.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "app/run_scene.hpp"
-#include "cases/case_tools.hpp"
 #include "cases/picture.hpp"
+#include "core/model.hpp"
+#include "core/state.hpp"
 
 namespace voussoir::cases {
-
-struct Film {
-  SceneRun run;
-  std::vector<State<3>> frames;  // the begin, then as the scene's output asks, the end of each stage among them
-
-  const Prepared<3>& scene() const { return std::get<Prepared<3>>(run.scene.prepared); }
-  const Model<3>& model() const { return scene().model; }
-  const State<3>& last() const { return frames.back(); }
-};
-
-enum class Goals { demanded, optional };
-
-// Runs a 3-D scene to its end, and demands that it reached its goals unless they are optional.
-inline Film film(const std::filesystem::path& path, Goals goals = Goals::demanded,
-                 const std::vector<std::string>& overrides = {}) {
-  Film film;
-  film.run.scene = load_scene(path, overrides);
-  const Prepared<3>& scene = film.scene();
-  film.frames.push_back(scene.state);
-  Watcher<3> watcher;
-  watcher.frame = [&](const Model<3>&, const State<3>& state, double) { film.frames.push_back(state); };
-  Progress<3> progress = begin(scene);
-  simulate(scene, progress, watcher);
-  film.run.results = std::move(progress.results);
-  const Outcome outcome = film.run.results.outcome;
-  if (outcome != Outcome::done && !(goals == Goals::optional && outcome == Outcome::incomplete))
-    throw std::runtime_error(path.string() + ": " + film.run.results.message);
-  return film;
-}
 
 // corners of a body's parts where they are now, model coordinates, m
 inline std::vector<Vector<3>> corners(const Body<3>& body, const Motion<3>& motion) {

@@ -18,8 +18,8 @@ struct SoughtAngle {
 };
 
 // the cheap way finds the angle within 0.05 degrees by at least 20 times fewer contact evaluations
-inline void expect_saving(verification::CaseReport& report, const SoughtAngle& sought, const std::string& name,
-                          const SceneRun& cheap, const SceneRun& thesis) {
+inline void expect_speed_up(verification::CaseReport& report, const SoughtAngle& sought, const std::string& name,
+                            const SceneRun& cheap, const SceneRun& thesis) {
   using verification::Bound;
   using verification::Kind;
   constexpr double wanted_deg = 0.05, wanted_saving = 20;
@@ -47,7 +47,7 @@ inline void expect_honest_bar(verification::CaseReport& report, const SoughtAngl
   using verification::Bound;
   using verification::Kind;
   const Value& found = *run.results.find("critical_friction");
-  report.record({"error of " + name + " as a share of its error bar",
+  report.record({"error of " + name + " as a fraction of its error bar",
                  "1",
                  Kind::limit,
                  "what an error bar is",

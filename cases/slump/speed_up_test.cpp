@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "cases/saving.hpp"
+#include "cases/speed_up.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -18,7 +18,7 @@ TEST(SlumpSavingLong, BisectionAgainstTheThesisRate) {
                            "as demanded; the brackets leave 0.04 and 0.013"};
   const SceneRun thesis = run("thesis_rate.toml");
   expect_honest_bar(report, sought, "the thesis' rate", thesis);
-  expect_saving(report, sought, "bisection over ten degrees", run("narrow.toml"), thesis);
+  expect_speed_up(report, sought, "bisection over ten degrees", run("narrow.toml"), thesis);
 }
 
 }  // namespace

@@ -46,10 +46,10 @@ Judgement wrong(std::string reason) {
   return {Verdict::wrong, std::move(reason), 0};
 }
 
-// correct or wrong by the share of its promise that the error uses up
-Judgement by_share(double share, const std::string& what) {
-  if (share <= 1) return {Verdict::correct, "", share};
-  return {Verdict::wrong, fmt::format("{}: {:.3g} of what is promised", what, share), share};
+// correct or wrong by the fraction of its promise that the error uses up
+Judgement by_fraction(double fraction, const std::string& what) {
+  if (fraction <= 1) return {Verdict::correct, "", fraction};
+  return {Verdict::wrong, fmt::format("{}: {:.3g} of what is promised", what, fraction), fraction};
 }
 
 exact::ProgramBounds exact_value(const exact::Planes& planes, const std::array<int, 4>& basis) {
@@ -102,7 +102,7 @@ Decision decide(const Meeting& meeting, const FeasibilityResult<3>& lp, const Sc
     return decision;
   }
   const double error = std::max(low - lp.value, lp.value - high);
-  j = by_share(std::max(error, 0.0) / band, "the LP's value is off");
+  j = by_fraction(std::max(error, 0.0) / band, "the LP's value is off");
   if (j.verdict == Verdict::wrong) return decision;
   const bool touching = status > ContactStatus::undecided;  // or its stages failed
   if (high >= -band && low <= band)
@@ -124,8 +124,8 @@ Judgement judge_centre(const Scene& scene, const CentreResult<3>& found) {
     const double slack = -signed_distance<3>(scene.planes[i], found.point);
     squares += std::pow(scene.rounding(i, found.point) / slack, 2);
   }
-  return by_share(to_double(centre.decrement) / (newton_remainder + one_stage * std::sqrt(squares)),
-                  "the centre is off");
+  return by_fraction(to_double(centre.decrement) / (newton_remainder + one_stage * std::sqrt(squares)),
+                     "the centre is off");
 }
 
 Judgement judge_normal(const Scene& scene, const Vector<3>& point, bool found, bool fallback, const Vector<3>& normal) {
@@ -145,7 +145,7 @@ Judgement judge_normal(const Scene& scene, const Vector<3>& point, bool found, b
   double error = 0;
   for (int k = 0; k < 3; ++k)
     error = std::max(error, std::abs(to_double(expected.normal[k] - Quad(normal[k]))));
-  return by_share(error / allowed, fmt::format("the normal is off by {:.3g}", error));
+  return by_fraction(error / allowed, fmt::format("the normal is off by {:.3g}", error));
 }
 
 // where the search along the normal may end, given the rounding of slacks and slopes
@@ -176,7 +176,7 @@ Judgement judge_overlap(const Scene& scene, const Vector<3>& point, const Vector
   if (each[face_a].low > ends[0].high || each[face_b].low > ends[1].high) return wrong("another face ends the overlap");
   const double low = ends[0].low + ends[1].low, high = ends[0].high + ends[1].high;
   const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
-  return by_share(std::abs(overlap - middle) / half, "the overlap is off");
+  return by_fraction(std::abs(overlap - middle) / half, "the overlap is off");
 }
 
 Judgement judge_area(const Scene& scene, const Vector<3>& point, const Vector<3>& normal, double area) {
@@ -190,7 +190,8 @@ Judgement judge_area(const Scene& scene, const Vector<3>& point, const Vector<3>
   const double high = to_double(exact::section_area(outer, point, normal)),
                low = to_double(exact::section_area(inner, point, normal));
   const double middle = 0.5 * (low + high), half = 0.5 * (high - low) + one_stage * high;
-  return by_share(std::abs(area - middle) / half, fmt::format("area {:.3g} not in {:.3g} to {:.3g}", area, low, high));
+  return by_fraction(std::abs(area - middle) / half,
+                     fmt::format("area {:.3g} not in {:.3g} to {:.3g}", area, low, high));
 }
 
 Scene make_scene(const Meeting& meeting) {
@@ -210,7 +211,7 @@ Scene make_scene(const Meeting& meeting) {
 
 }  // namespace
 
-Judgements judge_meeting(const Meeting& meeting) {
+Judgements judge_pair(const Meeting& meeting) {
   Judgements all;
   const Scene scene = make_scene(meeting);
   const std::array<int, 4> start = meeting.a.parts[0].basis;
