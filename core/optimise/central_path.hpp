@@ -1,4 +1,4 @@
-// A point on the central path of the feasibility program (feasibility_program.hpp), its logarithmic barrier of weight µ:
+// A point on the central path of the feasibility program (feasibility_program.hpp), by its logarithmic barrier:
 //   min over x and s of  s - µ Σ log(s + d_i - a_i·x).
 // Its multipliers λ_i = µ / (s + d_i - a_i·x) satisfy those of the program, Σ λ_i a_i = 0 and Σ λ_i = 1, but are smooth
 // in the planes, as its value and its point are; for µ -> 0 all become the program's own (Boyd and Vandenberghe 2004,

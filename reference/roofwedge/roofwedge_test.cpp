@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 using namespace voussoir::reference;
-using voussoir::degree;
 using Eigen::Vector3d;
+using voussoir::degree;
 
 namespace {
 
