@@ -108,7 +108,7 @@ BENCHMARK(non_persistent_table_4_1)
     ->ArgsProduct({{300, 1000}, {0}})
     ->Unit(benchmark::kMillisecond);
 
-// ten thousand joints that are parallel, and that fraction a line: exact counts
+// ten thousand joints that are parallel, and that share a line: exact counts
 void parallel_joints(benchmark::State& state) {
   Random random(1);
   HalfSpaces<3> planes;

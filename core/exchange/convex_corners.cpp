@@ -53,7 +53,7 @@ void check_closed(const Mesh& mesh) {
                                   text(mesh.points[edge.first]), text(mesh.points[edge.second]), place(mesh, facet)));
 }
 
-// one piece: facets that fraction an edge are joined
+// one piece: facets that share an edge are joined
 void check_one_piece(const Mesh& mesh) {
   std::vector<int> root(mesh.points.size());
   for (std::size_t i = 0; i < root.size(); ++i)

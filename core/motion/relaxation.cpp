@@ -37,7 +37,7 @@ void stop_bodies(State<Dim>& state) {
   }
 }
 
-// what relaxation and motion do not fraction: the time step, and the energy that stopping takes
+// what relaxation and motion do not share: the time step, and the energy that stopping takes
 template <int Dim>
 void change_ways(State<Dim>& state) {
   state.frequency.clear();

@@ -10,7 +10,7 @@
 namespace voussoir {
 namespace {
 
-// Two faces that fraction less than this of the smaller one's area (and, in lengths, less than its root) touch at an
+// Two faces that share less than this of the smaller one's area (and, in lengths, less than its root) touch at an
 // edge: above the rounding of their corners, below any contact that could carry load.
 constexpr double least_fraction = 1e-9;
 

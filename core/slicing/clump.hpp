@@ -16,7 +16,7 @@ struct SharedFace {
   bool covered = true;       // it lies within the joint's extent
 };
 
-// Every pair of parts that fraction an area of a joint, by joint, part below, part above.
+// Every pair of parts that share an area of a joint, by joint, part below, part above.
 template <int Dim>
 std::vector<SharedFace> shared_faces(const std::vector<Polytope<Dim>>& parts, const std::vector<Cut<Dim>>& cuts);
 

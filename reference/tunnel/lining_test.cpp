@@ -27,7 +27,7 @@ TEST(SoftLining, boon_hoop_forces) {
   EXPECT_NEAR(lining_hoop_force(boon_lining(1e9)) / 1e3, 1985.7, 0.06);
 }
 
-// Appendix H as three springs that fraction one pressure: iterate on the pressure instead of solving.
+// Appendix H as three springs that share one pressure: iterate on the pressure instead of solving.
 TEST(SoftLining, compatibility_of_displacements) {
   const SoftLining l = boon_lining(0.1e9);
   double low = 0, high = l.in_situ_pressure;
