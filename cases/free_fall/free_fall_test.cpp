@@ -124,7 +124,7 @@ TEST(FreeFall, AMixComesToRest) {
   draw(fall);
 }
 
-TEST(FreeFall, ContactsThatHaveAPotentialKeepTheirBooks) {
+TEST(FreeFall, ContactsThatHaveAPotentialKeepTheirEnergy) {
   CaseReport report("free_fall");
   const Fall fall = let_fall(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml", {}, conservative_contacts);
   check(report, ", on the central path", fall, Balance::checked);
@@ -145,13 +145,13 @@ TEST(FreeFall, TheEnergyBalanceClosesWithTheSquareOfTheStep) {
   const std::vector<double> fractions{1, 0.5, 0.2};
   std::vector<std::vector<double>> open{fractions};
   for (const auto& [name, choice] : contacts) {
-    std::vector<double>& fractions = open.emplace_back();
+    std::vector<double>& left_open = open.emplace_back();
     for (const double fraction : fractions) {
       std::vector<std::string> overrides = choice;
       overrides.push_back(fmt::format("time.fraction={}", fraction));
       overrides.push_back("stage.rest.time_limit_s=1e-3");
       const RecordedRun<3> fall = record<3>(scene, overrides, Demand::no_failure);
-      fractions.push_back(energy_errors(fall.last()).contacts);
+      left_open.push_back(energy_errors(fall.last()).contacts);
       const std::string quantity =
           fmt::format("energy that the contacts of forty blocks leave open, {}, at {} of the limit", name, fraction);
       // seen: 4e-4 and 6e-5, a sixth more or less
@@ -163,7 +163,7 @@ TEST(FreeFall, TheEnergyBalanceClosesWithTheSquareOfTheStep) {
                        0,
                        {fraction == 0.2 ? 2e-4 : 1e-3, 0, Bound::at_most},
                        "four times what a step of second order leaves"},
-                      fractions.back(), cost(fall.run));
+                      left_open.back(), cost(fall.run));
       else
         report.report(quantity, "1", fractions.back(), "README.md, Limits", cost(fall.run));
     }

@@ -23,7 +23,7 @@ using verification::Kind;
 constexpr double height = 3, breadth = 1;          // m
 const PushedColumn column_of_scene;                // on 10 GPa/m
 const Push corner{-0.5 * breadth, height, false};  // the upper left one
-constexpr double fraction = 0.995;                 // of the tipping force
+constexpr double below_limit = 0.995;              // of the tipping force
 const std::string source = "rigid column on a joint without tension, reference/pushed_column";
 
 PushedColumn on(double stiffness) {
@@ -207,7 +207,7 @@ TEST(PushedColumn, LeansAsItsBaseIsPressed) {
   const std::string because = "what the unbalanced force that counts as rest would add to it";
   const auto judge = [&](const std::string& name, const std::string& scene, const Joint& joint) {
     const PushedColumn column = on(joint.stiffness);
-    const double force = fraction * tipping(column, push_of(joint)).force;
+    const double force = below_limit * tipping(column, push_of(joint)).force;
     const Trial trial = attempt(scene, variant(joint, {push_of(scene, force)}));
     ASSERT_TRUE(trial.rests) << name;
     report.record({"tilt at 99.5 %, " + name,
@@ -262,7 +262,7 @@ TEST(PushedColumn, LeansAsFarWhenItIsPushedSlowly) {
       "of the last growth";
   for (const auto& [stiffness, fraction] : {std::pair(1e10, 0.8), {1e10, 0.2}, {1e11, 0.8}}) {
     const PushedColumn joint = on(stiffness);
-    const double force = fraction * tipping(joint, corner).force;
+    const double force = below_limit * tipping(joint, corner).force;
     const SceneRun slow = run("slow.toml", variant({.stiffness = stiffness},
                                                    {push_of("slow.toml", force), "time.fraction=" + text(fraction)}));
     const std::string name = text(stiffness / 1e9) + " GPa/m, " + text(fraction) + " of the step";

@@ -28,8 +28,9 @@ Model<2> slope(double friction) {
   Model<2> model;
   for (const Polytope<2>& part : slice<2>(whole.part, {joint}, {}, counters))
     model.bodies.push_back(make_body<2>({part}, 2600));  // kg/m³
-  number_bodies(model);                                  // by height: the lower one first
-  model.bodies.at(0).fixed = true;
+  number_bodies(model);
+  for (Body<2>& body : model.bodies)
+    body.fixed = body.reference.dot(joint.plane.normal) < 0;
   model.properties = {
       {.name = "joint", .normal_stiffness = 1e9, .shear_stiffness = 1e9, .friction = friction}};  // Pa/m
   model.joints = {{"bedding", joint.plane, 0}};
@@ -43,7 +44,8 @@ bool stays(double friction) {
   const RunGoal goal{.rest = true, .step_limit = 100'000, .moved_away = 0.1};
   const RunReport report = run(model, Settings{}, goal, {}, state);
   std::printf("friction %4.1f deg: %s after %lld steps, %.3g m from where it began\n", friction / degree,
-              describe(report.reason).c_str(), report.steps, state.motions.at(1).displacement.norm());
+              describe(report.reason).c_str(), report.steps,
+              state.motions.at(model.bodies[0].fixed ? 1 : 0).displacement.norm());
   if (report.reason != StopReason::equilibrium && report.reason != StopReason::moved_away)
     throw std::runtime_error("no answer");
   return report.reason == StopReason::equilibrium;
