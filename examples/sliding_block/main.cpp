@@ -41,7 +41,7 @@ Model<2> slope(double friction) {
 bool stays(double friction) {
   const Model<2> model = slope(friction);
   State<2> state = initial_state(model);
-  const RunGoal goal{.rest = true, .step_limit = 100'000, .moved_away = 0.1};
+  const RunGoal goal{.rest = true, .step_limit = 100'000, .moved_away = 0.01};
   const RunReport report = run(model, Settings{}, goal, {}, state);
   std::printf("friction %4.1f deg: %s after %lld steps, %.3g m from where it began\n", friction / degree,
               describe(report.reason).c_str(), report.steps,
