@@ -12,6 +12,7 @@
 #include "core/motion/prescribed.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/step.hpp"
+#include "core/step/newton.hpp"
 
 namespace voussoir {
 namespace {
@@ -46,10 +47,19 @@ bool follow(const RunSchedule& plan, State<Dim>& state) {
 
 template <int Dim>
 double farthest(const Model<Dim>& model, const State<Dim>& state, const std::vector<Vector<Dim>>& begin) {
+  const bool trials = state.newton.under_way;  // one that is not yet judged is no motion
+  const std::vector<Vector<Dim>> accepted = trials ? accepted_displacements(model, state) : begin;
   double largest = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].fixed) largest = std::max(largest, (state.motions[b].displacement - begin[b]).norm());
+    if (!model.bodies[b].fixed)
+      largest = std::max(largest, ((trials ? accepted[b] : state.motions[b].displacement) - begin[b]).norm());
   return largest;
+}
+
+// s: how long gravity and friction still change
+double ramp_of(const RunSchedule& plan) {
+  const double fall = plan.friction_rate > 0 ? (plan.friction_from - plan.friction_to) / plan.friction_rate : 0;
+  return std::max(plan.gravity.ramp, fall);
 }
 
 // the first body whose motion is not a number, or else whose load is, for a wrong motion spoils its neighbours' loads;
@@ -187,13 +197,17 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
 
   // made once: no step asks for memory
   const std::function<void(State<Dim>&)> with_forces = [&](State<Dim>& now) {
-    if (progress.steps == 0) stop_bodies(model, relaxing, now);
+    if (progress.steps == 0) {
+      stop_bodies(model, relaxing, now);
+      if (relaxing && newton_applies(model, settings.damping)) begin_newton(model, settings, ramp_of(schedule), now);
+    }
     if (hooks.with_forces) hooks.with_forces(now);
   };
   // the forces of a step, and what comes after the run, stand under the schedule at the time of the positions
   bool changing = follow(schedule, state);
   while (true) {
     if (hooks.pause && hooks.pause()) return stop(StopReason::interrupted);
+    const bool tried = state.newton.under_way;
     step<Dim>(model, settings, state, with_forces);
     const bool changed = std::exchange(changing, follow(schedule, state));
     ++progress.steps;
@@ -207,13 +221,15 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
       return stop(StopReason::not_finite, label_of(model, body) + " at " + moment_of(state));
 
     // rest must last, and cannot come while gravity or friction still changes
-    const bool settled = goal.rest && !changed && report.unbalanced <= settings.equilibrium.unbalanced;
+    const bool evaluated = tried || state.newton.under_way;  // a trial of Newton's method is not yet rest
+    const bool settled = goal.rest && !changed && !evaluated && report.unbalanced <= settings.equilibrium.unbalanced;
     progress.at_rest = settled ? progress.at_rest + 1 : 0;
     if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
     if (goal.moved_away && farthest(model, state, progress.begin) > *goal.moved_away)
       return stop(StopReason::moved_away);
     if (goal.end_time && state.time >= *goal.end_time) return stop(StopReason::end_time);
-    if (goal.rest && !goal.moved_away && !changing && progress.steps % steps_between_falls == 0)
+    if (goal.rest && !goal.moved_away && !changing && !state.newton.under_way &&
+        progress.steps % steps_between_falls == 0)
       if (const int body = falling_free(model, state); body >= 0)
         return stop(StopReason::falls_free,
                     fmt::format("{} has left all others behind, {:.3g} m from where it began", label_of(model, body),

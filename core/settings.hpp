@@ -52,17 +52,22 @@ struct ContactSettings {
   double skin = 0.1;
 };
 
-enum class Statics { adaptive, local };
+enum class Statics { adaptive, local, newton };
 
 struct DampingSettings {
   // how a run that ends at rest gets there. adaptive: dynamic relaxation with scaled inertia, in which time, velocities
   // and dashpots mean nothing; local: the true motion under the damping below, the thesis' way, ten to a hundred times
-  // slower for many blocks, and right where the way to rest is an event, like a fall
+  // slower for many blocks, and right where the way to rest is an event, like a fall. newton: Newton's method on the
+  // joints' stiffness, which relaxation then confirms
   Statics statics = Statics::adaptive;
 
   // Cundall's non-viscous damping: each force component is lessened by this fraction when it drives the motion; 0..<1.
   // Reaches rest, but delays failure; 0 for dynamics, and in a scene's stages of kind run unless it is stated
   double local = 0.7;
+
+  // newton: increments in which a ramp of gravity, or a fall of friction in a search, is put on; a joint that slips
+  // within one slips along its chord. The cost goes with them
+  int increments = 1;
 
   // ratio to critical of the dashpot in every contact's normal direction; 0..; lowers the stable time step
   double viscous_ratio = 0;

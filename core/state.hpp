@@ -61,6 +61,52 @@ struct Relaxation {
   int until_renewal = 0;                // steps until the inertia is chosen again
 };
 
+// How the force and moment of a contact's second body, about its centroid, change with that body's motion against the
+// first: translations, then turns.
+template <int Dim>
+struct PairStiffness {
+  using Block = Eigen::Matrix<double, freedoms<Dim>, freedoms<Dim>>;
+  using Wrench = Eigen::Matrix<double, freedoms<Dim>, 1>;
+  int contact = 0;  // place in State::contacts
+  int body_a = 0, body_b = 0;
+  Block stiffness = Block::Zero();          // minus the derivative, N/m, N and N m
+  Wrench wrench = Wrench::Zero();           // as it is, N and N m
+  Vector<Dim> apart = Vector<Dim>::Zero();  // m, of the second centroid from the first
+};
+
+// What a contact's joint remembers where an increment begins.
+template <int Dim>
+struct BaseHistory {
+  int part_a = 0, part_b = 0;
+  int divided_face = -1;
+  JointState<Dim> history;
+};
+
+// Newton's method on the joints (step/newton.hpp): what an increment keeps from one evaluation to the next.
+template <int Dim>
+struct NewtonIncrement {
+  enum class Trial { waiting, start, step, forced };  // what the next evaluation is
+  bool under_way = false;
+  Trial trial = Trial::start;
+  int increments_left = 0;    // after this one
+  double increment_time = 0;  // s: by how much the schedules go on with each
+  double ends = 0;            // s: where the last one puts them
+  int iteration = 0;          // accepted ones of this increment
+  int since_commit = 0, tries = 0, flat = 0, polished = 0;
+  double regularisation = 1;                   // lambda
+  double overshoot = 0;                        // how many times the largest step the last one wanted to be
+  std::vector<Motion<Dim>> base;               // by body
+  std::vector<BaseHistory<Dim>> histories;     // by contact
+  std::vector<JointState<Dim>> sub_histories;  // as many places for each contact
+  long long listed = 0;                        // Counters::neighbour_builds that they belong to
+  LoadsBySource<Dim> loads_begin;              // at the base, under the loads of now
+  EnergyLedger energy;                         // at the base
+  std::vector<double> accepted, residual,
+      change;                  // by freedom: motion since the base, what was out of balance, last step
+  std::vector<double> merits;  // of the accepted ones
+  std::vector<PairStiffness<Dim>> stiffness, closed;  // of the contacts that touch; of those that touch without force
+};
+
 // values that vary within a stage
 struct Schedule {
   double gravity_factor = 1;
@@ -99,6 +145,10 @@ struct Counters {
   long long deep_overlaps = 0;     // overlaps beyond the potential particle's radius
   long long snap_backs = 0;        // slips in which friction fell faster than the shear spring could unload
   long long neighbour_builds = 0;
+  long long static_iterations = 0;  // Newton's method on the joints: steps accepted
+  long long static_rejections = 0;  // and refused
+  long long linear_iterations = 0;  // of its linear systems
+  long long static_fallbacks = 0;   // increments that it left to relaxation
 };
 
 // their names in results
@@ -123,6 +173,10 @@ inline constexpr CounterRow counter_table[] = {
     {"deep_overlaps", &Counters::deep_overlaps},
     {"snap_backs", &Counters::snap_backs},
     {"neighbour_builds", &Counters::neighbour_builds},
+    {"static_iterations", &Counters::static_iterations},
+    {"static_rejections", &Counters::static_rejections},
+    {"linear_iterations", &Counters::linear_iterations},
+    {"static_fallbacks", &Counters::static_fallbacks},
 };
 static_assert(std::size(counter_table) * sizeof(long long) == sizeof(Counters), "every counter has a row");
 
@@ -141,6 +195,7 @@ struct State {
   ContactsByBody by_body;                  // places in `contacts`; rebuilt with them
   std::vector<double> frequency;           // rad/s, by body: stiffest mode of the last time-step estimate
   Relaxation<Dim> relaxation;
+  NewtonIncrement<Dim> newton;
   Schedule schedule;
   BondTally bonds;
   double time = 0;          // s

@@ -5,6 +5,7 @@
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
 #include "core/step/neighbours.hpp"
+#include "core/step/newton.hpp"
 
 namespace voussoir {
 
@@ -29,8 +30,11 @@ void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
   find_forces(model, settings, state);
   if (with_forces) with_forces(state);
 
-  // where that takes it: velocities, then positions and rotations
-  move_bodies(model, settings, state);
+  // where that takes it: velocities, then positions and rotations; or the next trial of a static increment
+  if (state.newton.under_way)
+    iterate(model, settings, state);
+  else
+    move_bodies(model, settings, state);
   ++state.counters.steps;
 }
 

@@ -65,6 +65,10 @@ voussoir_test(unit.certainty LONG LABEL unit
     geometry/catalogue_test.cpp testing/pair_families.cpp testing/pair_judge.cpp
   LIBS voussoir_exact_referee Boost::headers fmt::fmt hwy::hwy)
 
+voussoir_test(unit.newton LABEL unit
+  SOURCES step/newton_test.cpp
+  LIBS voussoir_core cereal::cereal Boost::headers)
+
 voussoir_test(unit.step LABEL unit
   SOURCES step_test.cpp simulate_test.cpp testing/whole_scenes_test.cpp step/joint_forces_test.cpp step/loads_test.cpp testing/step_memory_test.cpp energy_test.cpp motion/prescribed_test.cpp
     load/boundary_stress_test.cpp

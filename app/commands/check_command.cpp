@@ -132,7 +132,12 @@ std::string damping_text(const DampingSettings& damping, bool seeks_rest = true)
   std::string text;
   if (damping.local > 0) text = fmt::format("local {:g}", damping.local);
   if (damping.viscous_ratio > 0) text += fmt::format("{}viscous {:g}", text.empty() ? "" : ", ", damping.viscous_ratio);
-  const std::string rest = relaxes(seeks_rest, damping) ? "; to rest by relaxation" : "";
+  std::string rest;
+  if (relaxes(seeks_rest, damping))
+    rest =
+        damping.statics == Statics::newton
+            ? fmt::format("; to rest by Newton's method in {} increments, confirmed by relaxation", damping.increments)
+            : "; to rest by relaxation";
   return (text.empty() ? "none" : text) + rest;
 }
 
@@ -296,6 +301,24 @@ std::string solvers_text(const ContactSettings& contact) {
                      normal);
 }
 
+// joints whose laws Newton's method has no tangents of, where it is asked for
+template <int Dim>
+void print_left_to_relaxation(const Prepared<Dim>& prepared) {
+  const auto asks = [](const DampingSettings& damping) { return damping.statics == Statics::newton; };
+  if (!asks(prepared.settings.damping) &&
+      std::none_of(prepared.stages.begin(), prepared.stages.end(),
+                   [&](const StagePlan& s) { return s.damping && asks(*s.damping); }))
+    return;
+  std::vector<std::string> names;
+  for (const JointProperties& p : prepared.model.properties)
+    if (!p.laws.is_plain()) names.push_back(p.name);
+  if (!names.empty())
+    line("",
+         fmt::format("Newton's method leaves all to relaxation: {} has stiffness by stress, hardening, softening or "
+                     "bonds",
+                     fmt::join(names, ", ")));
+}
+
 template <int Dim>
 void print_active(const Prepared<Dim>& prepared) {
   const Settings& settings = prepared.settings;
@@ -306,6 +329,7 @@ void print_active(const Prepared<Dim>& prepared) {
   line("damping", damping_text(settings.damping));
   line("solvers", solvers_text(settings.contact));
   print_stages(prepared.stages);
+  print_left_to_relaxation(prepared);
   print_monitors(prepared);
   line("not active", inactive(prepared));
 }

@@ -83,7 +83,7 @@ double smallest_size(const Model<Dim>& model) {
 
 // a stage that relaxes from its first step on stops every body
 bool relaxes(const StagePlan& stage, const DampingSettings& damping) {
-  if (damping.statics != Statics::adaptive) return false;
+  if (damping.statics == Statics::local) return false;
   if (const auto* plan = std::get_if<ReducePlan>(&stage.plan))
     return plan->method == ReductionMethod::bisection || plan->method == ReductionMethod::steps;
   return std::holds_alternative<SettlePlan>(stage.plan);

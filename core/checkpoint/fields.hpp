@@ -95,6 +95,18 @@ void serialize(Archive& archive, Relaxation<Dim>& r) {
   archive(under_way, rested, inertia, contact_load, until_renewal);
 }
 
+template <class Archive, int Dim>
+void serialize(Archive& archive, PairStiffness<Dim>& p) {
+  auto& [contact, body_a, body_b, stiffness, wrench, apart] = p;
+  archive(contact, body_a, body_b, stiffness, wrench, apart);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, BaseHistory<Dim>& b) {
+  auto& [part_a, part_b, divided_face, history] = b;
+  archive(part_a, part_b, divided_face, history);
+}
+
 template <class Archive>
 void serialize(Archive& archive, Schedule& s) {
   auto& [gravity_factor, last_gravity_factor, friction, started, ends] = s;
@@ -134,12 +146,22 @@ void serialize(Archive& archive, EnergyLedger& e) {
 }
 
 template <class Archive, int Dim>
+void serialize(Archive& archive, NewtonIncrement<Dim>& n) {
+  auto& [under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
+         regularisation, overshoot, base, histories, sub_histories, listed, loads_begin, energy, accepted, residual,
+         change, merits, stiffness, closed] = n;
+  archive(under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
+          regularisation, overshoot, base, histories, sub_histories, listed, loads_begin.values, energy, accepted,
+          residual, change, merits, stiffness, closed);
+}
+
+template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
   // poses, loads by source with their stiffness, and lists by body are rebuilt before they are read
   auto& [motions, loads, loads_of, stiffened, contacts, subs, built, counted_at, path_bounds, poses, by_body, frequency,
-         relaxation, schedule, bonds, time, time_step, step_allowed, energy, counters] = s;
-  archive(motions, loads, contacts, subs, built, counted_at, path_bounds, frequency, relaxation, schedule, bonds, time,
-          time_step, step_allowed, energy, counters);
+         relaxation, newton, schedule, bonds, time, time_step, step_allowed, energy, counters] = s;
+  archive(motions, loads, contacts, subs, built, counted_at, path_bounds, frequency, relaxation, newton, schedule,
+          bonds, time, time_step, step_allowed, energy, counters);
 }
 
 template <class Archive, int Dim>

@@ -15,6 +15,10 @@ using Matrix = Eigen::Matrix<double, Dim, Dim>;
 template <int Dim>
 inline constexpr int spin_freedoms = Dim == 3 ? 3 : 1;
 
+// of a rigid body: translations, then rotations
+template <int Dim>
+inline constexpr int freedoms = Dim + spin_freedoms<Dim>;
+
 // rotation vector, angular velocity, angular momentum or moment
 template <int Dim>
 using Spin = Eigen::Matrix<double, spin_freedoms<Dim>, 1>;

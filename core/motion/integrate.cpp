@@ -126,7 +126,7 @@ double unbalanced_force(const Model<Dim>& model, const State<Dim>& state, int b)
   if (body.fixed) return 0;
   double frequency = static_cast<std::size_t>(b) < state.frequency.size() ? state.frequency[b] : 0;
   // mass times frequency goes with the root of the mass
-  if (state.relaxation.under_way) frequency *= std::sqrt(state.relaxation.inertia[b]);
+  if (frequency > 0 && state.relaxation.under_way) frequency *= std::sqrt(state.relaxation.inertia[b]);
   double squares = 0, momentum = 0;
   for (int k = 0; k < Dim; ++k) {
     if (!body.free_translation[k]) continue;

@@ -125,6 +125,7 @@ void begin_relaxation(State<Dim>& state) {
   for (const Source of_motion : {Source::local_damping, Source::prescribed_motion})
     state.loads_of[of_motion].clear();
   state.relaxation = {};
+  state.newton = {};
   state.relaxation.under_way = true;
 }
 
@@ -134,6 +135,7 @@ void end_relaxation(State<Dim>& state) {
   state.loads_of[Source::relaxation].clear();
   change_ways(state);
   state.relaxation = {};
+  state.newton = {};
   state.relaxation.rested = true;
 }
 

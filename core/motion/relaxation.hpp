@@ -18,7 +18,7 @@ namespace voussoir {
 
 // Whether a run relaxes: one that seeks rest, unless it is to come there in true motion.
 inline bool relaxes(bool seeks_rest, const DampingSettings& damping) {
-  return seeks_rest && damping.statics == Statics::adaptive;
+  return seeks_rest && damping.statics != Statics::local;
 }
 
 // Whether a stage under this damping begins by relaxation, which stops every body; every reduction begins at rest.

@@ -15,8 +15,6 @@ namespace voussoir {
 namespace {
 
 template <int Dim>
-inline constexpr int freedoms = Dim + spin_freedoms<Dim>;
-template <int Dim>
 using Stiffness = Eigen::Matrix<double, freedoms<Dim>, freedoms<Dim>>;
 template <int Dim>
 using Jacobian = Eigen::Matrix<double, Dim, freedoms<Dim>>;

@@ -158,6 +158,12 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping, int d
     stage.plan.damping = damping;
     read_keys(*own->node, "damping", *stage.plan.damping);
   }
+  if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan.plan);
+      reduce && stage.plan.damping.value_or(damping).statics == Statics::newton &&
+      (reduce->method == ReductionMethod::rate || reduce->method == ReductionMethod::two_rates))
+    refuse(table, "method",
+           "a rate is a motion, which Newton's method does not know; write method = \"bisection\" or \"steps\", or "
+           "damping = { statics = \"adaptive\" } in this stage");
   Change& change = stage.plan.change;
   const auto read_chosen = [&](const char* key, const auto& add) {
     for (const SelectorSpec& spec : stage.chosen[key] = read_selectors(table, key))

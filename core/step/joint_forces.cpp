@@ -19,26 +19,6 @@ double spin_about(const Vector<2>&, const Spin<2>&, const Spin<2>&) {
   return 0;
 }
 
-// how the two bodies of a contact move
-template <int Dim>
-struct PairMotion {
-  Vector<Dim> between;  // m
-  Vector<Dim> drift;    // m/s, of the second centroid against the first
-  const Spin<Dim>&spin_a, &spin_b;
-  double inverse_mass;  // of both together, 1/kg
-
-  // of the second body against the first; `point` relative to the first one's centroid, `apart` from there to the
-  // second one's
-  [[gnu::always_inline]] Vector<Dim> velocity_at(const Vector<Dim>& point, const Vector<Dim>& apart) const {
-    return drift + cross(spin_b, point - apart) - cross(spin_a, point);
-  }
-  [[gnu::always_inline]] Vector<Dim> velocity_at(const Vector<Dim>& point) const { return velocity_at(point, between); }
-  // where the contact was before the step
-  [[gnu::always_inline]] Vector<Dim> velocity_before_at(const Vector<Dim>& point, double dt) const {
-    return velocity_at(point, between - dt * drift);
-  }
-};
-
 template <int Dim>
 PairMotion<Dim> motion_of(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
   const CachedPose<Dim>&a = state.poses[model.parts[c.part_a].body], &b = state.poses[model.parts[c.part_b].body];
@@ -215,6 +195,41 @@ template <int Dim>
 }  // namespace
 
 template <int Dim>
+PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
+                             const Contact<Dim>& c, std::span<const SubContact<Dim>> subs,
+                             const PairMotion<Dim>& motion, const JointState<Dim>& history,
+                             std::span<const JointState<Dim>> sub_histories) {
+  PairWrench<Dim> wrench = PairWrench<Dim>::Zero();
+  if (!c.touching()) return wrench;
+  const JointProperties& properties = model.properties[c.properties];
+  JointSums sums;
+  const auto add = [&](const Bearing<Dim>& at, JointState<Dim> past) {
+    const Vector<Dim> force = joint_force<Dim>(properties, settings, state, motion, at, c.properties, past, sums);
+    wrench.template head<Dim>() += force;
+    wrench.template tail<spin_freedoms<Dim>>() += moment(Vector<Dim>(at.point - motion.between), force);
+  };
+  if (c.cells == 0) {
+    Bearing<Dim> at{c.geometry.point, c.geometry.normal, c.geometry.overlap, c.geometry.area};
+    if (properties.constant_stiffness) {
+      at.area = 1;
+      at.stiffness_factor = c.geometry.stiffness_factor;
+    }
+    add(at, history);
+    return wrench;
+  }
+  double whole = 0;
+  for (const SubContact<Dim>& s : subs)
+    whole += s.area;
+  for (std::size_t i = 0; i < subs.size(); ++i) {
+    const SubContact<Dim>& s = subs[i];
+    if (!(s.area > 0)) continue;
+    const double area = properties.constant_stiffness ? s.area / whole : s.area;
+    add({s.point, c.geometry.normal, s.overlap, area, s.overlap_variance, s.area / whole}, sub_histories[i]);
+  }
+  return wrench;
+}
+
+template <int Dim>
 void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   state.energy.elastic = 0;
   const auto work = [&](int i, JointSums& sum) { answer(model, settings, static_cast<std::size_t>(i), state, sum); };
@@ -265,6 +280,12 @@ BondCount count_bonds(const State<Dim>& state) {
   return count;
 }
 
+template PairWrench<2> joint_wrench<2>(const Model<2>&, const Settings&, const State<2>&, const Contact<2>&,
+                                       std::span<const SubContact<2>>, const PairMotion<2>&, const JointState<2>&,
+                                       std::span<const JointState<2>>);
+template PairWrench<3> joint_wrench<3>(const Model<3>&, const Settings&, const State<3>&, const Contact<3>&,
+                                       std::span<const SubContact<3>>, const PairMotion<3>&, const JointState<3>&,
+                                       std::span<const JointState<3>>);
 template void remove_bonds<2>(const Model<2>&, State<2>&);
 template void remove_bonds<3>(const Model<3>&, State<3>&);
 template BondCount count_bonds<2>(const State<2>&);

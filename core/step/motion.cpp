@@ -22,7 +22,8 @@ double next_step(const State<Dim>& state) {
   return left / std::max(1.0, std::ceil(left / state.step_allowed - rounding));
 }
 
-// gravity that grows lifts or lowers the potential energy of what has already moved
+}  // namespace
+
 template <int Dim>
 void add_gravity_ramp(const Model<Dim>& model, State<Dim>& state) {
   const double growth = state.schedule.gravity_factor - state.schedule.last_gravity_factor;
@@ -33,8 +34,6 @@ void add_gravity_ramp(const Model<Dim>& model, State<Dim>& state) {
       state.energy.flows[Source::gravity_ramp] -=
           growth * model.bodies[b].mass * model.gravity.dot(state.motions[b].displacement);
 }
-
-}  // namespace
 
 template <int Dim>
 void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
@@ -73,6 +72,8 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   state.time = ends ? state.schedule.ends : state.time + state.time_step;
 }
 
+template void add_gravity_ramp<2>(const Model<2>&, State<2>&);
+template void add_gravity_ramp<3>(const Model<3>&, State<3>&);
 template void move_bodies<2>(const Model<2>&, const Settings&, State<2>&);
 template void move_bodies<3>(const Model<3>&, const Settings&, State<3>&);
 

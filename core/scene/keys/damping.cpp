@@ -8,12 +8,18 @@ namespace voussoir::keys {
 KeyTable damping_keys() {
   return {"damping", {
     {.key = "statics", .members = {one_of(&DampingSettings::statics,
-         {{"adaptive", Statics::adaptive}, {"local", Statics::local}})},
+         {{"adaptive", Statics::adaptive}, {"local", Statics::local}, {"newton", Statics::newton}})},
      .example = "\"local\"",
      .meaning = "how settle stages and the trials of a reduction come to rest; adaptive: dynamic relaxation, by the fewest "
          "steps, in which inertia, time and velocities are fictitious and the other keys of this table mean nothing; "
-         "local: the true motion, damped by the other keys, as in the thesis",
+         "local: the true motion, damped by the other keys, as in the thesis; newton: Newton's method on the joints, in "
+         "increments, confirmed by relaxation, to which it leaves what it cannot decide",
      .breaks = "adaptive is for what is nearly at rest; where the way to rest is an event, as in a fall, choose local"},
+    {.key = "increments", .members = {in(&DampingSettings::increments)}, .unit = "1", .range = {1, 1000},
+     .example = "4",
+     .meaning = "newton: increments in which a ramp of gravity, or a fall of friction in a search, is put on; a joint that "
+         "slips within one slips along its chord",
+     .breaks = "the cost goes with them"},
     {.key = "local", .members = {in(&DampingSettings::local)}, .unit = "1", .range = fraction,
      .plausible = {.low = 0.01, .high = 0.95, .or_zero = true}, .example = "0",
      .meaning = "fraction by which each force component is lessened when it drives the motion (Cundall); a stage takes what "

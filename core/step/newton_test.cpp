@@ -1,0 +1,230 @@
+// Newton's method on the joints comes to the rests that relaxation comes to, in a number of iterations that does not
+// grow with the blocks; what it cannot do, it leaves; its bits are the same for any interruption and any threads.
+#include "core/step/newton.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+
+#include "core/checkpoint/checkpoint.hpp"
+#include "core/checkpoint/fields.hpp"
+#include "core/on_threads.hpp"
+#include "core/optimise/block_matrix.hpp"
+#include "core/run.hpp"
+#include "core/simulate.hpp"
+#include "core/state_hash.hpp"
+#include "core/testing/models.hpp"
+#include "text/angle.hpp"
+
+namespace voussoir {
+namespace {
+
+using shapes::block_on_plate;
+using shapes::body_of;
+using shapes::box;
+using shapes::gravity;
+using shapes::index_of;
+
+constexpr double rounding = 1e-9;  // what relaxation's window of ten steps adds, of a displacement
+
+// ---- linear systems -------------------------------------------------------------------------------------------------
+
+// blocks in a ring with a few chords, diagonally dominant: against a dense factorisation
+template <int Size>
+void expect_solved() {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  constexpr int count = 40;
+  using Entry = typename BlockMatrix<Size>::Entry;
+  std::vector<std::vector<Entry>> rows(count);
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(Size * count, Size * count);
+  const auto put = [&](int row, int column, double weight) {
+    Entry entry{column, {}};
+    for (int i = 0; i < Size * Size; ++i)
+      entry.block.data()[i] = weight * uniform(random);
+    if (row == column) entry.block.diagonal().array() += 3 * Size;
+    rows[row].push_back(entry);
+    dense.block<Size, Size>(Size * row, Size * column) += entry.block;
+  };
+  for (int i = 0; i < count; ++i) {
+    put(i, (i + 1) % count, 1);
+    put(i, i, 1);
+    put(i, (i + 7) % count, 0.5);
+    put(i, (i + 1) % count, 0.5);  // twice in the same place
+  }
+  BlockMatrix<Size> matrix;
+  matrix.assign(1, rows);
+  Eigen::VectorXd more(Size * count), b(Size * count);
+  for (int i = 0; i < more.size(); ++i) {
+    more[i] = 1 + uniform(random);
+    b[i] = uniform(random);
+  }
+  matrix.add_diagonal(more);
+  dense.diagonal() += more;
+  EXPECT_LT((matrix.times(1, b) - dense * b).norm(), 1e-13 * b.norm() * dense.norm());
+  const LinearAnswer answer = solve_blocks(matrix, b, 1e-12, 100, 1);
+  EXPECT_LE(answer.residual, 1e-12);
+  EXPECT_LT((answer.x - dense.lu().solve(b)).norm(), 1e-11 * answer.x.norm());
+  EXPECT_LT((dense * answer.x - b).norm(), 1e-11 * b.norm());
+  EXPECT_EQ(solve_blocks(matrix, Eigen::VectorXd(0 * b), 1e-12, 100, 1).x.norm(), 0);
+}
+
+TEST(BlockMatrix, SolvesSmallBlocks) {
+  expect_solved<3>();
+  expect_solved<6>();
+}
+
+TEST(BlockMatrix, SaysThatItIsSingular) {
+  BlockMatrix<3> matrix;
+  matrix.assign(1, {{{0, BlockMatrix<3>::Block::Zero()}}});
+  EXPECT_FALSE(std::isfinite(solve_blocks(matrix, Eigen::VectorXd(Eigen::VectorXd::Ones(3)), 1e-3, 10, 1).residual));
+}
+
+// ---- rest -----------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+std::pair<RunReport, State<Dim>> rest_of(const Model<Dim>& model, Statics statics, int threads = 1,
+                                         const RunSchedule& schedule = {}, int increments = 1) {
+  Settings settings;
+  settings.damping.statics = statics;
+  settings.damping.increments = increments;
+  settings.threads = threads;
+  State<Dim> state = initial_state(model);
+  const RunReport report = run<Dim>(model, settings, {.rest = true, .step_limit = 1'000'000}, schedule, state);
+  EXPECT_EQ(report.reason, StopReason::equilibrium) << report.detail;
+  return {report, std::move(state)};
+}
+
+// squares one above the other that cannot turn
+Model<2> column(int blocks) {
+  std::vector<Body<2>> bodies{body_of<2>(box<2>({-0.5, -1}, {1.5, 0}), true)};
+  for (int i = 0; i < blocks; ++i) {
+    bodies.push_back(body_of<2>(box<2>({0, 1.0 * i}, {1, 1.0 * i + 1})));
+    bodies.back().free_rotation.fill(false);
+  }
+  return shapes::model_of<2>(std::move(bodies));
+}
+
+// Linear springs: the whole weight at once, whatever the height. Stiff enough that no step is shortened.
+TEST(Newton, AColumnOfAnyHeightTakesAsManyIterations) {
+  for (const int blocks : {10, 100, 1000}) {
+    Model<2> model = column(blocks);
+    model.properties[0].normal_stiffness = 26000 * gravity * blocks / 1e-3;  // overlaps up to a millimetre
+    const auto [report, state] = rest_of(model, Statics::newton);
+    double weight = 0, settled = 0;  // from the top down
+    for (std::size_t b = model.bodies.size(); b-- > 1;) {
+      weight += model.bodies[b].mass * gravity;
+      settled += weight / model.properties[0].normal_stiffness;
+    }
+    EXPECT_NEAR(-state.motions.back().displacement[1], settled, rounding * settled) << blocks;
+    EXPECT_LE(state.counters.static_iterations, 15) << blocks;
+    EXPECT_EQ(state.counters.static_fallbacks, 0) << blocks;
+    // the certificate's ten steps included
+    EXPECT_LE(state.counters.contact_evaluations, 100 * blocks) << blocks;
+    EXPECT_LT(state.energy.relative_error(), 1e-9) << "the mean of the loads at both ends is exact for springs";
+  }
+}
+
+template <int Dim>
+void expect_same_rest(const Model<Dim>& model, double allowed) {
+  const auto [marched, by_steps] = rest_of(model, Statics::adaptive);
+  const auto [found, by_newton] = rest_of(model, Statics::newton);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].fixed) continue;
+    const Vector<Dim>& expected = by_steps.motions[b].displacement;
+    EXPECT_LT((by_newton.motions[b].displacement - expected).norm(), allowed * expected.norm()) << b;
+  }
+  EXPECT_GT(by_newton.counters.static_iterations, 0);
+  EXPECT_EQ(by_newton.counters.static_fallbacks, 0);
+  EXPECT_LT(found.steps, marched.steps);
+}
+
+// what relaxation leaves: 1e-6 of the contact force, and the shear that its swings wear off
+TEST(Newton, ABlockOnASlopeRestsWhereRelaxationPutsIt) {
+  expect_same_rest<2>(block_on_plate<2>(20 * degree, 35 * degree), 1e-4);
+  expect_same_rest<3>(block_on_plate<3>(20 * degree, 35 * degree), 1e-4);
+}
+
+TEST(Newton, EverySubContactHasItsStiffness) {
+  for (Model<3> model : {block_on_plate<3>(20 * degree, 35 * degree), block_on_plate<3>(0, 35 * degree)}) {
+    model.properties[0].sub_contacts = 3;
+    expect_same_rest<3>(model, 1e-3);
+  }
+}
+
+// A block that slides is followed until it has gone as far as the run says, not declared to fail.
+TEST(Newton, ASlideIsFollowed) {
+  const Model<2> model = block_on_plate<2>(30 * degree, 20 * degree);
+  Settings settings;
+  settings.damping.statics = Statics::newton;
+  State<2> state = initial_state(model);
+  const RunReport report =
+      run<2>(model, settings, {.rest = true, .step_limit = 100'000, .moved_away = 0.05}, {}, state);
+  EXPECT_EQ(report.reason, StopReason::moved_away);
+  EXPECT_GT(state.motions[index_of(model, "block")].displacement.norm(), 0.05);
+}
+
+TEST(Newton, GravityComesInIncrements) {
+  const Model<2> model = block_on_plate<2>(20 * degree, 35 * degree);
+  const RunSchedule ramp{.gravity = {.ramp = 2}, .properties = {}};
+  const auto [one, at_once] = rest_of(model, Statics::newton, 1, ramp);
+  const auto [four, in_four] = rest_of(model, Statics::newton, 1, ramp, 4);
+  const int block = index_of(model, "block");
+  EXPECT_EQ(in_four.schedule.gravity_factor, 1);
+  EXPECT_GE(in_four.time, 2);
+  EXPECT_GT(in_four.counters.static_iterations, at_once.counters.static_iterations);
+  EXPECT_LT((in_four.motions[block].displacement - at_once.motions[block].displacement).norm(),
+            1e-6 * at_once.motions[block].displacement.norm())
+      << "nothing slips on the way";
+}
+
+// Laws whose tangents are not there are left to relaxation, to the bit.
+TEST(Newton, LeavesOtherLawsToRelaxation) {
+  Model<2> model = block_on_plate<2>(20 * degree, 35 * degree);
+  model.properties[0].laws.friction = FrictionLaw::softening;
+  model.properties[0].softening_drop = 0.1;
+  model.properties[0].softening_slip = 0.1;
+  const auto [marched, by_steps] = rest_of(model, Statics::adaptive);
+  const auto [found, by_newton] = rest_of(model, Statics::newton);
+  EXPECT_EQ(by_newton.counters.static_iterations, 0);
+  EXPECT_EQ(state_hash(model, by_newton), state_hash(model, by_steps));
+}
+
+// ---- the same bits --------------------------------------------------------------------------------------------------
+
+TEST(Newton, ThreadsChangeNoBit) {
+  Model<2> model = column(2 * too_few_for_a_team);
+  model.properties[0].normal_stiffness *= 1e3;
+  const auto [report, one] = rest_of(model, Statics::newton);
+  for (const int threads : {2, 7})
+    EXPECT_EQ(state_hash(model, rest_of(model, Statics::newton, threads).second), state_hash(model, one)) << threads;
+}
+
+TEST(Newton, EveryEvaluationMayBeTheLastBeforeAnInterruption) {
+  Prepared<2> scene;
+  scene.model = block_on_plate<2>(20 * degree, 35 * degree);
+  scene.state = initial_state(scene.model);
+  scene.settings.damping.statics = Statics::newton;
+  scene.settings.damping.increments = 3;
+  StagePlan settle;
+  settle.name = "settle";
+  settle.plan = SettlePlan{.gravity = {.ramp = 1}};
+  scene.stages.push_back(settle);
+  Progress<2> whole = initial_progress(scene);
+  ASSERT_TRUE(simulate(scene, whole, {}));
+  const long long steps = whole.state.counters.steps;
+  ASSERT_GT(whole.state.counters.static_iterations, 3);
+  for (long long k = 0; k < steps; ++k) {
+    Watcher<2> watcher;
+    watcher.pause = [k](const Progress<2>& p) { return p.state.counters.steps >= k; };
+    Progress<2> first = initial_progress(scene);
+    ASSERT_FALSE(simulate(scene, first, watcher));
+    Progress<2> second = read_checkpoint<2>(checkpoint_bytes(first, "scene"), "scene");
+    ASSERT_TRUE(simulate(scene, second, {}));
+    EXPECT_EQ(second.results.state_hash, whole.results.state_hash) << "interrupted after step " << k;
+  }
+}
+
+}  // namespace
+}  // namespace voussoir

@@ -1,0 +1,272 @@
+#include "core/step/pair_stiffness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/narrow_phase.hpp"
+#include "core/contact/sub_contacts.hpp"
+#include "core/on_threads.hpp"
+#include "core/step/joint_forces.hpp"
+#include "core/step/neighbours.hpp"
+
+namespace voussoir {
+namespace {
+
+// A difference takes this fraction of the overlap: by as much its slope is off, and the soft motions of a stack are
+// sums of stiff ones that all but cancel (of the stack of the case overhang a thousandth of the stiffest). It takes at
+// least this fraction of the blocks' size, for below it the rounding of coordinates shows.
+constexpr double of_overlap = 1e-6, of_size = 1e-13;
+
+// narrower contacts turn as if they were as wide as this fraction of the size
+constexpr double least_width = 1e-3;
+
+// how far a pair is drawn together to see whether it is closed, over the smaller free body's inscribed radius
+constexpr double probe_of_size = 1e-5;
+
+template <int Dim>
+bool is_free(const Model<Dim>& model, int body) {
+  return !model.bodies[body].fixed && model.bodies[body].present;
+}
+
+// of the smaller of a pair's free bodies, m
+template <int Dim>
+double size_of(const Model<Dim>& model, int a, int b) {
+  const double size_a = model.bodies[a].size, size_b = model.bodies[b].size;
+  if (!is_free(model, a)) return size_b;
+  return is_free(model, b) ? std::min(size_a, size_b) : size_a;
+}
+
+// the places of a contact's sub-contacts among those of all contacts
+template <int Dim>
+std::size_t stride_of(const State<Dim>& state) {
+  return state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
+}
+
+template <int Dim>
+std::span<const JointState<Dim>> sub_histories_of(const State<Dim>& state, int contact) {
+  const std::size_t stride = stride_of(state);
+  return std::span(state.newton.sub_histories).subspan(contact * stride, stride);
+}
+
+void add(Counters& total, const KernelCounters& k) {
+  total.contact_evaluations += k.evaluations;
+  total.cold_starts += k.cold_starts;
+  total.lp_solves += k.lp_solves;
+  total.lp_pivots += k.lp_pivots;
+  total.newton_iterations += k.newton_iterations;
+  total.centre_fallbacks += k.centre_fallbacks;
+  total.areas += k.areas;
+  total.axis_hits += k.axis_hits;
+}
+
+// the pair as its second body moves by `step` along one of its freedoms, world axes
+template <int Dim>
+Pair<Dim> moved(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c, int freedom, double step) {
+  Pair<Dim> pair = pair_of(model, state, c.part_a, c.part_b, QueryLevel::area);
+  if (freedom < Dim) {
+    pair.offset += step * pair.axes.row(freedom).transpose();
+    return pair;
+  }
+  Spin<Dim> turn = Spin<Dim>::Zero();
+  turn[freedom - Dim] = step;
+  const CachedPose<Dim>& b = state.poses[model.parts[c.part_b].body];
+  pair.rotation = pair.axes.transpose() * matrix(turned(Rotation<Dim>{}, turn)) * b.axes;
+  return pair;
+}
+
+// contacts together in one batch of the kernel
+constexpr int together = 40;
+
+// of contacts [first, last) of the list
+template <int Dim>
+void difference(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
+                std::span<PairStiffness<Dim>> batch, KernelCounters& counters) {
+  constexpr int F = freedoms<Dim>;
+  static thread_local std::vector<Pair<Dim>> pairs;
+  static thread_local std::vector<Contact<Dim>> copies;
+  static thread_local std::vector<Contact<Dim>*> places;
+  static thread_local std::vector<double> steps;
+  static thread_local std::vector<SubContact<Dim>> cells;
+  pairs.clear();
+  copies.clear();
+  places.clear();
+  steps.clear();
+  for (const PairStiffness<Dim>& p : batch) {
+    const Contact<Dim>& c = state.contacts[p.contact];
+    const double width = Dim == 3 ? std::sqrt(c.geometry.area) : c.geometry.area;
+    const double size = size_of(model, p.body_a, p.body_b);
+    const double way = std::max(of_overlap * c.geometry.overlap, of_size * size);
+    for (int f = 0; f < F; ++f) {
+      steps.push_back(f < Dim ? way : way / std::max(width, least_width * size));
+      pairs.push_back(moved(model, state, c, f, steps.back()));
+      copies.push_back(c);
+    }
+  }
+  for (Contact<Dim>& c : copies)
+    places.push_back(&c);
+  narrow_phase<Dim>(pairs, settings.contact, model.solvers, places, counters);
+
+  cells.resize(stride_of(state));
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    PairStiffness<Dim>& p = batch[i];
+    const Contact<Dim>& c = state.contacts[p.contact];
+    const JointState<Dim>& history = state.newton.histories[p.contact].history;
+    const std::span<const JointState<Dim>> sub_histories = sub_histories_of(state, p.contact);
+    const CachedPose<Dim>&a = state.poses[p.body_a], &b = state.poses[p.body_b];
+    const int along = model.properties[c.properties].sub_contacts, count = sub_contact_count<Dim>(along);
+    p.apart = between(a, b);
+    const PairMotion<Dim> now{p.apart, b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
+    p.wrench = joint_wrench<Dim>(model, settings, state, c, subs_of(state, static_cast<std::size_t>(p.contact)), now,
+                                 history, sub_histories);
+    for (int f = 0; f < F; ++f) {
+      const std::size_t k = i * F + f;
+      Spin<Dim> spin = b.spin;
+      Vector<Dim> way = Vector<Dim>::Zero();
+      if (f < Dim)
+        way[f] = steps[k];
+      else
+        spin[f - Dim] += steps[k];
+      const PairMotion<Dim> then{now.between + way, now.drift + way, a.spin, spin, now.inverse_mass};
+      std::span<SubContact<Dim>> subs;
+      if (copies[k].touching() && count > 0) {
+        const std::size_t first = p.contact * stride_of(state);
+        std::copy_n(state.subs.begin() + static_cast<std::ptrdiff_t>(first), count, cells.begin());
+        copies[k].divided_face = c.divided_face;
+        divide<Dim>(pairs[k], along, copies[k], std::span(cells).first(count));
+        subs = std::span(cells).first(copies[k].cells);
+      }
+      const PairWrench<Dim> wrench =
+          joint_wrench<Dim>(model, settings, state, copies[k], subs, then, history, sub_histories);
+      p.stiffness.col(f) = (p.wrench - wrench) / steps[k];
+    }
+  }
+}
+
+// the stiffness of one point whose geometry is held
+template <int Dim>
+void add_point(const JointProperties& properties, const Vector<Dim>& normal, const Vector<Dim>& lever, double area,
+               typename PairStiffness<Dim>::Block& stiffness) {
+  const Matrix<Dim> along = normal * normal.transpose(), across = Matrix<Dim>::Identity() - along;
+  Eigen::Matrix<double, Dim, freedoms<Dim>> motion;  // of the point with the second body
+  motion.template leftCols<Dim>().setIdentity();
+  for (int k = 0; k < spin_freedoms<Dim>; ++k)
+    motion.col(Dim + k) = cross(Spin<Dim>(Spin<Dim>::Unit(k)), lever);
+  stiffness += motion.transpose() *
+               (area * (properties.normal_stiffness * along + properties.shear_stiffness * across)) * motion;
+}
+
+// a history without force
+template <int Dim>
+JointState<Dim> unloaded(const Vector<Dim>& normal, const Vector<Dim>& point, double area) {
+  JointState<Dim> history;
+  history.normal = normal;
+  history.point = point;
+  history.area = area;
+  return history;
+}
+
+}  // namespace
+
+template <int Dim>
+void find_pair_stiffness(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  std::vector<PairStiffness<Dim>>& list = state.newton.stiffness;
+  list.clear();
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    const Contact<Dim>& c = state.contacts[i];
+    const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
+    if (!c.touching() || (!is_free(model, a) && !is_free(model, b))) continue;
+    PairStiffness<Dim> pair;
+    pair.contact = static_cast<int>(i);
+    pair.body_a = a;
+    pair.body_b = b;
+    list.push_back(pair);
+  }
+  const int batches = (static_cast<int>(list.size()) + together - 1) / together;
+  std::vector<KernelCounters> counters(batches);
+  on_threads(settings.threads, batches, [&](int i) {
+    const std::size_t first = static_cast<std::size_t>(i) * together;
+    difference<Dim>(model, settings, state,
+                    std::span(list).subspan(first, std::min<std::size_t>(together, list.size() - first)), counters[i]);
+  });
+  for (const KernelCounters& k : counters)
+    add(state.counters, k);
+}
+
+template <int Dim>
+void find_closed_joints(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  std::vector<Pair<Dim>> pairs;
+  std::vector<Contact<Dim>> copies;
+  std::vector<int> chosen;
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    const Contact<Dim>& c = state.contacts[i];
+    const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
+    if (c.touching() || c.unanswered() || c.status == ContactStatus::apart ||
+        (!is_free(model, a) && !is_free(model, b)))
+      continue;
+    if (!state.newton.histories[i].history.normal.isZero(0)) continue;
+    const double probe = probe_of_size * size_of(model, a, b);
+    if (c.status == ContactStatus::separated && c.proof.margin > probe) continue;
+    Pair<Dim> pair = pair_of(model, state, c.part_a, c.part_b, QueryLevel::area);
+    Vector<Dim> axis =
+        c.proof.kind == ProofKind::separating_axis ? Vector<Dim>(c.proof.axis) : Vector<Dim>(Vector<Dim>::Zero());
+    if (axis.isZero(0)) axis = (pair.offset + pair.rotation * pair.b->centre - pair.a->centre).normalized();
+    pair.offset -= 2 * probe * axis;
+    chosen.push_back(static_cast<int>(i));
+    pairs.push_back(pair);
+    copies.emplace_back();
+    copies.back().part_a = c.part_a;
+    copies.back().part_b = c.part_b;
+  }
+  std::vector<Contact<Dim>*> places;
+  for (Contact<Dim>& c : copies)
+    places.push_back(&c);
+  KernelCounters counters;
+  narrow_phase<Dim>(pairs, settings.contact, model.solvers, places, counters);
+  add(state.counters, counters);
+
+  const std::size_t stride = stride_of(state);
+  std::vector<SubContact<Dim>> cells(stride);
+  for (std::size_t j = 0; j < chosen.size(); ++j) {
+    Contact<Dim>& c = copies[j];
+    if (!c.touching()) continue;
+    const int joint = model.joints.empty() ? no_joint
+                                           : std::max(model.polytope(c.part_a).joints[c.geometry.face_a],
+                                                      model.polytope(c.part_b).joints[c.geometry.face_b]);
+    const JointProperties& properties =
+        model.properties[joint == no_joint ? model.default_properties : model.joints[joint].properties];
+    PairStiffness<Dim> closed;
+    closed.contact = chosen[j];
+    closed.body_a = model.parts[c.part_a].body;
+    closed.body_b = model.parts[c.part_b].body;
+    closed.apart = between(state.poses[closed.body_a], state.poses[closed.body_b]);
+    const Vector<Dim>& n = c.geometry.normal;
+    const auto stand = [&](JointState<Dim>& history, const Vector<Dim>& point, double area) {
+      history = unloaded<Dim>(n, point, area);
+      add_point<Dim>(properties, n, point - closed.apart, area, closed.stiffness);
+    };
+    JointState<Dim>& history = state.newton.histories[closed.contact].history;
+    const int count = sub_contact_count<Dim>(properties.sub_contacts);
+    if (count == 0) {
+      stand(history, c.geometry.point, properties.constant_stiffness ? 1 : c.geometry.area);
+    } else {
+      std::fill(cells.begin(), cells.end(), SubContact<Dim>{});
+      divide<Dim>(pairs[j], properties.sub_contacts, c, std::span(cells).first(count));
+      history = unloaded<Dim>(n, c.geometry.point, c.geometry.area);
+      state.newton.histories[closed.contact].divided_face = c.divided_face;
+      for (int k = 0; k < count; ++k)
+        if (cells[k].area > 0)
+          stand(state.newton.sub_histories[closed.contact * stride + k], cells[k].point,
+                properties.constant_stiffness ? cells[k].area / c.geometry.area : cells[k].area);
+    }
+    state.newton.closed.push_back(closed);
+  }
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                          \
+  template void find_pair_stiffness<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
+  template void find_closed_joints<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

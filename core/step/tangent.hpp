@@ -1,0 +1,18 @@
+// The tangent of all contacts: how the loads on the free bodies change as they move.
+#pragma once
+
+#include <vector>
+
+#include "core/optimise/block_matrix.hpp"
+#include "core/state.hpp"
+
+namespace voussoir {
+
+// Minus the derivative of the contacts' forces and moments, a row of blocks for each free body: the stiffness of every
+// pair, and the turning of its forces with its first body. `place`: of a body among the free ones, or -1; `free`: 1, or
+// 0 for a freedom that is held, by freedom of the free bodies.
+template <int Dim>
+BlockMatrix<freedoms<Dim>> tangent_of(int threads, const std::vector<const PairStiffness<Dim>*>& pairs,
+                                      const std::vector<int>& place, const Eigen::VectorXd& free);
+
+}  // namespace voussoir
