@@ -8,6 +8,7 @@
 
 #include "reference/hingedbeam/overlap.hpp"
 #include "reference/parabola.hpp"
+#include "reference/peak.hpp"
 
 namespace voussoir::reference {
 namespace {
@@ -101,30 +102,9 @@ Balance balanced(const HingedBeamModel& model, double rotation, double y) {
   return balance(model, rotation, x, y);
 }
 
-// greatest value of a function with one peak, by golden section
-double argmax(const std::function<double(double)>& f, double low, double high) {
-  const double golden = 0.5 * (std::sqrt(5.0) - 1);
-  constexpr double width = 1e-7;  // rad: at a peak the value is flat, closer is rounding
-  double left = high - golden * (high - low), right = low + golden * (high - low);
-  double at_left = f(left), at_right = f(right);
-  while (high - low > width) {
-    if (at_left > at_right) {
-      high = right;
-      right = left;
-      at_right = at_left;
-      at_left = f(left = high - golden * (high - low));
-    } else {
-      low = left;
-      left = right;
-      at_left = at_right;
-      at_right = f(right = low + golden * (high - low));
-    }
-  }
-  return 0.5 * (low + high);
-}
-
-// fractions of the geometric limit between which every model here has its peak
+// fractions of the geometric limit between which every model here has its peak, and the sections that leave 1e-7 of it
 constexpr double peak_from = 0.1, peak_to = 0.6;
+constexpr int sections = 32;
 
 }  // namespace
 
@@ -183,14 +163,14 @@ std::vector<HingedBeamState> hinged_beam_path(const HingedBeamModel& model, doub
 
 HingedBeamLoad hinged_beam_second_order_peak(const HingedBeam& beam) {
   const double limit = hinged_beam_geometric_limit(beam);
-  return hinged_beam_second_order(beam, argmax([&](double at) { return hinged_beam_second_order(beam, at).weight; },
-                                               peak_from * limit, peak_to * limit));
+  const auto weight = [&](double at) { return hinged_beam_second_order(beam, at).weight; };
+  return hinged_beam_second_order(beam, peak(weight, peak_from * limit, peak_to * limit, sections).at);
 }
 
 HingedBeamState hinged_beam_peak(const HingedBeamModel& model) {
   const double limit = hinged_beam_geometric_limit(model.beam);
-  return hinged_beam_equilibrium(model, argmax([&](double at) { return hinged_beam_equilibrium(model, at).weight; },
-                                               peak_from * limit, peak_to * limit));
+  const auto weight = [&](double at) { return hinged_beam_equilibrium(model, at).weight; };
+  return hinged_beam_equilibrium(model, peak(weight, peak_from * limit, peak_to * limit, sections).at);
 }
 
 HingedBeamLoad peak_of(const std::vector<HingedBeamLoad>& curve) {

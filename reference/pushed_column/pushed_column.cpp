@@ -1,8 +1,9 @@
 #include "reference/pushed_column/pushed_column.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "reference/peak.hpp"
 
 namespace voussoir::reference {
 namespace {
@@ -45,23 +46,11 @@ double push_at(const PushedColumn& c, const Push& push, double tilt) {
 }
 
 Tipping tipping(const PushedColumn& c, const Push& push) {
-  // golden section about the tilt of the first order
-  constexpr double golden = 0.6180339887498949;
-  constexpr int steps = 80;
+  // about the tilt of the first order
+  constexpr int sections = 80;
   const double about = std::cbrt(2 * c.weight / (9 * c.stiffness * c.height * c.height));
-  double low = 0.5 * about, high = 2 * about;
-  const auto at = [&](double tilt) { return push_at(c, push, tilt); };
-  double a = high - golden * (high - low), b = low + golden * (high - low), at_a = at(a), at_b = at(b);
-  for (int i = 0; i < steps; ++i) {
-    if (at_a < at_b) {
-      low = a, a = b, at_a = at_b;
-      b = low + golden * (high - low), at_b = at(b);
-    } else {
-      high = b, b = a, at_b = at_a;
-      a = high - golden * (high - low), at_a = at(a);
-    }
-  }
-  return {std::max(at_a, at_b), 0.5 * (low + high)};
+  const Peak most = peak([&](double tilt) { return push_at(c, push, tilt); }, 0.5 * about, 2 * about, sections);
+  return {most.value, most.at};
 }
 
 double tilt_under(const PushedColumn& c, const Push& push, double force) {
