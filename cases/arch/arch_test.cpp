@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "cases/case_tools.hpp"
+#include "cases/arch/arch_trial.hpp"
 #include "core/limit/limit.hpp"
 #include "reference/arch/arch.hpp"
 
@@ -19,22 +19,16 @@ using verification::Kind;
 
 // as scene.toml states it
 const reference::Arch arch{15, 5, 2500 * 9.81};
+const ArchShape shape{arch.voussoirs, arch.radius};
 constexpr double stiffness = 1e11, soft_joints = 1e10;  // Pa/m
 
 std::string block_name(int k) {
   return k == arch.voussoirs / 2 ? "keystone" : "voussoir_" + std::to_string(k + 1);
 }
 
-std::string text(double number) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.15g", number);
-  return buffer;
-}
-
 // what turns scene.toml into an arch of this thickness (m) on joints of this stiffness (Pa/m)
 std::vector<std::string> variant(double thickness, double joints) {
-  std::vector<std::string> overrides{"joint_properties.dry.normal_stiffness=" + text(joints),
-                                     "joint_properties.dry.shear_stiffness=" + text(joints)};
+  std::vector<std::string> overrides = on_joints(joints);
   for (int k = 0; k < arch.voussoirs; ++k) {
     std::string corners;
     for (const reference::Corner& c : voussoir_corners(arch, thickness, k))
@@ -42,123 +36,6 @@ std::vector<std::string> variant(double thickness, double joints) {
     overrides.push_back("blocks." + block_name(k) + ".vertices=[" + corners + "]");
   }
   return overrides;
-}
-
-// A run of scene.toml that may come down, with its frames.
-struct Trial {
-  SceneRun run;
-  std::vector<State<2>> frames;
-
-  const Model<2>& model() const { return std::get<Prepared<2>>(run.scene.prepared).model; }
-  double drop() const { return -value(run, "keystone_displacement_y"); }
-  bool stands() const { return run.results.outcome == Outcome::done; }
-};
-
-Trial attempt(const std::vector<std::string>& overrides) {
-  Trial trial;
-  trial.run.scene = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml", overrides);
-  const auto& prepared = std::get<Prepared<2>>(trial.run.scene.prepared);
-  Watcher<2> watcher;
-  watcher.frame = [&](const Model<2>&, const State<2>& state, double) { trial.frames.push_back(state); };
-  Progress<2> progress = initial_progress(prepared);
-  simulate(prepared, progress, watcher);
-  trial.run.results = std::move(progress.results);
-  if (trial.run.results.outcome == Outcome::failed) throw std::runtime_error(trial.run.results.message);
-  return trial;
-}
-
-// a joint as it stands, by its place in the arch
-struct Joint {
-  double angle = 0;     // from the crown, rad, positive to the right
-  double outwards = 0;  // m from its middle: where its force crosses it
-  double turn = 0;      // rad between its faces
-  Vector<2> point;      // m, where the force crosses
-  Vector<2> force;      // N
-};
-
-std::vector<Joint> joints_of(const Trial& trial, const State<2>& state) {
-  const Model<2>& model = trial.model();
-  std::vector<Joint> joints;
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    const Contact<2>& c = state.contacts[i];
-    if (!c.touching()) continue;
-    const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
-    double turning = 0;  // N m about the contact's point
-    for (const SubContact<2>& sub : subs_of(state, i))
-      if (sub.area > 0) turning += moment(sub.point - c.geometry.point, sub.force)[0];
-    const Vector<2> along = perpendicular(c.geometry.normal);
-    const Vector<2> crossing = c.geometry.point + turning / moment(along, c.force)[0] * along;
-    const Motion<2>&of_a = state.motions[a], &of_b = state.motions[b];
-
-    // where that point of the first body was: joints stand at multiples of a sector from the springing
-    const Vector<2> before = model.origin + model.bodies[a].reference + matrix(of_a.rotation).transpose() * crossing;
-    const double sector = std::numbers::pi / arch.voussoirs;
-    const double angle = sector * (std::floor(std::atan2(before[0], before[1]) / sector) + 0.5);
-    Joint joint;
-    joint.angle = angle;
-    joint.outwards = before[0] * std::sin(angle) + before[1] * std::cos(angle) - arch.radius;
-    joint.turn = std::abs(of_a.rotation.angle - of_b.rotation.angle);
-    joint.point = model.origin + model.bodies[a].reference + of_a.displacement + crossing;
-    joint.force = c.force;
-    joints.push_back(joint);
-  }
-  std::sort(joints.begin(), joints.end(), [](const Joint& a, const Joint& b) { return a.angle < b.angle; });
-  return joints;
-}
-
-// closed outlines of the blocks, parted by an empty line as gnuplot wants them
-void draw_blocks(const std::string& file, const Trial& trial, const State<2>& state) {
-  std::ofstream out(verification::case_output("arch") / file);
-  out << "x_m,y_m\n";
-  const Model<2>& model = trial.model();
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Polytope<2>& part = model.bodies[b].parts.front();
-    if (model.bodies[b].fixed) continue;
-    for (const int vertex : closed_ring(part)) {
-      const Vector<2> p = model.origin + model.bodies[b].reference + state.motions[b].displacement +
-                          matrix(state.motions[b].rotation) * part.vertices[vertex];
-      out << p[0] << ',' << p[1] << '\n';
-    }
-    out << '\n';
-  }
-}
-
-// every sub-contact's force: where it acts, and the force
-void draw_forces(const std::string& file, const Trial& trial, const State<2>& state) {
-  std::vector<std::vector<double>> columns(4);
-  const Model<2>& model = trial.model();
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    const int a = model.parts[state.contacts[i].part_a].body;
-    for (const SubContact<2>& sub : subs_of(state, i)) {
-      if (!(sub.area > 0)) continue;
-      const Vector<2> p = model.origin + model.bodies[a].reference + state.motions[a].displacement + sub.point;
-      columns[0].push_back(p[0]);
-      columns[1].push_back(p[1]);
-      columns[2].push_back(sub.force[0]);
-      columns[3].push_back(sub.force[1]);
-    }
-  }
-  write_csv("arch", file, {"x_m", "y_m", "force_x_N", "force_y_N"}, columns);
-}
-
-void draw_points(const std::string& file, const std::vector<Joint>& joints) {
-  std::vector<std::vector<double>> columns(2);
-  for (const Joint& joint : joints) {
-    columns[0].push_back(joint.point[0]);
-    columns[1].push_back(joint.point[1]);
-  }
-  write_csv("arch", file, {"x_m", "y_m"}, columns);
-}
-
-// joints that turn by more than a tenth of the one that turns most
-std::vector<Joint> hinges_of(const std::vector<Joint>& joints) {
-  double most = 0;
-  for (const Joint& joint : joints)
-    most = std::max(most, joint.turn);
-  std::vector<Joint> hinges;
-  for (const Joint& joint : joints)
-    if (joint.turn > 0.1 * most) hinges.push_back(joint);
-  return hinges;
 }
 
 // thickness, as share of the least one, at which limit analysis finds a thrust line
@@ -201,6 +78,11 @@ struct Bracket {
   Trial standing, falling;
 };
 
+// of the middle of the keystone, m
+double drop(const Trial& trial) {
+  return trial.drop("keystone", {0, arch.radius});
+}
+
 // The scene on joints of this stiffness (Pa/m), thicker and thinner than what its equilibria allow by a share of it.
 Bracket bracket(double joints, double apart, long long step_limit) {
   const std::string name = text(joints / 1e9) + " GPa/m, within " + text(100 * apart) + " %";
@@ -211,13 +93,12 @@ Bracket bracket(double joints, double apart, long long step_limit) {
                            thin = variant((1 - apart) * limit.thickness, joints);
   thick.push_back("stage.settle.step_limit=" + std::to_string(step_limit));
   thin.push_back(thick.back());
-  thin.push_back("output.frame_interval_s=0.02");
   const double least = limit.thickness / arch.radius;
-  Bracket found{(1 - apart) * least, (1 + apart) * least, attempt(thick), attempt(thin)};
+  Bracket found{(1 - apart) * least, (1 + apart) * least, attempt("scene.toml", thick), attempt("scene.toml", thin)};
   const std::string source = "equilibria of rigid voussoirs on elastic joints, reference/arch";
   const std::string percent = text(100 * apart) + " % of the thickness";
   report.record({above, "1", Kind::exact, source, 1, {0, 0}, percent + " above the limit the arch comes to rest"},
-                found.standing.stands() && found.standing.drop() < limit.drop, cost(found.standing.run));
+                found.standing.stands && drop(found.standing) < limit.drop, found.standing.cost);
   report.record({below,
                  "1",
                  Kind::exact,
@@ -225,7 +106,7 @@ Bracket bracket(double joints, double apart, long long step_limit) {
                  1,
                  {0, 0},
                  percent + " below the limit its keystone passes ten times the drop at the limit"},
-                !found.falling.stands() && found.falling.drop() > 10 * limit.drop, cost(found.falling.run));
+                !found.falling.stands && drop(found.falling) > 10 * limit.drop, found.falling.cost);
   return found;
 }
 
@@ -275,9 +156,10 @@ TEST(Arch, StandsAboveItsLimitAndFallsBelow) {
   const ElasticArch expected = elastic_arch(arch, on, thickness);
 
   // the reference is of first order in how far a hinge turns, and so is right to that share of what elasticity costs
-  const double share = *std::max_element(limit.turn.begin(), limit.turn.end(),
-                                         [](double a, double b) { return std::abs(a) < std::abs(b); });
-  const double left_out = std::abs(share) * (limit.thickness / rigid - 1);
+  double share = 0;
+  for (const reference::ElasticJoint& joint : limit.joints)
+    share = std::max(share, std::abs(joint.turn));
+  const double left_out = share * (limit.thickness / rigid - 1);
   const ElasticArch thinner = elastic_arch(arch, on, (1 - left_out) * thickness);
   const std::string source = "equilibrium of rigid voussoirs on elastic joints, reference/arch";
   const std::string because =
@@ -286,17 +168,17 @@ TEST(Arch, StandsAboveItsLimitAndFallsBelow) {
       "joints add to the thickness: it knows turns to the first order";
   report.record(
       {"drop of the keystone", "m", Kind::exact, source, expected.drop, {thinner.drop - expected.drop, 0}, because},
-      standing.drop(), cost(standing.run));
-  const std::vector<Joint> joints = joints_of(standing, standing.frames.back());
+      drop(standing), standing.cost);
+  const std::vector<Joint> joints = joints_of(standing, shape);
   ASSERT_EQ(joints.size(), 16u);
   report.record(
       {"thrust", "N", Kind::exact, source, expected.thrust, {std::abs(expected.thrust - thinner.thrust), 0}, because},
-      std::abs(joints.front().force[0]), cost(standing.run));
+      std::abs(joints.front().force[0]), standing.cost);
   double worst = 0, allowed = 0;
-  for (std::size_t k = 0; k < expected.crossing.size(); ++k) {
+  for (std::size_t k = 0; k < expected.joints.size(); ++k) {
     for (const Joint& joint : {joints[k], joints[joints.size() - 1 - k]})
-      worst = std::max(worst, std::abs(joint.outwards - expected.crossing[k]));
-    allowed = std::max(allowed, std::abs(thinner.crossing[k] - expected.crossing[k]));
+      worst = std::max(worst, std::abs(joint.outwards - expected.joints[k].crossing));
+    allowed = std::max(allowed, std::abs(thinner.joints[k].crossing - expected.joints[k].crossing));
   }
   report.record({"where the thrust crosses the joints",
                  "m",
@@ -305,18 +187,10 @@ TEST(Arch, StandsAboveItsLimitAndFallsBelow) {
                  0,
                  {allowed, 0, Bound::at_most},
                  "largest deviation at 16 joints; " + because},
-                worst, cost(standing.run));
+                worst, standing.cost);
 
-  // the arch that comes down, when its hinges are open to be seen
-  constexpr double seen = 0.25;  // m
-  const auto open = std::find_if(falling.frames.begin(), falling.frames.end(), [&](const State<2>& state) {
-    double lowest = 0;
-    for (const Motion<2>& motion : state.motions)
-      lowest = std::min(lowest, motion.displacement[1]);
-    return -lowest > seen;
-  });
-  ASSERT_NE(open, falling.frames.end());
-  const std::vector<Joint> hinges = hinges_of(joints_of(falling, *open));
+  // the arch that comes down
+  const std::vector<Joint> hinges = hinges_of(joints_of(falling, shape));
   const reference::ThrustLine line = best_thrust_line(arch, rigid);
   int as_expected = 0;
   for (std::size_t k = 0; k < line.angle.size(); ++k) {
@@ -333,14 +207,14 @@ TEST(Arch, StandsAboveItsLimitAndFallsBelow) {
                  6,
                  {0, 0},
                  "a count: at both springings, both haunches and both sides of the keystone"},
-                static_cast<int>(hinges.size()) == as_expected ? as_expected : -1, cost(falling.run));
+                static_cast<int>(hinges.size()) == as_expected ? as_expected : -1, falling.cost);
 
   write_csv("arch", "brackets.csv", {"stiffness_GPa_m", "falls", "stands"},
             {{soft_joints / 1e9, stiffness / 1e9}, {soft.falls, found.falls}, {soft.stands, found.stands}});
-  draw_blocks("standing.csv", standing, standing.frames.back());
-  draw_forces("forces.csv", standing, standing.frames.back());
+  draw_blocks("standing.csv", standing);
+  draw_forces("forces.csv", standing);
   draw_points("thrust.csv", joints);
-  draw_blocks("falling.csv", falling, *open);
+  draw_blocks("falling.csv", falling);
   draw_points("hinges.csv", hinges);
 }
 

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "reference/peak.hpp"
+
 namespace voussoir::reference {
 namespace {
 
@@ -19,16 +21,14 @@ struct Above {
 std::vector<Above> joints_of_half(const Arch& arch, double thickness) {
   const double inside = arch.radius - 0.5 * thickness, outside = arch.radius + 0.5 * thickness;
   const double sector = pi / arch.voussoirs;
-  const double area = 0.5 * (outside * outside - inside * inside) * std::sin(sector);
-  const double centroid = std::cos(0.5 * sector) * 2 / 3 * (std::pow(outside, 3) - std::pow(inside, 3)) /
-                          (outside * outside - inside * inside);
+  const Voussoir voussoir = voussoir_of(arch, thickness);
   std::vector<Above> joints;
   Above above;
   if (arch.voussoirs % 2 == 0) {
     joints.push_back(above);
   } else {
     // half a trapezoid: its centroid lies at half the mean of its widths, weighted with them
-    above = {0.5 * sector, 0.5 * area * arch.weight, 0};
+    above = {0.5 * sector, 0.5 * voussoir.weight, 0};
     const double half = 0.5 * sector, slope = std::tan(half), from = inside * std::cos(half),
                  to = outside * std::cos(half);
     above.moment = arch.weight * slope * slope * (std::pow(to, 3) - std::pow(from, 3)) / 6;
@@ -36,8 +36,8 @@ std::vector<Above> joints_of_half(const Arch& arch, double thickness) {
   }
   while (static_cast<int>(joints.size()) < (arch.voussoirs + 2) / 2) {
     const double middle = above.angle + 0.5 * sector;
-    above.weight += area * arch.weight;
-    above.moment += area * arch.weight * centroid * std::sin(middle);
+    above.weight += voussoir.weight;
+    above.moment += voussoir.weight * voussoir.centroid * std::sin(middle);
     above.angle += sector;
     joints.push_back(above);
   }
@@ -70,30 +70,25 @@ std::vector<Corner> voussoir_corners(const Arch& arch, double thickness, int k) 
   return {at(inside, left), at(inside, right), at(outside, right), at(outside, left)};
 }
 
+Voussoir voussoir_of(const Arch& arch, double thickness) {
+  const double inside = arch.radius - 0.5 * thickness, outside = arch.radius + 0.5 * thickness;
+  const double across = outside * outside - inside * inside, sector = pi / arch.voussoirs;
+  return {arch.weight * 0.5 * across * std::sin(sector),
+          std::cos(0.5 * sector) * 2 / 3 * (std::pow(outside, 3) - std::pow(inside, 3)) / across};
+}
+
 ThrustLine best_thrust_line(const Arch& arch, double thickness) {
   const double inside = arch.radius - 0.5 * thickness, outside = arch.radius + 0.5 * thickness;
   const std::vector<Above> joints = joints_of_half(arch, thickness);
 
-  // high - low is concave in H: golden section
+  // high - low is concave in H
   const auto width = [&](double thrust) {
     const Window w = window(joints, inside, outside, thrust);
     return w.high - w.low;
   };
-  constexpr double golden = 0.6180339887498949;
-  constexpr int halvings = 90;
-  double low = 0, high = 3 * joints.back().weight;
-  double a = high - golden * (high - low), b = low + golden * (high - low), at_a = width(a), at_b = width(b);
-  for (int i = 0; i < halvings; ++i) {
-    if (at_a < at_b) {
-      low = a, a = b, at_a = at_b;
-      b = low + golden * (high - low), at_b = width(b);
-    } else {
-      high = b, b = a, at_b = at_a;
-      a = high - golden * (high - low), at_a = width(a);
-    }
-  }
+  constexpr int sections = 90;
   ThrustLine line;
-  line.thrust = 0.5 * (low + high);
+  line.thrust = peak(width, 0, 3 * joints.back().weight, sections).at;
   line.half_weight = joints.back().weight;
   const Window w = window(joints, inside, outside, line.thrust);
   const double moment = 0.5 * (w.low + w.high);

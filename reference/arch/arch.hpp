@@ -20,6 +20,13 @@ struct Corner {
 };
 std::vector<Corner> voussoir_corners(const Arch& arch, double thickness, int k);
 
+// one voussoir's
+struct Voussoir {
+  double weight = 0;    // N
+  double centroid = 0;  // m from the centre of the circle
+};
+Voussoir voussoir_of(const Arch& arch, double thickness);
+
 // --- rigid voussoirs (Heyman 1966: no tension, no crushing, no sliding)
 
 // Where the thrust crosses the joints of the right half, from the crown down to the springing.
@@ -47,15 +54,19 @@ struct ArchJoints {
   double shear_stiffness = 1e11;   // Pa/m, no slip
 };
 
+struct ElasticJoint {
+  double angle = 0;     // from the crown, positive to the right
+  double crossing = 0;  // m from the middle of the joint outwards: where the force acts
+  double turn = 0;      // rad between the two faces, positive where the outer ends are pressed more
+  double bearing = 0;   // m: length that is pressed
+};
+
 // an equilibrium, found by shooting from the springing to the keystone in the deformed geometry
 struct ElasticArch {
-  double thickness = 0;          // m
-  double drop = 0;               // m, of the keystone
-  double thrust = 0;             // N, horizontal
-  std::vector<double> angle;     // of the joints of the right half, from the springing up
-  std::vector<double> crossing;  // m from the middle of the joint outwards: where the force acts
-  std::vector<double> turn;      // rad between the two faces
-  std::vector<double> bearing;   // m: length that is pressed
+  double thickness = 0;              // m
+  double drop = 0;                   // m, of the keystone
+  double thrust = 0;                 // N, horizontal
+  std::vector<ElasticJoint> joints;  // of the right half, from the springing up
 };
 
 // Equilibria by growing drop: from an arch so thick that all joints are pressed, down to the thinnest and back up,

@@ -85,7 +85,8 @@ TEST(ElasticArch, HasTheThrustOfTheRigidOne) {
   const ThrustLine line = best_thrust_line(arch, minimum_thickness(arch));
   EXPECT_NEAR(limit.thrust / line.thrust, 1, 0.005);  // 0.44 % thicker, of which its hinges press as much
   for (std::size_t k = 0; k < line.radius.size(); ++k)
-    EXPECT_NEAR(limit.crossing[k], line.radius[line.radius.size() - 1 - k] - arch.radius, 0.005 * limit.thickness);
+    EXPECT_NEAR(limit.joints[k].crossing, line.radius[line.radius.size() - 1 - k] - arch.radius,
+                0.005 * limit.thickness);
 }
 
 TEST(ElasticArch, StandsOnTheStableSideOnly) {

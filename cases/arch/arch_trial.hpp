@@ -1,0 +1,56 @@
+// What the tests of the arch share: runs that end at rest or on the way down, the joints as they stand, and data for
+// the figures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/case_tools.hpp"
+
+namespace voussoir::cases {
+
+// "%.15g", as --set takes it
+std::string text(double number);
+
+// that gives the joints of a scene this stiffness (Pa/m), along and across
+std::vector<std::string> on_joints(double stiffness);
+
+constexpr double fallen = 0.25;  // m: beyond any drop of equilibrium; the hinges are then open to be seen
+
+// A scene of this folder that was run until it was at rest, or a block had dropped by `fallen`, or no step was left.
+struct Trial {
+  LoadedScene scene;
+  State<2> state;  // at the end
+  bool stands = false;
+  verification::Cost cost;
+
+  const Model<2>& model() const { return std::get<Prepared<2>>(scene.prepared).model; }
+  double drop(const std::string& block, const Vector<2>& point) const;  // m, of a point of the scene on that block
+};
+Trial attempt(const std::string& scene, const std::vector<std::string>& overrides);
+
+// a joint as it stands, by its place in the arch
+struct Joint {
+  double angle = 0;     // from the crown, rad, positive to the right
+  double outwards = 0;  // m from its middle: where its force crosses it
+  double turn = 0;      // rad between its faces
+  Vector<2> point;      // m, where the force crosses
+  Vector<2> force;      // N
+};
+
+// the joints that press, from the left
+struct ArchShape {
+  int voussoirs = 0;
+  double radius = 0;  // m
+};
+std::vector<Joint> joints_of(const Trial& trial, const ArchShape& shape);
+
+// joints that turn by more than a tenth of the one that turns most
+std::vector<Joint> hinges_of(const std::vector<Joint>& joints);
+
+// CSV files in the folder of the case, for the figures
+void draw_blocks(const std::string& file, const Trial& trial);  // closed outlines, parted by an empty line
+void draw_forces(const std::string& file, const Trial& trial);  // of every sub-contact: where it acts, and the force
+void draw_points(const std::string& file, const std::vector<Joint>& joints);
+
+}  // namespace voussoir::cases
