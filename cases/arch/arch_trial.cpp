@@ -16,19 +16,20 @@ std::vector<std::string> on_joints(double stiffness) {
           "joint_properties.dry.shear_stiffness=" + text(stiffness)};
 }
 
-Trial attempt(const std::string& scene, const std::vector<std::string>& overrides) {
+Trial attempt(const std::string& scene, const std::vector<std::string>& overrides, double drop) {
   Trial trial;
   trial.scene = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides);
   const auto& prepared = std::get<Prepared<2>>(trial.scene.prepared);
   Watcher<2> watcher;
-  watcher.pause = [](const Progress<2>& now) {
+  watcher.pause = [&](const Progress<2>& now) {
     return std::any_of(now.state.motions.begin(), now.state.motions.end(),
-                       [](const Motion<2>& motion) { return motion.displacement[1] < -fallen; });
+                       [&](const Motion<2>& motion) { return motion.displacement[1] < -drop; });
   };
   Progress<2> progress = begin(prepared);
   const bool ended = simulate(prepared, progress, watcher);
   if (ended && progress.results.outcome == Outcome::failed) throw std::runtime_error(progress.results.message);
   trial.stands = ended && progress.results.outcome == Outcome::done;
+  trial.comes_down = !ended;
   trial.cost = {progress.state.counters.contact_evaluations, progress.results.seconds};
   trial.state = std::move(progress.state);
   return trial;

@@ -15,19 +15,19 @@ std::string text(double number);
 // that gives the joints of a scene this stiffness (Pa/m), along and across
 std::vector<std::string> on_joints(double stiffness);
 
-constexpr double fallen = 0.25;  // m: beyond any drop of equilibrium; the hinges are then open to be seen
+constexpr double fallen = 0.25;  // m: a drop at which the hinges are open to be seen
 
-// A scene of this folder that was run until it was at rest, or a block had dropped by `fallen`, or no step was left.
+// A scene of this folder that was run until it was at rest, or a block had dropped so far, or no step was left.
 struct Trial {
   LoadedScene scene;
   State<2> state;  // at the end
-  bool stands = false;
+  bool stands = false, comes_down = false;
   verification::Cost cost;
 
   const Model<2>& model() const { return std::get<Prepared<2>>(scene.prepared).model; }
   double drop(const std::string& block, const Vector<2>& point) const;  // m, of a point of the scene on that block
 };
-Trial attempt(const std::string& scene, const std::vector<std::string>& overrides);
+Trial attempt(const std::string& scene, const std::vector<std::string>& overrides, double drop = fallen);
 
 // a joint as it stands, by its place in the arch
 struct Joint {

@@ -66,7 +66,7 @@ std::vector<Shot> path_of(const Half& half, const End& ends) {
   double least = half.thickness(*first);
   return follow(
       *first, [&](const Shot& s) { return half.drop(s); },
-      [&](double drop, const Shot& near) { return half.with_drop(drop, near.from); },
+      [&](double drop, const Eigen::VectorXd& near) { return half.with_drop(drop, near); },
       [&](const Shot& last) {
         least = std::min(least, half.thickness(last));
         return ends(half.thickness(last), least);
@@ -100,7 +100,7 @@ ElasticArch thinnest_elastic_arch(const Arch& arch, const ArchJoints& joints) {
   const std::vector<Shot> path = path_of(half, [](double last, double least) { return last > 1.001 * least; });
   return half.described(greatest_along(
       path, [&](const Shot& s) { return -half.thickness(s); }, [&](const Shot& s) { return half.drop(s); },
-      [&](double drop, const Shot& near) { return half.with_drop(drop, near.from); }));
+      [&](double drop, const Eigen::VectorXd& near) { return half.with_drop(drop, near); }));
 }
 
 }  // namespace voussoir::reference

@@ -94,18 +94,27 @@ std::optional<Shot> solve(const Arch& arch, Eigen::VectorXd x, const Shoot& shoo
   return {};
 }
 
-// Equilibria from the first on, `way(shot)` growing by 5 % or less each time, until `ends(shot)`; `at(way, near)` finds
-// one from one nearby. Throws std::runtime_error when it finds none.
+// Equilibria from the first on, `way(shot)` growing by 5 % or less each time, until `ends(shot)`; `at(way, unknowns)`
+// finds one from unknowns nearby: where a line through the last two leads. Others of the same way may exist: what lies
+// far beside that line is none of the path. Throws std::runtime_error when it finds none.
 template <class Way, class At, class Ends>
 std::vector<Shot> follow(const Shot& first, const Way& way, const At& at, const Ends& ends) {
-  constexpr double growth = 1.05;
+  constexpr double growth = 1.05, beside = 0.5;  // of the line's step
   std::vector<Shot> path{first};
   while (!ends(path.back())) {
+    const double last = way(path.back());
     std::optional<Shot> next;
     for (double factor = growth; !next; factor = std::sqrt(factor)) {
       if (factor < 1 + 1e-6) throw std::runtime_error("elastic arch: the path of equilibria is lost");
-      next = at(factor * way(path.back()), path.back());
-      if (next && !(way(*next) > way(path.back()))) next.reset();
+      Eigen::VectorXd step = Eigen::VectorXd::Zero(path.back().from.size());
+      if (path.size() > 1) {
+        const Shot& before = path[path.size() - 2];
+        step = (factor - 1) * last / (last - way(before)) * (path.back().from - before.from);
+      }
+      const Eigen::VectorXd guess = path.back().from + step;
+      next = at(factor * last, guess);
+      if (next && !(way(*next) > last)) next.reset();
+      if (next && path.size() > 1 && (next->from - guess).norm() > beside * step.norm()) next.reset();
     }
     path.push_back(*next);
   }
@@ -119,7 +128,7 @@ Shot greatest_along(const std::vector<Shot>& path, const Value& value, const Way
       std::max_element(path.begin(), path.end(), [&](const Shot& a, const Shot& b) { return value(a) < value(b); });
   if (most == path.begin() || most + 1 == path.end()) throw std::runtime_error("elastic arch: the path has no limit");
   const auto exactly = [&](double there) {
-    const std::optional<Shot> found = at(there, *most);
+    const std::optional<Shot> found = at(there, most->from);
     if (!found) throw std::runtime_error("elastic arch: no equilibrium found beside the limit");
     return *found;
   };

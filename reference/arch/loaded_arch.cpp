@@ -162,7 +162,7 @@ Path path_of(const Whole& whole, const End& ends) {
   Path path{{}, whole.drop(*unloaded)};
   path.shots = follow(
       *first, [&](const Shot& s) { return whole.drop(s) - path.without; },
-      [&](double drop, const Shot& near) { return whole.with_drop(path.without + drop, near.from); },
+      [&](double drop, const Eigen::VectorXd& near) { return whole.with_drop(path.without + drop, near); },
       [&](const Shot& last) {
         most = std::max(most, whole.load(last));
         return ends(whole.load(last), most);
@@ -235,7 +235,7 @@ ElasticLoad greatest_elastic_load(const LoadedArch& loaded, const ArchJoints& jo
   return whole.described(greatest_along(
       path.shots, [&](const Shot& s) { return whole.load(s); },
       [&](const Shot& s) { return whole.drop(s) - path.without; },
-      [&](double drop, const Shot& near) { return whole.with_drop(path.without + drop, near.from); }));
+      [&](double drop, const Eigen::VectorXd& near) { return whole.with_drop(path.without + drop, near); }));
 }
 
 }  // namespace voussoir::reference
