@@ -1,7 +1,10 @@
 #include "cases/arch/arch_trial.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "cases/recorded_run.hpp"
 
 namespace voussoir::cases {
 
@@ -17,21 +20,16 @@ std::vector<std::string> on_joints(double stiffness) {
 }
 
 Trial attempt(const std::string& scene, const std::vector<std::string>& overrides, double drop) {
-  Trial trial;
-  trial.scene = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides);
-  const auto& prepared = std::get<Prepared<2>>(trial.scene.prepared);
-  Watcher<2> watcher;
-  watcher.pause = [&](const Progress<2>& now) {
-    return std::any_of(now.state.motions.begin(), now.state.motions.end(),
+  RecordedRun<2> run = record<2>(scene, overrides, Demand::no_failure, [&](const Prepared<2>&, const State<2>& state) {
+    return std::any_of(state.motions.begin(), state.motions.end(),
                        [&](const Motion<2>& motion) { return motion.displacement[1] < -drop; });
-  };
-  Progress<2> progress = begin(prepared);
-  const bool ended = simulate(prepared, progress, watcher);
-  if (ended && progress.results.outcome == Outcome::failed) throw std::runtime_error(progress.results.message);
-  trial.stands = ended && progress.results.outcome == Outcome::done;
-  trial.comes_down = !ended;
-  trial.cost = {progress.state.counters.contact_evaluations, progress.results.seconds};
-  trial.state = std::move(progress.state);
+  });
+  Trial trial;
+  trial.cost = cost(run.run);
+  trial.stands = run.ended && run.run.results.outcome == Outcome::done;
+  trial.comes_down = !run.ended;
+  trial.state = std::move(run.end);
+  trial.scene = std::move(run.run.scene);
   return trial;
 }
 
