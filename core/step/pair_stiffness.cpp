@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/contact/narrow_phase.hpp"
+#include "core/contact/sensitivity.hpp"
 #include "core/contact/sub_contacts.hpp"
 #include "core/on_threads.hpp"
 #include "core/step/joint_forces.hpp"
@@ -59,17 +60,15 @@ void add(Counters& total, const KernelCounters& k) {
   total.axis_hits += k.axis_hits;
 }
 
-// the pair as its second body moves by `step` along one of its freedoms, world axes
+// the pair as its second body, which stands at `b`, moves by `step` along one of its freedoms, world axes
 template <int Dim>
-Pair<Dim> moved(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c, int freedom, double step) {
-  Pair<Dim> pair = pair_of(model, state, c.part_a, c.part_b, QueryLevel::area);
+Pair<Dim> moved(Pair<Dim> pair, const CachedPose<Dim>& b, int freedom, double step) {
   if (freedom < Dim) {
     pair.offset += step * pair.axes.row(freedom).transpose();
     return pair;
   }
   Spin<Dim> turn = Spin<Dim>::Zero();
   turn[freedom - Dim] = step;
-  const CachedPose<Dim>& b = state.poses[model.parts[c.part_b].body];
   pair.rotation = pair.axes.transpose() * matrix(turned(Rotation<Dim>{}, turn)) * b.axes;
   return pair;
 }
@@ -77,34 +76,76 @@ Pair<Dim> moved(const Model<Dim>& model, const State<Dim>& state, const Contact<
 // contacts together in one batch of the kernel
 constexpr int together = 40;
 
+// the contact as its second body moves by `step` along a freedom, to first order
+template <int Dim>
+void move_contact(const ContactSensitivity<Dim>& sensitivity, const Matrix<Dim>& axes, int freedom, double step,
+                  Contact<Dim>& c) {
+  const Vector<Dim> way = step * sensitivity.point.col(freedom), turn = step * sensitivity.normal.col(freedom);
+  c.proof.point += way;
+  c.proof.axis += turn;
+  c.geometry.point += axes * way;
+  c.geometry.normal += axes * turn;
+  c.geometry.overlap += step * sensitivity.overlap[freedom];
+  c.geometry.area += step * sensitivity.area[freedom];
+}
+
+// Contacts after small motions of their second bodies, one after the other along each freedom: by their sensitivities,
+// or, where they have none, by the kernel.
+template <int Dim>
+struct MovedContacts {
+  std::vector<Pair<Dim>> pairs, asked;  // all; those that the kernel resolves
+  std::vector<Contact<Dim>> contacts;
+  std::vector<double> steps;  // m, rad
+  std::vector<Contact<Dim>*> places;
+  std::vector<std::size_t> of_kernel;  // places in `contacts`
+
+  void find(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
+            std::span<const PairStiffness<Dim>> batch, KernelCounters& counters) {
+    pairs.clear();
+    asked.clear();
+    contacts.clear();
+    steps.clear();
+    places.clear();
+    of_kernel.clear();
+    for (const PairStiffness<Dim>& p : batch)
+      move(model, settings, state, p);
+    for (const std::size_t k : of_kernel)
+      places.push_back(&contacts[k]);
+    narrow_phase<Dim>(asked, settings.contact, model.solvers, places, counters);
+  }
+
+ private:
+  void move(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, const PairStiffness<Dim>& p) {
+    const Contact<Dim>& c = state.contacts[p.contact];
+    const double width = Dim == 3 ? std::sqrt(c.geometry.area) : c.geometry.area;
+    const double size = size_of(model, p.body_a, p.body_b);
+    const double way = std::max(of_overlap * c.geometry.overlap, of_size * size);
+    const Pair<Dim> here = pair_of(model, state, c.part_a, c.part_b, QueryLevel::area);
+    ContactSensitivity<Dim> sensitivity;
+    const bool closed_form =
+        has_sensitivity(settings.contact) && find_sensitivity<Dim>(here, settings.contact, c, sensitivity);
+    for (int f = 0; f < freedoms<Dim>; ++f) {
+      steps.push_back(f < Dim ? way : way / std::max(width, least_width * size));
+      pairs.push_back(moved(here, state.poses[p.body_b], f, steps.back()));
+      contacts.push_back(c);
+      if (closed_form) {
+        move_contact(sensitivity, here.axes, f, steps.back(), contacts.back());
+      } else {
+        of_kernel.push_back(contacts.size() - 1);
+        asked.push_back(pairs.back());
+      }
+    }
+  }
+};
+
 // of contacts [first, last) of the list
 template <int Dim>
 void difference(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
                 std::span<PairStiffness<Dim>> batch, KernelCounters& counters) {
   constexpr int F = freedoms<Dim>;
-  static thread_local std::vector<Pair<Dim>> pairs;
-  static thread_local std::vector<Contact<Dim>> copies;
-  static thread_local std::vector<Contact<Dim>*> places;
-  static thread_local std::vector<double> steps;
+  static thread_local MovedContacts<Dim> after;
   static thread_local std::vector<SubContact<Dim>> cells;
-  pairs.clear();
-  copies.clear();
-  places.clear();
-  steps.clear();
-  for (const PairStiffness<Dim>& p : batch) {
-    const Contact<Dim>& c = state.contacts[p.contact];
-    const double width = Dim == 3 ? std::sqrt(c.geometry.area) : c.geometry.area;
-    const double size = size_of(model, p.body_a, p.body_b);
-    const double way = std::max(of_overlap * c.geometry.overlap, of_size * size);
-    for (int f = 0; f < F; ++f) {
-      steps.push_back(f < Dim ? way : way / std::max(width, least_width * size));
-      pairs.push_back(moved(model, state, c, f, steps.back()));
-      copies.push_back(c);
-    }
-  }
-  for (Contact<Dim>& c : copies)
-    places.push_back(&c);
-  narrow_phase<Dim>(pairs, settings.contact, model.solvers, places, counters);
+  after.find(model, settings, state, batch, counters);
 
   cells.resize(stride_of(state));
   for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -119,25 +160,26 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
     p.wrench = joint_wrench<Dim>(model, settings, state, c, subs_of(state, static_cast<std::size_t>(p.contact)), now,
                                  history, sub_histories);
     for (int f = 0; f < F; ++f) {
-      const std::size_t k = i * F + f;
+      Contact<Dim>& then_contact = after.contacts[i * F + f];
+      const double step = after.steps[i * F + f];
       Spin<Dim> spin = b.spin;
       Vector<Dim> way = Vector<Dim>::Zero();
       if (f < Dim)
-        way[f] = steps[k];
+        way[f] = step;
       else
-        spin[f - Dim] += steps[k];
+        spin[f - Dim] += step;
       const PairMotion<Dim> then{now.between + way, now.drift + way, a.spin, spin, now.inverse_mass};
       std::span<SubContact<Dim>> subs;
-      if (copies[k].touching() && count > 0) {
+      if (then_contact.touching() && count > 0) {
         const std::size_t first = p.contact * stride_of(state);
         std::copy_n(state.subs.begin() + static_cast<std::ptrdiff_t>(first), count, cells.begin());
-        copies[k].divided_face = c.divided_face;
-        divide<Dim>(pairs[k], along, copies[k], std::span(cells).first(count));
-        subs = std::span(cells).first(copies[k].cells);
+        then_contact.divided_face = c.divided_face;
+        divide<Dim>(after.pairs[i * F + f], along, then_contact, std::span(cells).first(count));
+        subs = std::span(cells).first(then_contact.cells);
       }
       const PairWrench<Dim> wrench =
-          joint_wrench<Dim>(model, settings, state, copies[k], subs, then, history, sub_histories);
-      p.stiffness.col(f) = (p.wrench - wrench) / steps[k];
+          joint_wrench<Dim>(model, settings, state, then_contact, subs, then, history, sub_histories);
+      p.stiffness.col(f) = (p.wrench - wrench) / step;
     }
   }
 }

@@ -7,8 +7,9 @@
 
 namespace voussoir {
 
-// NewtonIncrement::stiffness: of every contact that touches and has a free body, by differences of kernel and law over
-// the freedoms of its second body, from the histories of the increment's base. Geometry of this step.
+// NewtonIncrement::stiffness: of every contact that touches and has a free body, over the freedoms of its second body,
+// from the histories of the increment's base. Geometry of this step and its sensitivity; the law, and the kernel where
+// a contact has no sensitivity, by differences.
 template <int Dim>
 void find_pair_stiffness(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 
