@@ -52,7 +52,7 @@ const std::vector<Order> orders{
       {"extended_precision_feasibility", "analytic_centre", "central_path"},
       {"feasibility"},
       {"solvers", "glpk", "ipopt"}}},
-    {"core/load", {{"load", "time_factor"}, {"boundary_stress"}}},
+    {"core/load", {{"load", "time_factor"}, {"boundary_stress", "water"}}},
     {"core/contact",
      {{"contact", "pair", "kernel_counters", "rounding"},
       {"broad_phase", "thin_directions", "separation", "pair_geometry", "overlap_region", "bracketing",
