@@ -21,6 +21,8 @@ enum class Source {
   gravity,
   boundary_stress,
   applied_forces,
+  water,
+  water_pressure,
   prescribed_motion,
   local_damping,
   relaxation,
@@ -29,6 +31,7 @@ enum class Source {
   dashpots,
   stiffening,
   gravity_ramp,
+  water_change,
   stage_changes
 };
 inline constexpr std::size_t load_count = static_cast<std::size_t>(Source::friction);
@@ -39,10 +42,10 @@ inline constexpr std::size_t source_count = static_cast<std::size_t>(Source::sta
 struct SourceRow {
   Source source;
   std::string_view name;
-  std::string_view monitored;  // as a quantity of monitors; empty: none
+  std::string_view monitored;  // as a quantity of monitors, which adds up all sources of one word; empty: none
   int motion;                  // what the motion gets
   int springs;    // what springs that store energy (EnergyLedger::elastic) lose; loads with a spring have 1 here
-  int potential;  // potential energy of gravity
+  int potential;  // potential energy of gravity and of water
   int damping;    // lost to damping
   int external;   // put in from outside
 };
@@ -51,6 +54,8 @@ inline constexpr std::array<SourceRow, source_count> source_table{{
     {Source::gravity, "gravity", "gravity_load", 1, 0, -1, 0, 0},
     {Source::boundary_stress, "boundary_stress", "boundary_load", 1, 0, 0, 0, 1},
     {Source::applied_forces, "applied_forces", "applied_load", 1, 0, 0, 0, 1},
+    {Source::water, "water", "water_load", 1, 0, -1, 0, 0},  // one table on all faces: it has a potential
+    {Source::water_pressure, "water_pressure", "water_load", 1, 0, 0, 0, 1},  // others: on some faces, or several
     {Source::prescribed_motion, "prescribed_motion", "", 1, 0, 0, 0, 1},
     {Source::local_damping, "local_damping", "", -1, 0, 0, 1, 0},
     {Source::relaxation, "relaxation", "", -1, 0, 0, 1, 0},
@@ -59,6 +64,7 @@ inline constexpr std::array<SourceRow, source_count> source_table{{
     {Source::stiffening, "stiffening", "", 0, 1, 0, 0, 0},  // lost by shear springs that grew stiffer with stress under
                                                             // their force; negative: made
     {Source::gravity_ramp, "gravity_ramp", "", 0, 0, 1, 0, 1},    // put in by gravity that grows
+    {Source::water_change, "water_change", "", 0, 0, 1, 0, 1},    // put in by a table on all faces that rises
     {Source::stage_changes, "stage_changes", "", 0, 0, 0, 0, 1},  // put in by changes of the model between stages, and
                                                                   // where a motion is stopped to relax
 }};
@@ -90,7 +96,7 @@ struct EnergyLedger {
   // the flows, each as often as its row says in that column
   double sum(int SourceRow::*column) const;
 
-  double potential() const { return sum(&SourceRow::potential); }  // of gravity, against the start
+  double potential() const { return sum(&SourceRow::potential); }  // of gravity and water, against the start
   double damping() const { return sum(&SourceRow::damping); }
   double external() const { return sum(&SourceRow::external); }
 

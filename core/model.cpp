@@ -5,6 +5,8 @@
 #include <cassert>
 #include <stdexcept>
 
+#include "core/load/water.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -183,6 +185,17 @@ Model<Dim> apply(Model<Dim> model, const Change& change) {
 }
 
 template <int Dim>
+void assign_waters(Model<Dim>& model, std::vector<Water> waters, std::vector<int> water_of_joint) {
+  model.waters = std::move(waters);
+  model.water_of_joint = std::move(water_of_joint);
+  model.water_by_volume = model.waters.size() == 1 && !model.waters.front().uniform &&
+                          std::ranges::all_of(model.water_of_joint, [](int water) { return water == 0; });
+  model.water_bounds.clear();
+  for (const Body<Dim>& body : model.bodies)
+    model.water_bounds.push_back(greatest_water_stiffness<Dim>(body.parts, body.radius));
+}
+
+template <int Dim>
 Body<Dim> make_body(std::vector<Polytope<Dim>> parts, double density) {
   std::stable_sort(parts.begin(), parts.end(),
                    [](const Polytope<Dim>& a, const Polytope<Dim>& b) { return in_order(a.mass, b.mass); });
@@ -244,7 +257,9 @@ template void number_bodies<2>(Model<2>&);
 template void number_bodies<3>(Model<3>&);
 template std::vector<int> select<2>(const Model<2>&, const Selector&);
 template std::vector<int> select<3>(const Model<3>&, const Selector&);
+template void assign_waters<2>(Model<2>&, std::vector<Water>, std::vector<int>);
 template Model<2> apply<2>(Model<2>, const Change&);
+template void assign_waters<3>(Model<3>&, std::vector<Water>, std::vector<int>);
 template Model<3> apply<3>(Model<3>, const Change&);
 template void list_parts<2>(Model<2>&);
 template void list_parts<3>(Model<3>&);

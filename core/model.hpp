@@ -9,6 +9,7 @@
 #include "core/geometry/polytope.hpp"
 #include "core/law/joint_properties.hpp"
 #include "core/load/boundary_stress.hpp"
+#include "core/load/load.hpp"
 #include "core/optimise/solvers.hpp"
 #include "core/settings.hpp"
 
@@ -65,6 +66,17 @@ struct AppliedForce {
   double last_factor = 1;  // when it ends
 };
 
+// a water: its numbers are those of core/load/water.hpp in model coordinates, or one pressure
+struct Water {
+  std::string name;
+  double unit_weight = 9810;   // N/m³
+  bool uniform = false;        // a constant pressure
+  std::vector<double> values;  // before the first stage; those of now lie in State::schedule
+};
+
+// the numbers of each water
+using WaterValues = std::vector<std::vector<double>>;
+
 // a named discontinuity, in slicing order
 template <int Dim>
 struct Joint {
@@ -88,9 +100,14 @@ struct Model {
   std::vector<PrescribedMotion<Dim>> prescribed;  // of this stage, by ascending body, at most one for each
   std::vector<BoundaryForces<Dim>> boundary;      // by ascending body, at most one for each
   std::vector<AppliedForce<Dim>> applied;         // by ascending body
-  int default_properties = 0;                     // of contacts between faces that no joint made
-  Vector<Dim> gravity = Vector<Dim>::Zero();      // m/s²
-  Solvers<Dim> solvers;                           // the two convex programs' solvers in use
+  std::vector<Water> waters;
+  std::vector<int>
+      water_of_joint;            // the water on the faces of each joint and, last, on faces that no joint made; -1: dry
+  bool water_by_volume = false;  // the one water is a table on all faces: its load has a potential
+  std::vector<BodyStiffness> water_bounds;    // by body: core/load/water.hpp, greatest_water_stiffness
+  int default_properties = 0;                 // of contacts between faces that no joint made
+  Vector<Dim> gravity = Vector<Dim>::Zero();  // m/s²
+  Solvers<Dim> solvers;                       // the two convex programs' solvers in use
 
   const Polytope<Dim>& polytope(int part) const { return bodies[parts[part].body].parts[parts[part].part]; }
 };
@@ -111,6 +128,10 @@ void number_bodies(Model<Dim>& model);
 // fills Model::parts from its bodies
 template <int Dim>
 void list_parts(Model<Dim>& model);
+
+// Gives the model its waters: which one is on the faces of each joint and, last, on faces that no joint made; -1: none.
+template <int Dim>
+void assign_waters(Model<Dim>& model, std::vector<Water> waters, std::vector<int> water_of_joint);
 
 // The bodies a selector names, in ascending order. Sides are those of a body's reference centroid, `inside` (world
 // coordinates) tests its parts; several conditions must all hold. An unknown name throws std::out_of_range with the

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace voussoir {
 namespace {
@@ -18,11 +19,18 @@ void append_vector(std::vector<Column>& columns, const std::string& name, const 
     columns.push_back({name + "_" + axis_names[k], unit});
 }
 
-// what a source exerts on a body; nothing where the scene does not use it
+// what the sources of a word exert on a body; nothing where the scene does not use them
 template <int Dim>
-Vector<Dim> load_of(Source source, int body, const State<Dim>& state) {
-  const std::vector<Load<Dim>>& loads = state.loads_of[source];
-  return loads.empty() ? Vector<Dim>::Zero().eval() : loads[body].force;
+Vector<Dim> load_of(std::string_view word, int body, const State<Dim>& state) {
+  Vector<Dim> sum = Vector<Dim>::Zero();
+  bool first = true;  // a sum of one is that one, to the sign of its zeros
+  for (const SourceRow& row : std::span(source_table).first(load_count)) {
+    const std::vector<Load<Dim>>& loads = state.loads_of[row.source];
+    if (row.monitored != word || loads.empty()) continue;
+    sum = first ? loads[body].force : Vector<Dim>(sum + loads[body].force);
+    first = false;
+  }
+  return sum;
 }
 
 // what all touching contacts of a joint carry together
@@ -44,6 +52,24 @@ void append_joint(std::vector<double>& values, int joint, const Model<Dim>& mode
     tilt = to_degrees(std::atan2((c.geometry.normal - along * upward).norm(), std::abs(along)));
   }
   values.insert(values.end(), {normal, shear, area, count, mobilised, tilt});
+}
+
+template <int Dim>
+long long whole_bonds_of(int joint, const State<Dim>& state) {
+  long long whole = 0;
+  for (std::size_t i = 0; i < state.contacts.size(); ++i)
+    if (state.contacts[i].joint == joint) whole += whole_bonds(state, i);
+  return whole;
+}
+
+// elevations of the file; of a plane that above the model's origin
+template <int Dim>
+void append_water(std::vector<double>& values, const Monitor& monitor, const Model<Dim>& model,
+                  const State<Dim>& state) {
+  const std::vector<double>& numbers = state.schedule.water[monitor.subject];
+  if (monitor.points == 0) return values.push_back(numbers.front());
+  for (int k = 0; k < monitor.points; ++k)
+    values.push_back(numbers[Dim == 2 ? 2 * k + 1 : 0] + model.origin[Dim - 1]);
 }
 
 }  // namespace
@@ -88,6 +114,14 @@ std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
         columns.push_back({m.name + "_mobilised_friction", "deg"});
         columns.push_back({m.name + "_normal_tilt", "deg"});
         break;
+      case Quantity::whole_bonds:
+        columns.push_back({m.name + "_whole_bonds", "1"});
+        break;
+      case Quantity::level:
+        if (m.points == 0) columns.push_back({m.name + "_pressure", "Pa"});
+        for (int k = 1; k <= m.points; ++k)
+          columns.push_back({m.name + "_level" + (m.points > 1 ? fmt::format("_{}", k) : ""), "m"});
+        break;
     }
   }
   return columns;
@@ -113,10 +147,16 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
         append(angular_velocity(model.bodies[m.subject], state.motions[m.subject]));
         break;
       case Quantity::load:
-        append(load_of(m.followed.source, m.subject, state));
+        append(load_of(m.followed.word, m.subject, state));
         break;
       case Quantity::contact_force:
         append_joint(values, m.subject, model, state);
+        break;
+      case Quantity::whole_bonds:
+        values.push_back(static_cast<double>(whole_bonds_of(m.subject, state)));
+        break;
+      case Quantity::level:
+        append_water(values, m, model, state);
         break;
     }
   }

@@ -11,26 +11,28 @@
 
 namespace voussoir {
 
-enum class Quantity { displacement, velocity, rotation, angular_velocity, load, contact_force };
+enum class Quantity { displacement, velocity, rotation, angular_velocity, load, contact_force, whole_bonds, level };
 
 // what a monitor may follow in history.csv
 struct Monitored {
   std::string_view word;
   Quantity quantity;
-  Source source = Source::contacts;  // of a load
 
   bool operator==(const Monitored&) const = default;
 };
 
-// every such quantity: of a body, the loads of each source among them, or the resultant over the contacts of a joint
+// every such quantity: of a body, the loads of each source among them; of a joint the resultant over its contacts and
+// its bonds; of a water its level
 inline std::vector<Monitored> monitored_quantities() {
   std::vector<Monitored> all{{"displacement", Quantity::displacement},
                              {"velocity", Quantity::velocity},
                              {"rotation", Quantity::rotation},
                              {"angular_velocity", Quantity::angular_velocity}};
   for (const SourceRow& row : source_table)
-    if (!row.monitored.empty()) all.push_back({row.monitored, Quantity::load, row.source});
+    if (!row.monitored.empty() && row.monitored != all.back().word) all.push_back({row.monitored, Quantity::load});
   all.push_back({"contact_force", Quantity::contact_force});
+  all.push_back({"whole_bonds", Quantity::whole_bonds});
+  all.push_back({"level", Quantity::level});
   return all;
 }
 
@@ -38,7 +40,8 @@ inline std::vector<Monitored> monitored_quantities() {
 struct Monitor {
   std::string name;
   Monitored followed{"displacement", Quantity::displacement};
-  int subject = 0;  // body, or joint for contact_force
+  int subject = 0;  // body, or joint for contact_force and whole_bonds, or water for level
+  int points = 0;   // of a level: how many its table has; 0: a pressure
 };
 
 template <int Dim>

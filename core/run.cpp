@@ -42,6 +42,13 @@ bool follow(const RunSchedule& plan, State<Dim>& state) {
       state.schedule.friction[p] = friction;
     changing = changing || friction > plan.friction_to;
   }
+  for (const WaterPlan& water : plan.water) {
+    const double fraction = state.time >= began + water.ramp ? 1 : elapsed / water.ramp;
+    std::vector<double>& numbers = state.schedule.water[water.water];
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      numbers[k] = fraction < 1 ? water.from[k] + (water.to[k] - water.from[k]) * fraction : water.to[k];
+    changing = changing || fraction < 1;
+  }
   return changing;
 }
 
@@ -56,10 +63,13 @@ double farthest(const Model<Dim>& model, const State<Dim>& state, const std::vec
   return largest;
 }
 
-// s: how long gravity and friction still change
+// s: how long gravity, friction and water still change
 double ramp_of(const RunSchedule& plan) {
   const double fall = plan.friction_rate > 0 ? (plan.friction_from - plan.friction_to) / plan.friction_rate : 0;
-  return std::max(plan.gravity.ramp, fall);
+  double ramp = std::max(plan.gravity.ramp, fall);
+  for (const WaterPlan& water : plan.water)
+    ramp = std::max(ramp, water.ramp);
+  return ramp;
 }
 
 // the first body whose motion is not a number, or else whose load is, for a wrong motion spoils its neighbours' loads;
@@ -220,7 +230,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     if (const int body = first_not_finite(state); body >= 0)
       return stop(StopReason::not_finite, label_of(model, body) + " at " + moment_of(state));
 
-    // rest must last, and cannot come while gravity or friction still changes
+    // rest must last, and cannot come while gravity, friction or water still changes
     const bool evaluated = tried || state.newton.under_way;  // a trial of Newton's method is not yet rest
     const bool settled = goal.rest && !changed && !evaluated && report.unbalanced <= settings.equilibrium.unbalanced;
     progress.at_rest = settled ? progress.at_rest + 1 : 0;

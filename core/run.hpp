@@ -39,7 +39,8 @@ struct RunSchedule {
   GravityPlan gravity{};
   double friction_rate = 0;  // rad/s: friction of `properties` falls from `friction_from` to `friction_to`
   double friction_from = 0, friction_to = 0;  // rad
-  std::vector<int> properties;
+  std::vector<int> properties{};
+  std::vector<WaterPlan> water{};
 };
 
 struct RunReport {

@@ -109,6 +109,13 @@ struct GravityPlan {
   std::optional<double> to = {};  // where it ends; 1 if not given
 };
 
+// A water whose numbers change within a stage, linearly from what they are to what is stated (model.hpp, Water).
+struct WaterPlan {
+  int water = 0;
+  std::vector<double> from, to;
+  double ramp = 0;  // s
+};
+
 // run to equilibrium
 struct SettlePlan {
   GravityPlan gravity{};
@@ -196,6 +203,7 @@ struct StagePlan {
   std::string name;
   std::variant<SettlePlan, RunPlan, ReducePlan> plan;
   Change change;                           // applied before the stage begins
+  std::vector<WaterPlan> water{};          // of kind settle or run
   std::optional<DampingSettings> damping;  // replaces the scene's within this stage
   std::optional<double> time_fraction;     // the same of TimeSettings::fraction
 };

@@ -214,7 +214,7 @@ struct Simulation {
   }
 
   std::optional<Executed> go(const RunGoal& goal, const GravityPlan& gravity, StopReason wanted) {
-    const RunSchedule schedule{.gravity = gravity, .properties = {}};
+    const RunSchedule schedule{.gravity = gravity, .properties = {}, .water = plan().water};
     const RunReport report = run(model, settings, goal, schedule, state, progress.run, record_run(goal.end_time));
     if (report.reason == StopReason::interrupted) return {};
     judge(report, report.reason == wanted);

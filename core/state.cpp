@@ -20,6 +20,9 @@ State<Dim> initial_state(const Model<Dim>& model) {
   state.loads.resize(model.bodies.size());
   for (const JointProperties& p : model.properties)
     state.schedule.friction.push_back(p.friction);
+  for (const Water& water : model.waters)
+    state.schedule.water.push_back(water.values);
+  state.schedule.last_water = state.schedule.water;
   return state;
 }
 

@@ -13,6 +13,7 @@
 #include "core/contact/contact.hpp"
 #include "core/energy.hpp"
 #include "core/geometry/types.hpp"
+#include "core/load/water.hpp"
 #include "core/model.hpp"
 
 namespace voussoir {
@@ -58,6 +59,7 @@ struct Relaxation {
   bool rested = false;                  // it has stopped every body, and none has moved since
   std::vector<double> inertia;          // by body: fictitious over true mass and moments of inertia
   std::vector<Load<Dim>> contact_load;  // by body: of the step before, without weight
+  std::vector<Load<Dim>> imposed;       // by body: how a change of water has changed its load; none where it stands
   int until_renewal = 0;                // steps until the inertia is chosen again
 };
 
@@ -105,6 +107,7 @@ struct NewtonIncrement {
       change;                  // by freedom: motion since the base, what was out of balance, last step
   std::vector<double> merits;  // of the accepted ones
   std::vector<PairStiffness<Dim>> stiffness, closed;  // of the contacts that touch; of those that touch without force
+  std::vector<typename PairStiffness<Dim>::Block> of_water;  // by body; none without water
 };
 
 // values that vary within a stage
@@ -112,6 +115,7 @@ struct Schedule {
   double gravity_factor = 1;
   double last_gravity_factor = 1;                         // of the step before
   std::vector<double> friction;                           // rad, for each of Model::properties
+  WaterValues water, last_water;                          // the numbers of Model::waters, and those of the step before
   double started = 0;                                     // s: when the schedules began to run
   double ends = std::numeric_limits<double>::infinity();  // s: when the run that is under way is complete; its last
                                                           // step ends there
@@ -238,6 +242,12 @@ State<Dim> initial_state(const Model<Dim>& model);
 template <int Dim>
 Vector<Dim> between(const CachedPose<Dim>& a, const CachedPose<Dim>& b) {
   return (b.reference - a.reference) + (b.displacement - a.displacement);
+}
+
+// where the body stands as loads ask
+template <int Dim>
+Standing<Dim> standing(const CachedPose<Dim>& pose) {
+  return {pose.reference + pose.displacement, pose.axes};
 }
 
 // State::poses from the motions

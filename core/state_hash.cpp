@@ -61,6 +61,9 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
     for (const SubContact<Dim>& s : subs_of(state, i))
       remember(s.history);
   }
+  for (const std::vector<double>& water : state.schedule.water)
+    for (const double number : water)
+      bytes.add(number);
   return fingerprint(bytes.text);
 }
 

@@ -114,6 +114,8 @@ TEST(StateHash, AnySkinGivesTheSame) {
   expect_no_skin(probe::wall());
   expect_no_skin(probe::tumble());
   expect_no_skin(probe::smooth_tumble());
+  expect_no_skin(probe::flooded_tumble());
+  expect_no_skin(probe::flooded_wall());
 }
 
 }  // namespace

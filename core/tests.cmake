@@ -31,7 +31,7 @@ voussoir_test(unit.contact LABEL unit
 voussoir_test(unit.neighbours LABEL unit SOURCES step/neighbours_test.cpp LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.scene LABEL unit
-  SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/bad_stage_loads_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
+  SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/bad_stage_loads_test.cpp scene/bad_water_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
     scene/permuted_input_test.cpp scene/accuracy_level_test.cpp scene/slicing_scene_test.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)
 
@@ -71,6 +71,6 @@ voussoir_test(unit.newton LABEL unit
 
 voussoir_test(unit.step LABEL unit
   SOURCES step_test.cpp simulate_test.cpp testing/whole_scenes_test.cpp step/joint_forces_test.cpp step/loads_test.cpp testing/step_memory_test.cpp energy_test.cpp motion/prescribed_test.cpp
-    load/boundary_stress_test.cpp load/water_test.cpp
+    load/boundary_stress_test.cpp load/water_test.cpp step/water_test.cpp scene/water_scene_test.cpp
     state_hash_test.cpp reduction/reduction_test.cpp motion/relaxation_test.cpp checkpoint/checkpoint_test.cpp
   LIBS voussoir_core cereal::cereal Boost::headers)

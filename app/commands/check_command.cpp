@@ -9,6 +9,7 @@
 #include "app/run_scene.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/scene/plausibility.hpp"
+#include "core/waters.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -84,6 +85,49 @@ void print_joints(const Model<Dim>& model) {
     label = "";
   }
   if (model.joints.size() > most_shown) line("", fmt::format("and {} more", model.joints.size() - most_shown));
+}
+
+// what of the blocks lies in water, and how much of their weight it carries, where the scene has them
+template <int Dim>
+void print_water(const Prepared<Dim>& prepared) {
+  const Model<Dim>& model = prepared.model;
+  if (model.waters.empty()) return;
+  const char* label = "water";
+  for (std::size_t w = 0; w < model.waters.size(); ++w) {
+    const Water& water = model.waters[w];
+    const auto joints = std::count(model.water_of_joint.begin(), model.water_of_joint.end() - 1, static_cast<int>(w));
+    const bool outside = model.water_of_joint.back() == static_cast<int>(w);
+    const std::string on = model.water_by_volume
+                               ? "on all faces"
+                               : fmt::format("on the faces of {} joints{}", joints, outside ? " and outside" : "");
+    if (water.uniform) {
+      line(label, fmt::format("{}: {:g} Pa {}", water.name, water.values.front(), on));
+    } else {
+      std::vector<WaterStretch<Dim>> surface;
+      list_stretches<Dim>(water.values, surface);
+      double below = 0, whole = 0;
+      for (const Body<Dim>& body : model.bodies) {
+        if (body.fixed) continue;
+        below += submerged<Dim>(body.parts, body.radius, {.centroid = body.reference}, surface).volume;
+        whole += volume(body);
+      }
+      line(label,
+           fmt::format("{}: {:g} N/m³ {}; {:.6g} {} of the free blocks lie below it, {:.4g} %", water.name,
+                       water.unit_weight, on, below, Dim == 3 ? "m³" : "m²", whole > 0 ? 100 * below / whole : 0));
+    }
+    label = "";
+  }
+  double lift = 0, weight = 0;
+  const std::vector<Load<Dim>> loads = water_loads_at_reference(model);
+  for (std::size_t b = 0; b < loads.size(); ++b) {
+    if (model.bodies[b].fixed) continue;
+    lift += loads[b].force[Dim - 1];
+    weight -= model.bodies[b].mass * model.gravity[Dim - 1];
+  }
+  if (weight > 0)
+    line("", fmt::format("before the first stage it lifts the free blocks by {:.6g} N{}, {:.4g} % of their weight",
+                         lift, Dim == 2 ? "/m" : "", 100 * lift / weight));
+  line("", "it stands still (no flow, drag or added mass); contact forces are effective");
 }
 
 // the laws that a plain joint has not, one after the other
@@ -229,11 +273,13 @@ std::string change_text(const Change& change) {
   return text;
 }
 
-void print_stages(const std::vector<StagePlan>& stages) {
+void print_stages(const std::vector<StagePlan>& stages, const std::vector<Water>& waters) {
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const StagePlan& stage = stages[k];
     std::string text = fmt::format("{} {}: {}", k + 1, stage.name, std::visit(PlanText{}, stage.plan));
     text += change_text(stage.change);
+    for (const WaterPlan& water : stage.water)
+      text += fmt::format("; water '{}' changes within {:g} s", waters[water.water].name, water.ramp);
     const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
     if (stage.damping) text += "; damping " + damping_text(*stage.damping, seeks_rest);
     line(k == 0 ? "stages" : "", text);
@@ -244,9 +290,11 @@ template <int Dim>
 void print_monitors(const Prepared<Dim>& prepared) {
   const char* label = "monitors";
   for (const Monitor& monitor : prepared.monitors) {
-    const bool of_joint = monitor.followed.quantity == Quantity::contact_force;
-    std::string subject =
-        of_joint ? "joint " + prepared.model.joints[monitor.subject].name : fmt::format("block {}", monitor.subject);
+    const Quantity quantity = monitor.followed.quantity;
+    const bool of_joint = quantity == Quantity::contact_force || quantity == Quantity::whole_bonds;
+    const std::string subject = of_joint                      ? "joint " + prepared.model.joints[monitor.subject].name
+                                : quantity == Quantity::level ? "water " + prepared.model.waters[monitor.subject].name
+                                                              : fmt::format("block {}", monitor.subject);
     line(label, fmt::format("{}: {} of {}", monitor.name, monitor.followed.word, subject));
     label = "";
   }
@@ -276,6 +324,7 @@ std::string inactive(const Prepared<Dim>& prepared) {
   if (none_changes([](const Change& c) { return !c.move.empty(); })) list.push_back("prescribed motion");
   if (none_changes([](const Change& c) { return !c.boundary.empty(); })) list.push_back("boundary stress");
   if (none_changes([](const Change& c) { return !c.force.empty(); })) list.push_back("applied forces");
+  if (model.waters.empty()) list.push_back("water");
   if (prepared.monitors.empty()) list.push_back("monitors");
   if (!prepared.output.frames) list.push_back("ParaView frames");
   if (std::none_of(prepared.stages.begin(), prepared.stages.end(),
@@ -326,9 +375,10 @@ void print_active(const Prepared<Dim>& prepared) {
   print_joints(prepared.model);
   print_properties(prepared.model);
   line("gravity", vector_text<Dim>(prepared.model.gravity) + " m/s²");
+  print_water(prepared);
   line("damping", damping_text(settings.damping));
   line("solvers", solvers_text(settings.contact));
-  print_stages(prepared.stages);
+  print_stages(prepared.stages, prepared.model.waters);
   print_left_to_relaxation(prepared);
   print_monitors(prepared);
   line("not active", inactive(prepared));

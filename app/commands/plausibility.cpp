@@ -13,6 +13,7 @@
 #include "core/scene/plausibility.hpp"
 #include "core/step/contacts.hpp"
 #include "core/step/joint_forces.hpp"
+#include "core/step/loads.hpp"
 #include "core/step/neighbours.hpp"
 
 namespace voussoir {
@@ -429,6 +430,7 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
   Plausibility result;
   find_neighbours(model, prepared.settings, state);
   find_contacts(model, prepared.settings, state);
+  sum_loads(model, prepared.settings, state);  // water and forces determine the step, too
   result.candidates = static_cast<int>(state.contacts.size());
   result.touching = static_cast<int>(std::count_if(state.contacts.begin(), state.contacts.end(),
                                                    [](const Contact<Dim>& contact) { return contact.touching(); }));

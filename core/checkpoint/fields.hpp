@@ -91,7 +91,8 @@ void serialize(Archive& archive, SubContact<Dim>& s) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, Relaxation<Dim>& r) {
-  auto& [under_way, rested, inertia, contact_load, until_renewal] = r;
+  // what is imposed is found again before it is read
+  auto& [under_way, rested, inertia, contact_load, imposed, until_renewal] = r;
   archive(under_way, rested, inertia, contact_load, until_renewal);
 }
 
@@ -109,8 +110,8 @@ void serialize(Archive& archive, BaseHistory<Dim>& b) {
 
 template <class Archive>
 void serialize(Archive& archive, Schedule& s) {
-  auto& [gravity_factor, last_gravity_factor, friction, started, ends] = s;
-  archive(gravity_factor, last_gravity_factor, friction, started, ends);
+  auto& [gravity_factor, last_gravity_factor, friction, water, last_water, started, ends] = s;
+  archive(gravity_factor, last_gravity_factor, friction, water, last_water, started, ends);
 }
 
 template <class Archive>
@@ -149,10 +150,10 @@ template <class Archive, int Dim>
 void serialize(Archive& archive, NewtonIncrement<Dim>& n) {
   auto& [under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
          regularisation, overshoot, base, histories, sub_histories, listed, loads_begin, energy, accepted, residual,
-         change, merits, stiffness, closed] = n;
+         change, merits, stiffness, closed, of_water] = n;
   archive(under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
           regularisation, overshoot, base, histories, sub_histories, listed, loads_begin.values, energy, accepted,
-          residual, change, merits, stiffness, closed);
+          residual, change, merits, stiffness, closed, of_water);
 }
 
 template <class Archive, int Dim>

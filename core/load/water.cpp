@@ -51,7 +51,7 @@ Buffers<Dim>& buffers() {
 }
 
 bool reaches(const WaterStretch<2>& stretch, double x, double radius) {
-  return stretch.to > x - radius && stretch.from < x + radius;
+  return stretch.to >= x - radius && stretch.from <= x + radius;
 }
 bool reaches(const WaterStretch<3>&, double, double) {
   return true;

@@ -141,6 +141,19 @@ double unbalanced_force(const Model<Dim>& model, const State<Dim>& state, int b)
   return std::sqrt(squares) + frequency * std::sqrt(momentum);
 }
 
+// N: of the bodies that are wet. What floats touches nothing: its forces are measured against this one.
+template <int Dim>
+double mean_water_force(const State<Dim>& state) {
+  double forces = 0;
+  int wet = 0;
+  for (const Source source : {Source::water, Source::water_pressure})
+    for (const Load<Dim>& load : state.loads_of[source]) {
+      forces += load.force.norm();
+      wet += !load.force.isZero(0);
+    }
+  return wet > 0 ? forces / wet : 0;
+}
+
 }  // namespace
 
 double damped(double force, double velocity, double local_damping) {
@@ -201,7 +214,7 @@ double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& 
     all.forces += some.forces;
     all.touching += some.touching;
   }
-  const double mean = all.touching > 0 ? all.forces / static_cast<double>(all.touching) : 0;
+  const double mean = all.touching > 0 ? all.forces / static_cast<double>(all.touching) : mean_water_force(state);
 
   const auto raise = [&](int b, double& most) { most = std::max(most, unbalanced_force(model, state, b)); };
   double largest = 0;

@@ -72,8 +72,8 @@ void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>
   }
 }
 
-// Critical damping of the present motion, 1/s, by Rayleigh's quotient: K v is what the contact forces lost over the
-// last step. Sums in the order of the bodies.
+// Critical damping of the present motion, 1/s, by Rayleigh's quotient: K v is what the forces of contacts and water
+// lost over the last step, but for what water that rises or falls has imposed. Sums in the order of the bodies.
 template <int Dim>
 double critical_damping(const Model<Dim>& model, State<Dim>& state) {
   Relaxation<Dim>& r = state.relaxation;
@@ -88,6 +88,7 @@ double critical_damping(const Model<Dim>& model, State<Dim>& state) {
     if (!first) {
       stiffness -= m.velocity.dot(now.force - r.contact_load[b].force);
       stiffness -= spin.dot(now.moment - r.contact_load[b].moment);
+      if (!r.imposed.empty()) stiffness += m.velocity.dot(r.imposed[b].force) + spin.dot(r.imposed[b].moment);
     }
     inertia += r.inertia[b] * (model.bodies[b].mass * m.velocity.squaredNorm() +
                                m.angular_momentum.dot(m.angular_momentum.cwiseQuotient(model.bodies[b].inertia)));

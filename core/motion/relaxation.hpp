@@ -4,7 +4,8 @@
 //   inertia  every body's mass and moments are scaled until its own stability limit equals the common step: what is
 //            soft or heavy then moves as fast as what is stiff or light;
 //   damping  proportional to it, c = 2 sqrt(v'K v / v'M v): critical for the slowest mode still moving, K v taken
-//            from how the contact forces have changed over the last step.
+//            from how the forces of contacts and water have changed over the last step, but for what a water that rises
+//            has imposed.
 //
 // Contacts, friction and weight are the true ones. Time (and with it the ramp of gravity), velocities and dashpots are
 // not: the step is a constant near the stability limit, and bodies are at rest when a relaxation begins and ends.

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <span>
 
 #include "core/output/atomic_file.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
@@ -141,7 +143,7 @@ PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double ti
   // what acts on each block from outside, by source; N
   for (const SourceRow& row : std::span(source_table).first(load_count)) {
     const std::vector<Load<Dim>>& loads = state.loads_of[row.source];
-    if (row.external == 0 || loads.empty()) continue;
+    if ((row.external == 0 && row.source != Source::water) || loads.empty()) continue;
     DataArray array{fmt::format("{}_N", row.name), 3, false, {}};
     for (const double body : arrays.body.values)
       append<Dim>(array, loads[static_cast<std::size_t>(body)].force);
@@ -153,6 +155,17 @@ PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double ti
   return data;
 }
 
+namespace {
+
+// deg: between the force and the normal; 0 of what is pulled
+template <int Dim>
+double mobilised_friction(const Vector<Dim>& force, const Vector<Dim>& normal, const Vector<Dim>& shear) {
+  const double pressed = force.dot(normal);
+  return pressed > 0 ? to_degrees(std::atan2(shear.norm(), pressed)) : 0;
+}
+
+}  // namespace
+
 template <int Dim>
 PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double time) {
   PolyData data;
@@ -160,7 +173,8 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
   data.time = time;
   DataArray body_a{"body_a", 1, true, {}}, body_b{"body_b", 1, true, {}}, properties{"properties", 1, true, {}},
       normal{"normal", 3, false, {}}, force{"force", 3, false, {}}, overlap{"overlap", 1, false, {}},
-      area{"area", 1, false, {}};
+      area{"area", 1, false, {}}, slip{"plastic_slip", 1, false, {}}, bond{"bonded", 1, true, {}},
+      mobilised{"mobilised_friction_deg", 1, false, {}};
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     const Contact<Dim>& contact = state.contacts[i];
     if (!contact.touching()) continue;
@@ -168,7 +182,8 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
 
     // the contact's geometry is relative to the centroid of its first body
     const Vector<Dim> centroid = model.bodies[a].reference + state.motions[a].displacement;
-    const auto add = [&](const Vector<Dim>& point, const Vector<Dim>& carried, double closed, double wide) {
+    const auto add = [&](const Vector<Dim>& point, const Vector<Dim>& carried, double closed, double wide,
+                         const JointState<Dim>& history) {
       data.cells.push_back({static_cast<int>(data.points.size())});
       data.points.push_back(in_space(Vector<Dim>(model.origin + (centroid + point))));
       body_a.values.push_back(a);
@@ -178,12 +193,16 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
       append<Dim>(force, carried);
       overlap.values.push_back(closed);
       area.values.push_back(wide);
+      slip.values.push_back(history.plastic_slip);
+      bond.values.push_back(history.bonded);
+      mobilised.values.push_back(mobilised_friction<Dim>(carried, contact.geometry.normal, history.shear_force));
     };
-    if (contact.cells == 0) add(contact.geometry.point, contact.force, contact.geometry.overlap, contact.geometry.area);
+    if (contact.cells == 0)
+      add(contact.geometry.point, contact.force, contact.geometry.overlap, contact.geometry.area, contact.history);
     for (const SubContact<Dim>& s : subs_of(state, i))
-      if (s.area > 0) add(s.point, s.force, s.overlap, s.area);
+      if (s.area > 0) add(s.point, s.force, s.overlap, s.area, s.history);
   }
-  data.point_data = {body_a, body_b, properties, normal, force, overlap, area};
+  data.point_data = {body_a, body_b, properties, normal, force, overlap, area, slip, bond, mobilised};
   data.names = {{"property_names", names_of(model.properties)}};
   return data;
 }

@@ -275,6 +275,11 @@ void Checker::value(const KeyRow& row, const Node& node, const std::string& path
       return points(row, node, path);
     case KeyType::numbers:
       return list(row, node, path);
+    case KeyType::text_or_names:
+      if (node.kind == Node::Kind::text) return check_text(row, node, path);
+      return words(row, node, path, {});
+    case KeyType::surface:
+      return dimension == 2 ? points(row, node, path) : table(node, row.holds, path);
     case KeyType::table:
       return table(node, row.holds, path);
     case KeyType::tables:

@@ -83,6 +83,10 @@ std::string type_text(const KeyRow& row) {
       return "list of points";
     case KeyType::numbers:
       return "list of numbers";
+    case KeyType::text_or_names:
+      return "text or list of names";
+    case KeyType::surface:
+      return "list of points; 3-D a table";
     case KeyType::table:
       return "table";
     case KeyType::tables:

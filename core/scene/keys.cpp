@@ -28,6 +28,8 @@ std::vector<KeyRow> all_rows() {
       slicing_keys(),     stage_keys(),   stage_run_keys(), stage_reduce_keys(),   stage_change_keys()};
   for (KeyTable& table : stage_load_keys())
     tables.push_back(std::move(table));
+  for (KeyTable& table : water_keys())
+    tables.push_back(std::move(table));
   for (KeyTable& table : std::vector<KeyTable>{move_keys(), monitor_keys(), output_keys(), joint_set_keys()})
     tables.push_back(std::move(table));
   std::vector<KeyRow> all;

@@ -101,6 +101,11 @@ Values values_of(const Scene& s) {
     for (const BlockPlaneSpec& plane : block.planes)
       add(values, "blocks.planes", plane);
   }
+  for (const WaterSpec& water : s.waters) {
+    add(values, "water", water);
+    add(values, "water_surface", water.surface);
+    if (water.surface.plane) add(values, "water_table", *water.surface.plane);
+  }
   for (const SelectorSpec& spec : s.fix)
     add(values, "selector", spec.selector);
   for (const RestrainSpec& spec : s.restrain)
@@ -109,6 +114,11 @@ Values values_of(const Scene& s) {
     add(values, "motion", spec.motion);
   for (const StageSpec& stage : s.stages)
     add_stage(values, stage.plan);
+  for (const StageSpec& stage : s.stages)
+    for (const WaterChangeSpec& change : stage.water) {
+      add(values, "water_change", change);
+      add(values, "water_surface", change.surface);
+    }
   for (const MonitorSpec& monitor : s.monitors)
     add(values, "monitors", monitor);
   return values;

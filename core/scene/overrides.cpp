@@ -66,7 +66,7 @@ Target find_target(Node& scene, const std::vector<std::string>& segments, const 
     if (i + 1 == segments.size()) return {table, segments[i]};
 
     Node* next = table->find(row->key);
-    if (row->type == KeyType::table) {
+    if (row->type == KeyType::table || row->type == KeyType::surface) {
       if (!next) {
         Node empty;
         empty.place = place;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "core/scene/bodies.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/keys/ranges.hpp"
+#include "core/waters.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -58,7 +60,7 @@ bool is_numeric(const KeyRow& row) {
 
 // a place in the scene, not a size
 bool is_coordinate(const KeyRow& row) {
-  return row.unit == "m" && (row.type == KeyType::vector || row.key == "offset");
+  return row.unit == "m" && (row.type == KeyType::vector || row.key == "offset" || row.key == "level");
 }
 
 const Node* entry(const Node& node, std::size_t place) {
@@ -130,7 +132,8 @@ struct TableJudge {
       const std::string here = key_path(path, member.key);
       keys.push_back(member.key);
       if (is_numeric(row)) value(row, member.value, here);
-      if (row.type == KeyType::table) table(member.value, row.holds, here);
+      if (row.type == KeyType::table || (row.type == KeyType::surface && member.value.kind == Node::Kind::table))
+        table(member.value, row.holds, here);
       if (row.type == KeyType::tables)
         for (std::size_t i = 0; i < member.value.items.size(); ++i)
           TableJudge{extent, warnings, &member.value}.table(member.value.items[i], row.holds,
@@ -294,6 +297,71 @@ void judge_joints(const Scene& scene, const Model<Dim>& model, Warnings& warning
                                    "than slicing.smallest_inscribed_radius or what it cut was excavated"));
 }
 
+// how far all corners of all blocks lie below a surface, m: the least and the greatest depth
+template <int Dim>
+std::pair<double, double> depths_below(const std::vector<double>& numbers, const Model<Dim>& model) {
+  std::vector<WaterStretch<Dim>> surface;
+  list_stretches<Dim>(numbers, surface);
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const Body<Dim>& body : model.bodies)
+    for (const Polytope<Dim>& part : body.parts)
+      for (const Vector<Dim>& v : part.vertices) {
+        const double depth = greatest_depth<Dim>(body.reference + v, 0, surface);
+        least = std::min(least, depth);
+        greatest = std::max(greatest, depth);
+      }
+  return {least, greatest};
+}
+
+const char* surface_key(const WaterSurfaceSpec& surface) {
+  return surface.level ? "level" : "table";
+}
+
+// a surface that lies far above everything
+template <int Dim>
+void judge_height(const Subject& subject, const WaterSurfaceSpec& surface, const std::vector<double>& numbers,
+                  const Model<Dim>& model, Warnings& warnings) {
+  constexpr double far_above = 10;  // times the extent of the blocks
+  const double least = depths_below(numbers, model).first;
+  if (least > far_above * extent_of(model))
+    warnings.push_back(complaint(subject, surface_key(surface),
+                                 "lies " + text(least) + " m above every block; elevations are in m, is it right?"));
+}
+
+// water that wets nothing, or lies far above everything, or lifts blocks
+template <int Dim>
+void judge_water(const Scene& scene, const Prepared<Dim>& prepared, Warnings& warnings) {
+  const Model<Dim>& model = prepared.model;
+  for (std::size_t w = 0; w < model.waters.size(); ++w) {
+    const Water& water = model.waters[w];
+    const WaterSpec& spec = scene.waters[w];
+    const bool changes = std::ranges::any_of(prepared.stages, [&](const StagePlan& stage) {
+      return std::ranges::any_of(stage.water, [&](const WaterPlan& p) { return p.water == static_cast<int>(w); });
+    });
+    if (water.uniform) continue;
+    judge_height(spec.subject, spec.surface, water.values, model, warnings);
+    if (!changes && depths_below(water.values, model).second <= 0)
+      warnings.push_back(complaint(spec.subject, surface_key(spec.surface),
+                                   "lies below every block and wets none; elevations are in m, is it right?"));
+  }
+  for (std::size_t s = 0; s < scene.stages.size(); ++s)
+    for (std::size_t k = 0; k < scene.stages[s].water.size(); ++k) {
+      const WaterPlan& plan = prepared.stages[s].water[k];
+      const WaterChangeSpec& spec = scene.stages[s].water[k];
+      if (!model.waters[plan.water].uniform) judge_height(spec.subject, spec.surface, plan.to, model, warnings);
+    }
+  const std::vector<Load<Dim>> loads = water_loads_at_reference(model);
+  for (std::size_t b = 0; b < loads.size(); ++b) {
+    const Body<Dim>& body = model.bodies[b];
+    const double weight = -body.mass * model.gravity[Dim - 1], lift = loads[b].force[Dim - 1];
+    if (body.fixed || lift <= std::max(weight, 0.0)) continue;
+    warnings.push_back(scene.file + ": " + described(model, body) + " weighs " + text(weight) +
+                       " N, and water lifts it by " + text(lift) +
+                       " N: it floats or is pushed up; is the density that of wet rock?");
+    break;
+  }
+}
+
 // factors that the stage never reaches
 void judge_factors(const StageSpec& stage, Warnings& warnings) {
   const auto* plan = std::get_if<RunPlan>(&stage.plan.plan);
@@ -349,6 +417,7 @@ std::vector<std::string> implausible_values(const Scene& scene, const Prepared<D
   judge_bonds(scene, warnings);
   for (const StageSpec& stage : scene.stages)
     judge_factors(stage, warnings);
+  judge_water<Dim>(scene, prepared, warnings);
   judge_domain<Dim>(scene, prepared.model, warnings);
   judge_joints<Dim>(scene, prepared.model, warnings);
   judge_sizes<Dim>(scene, prepared.model, warnings);

@@ -11,6 +11,7 @@
 #include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/wet_faces.hpp"
 
 namespace voussoir {
 namespace {
@@ -273,6 +274,8 @@ std::vector<StagePlan> checked_stages(const Scene& scene, const Model<Dim>& mode
                  "no joint_properties named '" + one_line(name, 60) + "'; " + suggestion(name, names));
     }
     plans.push_back(stage.plan);
+    for (WaterPlan& plan : plans.back().water)
+      plan = in_model(std::move(plan), model);
   }
   return plans;
 }
@@ -292,23 +295,43 @@ int joint_of(const Model<Dim>& model, const MonitorSpec& spec) {
          "remove the monitor");
 }
 
+int water_of(const Scene& scene, const MonitorSpec& spec) {
+  std::vector<std::string> names;
+  for (const WaterSpec& water : scene.waters)
+    names.push_back(water.name);
+  const int index = index_of(names, spec.water);
+  if (index < 0) refuse(spec.body.subject, "water", "no water of this name; " + suggestion(spec.water, names));
+  return index;
+}
+
+// the block that a monitor follows
+template <int Dim>
+int body_of(const Scene& scene, const Model<Dim>& model, const MonitorSpec& spec) {
+  const std::vector<int> bodies = chosen_some<Dim>(scene, model, spec.body);
+  if (bodies.size() != 1)
+    refuse(*spec.body.subject.node, spec.body.subject.path,
+           "chooses " + std::to_string(bodies.size()) +
+               " blocks but must choose exactly one; add sides of more joints, or a point inside");
+  return bodies.front();
+}
+
+// how many levels a water has to follow: of each point of a table in the plane
+template <int Dim>
+int levels_of(const Water& water) {
+  if (water.uniform) return 0;
+  return Dim == 3 ? 1 : static_cast<int>(water.values.size() / 2);
+}
+
 template <int Dim>
 std::vector<Monitor> find_monitors(const Scene& scene, const Model<Dim>& model) {
   std::vector<Monitor> monitors;
   for (const MonitorSpec& spec : scene.monitors) {
-    int subject = 0;
-    if (spec.joint.empty()) {
-      const std::vector<int> bodies = chosen_some<Dim>(scene, model, spec.body);
-      if (bodies.size() != 1)
-        refuse(*spec.body.subject.node, spec.body.subject.path,
-               "chooses " + std::to_string(bodies.size()) +
-                   " blocks but must choose exactly one; add sides of more joints, or a point inside");
-      subject = bodies.front();
-    } else {
-      subject = joint_of<Dim>(model, spec);
-    }
+    const int subject = !spec.joint.empty()   ? joint_of<Dim>(model, spec)
+                        : !spec.water.empty() ? water_of(scene, spec)
+                                              : body_of<Dim>(scene, model, spec);
     for (const Monitored& followed : spec.quantities)
-      monitors.push_back({spec.name, followed, subject});
+      monitors.push_back({spec.name, followed, subject,
+                          followed.quantity == Quantity::level ? levels_of<Dim>(model.waters[subject]) : 0});
   }
   return monitors;
 }
@@ -335,7 +358,8 @@ Prepared<Dim> prepare(const Scene& scene) {
   check_blocks<Dim>(scene, model);
   number_bodies<Dim>(model);
 
-  // what the scene says about them by selectors
+  // what the scene says about them by selectors, and the water on them
+  add_waters<Dim>(scene, model);
   add_supports<Dim>(scene, model);
   prepared.state = moving_state<Dim>(scene, model);
   prepared.stages = checked_stages<Dim>(scene, model);

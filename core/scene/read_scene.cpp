@@ -11,6 +11,7 @@
 #include "core/scene/read_joint_sets.hpp"
 #include "core/scene/read_slicing.hpp"
 #include "core/scene/read_stages.hpp"
+#include "core/scene/read_water.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/scene/toml_text.hpp"
@@ -141,6 +142,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   scene.settings = read_settings(top);
   scene.excavations = read_excavations(top, scene.dimension);
   scene.stages = read_stages(top, scene.dimension, scene.settings.damping);
+  scene.waters = read_waters(top, scene.dimension);
+  read_water_changes(scene.waters, scene.stages, scene.dimension);
   scene.monitors = read_monitors(top);
   return scene;
 }

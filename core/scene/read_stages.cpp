@@ -1,5 +1,7 @@
 #include "core/scene/read_stages.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 
@@ -191,18 +193,31 @@ MonitorSpec read_monitor(const Subject& table) {
   monitor.body.subject = table;
   read_keys(*table.node, "selector", monitor.body.selector);
 
-  const bool of_joint = table.node->find("joint");
+  // what each quantity is followed on, and the key that names it
+  const auto key_of = [](const Monitored& followed) -> std::string_view {
+    const bool of_joint = followed.quantity == Quantity::contact_force || followed.quantity == Quantity::whole_bonds;
+    return of_joint ? "joint" : followed.quantity == Quantity::level ? "water" : "";
+  };
+  const std::string_view stated = table.node->find("joint") ? "joint" : table.node->find("water") ? "water" : "";
+  if (stated == "joint" && table.node->find("water"))
+    refuse(table, "water", "stands beside a joint; a monitor follows one of the two, remove one");
   for (const Monitored& followed : monitor.quantities) {
-    const bool force = followed.quantity == Quantity::contact_force;
-    if (force && !of_joint)
-      refuse(table, "joint", "contact_force is followed on a joint; write for example joint = \"A\"");
-    if (!force && of_joint)
-      refuse(table, "quantities",
-             "a monitor of a joint follows contact_force only; follow a block in a monitor of its own");
+    const std::string_view wanted = key_of(followed);
+    if (wanted == stated) continue;
+    if (!wanted.empty())
+      refuse(table, wanted,
+             fmt::format("{} is followed on a {}; write for example {} = \"A\"", followed.word, wanted, wanted));
+    refuse(
+        table, "quantities",
+        stated == "joint"
+            ? "a monitor of a joint follows contact_force only, and whole_bonds; follow a block in a monitor of its own"
+            : "a monitor of a water follows its level only; follow a block in a monitor of its own");
   }
-  if (of_joint && chooses(monitor.body.selector))
-    refuse(table, "joint", "stands beside a choice of blocks; a monitor follows either a joint or a block, remove one");
-  if (!of_joint && !chooses(monitor.body.selector))
+  if (!stated.empty() && chooses(monitor.body.selector))
+    refuse(
+        table, stated,
+        fmt::format("stands beside a choice of blocks; a monitor follows either a {} or a block, remove one", stated));
+  if (stated.empty() && !chooses(monitor.body.selector))
     refuse(table, "above",
            "the monitor must choose one block by bodies, above, below or inside; write for example "
            "above = [\"A\"] or inside = the coordinates of a point in the block");

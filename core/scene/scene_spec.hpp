@@ -137,6 +137,31 @@ struct BlockSpec {
   bool fixed = false;
 };
 
+// the surface of a water, or a pressure: exactly one is stated
+struct WaterSurfaceSpec {
+  std::optional<double> level, pressure;   // m, Pa
+  std::vector<std::vector<double>> table;  // m: points (x, h), 2-D
+  std::optional<PlaneSpec> plane;          // 3-D
+};
+
+struct WaterSpec {
+  Subject subject;
+  std::string name;
+  double unit_weight = 9810;              // N/m³
+  std::vector<std::string> faces{"all"};  // "all", "outer", joints or joint sets
+  WaterSurfaceSpec surface;
+  std::vector<double> numbers;  // of the surface (core/load/water.hpp, the file's coordinates), or the pressure; as
+                                // many as every change of the water needs
+};
+
+// a change of a water within a stage
+struct WaterChangeSpec {
+  Subject subject;
+  std::string name;                      // of the water
+  std::optional<double> duration, rate;  // s; m/s or Pa/s
+  WaterSurfaceSpec surface;
+};
+
 struct SelectorSpec {
   Subject subject;
   Selector selector;  // `inside` in the file's coordinates
@@ -155,6 +180,7 @@ struct InitialVelocitySpec {
 struct StageSpec {
   Subject subject;
   StagePlan plan;
+  std::vector<WaterChangeSpec> water;                                    // their numbers are in plan.water
   std::map<std::string, std::vector<SelectorSpec>, std::less<>> chosen;  // the selectors of plan.change by their key,
                                                                          // in its order, with their places
 
@@ -166,8 +192,8 @@ struct StageSpec {
 };
 
 struct MonitorSpec {
-  SelectorSpec body;  // empty for contact_force
-  std::string name, joint;
+  SelectorSpec body;  // empty for a joint or a water
+  std::string name, joint, water;
   std::vector<Monitored> quantities;
 };
 
@@ -187,6 +213,7 @@ struct Scene {
   Settings settings;
   SlicingSpec slicing;
   std::vector<ExcavationSpec> excavations;
+  std::vector<WaterSpec> waters;
   std::vector<StageSpec> stages;
   std::vector<MonitorSpec> monitors;
   OutputPlan output;

@@ -2,6 +2,7 @@
 
 #include "core/load/time_factor.hpp"
 #include "core/on_threads.hpp"
+#include "core/waters.hpp"
 
 namespace voussoir {
 namespace {
@@ -78,6 +79,40 @@ void applied_stiffness(const Model<Dim>& model, const State<Dim>& state, std::ve
     if (!f.turns_with_body) stiffness[f.body].rotation += force_of(f, state).norm() * f.place.norm();
 }
 
+// the surfaces of now, this thread's, filled by it alone
+template <int Dim>
+const WaterSurfaces<Dim>& surfaces_of(const Model<Dim>& model, const State<Dim>& state) {
+  static thread_local WaterSurfaces<Dim> own;
+  find_surfaces(model, state.schedule.water, state.schedule.gravity_factor, own);
+  return own;
+}
+
+template <int Dim>
+void water_loads(const Model<Dim>& model, int threads, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
+  const WaterSurfaces<Dim>& surfaces = surfaces_of(model, state);
+  each_on_threads(threads, loads.size(),
+                  [&](int b) { loads[b] = water_load<Dim>(model, surfaces, b, standing(state.poses[b])); });
+}
+
+template <int Dim>
+void add_water_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
+  const WaterSurfaces<Dim>& surfaces = surfaces_of(model, state);
+  for (std::size_t b = 0; b < stiffness.size(); ++b) {
+    const BodyStiffness more = water_stiffness<Dim>(model, surfaces, static_cast<int>(b), standing(state.poses[b]));
+    stiffness[b].translation += more.translation;
+    stiffness[b].rotation += more.rotation;
+  }
+}
+
+template <int Dim>
+bool has_water_by_volume(const Model<Dim>& model) {
+  return model.water_by_volume;
+}
+template <int Dim>
+bool has_water_by_faces(const Model<Dim>& model) {
+  return !model.waters.empty() && !model.water_by_volume;
+}
+
 // A load: whether the model has any, what it does, and, where it changes with the body's pose, by how much at most.
 template <int Dim>
 struct LoadRow {
@@ -95,6 +130,8 @@ constexpr LoadRow<Dim> load_table[] = {
     {Source::boundary_stress, [](const Model<Dim>& m) { return !m.boundary.empty(); }, boundary_stress_loads<Dim>},
     {Source::applied_forces, [](const Model<Dim>& m) { return !m.applied.empty(); }, applied_loads<Dim>,
      applied_stiffness<Dim>},
+    {Source::water, has_water_by_volume<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
+    {Source::water_pressure, has_water_by_faces<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
 };
 
 }  // namespace

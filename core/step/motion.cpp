@@ -9,6 +9,7 @@
 #include "core/motion/time_step.hpp"
 #include "core/motion/work.hpp"
 #include "core/on_threads.hpp"
+#include "core/waters.hpp"
 
 namespace voussoir {
 namespace {
@@ -22,8 +23,6 @@ double next_step(const State<Dim>& state) {
   return left / std::max(1.0, std::ceil(left / state.step_allowed - rounding));
 }
 
-}  // namespace
-
 template <int Dim>
 void add_gravity_ramp(const Model<Dim>& model, State<Dim>& state) {
   const double growth = state.schedule.gravity_factor - state.schedule.last_gravity_factor;
@@ -35,10 +34,53 @@ void add_gravity_ramp(const Model<Dim>& model, State<Dim>& state) {
           growth * model.bodies[b].mass * model.gravity.dot(state.motions[b].displacement);
 }
 
+// The same bodies under the water of now and under that of the step before. Of a water that grows with gravity counts
+// what it puts into the bodies' motion, as of gravity itself.
+template <int Dim>
+void add_water_change(const Model<Dim>& model, int threads, State<Dim>& state) {
+  Schedule& schedule = state.schedule;
+  std::vector<Load<Dim>>& imposed = state.relaxation.imposed;
+  imposed.clear();
+  if (schedule.water == schedule.last_water && schedule.gravity_factor == schedule.last_gravity_factor) return;
+  static thread_local WaterSurfaces<Dim> own_before, own_now, own_grown;
+  WaterSurfaces<Dim>&before = own_before, &now = own_now, &grown = own_grown;
+  find_surfaces(model, schedule.last_water, schedule.last_gravity_factor, before);
+  find_surfaces(model, schedule.water, schedule.gravity_factor, now);
+  if (state.relaxation.under_way) {
+    const std::vector<Load<Dim>>& loads =
+        state.loads_of[model.water_by_volume ? Source::water : Source::water_pressure];
+    imposed.resize(model.bodies.size());
+    each_on_threads(threads, imposed.size(), [&](int b) {
+      const Load<Dim> then = water_load<Dim>(model, before, b, standing(state.poses[b]));
+      imposed[b] = {loads[b].force - then.force, loads[b].moment - then.moment};
+    });
+  }
+  const double growth = schedule.gravity_factor - schedule.last_gravity_factor;
+  find_surfaces(model, schedule.water, growth, grown);
+  schedule.last_water = schedule.water;
+  if (!model.water_by_volume || state.energy.phase == LedgerPhase::not_begun) return;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].immobile() || !model.bodies[b].present) continue;
+    const int body = static_cast<int>(b);
+    const Standing<Dim> at = standing(state.poses[b]), reference{.centroid = model.bodies[b].reference};
+    state.energy.flows[Source::water_change] +=
+        water_potential<Dim>(model, now, body, at) - water_potential<Dim>(model, before, body, at);
+    if (growth != 0) state.energy.flows[Source::water_change] -= water_potential<Dim>(model, grown, body, reference);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void add_ramps(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  if (!model.waters.empty()) add_water_change(model, settings.threads, state);
+  add_gravity_ramp(model, state);
+}
+
 template <int Dim>
 void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   if (state.relaxation.under_way) {
-    add_gravity_ramp(model, state);
+    add_ramps(model, settings, state);
     return relax_bodies(model, settings, state);
   }
 
@@ -51,7 +93,7 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   }
   state.time_step = next_step(state);
 
-  add_gravity_ramp(model, state);
+  add_ramps(model, settings, state);
   const StepTimes times{0.5 * (last + state.time_step), state.time_step};
   const double elapsed = state.time + 0.5 * state.time_step - state.schedule.started;  // at the middle of the step
   const KickRule rule{.local_damping = settings.damping.local};
@@ -72,8 +114,8 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   state.time = ends ? state.schedule.ends : state.time + state.time_step;
 }
 
-template void add_gravity_ramp<2>(const Model<2>&, State<2>&);
-template void add_gravity_ramp<3>(const Model<3>&, State<3>&);
+template void add_ramps<2>(const Model<2>&, const Settings&, State<2>&);
+template void add_ramps<3>(const Model<3>&, const Settings&, State<3>&);
 template void move_bodies<2>(const Model<2>&, const Settings&, State<2>&);
 template void move_bodies<3>(const Model<3>&, const Settings&, State<3>&);
 

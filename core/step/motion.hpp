@@ -7,9 +7,10 @@
 
 namespace voussoir {
 
-// gravity that grows lifts or lowers the potential energy of what has already moved: counted where it is
+// Gravity that grows lifts or lowers the potential energy of what has already moved, and a water that rises that of
+// what lies in it: counted where it is. Relaxation learns what of the loads' change the water has imposed.
 template <int Dim>
-void add_gravity_ramp(const Model<Dim>& model, State<Dim>& state);
+void add_ramps(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 
 // a time step that today's contacts allow, then velocities, then positions
 template <int Dim>

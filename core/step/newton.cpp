@@ -9,6 +9,7 @@
 #include "core/step/motion.hpp"
 #include "core/step/pair_stiffness.hpp"
 #include "core/step/tangent.hpp"
+#include "core/step/water_stiffness.hpp"
 
 namespace voussoir {
 namespace {
@@ -191,7 +192,7 @@ struct Newton {
       pairs.push_back(&p);
     for (const PairStiffness<Dim>& p : n.closed)
       if (!state.contacts[p.contact].touching()) pairs.push_back(&p);
-    BlockMatrix<F> k = tangent_of<Dim>(settings.threads, pairs, place, free);
+    BlockMatrix<F> k = tangent_of<Dim>(settings.threads, pairs, n.of_water, place, free);
     // what is held goes nowhere
     k.add_diagonal(regularisation * scale.cwiseProduct(free) +
                    scale.cwiseProduct(Eigen::VectorXd::Ones(free.size()) - free));
@@ -387,6 +388,7 @@ struct Newton {
     if (n.iteration >= closed_iterations) n.closed.clear();
     if (forced || ++n.since_commit >= most_since_commit || fraction_in_new_contacts() > most_in_new_contacts) commit();
     find_pair_stiffness(model, settings, state);
+    find_water_stiffness(model, settings, state);
     step_from_accepted(Trial::step);
   }
 
@@ -397,8 +399,9 @@ struct Newton {
       return set_trial(numbers(n.accepted), Trial::start);
     }
     const EnergyFlows before = state.energy.flows;
-    add_gravity_ramp(model, state);
-    n.energy.flows[Source::gravity_ramp] += state.energy.flows[Source::gravity_ramp] - before[Source::gravity_ramp];
+    add_ramps(model, settings, state);
+    for (const Source ramp : {Source::gravity_ramp, Source::water_change})
+      n.energy.flows[ramp] += state.energy.flows[ramp] - before[ramp];
     const Trial trial = n.trial;
     if (trial == Trial::start) start_increment();
     const Eigen::VectorXd residual = residual_now();

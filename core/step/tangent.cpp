@@ -49,7 +49,8 @@ Turning<Dim> turning_of(const PairStiffness<Dim>& p) {
 
 template <int Dim>
 BlockMatrix<freedoms<Dim>> tangent_of(int threads, const std::vector<const PairStiffness<Dim>*>& pairs,
-                                      const std::vector<int>& place, const Eigen::VectorXd& free) {
+                                      const std::vector<Block<Dim>>& own, const std::vector<int>& place,
+                                      const Eigen::VectorXd& free) {
   constexpr int F = freedoms<Dim>;
   using Entry = typename BlockMatrix<F>::Entry;
   std::vector<std::vector<Entry>> rows(free.size() / F);
@@ -69,14 +70,18 @@ BlockMatrix<freedoms<Dim>> tangent_of(int threads, const std::vector<const PairS
     put(a, b, -(j.transpose() * p->stiffness) + t.ab);
     put(b, a, -(p->stiffness * j) + t.ba);
   }
+  for (std::size_t b = 0; b < own.size(); ++b)
+    put(place[b], place[b], own[b]);
   BlockMatrix<F> k;
   k.assign(threads, rows);
   return k;
 }
 
 template BlockMatrix<freedoms<2>> tangent_of<2>(int, const std::vector<const PairStiffness<2>*>&,
-                                                const std::vector<int>&, const Eigen::VectorXd&);
+                                                const std::vector<Block<2>>&, const std::vector<int>&,
+                                                const Eigen::VectorXd&);
 template BlockMatrix<freedoms<3>> tangent_of<3>(int, const std::vector<const PairStiffness<3>*>&,
-                                                const std::vector<int>&, const Eigen::VectorXd&);
+                                                const std::vector<Block<3>>&, const std::vector<int>&,
+                                                const Eigen::VectorXd&);
 
 }  // namespace voussoir

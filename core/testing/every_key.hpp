@@ -107,6 +107,18 @@ planes = [{ normal = [1, 0, 0], offset = 11 }, { normal = [-2, 0, 0], offset = -
 [[blocks]]
 name = "by vertices"
 vertices = [[20, 0, 0], [21, 0, 0], [20, 1, 0], [20, 0, 1]]
+[[water]]
+name = "lake"
+level = 0.2
+faces = "outer"
+[[water]]
+name = "seep"
+faces = ["ellipse"]
+table = { point = [0, 0, 0.1], dip = 5, dip_direction = 90 }
+[[water]]
+name = "grout"
+faces = ["polygon"]
+pressure = 1000
 [[fix]]
 below = ["A"]
 [[restrain]]
@@ -125,11 +137,13 @@ name = "settle"
 kind = "settle"
 damping = {}
 fix = [{ bodies = ["by planes"] }]
+water = [{ name = "lake", level = 0.1, duration_s = 5 }]
 [[stage]]
 name = "run"
 kind = "run"
 duration_s = 1
 damping = { local = 0 }
+water = [{ name = "lake", level = 0.2, rate = 1 }]
 release = [{ bodies = ["by planes"] }]
 remove = [{ bodies = ["by vertices"] }]
 move = [{ bodies = ["by planes"], velocity = [1, 0, 0], frequency_hz = 1 }]
@@ -172,6 +186,10 @@ inside = [0.1, 0.1, 0.1]
 name = "joint"
 quantities = ["contact_force"]
 joint = "A"
+[[monitors]]
+name = "lake"
+quantities = ["level"]
+water = "lake"
 [output]
 )";
 
@@ -186,6 +204,10 @@ inline std::string address(const KeyRow& row) {
                                                           {"joint_properties", "joint_properties.rock"},
                                                           {"blocks", "blocks.by planes"},
                                                           {"blocks.planes", "blocks.by planes.planes.1"},
+                                                          {"water", "water.lake"},
+                                                          {"water_surface", "water.lake"},
+                                                          {"water_table", "water.seep.table"},
+                                                          {"water_change", "stage.settle.water.lake"},
                                                           {"label", "fix.1"},
                                                           {"selector", "fix.1"},
                                                           {"restrain", "restrain.1"},
@@ -214,6 +236,10 @@ inline std::string address(const KeyRow& row) {
   if (row.table == "blocks" && row.key == "vertices") table = "blocks.by vertices";
   if (row.table == "blocks.planes" && row.key == "point") table = "blocks.by planes.planes.5";
   if (row.table == "monitors" && row.key == "joint") table = "monitors.joint";
+  if (row.table == "monitors" && row.key == "water") table = "monitors.lake";
+  if (row.table == "water_surface" && row.key == "table") table = "water.seep";
+  if (row.table == "water_surface" && row.key == "pressure") table = "water.grout";
+  if (row.table == "water_change" && row.key == "rate") table = "stage.run.water.lake";
   return key_path(table, row.key);
 }
 

@@ -17,6 +17,8 @@ KeyTable stage_run_keys() {
      .meaning = "multiple of the scene's gravity that acts at the end of the ramp, which then begins at what acted in the "
          "stage before, or at once where there is no ramp. Without it a ramp goes from none to 1, and a stage without "
          "ramp leaves gravity as it is"},
+    {.key = "water", .type = tables, .when = {"kind", "settle|run"}, .holds = {"water_change", "water_surface"},
+     .meaning = "waters that rise, fall or change within the stage, and stay as they ended"},
     {.key = "time_limit_s", .members = {in(&SettlePlan::time_limit)}, .unit = "s", .range = {0, 1e9, true},
      .plausible = {0.1, 1e4}, .example = "60", .when = {"kind", "settle"},
      .meaning = "gives up when not at rest by then", .mistake = "was it given in ms?"},

@@ -42,6 +42,7 @@ KeyTable stage_reduce_keys();
 KeyTable stage_change_keys();
 KeyTable move_keys();
 std::vector<KeyTable> stage_load_keys();
+std::vector<KeyTable> water_keys();
 KeyTable monitor_keys();
 KeyTable output_keys();
 KeyTable joint_set_keys();

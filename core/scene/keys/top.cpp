@@ -45,6 +45,9 @@ KeyTable top_keys() {
     {.key = "blocks_file", .type = text, .example = "\"blocks.obj\"",
      .meaning = "a file of convex blocks in the same folder: .csv of planes (columns block, normal_x, normal_y, normal_z, "
          "offset_m; if wanted part), .stl or .obj; [[blocks]] may add density, fixed, … to one of its name"},
+    {.key = "water", .type = tables, .holds = {"water", "water_surface"},
+     .meaning = "water in joints and around blocks: its pressure acts on their faces as total weight acts on their mass, so "
+         "that contact forces are effective. It stands still: no flow, no drag, no added mass"},
     {.key = "fix", .type = tables, .holds = {"label", "selector"}, .meaning = "blocks that never move"},
     {.key = "restrain", .type = tables, .holds = {"label", "restrain", "selector"},
      .meaning = "blocks that cannot move in some directions (world axes)"},

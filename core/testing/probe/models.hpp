@@ -1,9 +1,10 @@
-// Four lively models for comparing builds: everything slides, turns, parts and meets again, so that one different
+// Six lively models for comparing builds: everything slides, turns, parts and meets again, so that one different
 // rounding anywhere soon shows in every digit.
 #pragma once
 
 #include "core/slicing/slice.hpp"
 #include "core/testing/models.hpp"
+#include "core/waters.hpp"
 
 namespace voussoir::probe {
 
@@ -101,6 +102,28 @@ inline Scene<3> smooth_tumble() {
   scene.model.properties[0].constant_stiffness = true;
   scene.settings.contact.point = ContactPoint::central_path;
   scene.settings.contact.normal = ContactNormal::multipliers;
+  return scene;
+}
+
+template <int Dim>
+void flood(Scene<Dim>& scene, const std::vector<double>& numbers, const std::vector<int>& water_of_joint) {
+  assign_waters(scene.model, {{"water", 9810, false, numbers}}, water_of_joint);
+  scene.state.schedule.water = scene.state.schedule.last_water = initial_water(scene.model);
+}
+
+// solids thrown together half under a tilted surface of water, which has a potential
+inline Scene<3> flooded_tumble() {
+  Scene<3> scene = tumble();
+  scene.name = "flooded_tumble";
+  flood(scene, {0.1, 0.2, -0.1}, {0, 0});
+  return scene;
+}
+
+// the wall with water outside its blocks, face by face
+inline Scene<2> flooded_wall() {
+  Scene<2> scene = wall();
+  scene.name = "flooded_wall";
+  flood(scene, {-2, 3, 1, 1, 2, 1.5}, {-1, 0});
   return scene;
 }
 

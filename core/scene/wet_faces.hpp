@@ -1,0 +1,18 @@
+// Which water is on which face.
+#pragma once
+
+#include "core/model.hpp"
+#include "core/scene/scene_spec.hpp"
+
+namespace voussoir {
+
+// Gives the model, whose joints and bodies are known, the scene's waters. Throws SceneError for a joint that is not
+// there and for a face with two waters.
+template <int Dim>
+void add_waters(const Scene& scene, Model<Dim>& model);
+
+// a change in the model's coordinates
+template <int Dim>
+WaterPlan in_model(WaterPlan plan, const Model<Dim>& model);
+
+}  // namespace voussoir

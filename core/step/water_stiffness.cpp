@@ -1,0 +1,57 @@
+#include "core/step/water_stiffness.hpp"
+
+#include "core/on_threads.hpp"
+#include "core/waters.hpp"
+
+namespace voussoir {
+namespace {
+
+// Of the radius: the third power of the relative rounding of a load, where truncation and rounding of a central
+// difference are least.
+constexpr double difference = 1e-5;
+
+template <int Dim>
+using Block = typename PairStiffness<Dim>::Block;
+
+template <int Dim>
+Block<Dim> stiffness_of(const Model<Dim>& model, const State<Dim>& state, const WaterSurfaces<Dim>& surfaces, int b) {
+  constexpr int S = spin_freedoms<Dim>;
+  const double way = difference * model.bodies[b].radius;
+  const Standing<Dim> at = standing(state.poses[b]);
+  const auto moved = [&](int freedom, double sign) {
+    Standing<Dim> there = at;
+    if (freedom < Dim)
+      there.centroid[freedom] += sign * way;
+    else
+      there.axes =
+          matrix(turned(state.motions[b].rotation, Spin<Dim>(sign * difference * Spin<Dim>::Unit(freedom - Dim))));
+    return water_load(model, surfaces, b, there);
+  };
+  Block<Dim> k = Block<Dim>::Zero();
+  for (int f = 0; f < freedoms<Dim>; ++f) {
+    const Load<Dim> ahead = moved(f, 1), behind = moved(f, -1);
+    const double width = 2 * (f < Dim ? way : difference);
+    k.template block<Dim, 1>(0, f) = (behind.force - ahead.force) / width;
+    k.template block<S, 1>(Dim, f) = (behind.moment - ahead.moment) / width;
+  }
+  return k;
+}
+
+}  // namespace
+
+template <int Dim>
+void find_water_stiffness(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  std::vector<Block<Dim>>& blocks = state.newton.of_water;
+  blocks.assign(model.waters.empty() ? 0 : model.bodies.size(), Block<Dim>::Zero());
+  if (blocks.empty()) return;
+  WaterSurfaces<Dim> surfaces;
+  find_surfaces(model, state.schedule.water, state.schedule.gravity_factor, surfaces);
+  each_on_threads(settings.threads, blocks.size(), [&](int b) {
+    if (!model.bodies[b].fixed) blocks[b] = stiffness_of(model, state, surfaces, b);
+  });
+}
+
+template void find_water_stiffness<2>(const Model<2>&, const Settings&, State<2>&);
+template void find_water_stiffness<3>(const Model<3>&, const Settings&, State<3>&);
+
+}  // namespace voussoir
