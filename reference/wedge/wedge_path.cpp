@@ -35,24 +35,35 @@ WedgePathResult follow(const ElasticPlasticWedge& block, const WedgePathSettings
       {upward_normal(wedge.b.dip, wedge.b.dip_direction), block.normal_stiffness * block.area_b,
        block.shear_stiffness * block.area_b, 0}};
   const Vector3 weight{wedge.extra_force[0], wedge.extra_force[1], wedge.extra_force[2] - wedge.weight};
+  const auto load = [&](double gravity, double uplift) {
+    Vector3 sum;
+    for (int k = 0; k < 3; ++k)
+      sum[k] = gravity * weight[k] +
+               uplift * (wedge.a.uplift_force * joints[0].normal[k] + wedge.b.uplift_force * joints[1].normal[k]);
+    return sum;
+  };
   const double size = std::hypot(weight[0], weight[1], weight[2]);
   const double softest = std::min(
       {joints[0].normal_stiffness, joints[0].shear_stiffness, joints[1].normal_stiffness, joints[1].shear_stiffness});
   const double settlement = size / softest;
 
-  // gravity
+  // gravity and water
   BlockState state;
   const auto equal = [](double friction) {
     std::array<double, most_block_joints> all;
     all.fill(std::tan(friction));
     return all;
   };
-  for (int step = 1; step <= settings.gravity_steps; ++step) {
-    const double part = static_cast<double>(step) / settings.gravity_steps;
-    const Vector3 load{part * weight[0], part * weight[1], part * weight[2]};
-    require(equilibrate(joints, equal(settings.friction_start), load, size, settlement, state),
-            "the block does not hold while gravity is put on; raise friction_start or gravity_steps");
-  }
+  const auto put_on = [&](const Vector3& now) {
+    require(equilibrate(joints, equal(settings.friction_start), now, size, settlement, state),
+            "the block does not hold while its loads are put on; raise friction_start or gravity_steps");
+  };
+  const auto part = [&](int step) { return static_cast<double>(step) / settings.gravity_steps; };
+  for (int step = 1; step <= settings.gravity_steps; ++step)
+    put_on(load(part(step), settings.uplift_with_gravity ? part(step) : 0));
+  if (!settings.uplift_with_gravity)
+    for (int step = 1; step <= settings.gravity_steps; ++step)
+      put_on(load(1, part(step)));
   WedgePathResult result;
   const auto length = [](const Vector3& a) { return std::hypot(a[0], a[1], a[2]); };
   result.start_shear_ratio_a = state.normal[0] > 0 ? length(state.shear[0]) / state.normal[0] : 0;
@@ -65,7 +76,7 @@ WedgePathResult follow(const ElasticPlasticWedge& block, const WedgePathSettings
   while (step > settings.smallest_step && friction > 0) {
     const double widening = 1 + std::max(0.0, friction - target) / widening_distance;
     const double next = std::max(0.0, friction - step * widening);
-    if (equilibrate(joints, equal(next), weight, size, settlement, state))
+    if (equilibrate(joints, equal(next), load(1, 1), size, settlement, state))
       friction = next;
     else
       step /= 2;
@@ -81,8 +92,7 @@ WedgePathResult follow(const ElasticPlasticWedge& block, const WedgePathSettings
 WedgePathResult elastic_plastic_path(const ElasticPlasticWedge& block, const WedgePathSettings& settings) {
   solve_wedge(block.wedge);  // checks the orientation and the weight
   for (const WedgePlane* plane : {&block.wedge.a, &block.wedge.b})
-    require(plane->cohesion_force == 0 && plane->uplift_force == 0,
-            "cohesion and uplift are not modelled along the path; set them to zero");
+    require(plane->cohesion_force == 0, "cohesion is not modelled along the path; set it to zero");
   for (const double value : {block.area_a, block.area_b, block.normal_stiffness, block.shear_stiffness})
     require(std::isfinite(value) && value > 0, "areas and stiffnesses must be positive and finite");
   require(settings.friction_start > 0 && settings.friction_start < 1.5707963,
@@ -121,6 +131,13 @@ WedgeFaces wedge_faces(const Wedge& wedge, double face_dip, double face_dip_dire
       solution.line_plunge > 0 && face.dot(back) < 0 && n_b.dot(on_a) > 0 && n_a.dot(on_b) > 0,
       "the slope face does not cut a finite wedge above both planes; make it steeper or turn it to the line's trend");
   return {0.5 * back.cross(on_a).norm(), 0.5 * back.cross(on_b).norm(), std::abs(back.dot(on_a.cross(on_b))) / 6};
+}
+
+WedgeUplift wedge_uplift(const WedgeFaces& faces, double height, double level, double unit_weight) {
+  require(level >= 0 && level <= height, "water must stand between the wedge's lowest corner and its top");
+  require(std::isfinite(unit_weight) && unit_weight >= 0, "the unit weight of water must not be negative");
+  const double wet = level / height, mean_pressure = unit_weight * level / 3;
+  return {faces.area_a * wet * wet * mean_pressure, faces.area_b * wet * wet * mean_pressure};
 }
 
 }  // namespace voussoir::reference

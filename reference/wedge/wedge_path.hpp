@@ -20,10 +20,22 @@
 //
 // So a comparison needs the areas of its own block: wedge_faces. What the model leaves out bounds its use: rotations,
 // and the inertia of a reduction at a finite rate.
+//
+// Water lifts the block off its planes by the planes' uplift forces; sigma is then the effective stress. When it comes
+// matters as much as the joints' stiffness. The wedge of cases/wedge (areas 0.814083 and 0.773385 m^2, 4584.2747 N)
+// under 1 kPa on both planes (closed form 46.6373), in degrees:
+//
+//   ks/kn   water with gravity, 70 degrees   water after gravity, 70    water after gravity, at 48 to 50
+//    0.01           46.608                         46.608                     46.602 to 46.604
+//    0.1            46.410                         46.410                     46.382 to 46.389
+//     1             45.937                         45.937                     45.917 to 45.923
+//
+// Another calculation, whose path is not stated, gives 46.38 and 45.92 for the last two rows: the last column, where
+// friction was already low when the water came. A scene's water grows with gravity's factor: the first.
 namespace voussoir::reference {
 
 struct ElasticPlasticWedge {
-  Wedge wedge;                  // friction angles are ignored; cohesion and uplift must be zero
+  Wedge wedge;                  // friction angles are ignored; cohesion must be zero
   double area_a = 1;            // m^2, > 0
   double area_b = 1;            // m^2, > 0
   double normal_stiffness = 1;  // Pa/m, > 0
@@ -33,6 +45,7 @@ struct ElasticPlasticWedge {
 struct WedgePathSettings {
   double friction_start = 1.2217304763960306;  // radians (70 degrees): gravity is put on at this angle
   int gravity_steps = 100;
+  bool uplift_with_gravity = true;             // false: after it, in as many steps, still at friction_start
   double friction_step = 8.7266462599716e-06;  // radians (0.0005 degrees), near failure; wider far from it
   double smallest_step = 1e-9;                 // radians: the bracket on the critical angle
 };
@@ -61,5 +74,13 @@ struct WedgeFaces {
 // (m, > 0) below the crest plane. Throws std::invalid_argument if the face does not cut a finite wedge: it must dip
 // more steeply along the line than the line plunges.
 WedgeFaces wedge_faces(const Wedge& wedge, double face_dip, double face_dip_direction, double height);
+
+// Uplift forces (N) on those faces when their joints hold still water of this unit weight (N/m^3) up to `level` (m, 0
+// .. height) above the lowest corner and the slope's face is dry: the wet part of a face is a triangle like the face,
+// at a third of its depth on the mean.
+struct WedgeUplift {
+  double a = 0, b = 0;
+};
+WedgeUplift wedge_uplift(const WedgeFaces& faces, double height, double level, double unit_weight);
 
 }  // namespace voussoir::reference

@@ -4,13 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 using namespace voussoir::reference;
-using voussoir::degree;
 using Eigen::Vector3d;
+using voussoir::degree;
 
 namespace {
 
@@ -35,32 +36,36 @@ double critical_deg(double stiffness_ratio, double area_ratio = 1, double start_
 
 // Second derivation: the same block as a damped mass under explicit time steps, friction falling at a steady rate.
 // Failure is a move away; shares no step, solver or return mapping with the code.
-double critical_deg_by_dynamics(double stiffness_ratio) {
-  const Wedge w = boon_wedge();
+// The weight is the unit of force; kn times the larger area, over it, that of length.
+double critical_deg_by_dynamics(const ElasticPlasticWedge& block, double slower_below_deg, double slowest_below_deg) {
+  const Wedge& w = block.wedge;
   const Vector3 normals[2] = {upward_normal(w.a.dip, w.a.dip_direction), upward_normal(w.b.dip, w.b.dip_direction)};
+  const double largest = std::max(block.area_a, block.area_b), ratio = block.shear_stiffness / block.normal_stiffness;
+  const double areas[2] = {block.area_a / largest, block.area_b / largest};
+  const double uplift[2] = {w.a.uplift_force / w.weight, w.b.uplift_force / w.weight};
   double u[3] = {}, v[3] = {}, shear[2][3] = {};
   const double dt = 0.2, damping = 0.2;  // unit mass, weight and kn: highest frequency about 2, settlement about 1
   double friction_deg = 70, load = 0, moved = 0;
   while (moved < 4) {
-    // gravity in 2000 time units, then friction: slower and slower
+    // gravity and water in 2000 time units, then friction: slower and slower
     if (load < 1)
       load = std::min(1.0, load + dt / 2000);
     else
-      friction_deg -= dt * (friction_deg > 36 ? 2e-3 : friction_deg > 33.4 ? 6e-5 : 2e-6);
+      friction_deg -= dt * (friction_deg > slower_below_deg ? 2e-3 : friction_deg > slowest_below_deg ? 6e-5 : 2e-6);
     const double tan_friction = std::tan(friction_deg * degree);
     double force[3] = {0, 0, -load};
     for (int i = 0; i < 2; ++i) {
       const Vector3& n = normals[i];
-      const double push = std::max(0.0, -(n[0] * u[0] + n[1] * u[1] + n[2] * u[2]));
+      const double push = areas[i] * std::max(0.0, -(n[0] * u[0] + n[1] * u[1] + n[2] * u[2]));
       const double closing = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
       double size = 0;
       for (int k = 0; k < 3; ++k) {
-        shear[i][k] -= stiffness_ratio * dt * (v[k] - n[k] * closing);
+        shear[i][k] -= areas[i] * ratio * dt * (v[k] - n[k] * closing);
         size += shear[i][k] * shear[i][k];
       }
       const double part = std::min(1.0, push * tan_friction / std::max(std::sqrt(size), 1e-300));
       for (int k = 0; k < 3; ++k)
-        force[k] += push * n[k] + (shear[i][k] *= part);
+        force[k] += (push + load * uplift[i]) * n[k] + (shear[i][k] *= part);
     }
     moved = 0;
     for (int k = 0; k < 3; ++k) {
@@ -92,8 +97,80 @@ TEST(WedgePath, boon_wedge_with_equal_areas) {
 TEST(WedgePath, damped_dynamics_agrees) {
   // Failure is seen late: the block, weight 1, damper c = 0.2, rate r = 2e-6 degrees, moves 2.5 units (four less the
   // settlement) within sqrt(2 c 2.5 r / 0.016) = 0.011 degrees.
-  EXPECT_NEAR(critical_deg_by_dynamics(1), critical_deg(1), 0.015);
-  EXPECT_NEAR(critical_deg_by_dynamics(2), critical_deg(2), 0.015);
+  for (const double ratio : {1.0, 2.0})
+    EXPECT_NEAR(critical_deg_by_dynamics({boon_wedge(), 1, 1, 1, ratio}, 36, 33.4), critical_deg(ratio), 0.015);
+}
+
+// --- with water
+
+// the wedge of cases/wedge: gravity, then or with it the water
+ElasticPlasticWedge wet_wedge(double stiffness_ratio, double pressure, double full_to = 0) {
+  ElasticPlasticWedge block{boon_wedge(), 1, 1, 1e9, 1e9 * stiffness_ratio};
+  const WedgeFaces faces = wedge_faces(block.wedge, 70 * degree, 182 * degree, 1);
+  const WedgeUplift uplift = wedge_uplift(faces, 1, full_to, 9810);
+  block.area_a = faces.area_a;
+  block.area_b = faces.area_b;
+  block.wedge.weight = faces.volume * 2000 * 9.81;
+  block.wedge.a.uplift_force = pressure * faces.area_a + uplift.a;
+  block.wedge.b.uplift_force = pressure * faces.area_b + uplift.b;
+  return block;
+}
+
+double wet_critical_deg(const ElasticPlasticWedge& block, double start_deg = 70, bool together = true) {
+  WedgePathSettings settings;
+  settings.friction_start = start_deg * degree;
+  settings.uplift_with_gravity = together;
+  return elastic_plastic_path(block, settings).critical_friction / degree;
+}
+
+TEST(WedgeUplift, closed_form_with_water) {
+  EXPECT_NEAR(*critical_friction(wet_wedge(1, 1000).wedge) / degree, 46.637327, 5e-7);
+  const Wedge full = wet_wedge(1, 0, 0.5).wedge;
+  EXPECT_NEAR(full.a.uplift_force, 332.7566, 5e-5);
+  EXPECT_NEAR(full.b.uplift_force, 316.1212, 5e-5);
+  EXPECT_NEAR(*critical_friction(full) / degree, 37.908410, 5e-7);
+  EXPECT_EQ(wet_wedge(1, 0).wedge.a.uplift_force, 0);
+  EXPECT_THROW(wedge_uplift({1, 1, 1}, 1, 1.1, 9810), std::invalid_argument);
+}
+
+// Second derivation: the pressure on a face summed in thin strips.
+TEST(WedgeUplift, by_strips) {
+  const int strips = 4000;
+  const double level = 0.7;
+  double sum = 0;
+  for (int i = 0; i < strips; ++i) {
+    const double z = (i + 0.5) / strips;
+    sum += 2 * z / strips * 9810 * std::max(0.0, level - z);
+  }
+  const WedgeUplift uplift = wedge_uplift({1, 3, 1}, 1, level, 9810);
+  EXPECT_NEAR(uplift.a, sum, 1e-5 * sum);
+  EXPECT_NEAR(uplift.b, 3 * uplift.a, 1e-9);
+  // of faces ten times as high it is a thousand times as great
+  EXPECT_NEAR(wedge_uplift({100, 300, 1000}, 10, 10 * level, 9810).a, 1000 * uplift.a, 1e-7);
+}
+
+TEST(WedgePath, with_water) {
+  // the table of the header, its rounding and the step error
+  EXPECT_NEAR(wet_critical_deg(wet_wedge(0.01, 1000)), 46.608, 1e-3);
+  EXPECT_NEAR(wet_critical_deg(wet_wedge(0.1, 1000)), 46.410, 1e-3);
+  EXPECT_NEAR(wet_critical_deg(wet_wedge(1, 1000)), 45.937, 1e-3);
+  EXPECT_NEAR(wet_critical_deg(wet_wedge(0.1, 1000), 70, false), 46.410, 1e-3);
+  EXPECT_NEAR(wet_critical_deg(wet_wedge(0.1, 1000), 48, false), 46.382, 1e-3);
+  EXPECT_NEAR(wet_critical_deg(wet_wedge(1, 1000), 50, false), 45.923, 1e-3);
+  EXPECT_NEAR(wet_critical_deg(wet_wedge(0.1, 0, 0.5)), 37.879, 1e-3);
+  EXPECT_NEAR(wet_critical_deg(wet_wedge(1, 0, 0.5)), 37.724, 1e-3);
+  // no shear stiffness, nothing to lock; buoyancy of all faces is less weight and nothing else
+  EXPECT_NEAR(wet_critical_deg(wet_wedge(0.001, 1000)), 46.637, 4e-3);
+  ElasticPlasticWedge light = wet_wedge(0.5, 0), dry = light;
+  light.wedge.weight *= 0.5;
+  EXPECT_NEAR(wet_critical_deg(light), wet_critical_deg(dry), 1e-6);
+}
+
+TEST(WedgePath, damped_dynamics_agrees_with_water) {
+  for (const double ratio : {0.5, 1.0}) {
+    const ElasticPlasticWedge block = wet_wedge(ratio, 1000);
+    EXPECT_NEAR(critical_deg_by_dynamics(block, 47, 46.7), wet_critical_deg(block), 0.02) << ratio;
+  }
 }
 
 TEST(WedgePath, never_above_the_closed_form) {
