@@ -15,6 +15,7 @@
 #include "core/state_hash.hpp"
 #include "core/step.hpp"
 #include "core/step/joint_forces.hpp"
+#include "core/step/newton.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -134,6 +135,11 @@ struct Simulation {
     watcher.progress(p);
   }
 
+  // an evaluation of Newton's method costs as much as many steps
+  bool reports(const State<Dim>& now) const {
+    return now.newton.under_way || now.counters.steps % steps_between_reports == 0;
+  }
+
   std::function<bool()> pause() {
     if (!watcher.pause) return {};
     return [this] {
@@ -156,8 +162,9 @@ struct Simulation {
                 },
             .after_step =
                 [this, begin, end](const State<Dim>& now, double unbalanced) {
-                  if (now.counters.steps % steps_between_reports == 0)
-                    report_progress(now, "", unbalanced, end ? (now.time - begin) / (*end - begin) : -1);
+                  if (reports(now))
+                    report_progress(now, progress_of_newton(now), unbalanced,
+                                    end ? (now.time - begin) / (*end - begin) : -1);
                 },
             .pause = pause()};
   }
@@ -167,8 +174,10 @@ struct Simulation {
     return {.with_forces = {},
             .after_step =
                 [this](const State<Dim>& now, double unbalanced) {
-                  if (now.counters.steps % steps_between_reports == 0)
-                    report_progress(now, fmt::format("trial at {:.4f} deg", to_degrees(progress.reduction.target)),
+                  if (reports(now))
+                    report_progress(now,
+                                    fmt::format("trial at {:.4f} deg{}", to_degrees(progress.reduction.target),
+                                                and_more(progress_of_newton(now))),
                                     unbalanced, -1);
                 },
             .pause = pause()};

@@ -65,8 +65,8 @@ voussoir_test(unit.certainty LONG LABEL unit
     geometry/catalogue_test.cpp testing/pair_families.cpp testing/pair_judge.cpp
   LIBS voussoir_exact_referee Boost::headers fmt::fmt hwy::hwy)
 
-voussoir_test(unit.newton LABEL unit
-  SOURCES step/newton_test.cpp
+voussoir_test(unit.newton LONG LABEL unit
+  SOURCES step/newton_test.cpp step/newton_verdict_test.cpp
   LIBS voussoir_core cereal::cereal Boost::headers)
 
 voussoir_test(unit.step LABEL unit

@@ -93,7 +93,7 @@ const std::vector<Order> orders{
        "stage_run",        "time",       "top",     "water"}}},
     {"core/motion", {{"integrate", "time_step", "free_fall"}, {"work", "prescribed"}, {"relaxation"}}},
     {"core/step",
-     {{"neighbours", "loads", "motion", "tangent"},
+     {{"neighbours", "loads", "motion", "tangent", "newton_base", "step_length"},
       {"contacts"},
       {"joint_forces"},
       {"pair_stiffness", "water_stiffness"},

@@ -353,11 +353,7 @@ std::string solvers_text(const ContactSettings& contact) {
 // joints whose laws Newton's method has no tangents of, where it is asked for
 template <int Dim>
 void print_left_to_relaxation(const Prepared<Dim>& prepared) {
-  const auto asks = [](const DampingSettings& damping) { return damping.statics == Statics::newton; };
-  if (!asks(prepared.settings.damping) &&
-      std::none_of(prepared.stages.begin(), prepared.stages.end(),
-                   [&](const StagePlan& s) { return s.damping && asks(*s.damping); }))
-    return;
+  if (!asks_for_newton(prepared.settings.damping, prepared.stages)) return;
   std::vector<std::string> names;
   for (const JointProperties& p : prepared.model.properties)
     if (!p.laws.is_plain()) names.push_back(p.name);

@@ -15,6 +15,7 @@
 #include "core/step/joint_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/neighbours.hpp"
+#include "core/step/newton.hpp"
 
 namespace voussoir {
 namespace {
@@ -189,11 +190,12 @@ void judge_overlaps(const Prepared<Dim>& prepared, Plausibility& result) {
 
 // the block with most neighbours, and the memory of a run: a step keeps two lists of pairs while one is renewed
 template <int Dim>
-void find_crowd(const Model<Dim>& model, const State<Dim>& state, Plausibility& result) {
+void find_crowd(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state, Plausibility& result) {
   constexpr double memory_of_a_block = 10e3;  // bytes, measured over whole runs
   result.memory = memory_of_a_block * static_cast<double>(model.bodies.size()) +
                   2.0 * static_cast<double>(state.contacts.size() * sizeof(Contact<Dim>) +
                                             state.subs.size() * sizeof(SubContact<Dim>));
+  if (asks_for_newton(prepared.settings.damping, prepared.stages)) result.memory += memory_of_newton(state);
   result.candidates_allowed = static_cast<double>(most_candidates(model.parts.size()));
   std::size_t most = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -442,7 +444,7 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
   }
 
   // numbers
-  find_crowd(model, state, result);
+  find_crowd(prepared, model, state, result);
   find_overlaps(model, result);
   forecast_stages(prepared, model, state, result);
 
@@ -474,6 +476,12 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
 
 const char* text_of(Reckoning reckoning) {
   return reckoning == Reckoning::about ? "about" : reckoning == Reckoning::at_least ? "at least" : "at most";
+}
+
+bool asks_for_newton(const DampingSettings& damping, const std::vector<StagePlan>& stages) {
+  return damping.statics == Statics::newton || std::any_of(stages.begin(), stages.end(), [](const StagePlan& s) {
+           return s.damping && s.damping->statics == Statics::newton;
+         });
 }
 
 Plausibility assess(const LoadedScene& scene) {

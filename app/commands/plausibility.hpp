@@ -39,6 +39,9 @@ struct Plausibility {
   std::vector<std::string> warnings;  // one line each, with the repair
 };
 
+// whether any stage comes to rest by Newton's method on the joints
+bool asks_for_newton(const DampingSettings& damping, const std::vector<StagePlan>& stages);
+
 // The scene's own warnings come first, then those that follow from the numbers.
 Plausibility assess(const LoadedScene& scene);
 

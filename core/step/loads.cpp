@@ -113,13 +113,48 @@ bool has_water_by_faces(const Model<Dim>& model) {
   return !model.waters.empty() && !model.water_by_volume;
 }
 
-// A load: whether the model has any, what it does, and, where it changes with the body's pose, by how much at most.
+template <int Dim>
+using Block = typename PairStiffness<Dim>::Block;
+
+// Minus the change of a load as its body turns: of one that keeps its direction the moment changes, for its point
+// turns; one that turns with the body turns with its moment.
+template <int Dim>
+void add_turning(const Vector<Dim>& arm, const Vector<Dim>& force, bool with_body, Block<Dim>& stiffness) {
+  for (int s = 0; s < spin_freedoms<Dim>; ++s) {
+    const Spin<Dim> e = Spin<Dim>::Unit(s);
+    Load<Dim> change{Vector<Dim>::Zero(), moment(Vector<Dim>(cross(e, arm)), force)};
+    if (with_body) change += {cross(e, force), moment(arm, Vector<Dim>(cross(e, force)))};
+    stiffness.template block<Dim, 1>(0, Dim + s) -= change.force;
+    stiffness.template block<spin_freedoms<Dim>, 1>(Dim, Dim + s) -= change.moment;
+  }
+}
+
+template <int Dim>
+void boundary_stress_tangent(const Model<Dim>& model, const State<Dim>& state, std::vector<Block<Dim>>& stiffness) {
+  for (const BoundaryForces<Dim>& loaded : model.boundary)
+    for (const DeadLoad<Dim>& load : loaded.forces)
+      add_turning<Dim>(state.poses[loaded.body].axes * load.place, load.force, false, stiffness[loaded.body]);
+}
+
+template <int Dim>
+void applied_tangent(const Model<Dim>& model, const State<Dim>& state, std::vector<Block<Dim>>& stiffness) {
+  for (const AppliedForce<Dim>& f : model.applied) {
+    const Matrix<Dim>& axes = state.poses[f.body].axes;
+    const Vector<Dim> force = force_of(f, state);
+    add_turning<Dim>(axes * f.place, f.turns_with_body ? Vector<Dim>(axes * force) : force, f.turns_with_body,
+                     stiffness[f.body]);
+  }
+}
+
+// A load: whether the model has any, what it does, and, where it changes with the body's pose, by how much at most (for
+// the time step) and how (for Newton's method).
 template <int Dim>
 struct LoadRow {
   Source source;
   bool (*acts)(const Model<Dim>&);
   void (*find)(const Model<Dim>&, int threads, const State<Dim>&, std::vector<Load<Dim>>&);
   void (*stiffen)(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&) = nullptr;
+  void (*add_tangent)(const Model<Dim>&, const State<Dim>&, std::vector<Block<Dim>>&) = nullptr;
 };
 
 // those that are known before the bodies move, in the order in which they are summed
@@ -127,9 +162,10 @@ template <int Dim>
 constexpr LoadRow<Dim> load_table[] = {
     {Source::contacts, [](const Model<Dim>&) { return true; }, contact_loads<Dim>},
     {Source::gravity, [](const Model<Dim>& m) { return !m.gravity.isZero(0); }, gravity_loads<Dim>},
-    {Source::boundary_stress, [](const Model<Dim>& m) { return !m.boundary.empty(); }, boundary_stress_loads<Dim>},
+    {Source::boundary_stress, [](const Model<Dim>& m) { return !m.boundary.empty(); }, boundary_stress_loads<Dim>,
+     nullptr, boundary_stress_tangent<Dim>},
     {Source::applied_forces, [](const Model<Dim>& m) { return !m.applied.empty(); }, applied_loads<Dim>,
-     applied_stiffness<Dim>},
+     applied_stiffness<Dim>, applied_tangent<Dim>},
     {Source::water, has_water_by_volume<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
     {Source::water_pressure, has_water_by_faces<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
 };
@@ -156,6 +192,19 @@ void sum_loads(const Model<Dim>& model, const Settings& settings, State<Dim>& st
   });
 }
 
+template <int Dim>
+std::vector<typename PairStiffness<Dim>::Block> load_stiffness(const Model<Dim>& model, const State<Dim>& state) {
+  std::vector<Block<Dim>> stiffness;
+  for (const LoadRow<Dim>& row : load_table<Dim>) {
+    if (!row.add_tangent || !row.acts(model)) continue;
+    stiffness.resize(model.bodies.size(), Block<Dim>::Zero());
+    row.add_tangent(model, state, stiffness);
+  }
+  return stiffness;
+}
+
+template std::vector<PairStiffness<2>::Block> load_stiffness<2>(const Model<2>&, const State<2>&);
+template std::vector<PairStiffness<3>::Block> load_stiffness<3>(const Model<3>&, const State<3>&);
 template void sum_loads<2>(const Model<2>&, const Settings&, State<2>&);
 template void sum_loads<3>(const Model<3>&, const Settings&, State<3>&);
 

@@ -11,4 +11,10 @@ namespace voussoir {
 template <int Dim>
 void sum_loads(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 
+// Minus the derivative of the loads other than contacts with the motion of their own body, translations, then turns,
+// N/m, N and N m: how a force that acts at a lever, or turns with the body, changes with the pose. By body; empty where
+// no load does.
+template <int Dim>
+std::vector<typename PairStiffness<Dim>::Block> load_stiffness(const Model<Dim>& model, const State<Dim>& state);
+
 }  // namespace voussoir

@@ -11,6 +11,7 @@
 // after the last one relaxation takes over, confirms the rest or finds what Newton's method could not.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/model.hpp"
@@ -24,7 +25,7 @@ template <int Dim>
 bool newton_applies(const Model<Dim>& model, const DampingSettings& damping);
 
 // The bodies are at rest and relaxation has begun: from here on a step is an evaluation at a trial. `ramp` (s): how
-// long the schedules of gravity and friction go on, which the increments divide between them; 0 where they stand.
+// long the schedules of gravity and friction continue, which the increments divide between them; 0 where they stand.
 template <int Dim>
 void begin_newton(const Model<Dim>& model, const Settings& settings, double ramp, State<Dim>& state);
 
@@ -32,6 +33,15 @@ void begin_newton(const Model<Dim>& model, const Settings& settings, double ramp
 // to rest, or one does not within its iterations, State::newton is over and relaxation goes on from there.
 template <int Dim>
 void iterate(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+
+// what a trial has come to, for people; empty while none is under way
+template <int Dim>
+std::string progress_of_newton(const State<Dim>& state);
+
+// Bytes that it keeps besides the state, at most: histories of the base, and of every pair its stiffness and what it
+// puts into the linear system, its factors and the lists that they are sorted in.
+template <int Dim>
+double memory_of_newton(const State<Dim>& state);
 
 // m, by body: at the last trial that was accepted
 template <int Dim>

@@ -14,6 +14,7 @@
 #include "core/run.hpp"
 #include "core/simulate.hpp"
 #include "core/state_hash.hpp"
+#include "core/step/loads.hpp"
 #include "core/testing/models.hpp"
 #include "text/angle.hpp"
 
@@ -177,6 +178,83 @@ TEST(Newton, GravityComesInIncrements) {
   EXPECT_LT((in_four.motions[block].displacement - at_once.motions[block].displacement).norm(),
             1e-6 * at_once.motions[block].displacement.norm())
       << "nothing slips on the way";
+}
+
+// ---- loads that change with the pose -------------------------------------------------------------------------------
+
+Model<3> loaded_block() {
+  Model<3> model = block_on_plate<3>(20 * degree, 35 * degree);
+  const int block = index_of(model, "block");
+  model.applied = {
+      {.name = "keeps", .body = block, .place = {0.2, -0.1, 0.3}, .force = {2e3, 1e3, -4e3}},
+      {.name = "turns", .body = block, .place = {-0.3, 0.2, 0.1}, .force = {1e3, -2e3, -1e3}, .turns_with_body = true}};
+  model.boundary = {{block, {{{0.1, 0.2, 0.25}, {1e3, 500, -3e3}}, {{0, -0.3, 0.1}, {0, 2e3, -1e3}}}}};
+  return model;
+}
+
+TEST(Newton, KnowsHowLoadsChangeWithThePose) {
+  const Model<3> model = loaded_block();
+  const int block = index_of(model, "block");
+  State<3> state = initial_state(model);
+  const auto load_at = [&](const Spin<3>& turn) {
+    State<3> turned_state = state;
+    turned_state.motions[block].rotation = turned(state.motions[block].rotation, turn);
+    cache_poses(model, 1, turned_state);
+    sum_loads(model, Settings(), turned_state);
+    Eigen::Matrix<double, 6, 1> load;
+    load << turned_state.loads[block].force, turned_state.loads[block].moment;
+    return load;
+  };
+  state.motions[block].rotation = turned(state.motions[block].rotation, Spin<3>(0.3, -0.2, 0.1));
+  cache_poses(model, 1, state);
+  const auto stiffness = load_stiffness(model, state);
+  constexpr double step = 1e-5;
+  for (int s = 0; s < 3; ++s) {
+    const Spin<3> e = step * Spin<3>::Unit(s);
+    const Eigen::Matrix<double, 6, 1> slope = (load_at(e) - load_at(-e)) / (2 * step);
+    EXPECT_LT((stiffness[block].col(3 + s) + slope).norm(), 1e-7 * slope.norm()) << s;
+    EXPECT_EQ(stiffness[block].col(s).norm(), 0) << "no load changes where the body goes";
+  }
+  EXPECT_TRUE(
+      load_stiffness(block_on_plate<3>(0, 35 * degree), initial_state(block_on_plate<3>(0, 35 * degree))).empty());
+}
+
+TEST(Newton, ForcesAtALeverRestWhereRelaxationPutsThem) {
+  Model<3> model = loaded_block();
+  model.properties[0].sub_contacts = 3;
+  expect_same_rest<3>(model, 2e-3);
+}
+
+// ---- what has no rest -----------------------------------------------------------------------------------------------
+
+template <int Dim>
+RunReport no_rest_of(const Model<Dim>& model) {
+  Settings settings;
+  settings.damping.statics = Statics::newton;
+  State<Dim> state = initial_state(model);
+  return run<Dim>(model, settings, {.rest = true, .step_limit = 20'000}, {}, state);
+}
+
+TEST(Newton, ABlockOverNothingIsNamed) {
+  Model<2> model = block_on_plate<2>(0, 35 * degree);
+  std::vector<Body<2>> bodies = model.bodies;
+  bodies.push_back(body_of<2>(box<2>({20, 0}, {21, 1}), false, "over nothing"));
+  const RunReport report = no_rest_of(shapes::model_of<2>(std::move(bodies)));
+  EXPECT_EQ(report.reason, StopReason::falls_free);
+  EXPECT_NE(report.detail.find("over nothing"), std::string::npos) << report.detail;
+}
+
+TEST(Newton, AMechanismIsNamed) {
+  Model<2> model = block_on_plate<2>(20 * degree, 0);  // without friction, but for a slide without end
+  const RunReport report = no_rest_of(model);
+  EXPECT_NE(report.reason, StopReason::equilibrium);
+  EXPECT_NE(report.detail.find("block"), std::string::npos) << report.detail;
+}
+
+// One point carries the face: nothing resists a turn about the normal, and nothing turns the block.
+TEST(Newton, AFreeTurnThatNothingDrivesIsAtRest) {
+  const auto [report, state] = rest_of(block_on_plate<3>(0, 35 * degree), Statics::newton);
+  EXPECT_EQ(state.counters.static_fallbacks, 0);
 }
 
 // Laws whose tangents are not there are left to relaxation, to the bit.
