@@ -70,6 +70,21 @@ TEST_F(Check, PrintsLawsStrengthsAndSubContacts) {
   says(ground + box("stone", 0, 0) + rock + settle, "one point a face");
 }
 
+TEST_F(Check, PrintsWhatLiesInWater) {
+  const std::string lake = "[[water]]\nname = \"lake\"\n";
+  const std::string scene = ground + box("stone", 0, 0) + rock + lake + "level = 0.25\n" + settle;
+  says(scene, "lake: 9810 N/m³ on all faces; 0.25 m² of the free blocks lie below it, 25 %");
+  says(scene, "lifts the free blocks by 2452.5 N/m, 12.26 % of their weight");
+  says(scene + "water = [{ name = \"lake\", level = 0.5, rate = 0.1 }]\n", "water 'lake' changes within 2.5 s");
+  silent(scene, "wets none");
+  says(ground + box("stone", 0, 0) + rock + lake + "level = -2\n" + settle, "water.lake.level = -2: lies below every");
+  says(ground + box("stone", 0, 0) + rock + lake + "level = 300\n" + settle, "299 m above every block");
+  says(ground + box("stone", 0, 0) + "density = 900\n" + rock + lake + "level = 3\n" + settle, "it floats");
+  says(ground + box("stone", 0, 0) + rock + lake + "pressure = 5000\nfaces = \"outer\"\n" + settle,
+       "lake: 5000 Pa on the faces of 0 joints and outside");
+  says(ground + box("stone", 0, 0) + rock + settle, "applied forces, water");
+}
+
 // ---- blocks -------------------------------------------------------------------------------------------------------
 
 TEST_F(Check, WarnsOfBlocksThatNothingHolds) {

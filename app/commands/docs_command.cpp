@@ -35,6 +35,11 @@ constexpr Meaning quantity_meanings[] = {
      "force and of area, "
      "their number, the largest mobilised friction angle, and the angle between the joint's own normal and that of the "
      "contact that carries most"},
+    {"whole_bonds", "how many bonds of the joint are whole, each sub-contact that carries one counted"},
+    {"level",
+     "elevation of the water: of a table in the plane a column for each of its points, m_level_1_m and so on, of a "
+     "plane "
+     "at the middle of the scene; of a constant pressure m_pressure_Pa instead"},
     {"", "sum of the forces of this source on the block"},
 };
 
@@ -66,7 +71,7 @@ search for the critical friction writes one at the end of each trial. A cell is 
       "|\n|---|---|---|\n";
   for (const Monitored& followed : monitored_quantities()) {
     std::vector<std::string> headers;
-    for (const Column& column : monitor_columns<3>({{"m", followed, 0}}))
+    for (const Column& column : monitor_columns<3>({{"m", followed, 0, 1}}))
       headers.push_back("`" + column.header() + "`");
     text += fmt::format("| {} | {} | {} |\n", followed.word, fmt::join(headers, ", "),
                         meaning_of(followed.word, quantity_meanings));

@@ -83,7 +83,7 @@ TEST(WaterOfAScene, GivesTheSameBitsForThreadsAndAfterAPause) {
     while (!simulate<2>(
         scene, progress,
         {.progress = {}, .frame = {}, .trial_frame = {}, .pause = [&, steps = 0](const Progress<2>&) mutable {
-           return ++steps > 61;
+           return ++steps > 23;
          }})) {
       progress = read_checkpoint<2>(checkpoint_bytes(progress, "hash"), "hash");
       ++pauses;
