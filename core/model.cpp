@@ -174,9 +174,11 @@ Model<Dim> apply(Model<Dim> model, const Change& change) {
     for (int b : select(model, plan.bodies))
       load_boundary(model, b, stress_tensor<Dim>(plan.stress));
   apply_forces(model, change.force);
-  if (change.friction)
-    for (JointProperties& p : model.properties)
-      p.friction = *change.friction;
+  for (JointProperties& p : model.properties) {
+    if (change.friction) p.friction = *change.friction;
+    for (const FrictionPlan& plan : change.friction_of)
+      if (plan.properties == p.name) p.friction = plan.friction;
+  }
   for (const MovePlan& plan : change.move)
     prescribe(model, plan);
   std::sort(model.prescribed.begin(), model.prescribed.end(),

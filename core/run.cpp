@@ -24,7 +24,7 @@ constexpr double never = std::numeric_limits<double>::infinity();  // s
 
 // sets the scheduled values to those of the time of the positions; true while they still change
 template <int Dim>
-bool follow(const RunSchedule& plan, State<Dim>& state) {
+bool follow(const Model<Dim>& model, const RunSchedule& plan, State<Dim>& state) {
   const double began = state.schedule.started, elapsed = state.time - began;
   bool changing = false;
   if (plan.gravity.ramp > 0) {
@@ -36,11 +36,12 @@ bool follow(const RunSchedule& plan, State<Dim>& state) {
   } else if (plan.gravity.to) {
     state.schedule.gravity_factor = *plan.gravity.to;
   }
-  if (plan.friction_rate > 0) {
-    const double friction = std::max(plan.friction_to, plan.friction_from - plan.friction_rate * elapsed);
-    for (int p : plan.properties)
-      state.schedule.friction[p] = friction;
-    changing = changing || friction > plan.friction_to;
+  if (plan.strength_rate > 0) {
+    const double level = plan.searched == Searched::friction
+                             ? std::max(plan.strength_to, plan.strength_from - plan.strength_rate * elapsed)
+                             : std::min(plan.strength_to, plan.strength_from + plan.strength_rate * elapsed);
+    set_strength(model, plan.searched, plan.properties, level, state.schedule);
+    changing = changing || level != plan.strength_to;
   }
   for (const WaterPlan& water : plan.water) {
     const double fraction = state.time >= began + water.ramp ? 1 : elapsed / water.ramp;
@@ -52,20 +53,29 @@ bool follow(const RunSchedule& plan, State<Dim>& state) {
   return changing;
 }
 
+// Whether enough has moved away. Where one body is not enough, those that have are left behind.
 template <int Dim>
-double farthest(const Model<Dim>& model, const State<Dim>& state, const std::vector<Vector<Dim>>& begin) {
+bool has_moved_away(const Model<Dim>& model, const RunGoal& goal, const std::vector<Vector<Dim>>& begin,
+                    State<Dim>& state) {
   const bool trials = state.newton.under_way;  // one that is not yet judged is no motion
   const std::vector<Vector<Dim>> accepted = trials ? accepted_displacements(model, state) : begin;
-  double largest = 0;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].fixed)
-      largest = std::max(largest, ((trials ? accepted[b] : state.motions[b].displacement) - begin[b]).norm());
-  return largest;
+  double moved = 0, free = 0;  // kg
+  if (goal.moved_fraction > 0) state.left_behind.assign(model.bodies.size(), false);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].fixed) continue;
+    free += model.bodies[b].mass;
+    const double way = ((trials ? accepted[b] : state.motions[b].displacement) - begin[b]).norm();
+    if (!(way > *goal.moved_away)) continue;
+    if (goal.moved_fraction == 0) return true;
+    state.left_behind[b] = true;
+    moved += model.bodies[b].mass;
+  }
+  return moved > 0 && moved >= goal.moved_fraction * free;
 }
 
-// s: how long gravity, friction and water still change
+// s: how long gravity, strength and water still change
 double ramp_of(const RunSchedule& plan) {
-  const double fall = plan.friction_rate > 0 ? (plan.friction_from - plan.friction_to) / plan.friction_rate : 0;
+  const double fall = plan.strength_rate > 0 ? std::abs(plan.strength_from - plan.strength_to) / plan.strength_rate : 0;
   double ramp = std::max(plan.gravity.ramp, fall);
   for (const WaterPlan& water : plan.water)
     ramp = std::max(ramp, water.ramp);
@@ -144,6 +154,7 @@ void stop_bodies(const Model<Dim>& model, bool relaxing, State<Dim>& state) {
 template <int Dim>
 RunProgress<Dim> begin_run(const RunGoal& goal, State<Dim>& state) {
   state.schedule.ends = goal.end_time.value_or(never);
+  state.left_behind.clear();
   RunProgress<Dim> progress;
   progress.under_way = true;
   progress.unconverged = state.counters.unconverged;
@@ -214,12 +225,12 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     if (hooks.with_forces) hooks.with_forces(now);
   };
   // the forces of a step, and what comes after the run, stand under the schedule at the time of the positions
-  bool changing = follow(schedule, state);
+  bool changing = follow(model, schedule, state);
   while (true) {
     if (hooks.pause && hooks.pause()) return stop(StopReason::interrupted);
     const bool tried = state.newton.under_way;
     step<Dim>(model, settings, state, with_forces);
-    const bool changed = std::exchange(changing, follow(schedule, state));
+    const bool changed = std::exchange(changing, follow(model, schedule, state));
     ++progress.steps;
     report.unbalanced = goal.rest ? unbalanced_ratio(model, settings.threads, state) : -1;
     if (hooks.after_step) hooks.after_step(state, report.unbalanced);
@@ -235,8 +246,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     const bool settled = goal.rest && !changed && !evaluated && report.unbalanced <= settings.equilibrium.unbalanced;
     progress.at_rest = settled ? progress.at_rest + 1 : 0;
     if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
-    if (goal.moved_away && farthest(model, state, progress.begin) > *goal.moved_away)
-      return stop(StopReason::moved_away);
+    if (goal.moved_away && has_moved_away(model, goal, progress.begin, state)) return stop(StopReason::moved_away);
     if (goal.end_time && state.time >= *goal.end_time) return stop(StopReason::end_time);
     if (goal.rest && !goal.moved_away && !changing && !state.newton.under_way &&
         progress.steps % steps_between_falls == 0)

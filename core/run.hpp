@@ -32,13 +32,15 @@ struct RunGoal {
   std::optional<double> time_limit = {};     // s: simulated time at which it is given up
   std::optional<long long> step_limit = {};  // of this run
   std::optional<double> moved_away = {};     // m: stop when a free body is this far from RunProgress::begin
+  double moved_fraction = 0;                 // or when bodies of this fraction of the free mass are; 0: any body
 };
 
 // values that change while the run continues, from State::schedule.started
 struct RunSchedule {
   GravityPlan gravity{};
-  double friction_rate = 0;  // rad/s: friction of `properties` falls from `friction_from` to `friction_to`
-  double friction_from = 0, friction_to = 0;  // rad
+  Searched searched = Searched::friction;
+  double strength_rate = 0;                   // 1/s: the friction of `properties` falls, or their factor grows
+  double strength_from = 0, strength_to = 0;  // rad, or 1
   std::vector<int> properties{};
   std::vector<WaterPlan> water{};
 };

@@ -131,9 +131,21 @@ struct RunPlan {
 
 enum class ReductionMethod { bisection, steps, rate, two_rates };
 
-// lower the friction angle of joints until the model fails (method.md section 6)
+// what a reduction searches: a friction angle, or the factor by which tan φ and cohesion are divided
+enum class Searched { friction, factor };
+
+// from where to where the factor is raised, by bisection or in steps
+struct FactorPlan {
+  double from = 0, to = 0;  // start (stable) and end of the search
+  double tolerance = 0;     // bisection: largest bracket at the end
+  double step = 0;          // steps: increment
+};
+
+// lower the strength of joints until the model fails (method.md section 6)
 struct ReducePlan {
   ReductionMethod method = ReductionMethod::bisection;
+  Searched searched = Searched::friction;
+  FactorPlan factor;                    // where that is searched
   std::vector<std::string> properties;  // joint properties to reduce; empty: all
   double from = 0, to = 0;              // rad: start (stable) and end of the search
   double tolerance = 0;                 // rad, bisection: largest bracket at the end
@@ -142,6 +154,7 @@ struct ReducePlan {
   double slower_rate = 0;               // rad/s, two_rates: the slower
   double failure_displacement = 0;      // m: a body that has moved this far since the search began (rates:
                                         // since the fall began) has failed; 0: a tenth of the smallest inscribed radius
+  double failure_fraction = 0;          // of the free mass that must have moved so far; 0: any body
   long long ramp_steps = 500;           // steps over which a trial lowers the friction; few: inertia breaks the path
   long long step_limit = 1'000'000;     // for one trial
 };
@@ -189,14 +202,22 @@ struct ForcePlan {
   double last_factor = 1;        // when it ends
 };
 
+// a friction angle of joint properties by name
+struct FrictionPlan {
+  std::string properties;
+  double friction = 0;  // rad
+};
+
 // what changes in the model between two stages
 struct Change {
   std::vector<Selector> fix, release, remove;
   std::vector<MovePlan> move;  // within the stage only
   std::vector<BoundaryPlan> boundary;
   std::vector<ForcePlan> force{};
-  std::optional<double> friction;  // rad: new friction angle of every joint
-  bool bond = false;               // closed joints with tensile strength or cohesion are bonded
+  std::optional<double> friction;           // rad: new friction angle of every joint
+  std::vector<FrictionPlan> friction_of{};  // then that of some
+  bool bond = false;                        // closed joints with tensile strength or cohesion are bonded
+  bool zero_slip = false;                   // every joint's plastic slip begins again at 0
 };
 
 struct StagePlan {

@@ -6,10 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <stdexcept>
 
 #include "core/accuracy.hpp"
+#include "core/history.hpp"
 #include "core/motion/free_fall.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/state_hash.hpp"
@@ -29,29 +29,6 @@ constexpr double energy_left_open = 0.05;
 // the fraction of that energy from which local damping shapes a motion
 constexpr double much_damped = 0.1;
 
-// the joint properties whose friction some stage changes: each has a column in the history
-template <int Dim>
-std::vector<int> properties_followed(const Prepared<Dim>& scene) {
-  std::set<int> followed;
-  for (const StagePlan& stage : scene.stages) {
-    const auto* reduction = std::get_if<ReducePlan>(&stage.plan);
-    if (!reduction && !stage.change.friction) continue;
-    const ReducePlan all;  // a stage that states an angle gives it to every joint
-    for (const int p : chosen_properties(scene.model, stage.change.friction ? all : *reduction))
-      followed.insert(p);
-  }
-  return {followed.begin(), followed.end()};
-}
-
-// whether some stage searches by trials that are taken back: then the history has a column for them
-template <int Dim>
-bool has_trials(const Prepared<Dim>& scene) {
-  return std::any_of(scene.stages.begin(), scene.stages.end(), [](const StagePlan& stage) {
-    const auto* reduction = std::get_if<ReducePlan>(&stage.plan);
-    return reduction && reduction->method != ReductionMethod::rate;
-  });
-}
-
 template <int Dim>
 bool anything_moves(const Model<Dim>& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(),
@@ -61,6 +38,18 @@ bool anything_moves(const Model<Dim>& model) {
 const char* kind_of(const StagePlan& stage) {
   constexpr const char* kinds[] = {"settle", "run", "reduce"};  // in the order of the variant
   return kinds[stage.plan.index()];
+}
+
+// what a search yields, and the number that people read for a level
+struct Sought {
+  const char *name, *unit, *found;
+  double (*number)(double level);
+};
+
+Sought sought_by(const ReducePlan& plan) {
+  if (plan.searched == Searched::factor)
+    return {"factor_of_safety", "1", "factor of safety found", [](double factor) { return factor; }};
+  return {"critical_friction", "deg", "critical friction found", to_degrees};
 }
 
 std::string and_more(const std::string& detail) {
@@ -82,21 +71,14 @@ struct Simulation {
   Settings settings;  // of the stage
   State<Dim>& state = progress.state;
   Results& results = progress.results;
-  std::vector<int> followed = properties_followed(scene);
   double seconds_before = progress.results.seconds;
   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
 
   const StagePlan& plan() const { return scene.stages[progress.stage]; }
 
-  // a row of the history: time, stage, trial (0: the path to the answer), friction angles that change, monitors
+  // of the history; trial 0: the path to the answer
   std::vector<double> row(const State<Dim>& now, int trial = 0) const {
-    std::vector<double> values{now.time, static_cast<double>(progress.stage + 1)};
-    if (has_trials(scene)) values.push_back(trial);
-    for (const int p : followed)
-      values.push_back(to_degrees(now.schedule.friction[p]));
-    const std::vector<double> monitored = monitor_values<Dim>(scene.monitors, model, now);
-    values.insert(values.end(), monitored.begin(), monitored.end());
-    return values;
+    return history_row(scene, model, now, progress.stage + 1, trial);
   }
 
   void frame(const State<Dim>& now) {
@@ -169,16 +151,20 @@ struct Simulation {
             .pause = pause()};
   }
 
+  std::string trial_text() const {
+    const double target = progress.reduction.target;
+    return std::get<ReducePlan>(plan().plan).searched == Searched::factor
+               ? fmt::format("trial at a factor of {:.4f}", target)
+               : fmt::format("trial at {:.4f} deg", to_degrees(target));
+  }
+
   // a search records the end of each trial
   RunHooks<Dim> report_trials() {
     return {.with_forces = {},
             .after_step =
                 [this](const State<Dim>& now, double unbalanced) {
                   if (reports(now))
-                    report_progress(now,
-                                    fmt::format("trial at {:.4f} deg{}", to_degrees(progress.reduction.target),
-                                                and_more(progress_of_newton(now))),
-                                    unbalanced, -1);
+                    report_progress(now, trial_text() + and_more(progress_of_newton(now)), unbalanced, -1);
                 },
             .pause = pause()};
   }
@@ -246,16 +232,18 @@ struct Simulation {
                                           continuous ? record_run({}) : report_trials(), on_trial);
     if (report.last.reason == StopReason::interrupted) return {};
     judge(report.last, true);
+    const Sought sought = sought_by(reduction);
     if (report.bracketed) {
-      const bool unique = !results.find("critical_friction");
-      const std::string name = unique ? "critical_friction" : plan().name + "_critical_friction";
-      results.values.push_back({name, {to_degrees(report.critical), "deg", to_degrees(report.error_bar), report.rule}});
+      const bool unique = !results.find(sought.name);
+      const std::string name = unique ? sought.name : plan().name + "_" + sought.name;
+      results.values.push_back(
+          {name, {sought.number(report.critical), sought.unit, sought.number(report.error_bar), report.rule}});
     }
     const bool found = report.message.empty();
     if (!found && results.outcome != Outcome::failed)
       fail(Outcome::incomplete,
            (report.bracketed ? "the bracket is wider than asked: " : "no bracket: ") + report.message);
-    return Executed{found ? "critical friction found" : describe(report.last.reason), report.unbalanced};
+    return Executed{found ? sought.found : describe(report.last.reason), report.unbalanced};
   }
 
   // A stage that cannot be done ends here: what was done before it is kept.
@@ -281,10 +269,12 @@ struct Simulation {
   }
 
   void begin_stage() {
-    if (plan().change.friction)
-      for (std::size_t p = 0; p < model.properties.size(); ++p)
-        state.schedule.friction[p] = model.properties[p].friction;
+    for (const int p : properties_changed(model, plan().change)) {
+      state.schedule.friction[p] = model.properties[p].friction;
+      if (!state.schedule.strength_factor.empty()) state.schedule.strength_factor[p] = 1;
+    }
     remove_bonds(model, state);
+    if (plan().change.zero_slip) zero_slip(state);
     if (plan().change.bond) make_bonds(model, settings, state);
     // candidates and time step belong to the stage
     state.built.clear();
@@ -418,12 +408,7 @@ template <int Dim>
 Progress<Dim> initial_progress(const Prepared<Dim>& scene) {
   Progress<Dim> progress;
   progress.state = scene.state;
-  progress.results.history.columns = {"time_s", "stage"};
-  if (has_trials(scene)) progress.results.history.columns.push_back("trial");
-  for (const int p : properties_followed(scene))
-    progress.results.history.columns.push_back("friction_" + scene.model.properties[p].name + "_deg");
-  for (const Column& c : monitor_columns<Dim>(scene.monitors))
-    progress.results.history.columns.push_back(c.header());
+  progress.results.history.columns = history_columns(scene);
   return progress;
 }
 

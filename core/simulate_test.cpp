@@ -89,6 +89,59 @@ TEST(Simulate, TheHistoryShowsEveryFrictionThatChangesAndNoOther) {
   EXPECT_EQ(results_of(block_on_slope({settled})).history.columns, (std::vector<std::string>{"time_s", "stage"}));
 }
 
+TEST(Simulate, AStageGivesFrictionByNameOrToEveryJoint) {
+  StagePlan slide = stage_of("slide", RunPlan{.duration = 0.01});
+  slide.change.friction_of = {{"other", 25 * degree}};
+  const Results one = results_of(block_on_slope({slide}));
+  EXPECT_EQ(one.history.columns, (std::vector<std::string>{"time_s", "stage", "friction_other_deg"}));
+  EXPECT_NEAR(one.history.rows.front()[2], 25, 1e-9);
+
+  slide.change.friction = 35 * degree;  // the others
+  const Results both = results_of(block_on_slope({slide}));
+  EXPECT_NEAR(column_of(both.history, "friction_other_deg").back(), 25, 1e-9);
+  EXPECT_NEAR(column_of(both.history, "friction_joint_deg").back(), 35, 1e-9);
+
+  // what a stage states ends the factor that a search left, of that property alone
+  StagePlan factor = stage_of("factor", ReducePlan{.searched = Searched::factor,
+                                                   .factor = {.from = 0.8, .to = 2, .tolerance = 0.1},
+                                                   .properties = {},
+                                                   .failure_displacement = 0.01});
+  slide.change.friction.reset();
+  const Results after = results_of(block_on_slope({factor, slide}));
+  EXPECT_NEAR(column_of(after.history, "friction_other_deg").back(), 25, 1e-9);
+  EXPECT_NEAR(column_of(after.history, "friction_joint_deg").back(), 30, 2);
+  EXPECT_NEAR(column_of(after.history, "strength_factor").back(), after.find("factor_of_safety")->value,
+              *after.find("factor_of_safety")->error_bar + 1e-12);
+}
+
+// A joint that has softened by its slip has its first friction again once the slip is zero.
+TEST(Simulate, PlasticSlipIsSetToZeroOnRequest) {
+  for (const int sub_contacts : {1, 2}) {
+    StagePlan slide = stage_of("slide", RunPlan{.duration = 0.3}),
+              stand = stage_of("stand", SettlePlan{.step_limit = 20'000});
+    slide.change.friction = 20 * degree;
+    stand.change.friction = 35 * degree;
+    const auto last_state = [&](bool zero) {
+      // settled and held upright, the block keeps its contact, and with it its slip, all the way
+      Prepared<2> scene = block_on_slope({stage_of("settle", SettlePlan{}), slide, stand});
+      scene.model.bodies[shapes::index_of(scene.model, "block")].free_rotation.fill(false);
+      for (JointProperties& p : scene.model.properties) {
+        p.laws.friction = FrictionLaw::softening;
+        p.softening_drop = 0.2;
+        p.softening_slip = 0.01;
+        p.sub_contacts = sub_contacts;
+      }
+      scene.stages[2].change.zero_slip = zero;
+      Progress<2> progress = initial_progress(scene);
+      EXPECT_TRUE(simulate(scene, progress, {}));
+      return progress;
+    };
+    const Progress<2> kept = last_state(false), zeroed = last_state(true);
+    EXPECT_EQ(kept.results.outcome, Outcome::incomplete) << "tan 35 deg less 0.2 holds no slope of 30 deg";
+    EXPECT_EQ(zeroed.results.outcome, Outcome::done) << zeroed.results.message;
+  }
+}
+
 TEST(Simulate, AStageIsMarkedRelaxedWhereItEndsByRelaxation) {
   const auto relaxed = [](const std::variant<SettlePlan, RunPlan, ReducePlan>& plan, Statics statics) {
     Prepared<2> scene = block_on_slope({stage_of("only", plan)});

@@ -1,5 +1,7 @@
 #include "core/state.hpp"
 
+#include <cmath>
+
 #include "core/on_threads.hpp"
 
 namespace voussoir {
@@ -24,6 +26,19 @@ State<Dim> initial_state(const Model<Dim>& model) {
     state.schedule.water.push_back(water.values);
   state.schedule.last_water = state.schedule.water;
   return state;
+}
+
+template <int Dim>
+void set_strength(const Model<Dim>& model, Searched searched, const std::vector<int>& properties, double level,
+                  Schedule& schedule) {
+  if (searched == Searched::factor) schedule.strength_factor.resize(model.properties.size(), 1);
+  for (const int p : properties) {
+    schedule.friction[p] = level;
+    if (searched == Searched::friction) continue;
+    const double stated = model.properties[p].friction;
+    schedule.friction[p] = level == 1 ? stated : std::atan(std::tan(stated) / level);
+    schedule.strength_factor[p] = level;
+  }
 }
 
 template <>
@@ -80,6 +95,8 @@ void list_by_body(const Model<Dim>& model, State<Dim>& state) {
 
 template State<2> initial_state<2>(const Model<2>&);
 template State<3> initial_state<3>(const Model<3>&);
+template void set_strength<2>(const Model<2>&, Searched, const std::vector<int>&, double, Schedule&);
+template void set_strength<3>(const Model<3>&, Searched, const std::vector<int>&, double, Schedule&);
 template void cache_poses<2>(const Model<2>&, int, State<2>&);
 template void cache_poses<3>(const Model<3>&, int, State<3>&);
 template void list_by_body<2>(const Model<2>&, State<2>&);

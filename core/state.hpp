@@ -115,6 +115,8 @@ struct Schedule {
   double gravity_factor = 1;
   double last_gravity_factor = 1;                         // of the step before
   std::vector<double> friction;                           // rad, for each of Model::properties
+  std::vector<double> strength_factor;                    // for each: divides tan φ (done in `friction`) and cohesion;
+                                                          // empty: no factor has been searched
   WaterValues water, last_water;                          // the numbers of Model::waters, and those of the step before
   double started = 0;                                     // s: when the schedules began to run
   double ends = std::numeric_limits<double>::infinity();  // s: when the run that is under way is complete; its last
@@ -195,9 +197,11 @@ struct State {
   std::vector<Placement<Dim>> built;     // where the bodies stood when the candidates were last listed
   std::vector<Placement<Dim>> counted_at;  // by body: up to where its travel is counted
   std::vector<double> path_bounds;         // m, by body: how far any of its points may have gone, all ways added up
-  std::vector<CachedPose<Dim>> poses;      // by body; rebuilt every step
-  ContactsByBody by_body;                  // places in `contacts`; rebuilt with them
-  std::vector<double> frequency;           // rad/s, by body: stiffest mode of the last time-step estimate
+  std::vector<char> left_behind;  // by body: has failed in a search that its failure does not end, and counts no more
+                                  // where rest is judged; empty: none
+  std::vector<CachedPose<Dim>> poses;  // by body; rebuilt every step
+  ContactsByBody by_body;              // places in `contacts`; rebuilt with them
+  std::vector<double> frequency;       // rad/s, by body: stiffest mode of the last time-step estimate
   Relaxation<Dim> relaxation;
   NewtonIncrement<Dim> newton;
   Schedule schedule;
@@ -236,6 +240,12 @@ std::span<const int> contacts_of(const State<Dim>& state, int body) {
 // rest at the reference configuration
 template <int Dim>
 State<Dim> initial_state(const Model<Dim>& model);
+
+// Puts in force what a search is at: the friction angle, rad, of some joint properties, or the factor that divides
+// their tan φ and cohesion, both as the model states them.
+template <int Dim>
+void set_strength(const Model<Dim>& model, Searched searched, const std::vector<int>& properties, double level,
+                  Schedule& schedule);
 
 // The second body's centroid seen from the first's, m: reference positions first, so that small displacements are not
 // lost.

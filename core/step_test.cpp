@@ -414,7 +414,7 @@ TEST(Run, EndsARampWithItsLastStep) {
   // the same when friction falls
   state.schedule.started = state.time;
   run<2>(model, settings, {.end_time = state.time + 4 * time_step},
-         {.friction_rate = 0.1 / time_step, .friction_from = 0.6, .friction_to = 0.2, .properties = {0}}, state);
+         {.strength_rate = 0.1 / time_step, .strength_from = 0.6, .strength_to = 0.2, .properties = {0}}, state);
   EXPECT_EQ(state.schedule.friction[0], 0.2);
 }
 

@@ -43,7 +43,7 @@ const std::vector<Order> orders{
       {"step", "state_hash"},
       {"run"},
       {"reduction"},
-      {"progress"},
+      {"progress", "history"},
       {"checkpoint", "simulate"}}},
     {"core/geometry", {{"types"}, {"half_space"}, {"polytope", "surface"}, {"outline"}}},
     {"core/law", {{"joint_properties", "joint_state"}, {"elastic_coulomb"}, {"joint_law"}, {"joint_path"}}},

@@ -193,10 +193,18 @@ struct PlanText {
   std::string operator()(const ReducePlan& plan) const {
     std::string of = "all joint properties";
     if (!plan.properties.empty()) of = fmt::format("{}", fmt::join(plan.properties, ", "));
-    const std::string failure = plan.failure_displacement > 0 ? fmt::format("{:g} m", plan.failure_displacement)
-                                                              : std::string("a tenth of the smallest inscribed radius");
+    std::string failure = plan.failure_displacement > 0 ? fmt::format("{:g} m", plan.failure_displacement)
+                                                        : std::string("a tenth of the smallest inscribed radius");
+    if (plan.failure_fraction > 0) failure += fmt::format(", by {:g} of the free mass", plan.failure_fraction);
+    if (plan.searched == Searched::factor)
+      return fmt::format("divide tan φ and cohesion of {} by {:g} to {:g} {}; failed after {}", of, plan.factor.from,
+                         plan.factor.to, how(plan.method, plan.factor), failure);
     return fmt::format("reduce the friction of {} from {:g} to {:g} deg {}; failed after {}", of, to_degrees(plan.from),
                        to_degrees(plan.to), how(plan), failure);
+  }
+  static std::string how(ReductionMethod method, const FactorPlan& plan) {
+    if (method == ReductionMethod::steps) return fmt::format("in steps of {:g}", plan.step);
+    return fmt::format("by bisection to {:g}", plan.tolerance);
   }
   static std::string gravity(const GravityPlan& plan) {
     if (plan.ramp > 0 && !plan.to && plan.from == 0) return fmt::format(", gravity put on within {:g} s", plan.ramp);
@@ -270,6 +278,9 @@ std::string change_text(const Change& change) {
   if (!change.release.empty()) text += "; releases blocks";
   if (!change.remove.empty()) text += "; removes blocks";
   if (change.friction) text += fmt::format("; friction {:g} deg", to_degrees(*change.friction));
+  for (const FrictionPlan& plan : change.friction_of)
+    text += fmt::format("; friction of {} {:g} deg", plan.properties, to_degrees(plan.friction));
+  if (change.zero_slip) text += "; plastic slip set to zero";
   return text;
 }
 

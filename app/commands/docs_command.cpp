@@ -22,6 +22,9 @@ constexpr Meaning column_meanings[] = {
     {"trial",
      "where some stage searches by trials: the number of one that is taken back; 0: on the path to the answer"},
     {"friction", "friction angle in force, of each of the joint properties whose friction some stage changes"},
+    {"strength_factor",
+     "where some stage searches a factor of safety: what the strength of the joint properties that are searched is "
+     "divided by"},
 };
 
 constexpr Meaning quantity_meanings[] = {
@@ -54,12 +57,14 @@ std::string_view meaning_of(std::string_view name, const Meaning (&meanings)[Cou
 std::string history_documentation() {
   Prepared<3> example;
   example.model.properties.push_back({.name = "rock"});
-  example.stages.emplace_back().plan = ReducePlan{};
+  ReducePlan reduction;
+  reduction.searched = Searched::factor;
+  example.stages.emplace_back().plan = reduction;
   std::string text = R"(
 # history.csv
 
 `voussoir run` writes one row at each output.history_interval_s, or about 200 rows a stage, and one at the end of each stage; a
-search for the critical friction writes one at the end of each trial. A cell is empty where its number is not finite.
+search for the critical friction or the factor of safety writes one at the end of each trial. A cell is empty where its number is not finite.
 
 | column | meaning |
 |---|---|

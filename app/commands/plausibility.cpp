@@ -101,12 +101,14 @@ struct Forecaster {
   double operator()(const SettlePlan& plan) const { return plan.gravity.ramp + settling; }
   double operator()(const RunPlan& plan) const { return plan.duration; }
   double operator()(const ReducePlan& plan) const {
-    const double range = std::abs(plan.from - plan.to);
+    const bool factor = plan.searched == Searched::factor;
+    const double range = std::abs(factor ? plan.factor.from - plan.factor.to : plan.from - plan.to);
+    const double tolerance = factor ? plan.factor.tolerance : plan.tolerance;
     switch (plan.method) {
       case ReductionMethod::bisection:
-        return (2 + std::ceil(std::log2(std::max(1.0, range / plan.tolerance)))) * trial(plan);
+        return (2 + std::ceil(std::log2(std::max(1.0, range / tolerance)))) * trial(plan);
       case ReductionMethod::steps:
-        return std::ceil(range / plan.step) * (ramp(plan) + settling);
+        return std::ceil(range / (factor ? plan.factor.step : plan.step)) * (ramp(plan) + settling);
       case ReductionMethod::rate:
         return range / plan.rate;
       case ReductionMethod::two_rates:
@@ -324,11 +326,12 @@ struct DurationKeys {
   std::string operator()(const SettlePlan&) const { return "gravity_ramp_s"; }
   std::string operator()(const RunPlan&) const { return "duration_s"; }
   std::string operator()(const ReducePlan& plan) const {
+    const bool factor = plan.searched == Searched::factor;
     switch (plan.method) {
       case ReductionMethod::bisection:
-        return "tolerance_deg";
+        return factor ? "tolerance_factor" : "tolerance_deg";
       case ReductionMethod::steps:
-        return "step_deg";
+        return factor ? "step_factor" : "step_deg";
       case ReductionMethod::rate:
         return "rate_deg_per_s";
       case ReductionMethod::two_rates:

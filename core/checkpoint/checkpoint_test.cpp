@@ -87,7 +87,7 @@ void expect_search_survives(const ReducePlan& plan) {
   const Model<Dim> model = block_on_plate<Dim>(30 * degree, 40 * degree);
   const Prepared<Dim> scene = scene_of<Dim>(model, {stage("settle", SettlePlan{}), stage("reduce", plan)});
   const Progress<Dim> whole = whole_run(scene);
-  EXPECT_TRUE(whole.results.find("critical_friction"));
+  EXPECT_TRUE(whole.results.find(plan.searched == Searched::factor ? "factor_of_safety" : "critical_friction"));
 
   // again and again, at intervals that fit nothing
   Progress<Dim> progress = initial_progress(scene);
@@ -111,6 +111,13 @@ TEST(Checkpoint, ASearchForTheCriticalFrictionGoesOn) {
   plan.failure_displacement = 0.003;
   for (const ReductionMethod method :
        {ReductionMethod::bisection, ReductionMethod::steps, ReductionMethod::rate, ReductionMethod::two_rates}) {
+    plan.method = method;
+    expect_search_survives<2>(plan);
+  }
+  plan.searched = Searched::factor;
+  plan.factor = {.from = 0.8, .to = 2, .tolerance = 0.02, .step = 0.1};
+  plan.failure_fraction = 0.5;
+  for (const ReductionMethod method : {ReductionMethod::bisection, ReductionMethod::steps}) {
     plan.method = method;
     expect_search_survives<2>(plan);
   }

@@ -110,8 +110,8 @@ void serialize(Archive& archive, BaseHistory<Dim>& b) {
 
 template <class Archive>
 void serialize(Archive& archive, Schedule& s) {
-  auto& [gravity_factor, last_gravity_factor, friction, water, last_water, started, ends] = s;
-  archive(gravity_factor, last_gravity_factor, friction, water, last_water, started, ends);
+  auto& [gravity_factor, last_gravity_factor, friction, strength_factor, water, last_water, started, ends] = s;
+  archive(gravity_factor, last_gravity_factor, friction, strength_factor, water, last_water, started, ends);
 }
 
 template <class Archive>
@@ -159,10 +159,10 @@ void serialize(Archive& archive, NewtonIncrement<Dim>& n) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
   // poses, loads by source with their stiffness, and lists by body are rebuilt before they are read
-  auto& [motions, loads, loads_of, stiffened, contacts, subs, built, counted_at, path_bounds, poses, by_body, frequency,
-         relaxation, newton, schedule, bonds, time, time_step, step_allowed, energy, counters] = s;
-  archive(motions, loads, contacts, subs, built, counted_at, path_bounds, frequency, relaxation, newton, schedule,
-          bonds, time, time_step, step_allowed, energy, counters);
+  auto& [motions, loads, loads_of, stiffened, contacts, subs, built, counted_at, path_bounds, left_behind, poses,
+         by_body, frequency, relaxation, newton, schedule, bonds, time, time_step, step_allowed, energy, counters] = s;
+  archive(motions, loads, contacts, subs, built, counted_at, path_bounds, left_behind, frequency, relaxation, newton,
+          schedule, bonds, time, time_step, step_allowed, energy, counters);
 }
 
 template <class Archive, int Dim>
@@ -173,10 +173,10 @@ void serialize(Archive& archive, RunProgress<Dim>& r) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, ReductionProgress<Dim>& r) {
-  auto& [trial, target, friction_from, friction_rate, time_limit, stable, failed, failed_faster, unbalanced,
-         true_motion, trial_steps, run, begin, base] = r;
-  archive(trial, target, friction_from, friction_rate, time_limit, stable, failed, failed_faster, unbalanced,
-          true_motion, trial_steps, run, begin, base);
+  auto& [trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced, true_motion,
+         trial_steps, run, begin, base] = r;
+  archive(trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced, true_motion,
+          trial_steps, run, begin, base);
 }
 
 template <class Archive>

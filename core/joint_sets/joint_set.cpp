@@ -147,6 +147,15 @@ DrawnJoint<Dim> persistent_joint(const JointSet& set, const Ball<Dim>& ball, dou
   return joint;
 }
 
+// By how many distances one of the joints at equal distances lies beyond the ball's centre: that through the stated
+// point, or the first anywhere within one distance.
+template <int Dim>
+double phase_of(const JointSet& set, const Ball<Dim>& ball, double distance, RandomStream& random) {
+  if (set.point.empty()) return random.uniform();
+  const Vector<Dim> mean = draw_normal<Dim>(set, random);  // without scatter
+  return mean.dot(Eigen::Map<const Vector<Dim>>(set.point.data()) - ball.centre) / distance;
+}
+
 template <int Dim>
 std::vector<DrawnJoint<Dim>> draw_persistent(const JointSet& set, const Ball<Dim>& ball, RandomStream& random) {
   std::vector<DrawnJoint<Dim>> joints;
@@ -156,8 +165,7 @@ std::vector<DrawnJoint<Dim>> draw_persistent(const JointSet& set, const Ball<Dim
       joints.push_back(persistent_joint<Dim>(set, ball, ball.radius * (2 * random.uniform() - 1), random));
     return joints;
   }
-  // the first of them anywhere within one distance
-  const double distance = 1 / stated_intensity<Dim>(set), phase = random.uniform();
+  const double distance = 1 / stated_intensity<Dim>(set), phase = phase_of<Dim>(set, ball, distance, random);
   const auto last = static_cast<long long>(std::floor(ball.radius / distance - phase));
   for (auto i = static_cast<long long>(std::ceil(-ball.radius / distance - phase)); i <= last; ++i)
     joints.push_back(persistent_joint<Dim>(set, ball, (static_cast<double>(i) + phase) * distance, random));

@@ -38,6 +38,8 @@ struct JointSet {
   std::optional<double> spacing, intensity;  // m; 1/m
   double persistence = 1;  // with spacing: fraction of the planes at this spacing that is joint (Einstein et al. 1983)
   Arrangement arrangement = Arrangement::poisson;  // of persistent joints
+  std::vector<double> point;  // m, the file's coordinates: one of those at equal distances passes through it; empty:
+                              // the first of them anywhere
 
   std::uint64_t seed = 0;
 };

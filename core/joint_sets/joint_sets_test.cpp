@@ -385,6 +385,32 @@ TEST(Statistics, SpacingsOnScanlines) {
   EXPECT_EQ(found.inside, 300);
 }
 
+// One joint of equal distances passes through the stated point, whatever seed and ball, the others lie from there.
+TEST(Equal, OneJointPassesThroughTheStatedPoint) {
+  const Vector<3> point(12.25, -3.5, 7.75);
+  for (const double radius : {5.0, 60.0})
+    for (const std::uint64_t seed : {0u, 7u}) {
+      JointSet set = persistent_set(0);
+      set.intensity.reset();
+      set.spacing = 2.5;
+      set.arrangement = Arrangement::equal;
+      set.point = {point[0], point[1], point[2]};
+      set.seed = seed;
+      const Ball<3> ball{{1, 2, 3}, radius};
+      const std::vector<DrawnJoint<3>> joints = draw<3>(set, ball);
+      const double through = joints.front().normal.dot(point - ball.centre);
+      EXPECT_NEAR(static_cast<double>(joints.size()), 2 * radius / 2.5, 1);
+      double nearest = 1;
+      for (const DrawnJoint<3>& joint : joints) {
+        const double distances = (joint.normal.dot(joint.point - ball.centre) - through) / 2.5;
+        EXPECT_NEAR(distances, std::round(distances), 1e-12);
+        EXPECT_LE((joint.point - ball.centre).norm(), radius * (1 + 1e-12));
+        nearest = std::min(nearest, std::abs(distances));
+      }
+      EXPECT_EQ(nearest < 1e-12, std::abs(through) <= radius) << "it is drawn where the ball holds it";
+    }
+}
+
 TEST(Statistics, SharesOfBlocks) {
   EXPECT_EQ(size_at_fraction({1, 2, 3, 4}, 0.1), 1);
   EXPECT_EQ(size_at_fraction({1, 2, 3, 4}, 0.5), 3);

@@ -55,7 +55,8 @@ double shear_stiffness_at(const JointProperties& p, double stress) {
   return p.shear_stiffness;
 }
 
-FrictionAnswer friction_answer(const JointProperties& p, double friction, double slip, double stress) {
+FrictionAnswer friction_answer(const JointProperties& p, double friction, double slip, double stress,
+                               double strength_factor) {
   const double last = std::tan(friction);
   if (p.laws.friction == FrictionLaw::hardening) {
     const double scale = p.hardening_slip * std::pow(std::max(stress, 0.0), p.hardening_exponent);
@@ -63,17 +64,19 @@ FrictionAnswer friction_answer(const JointProperties& p, double friction, double
     return {slip > 0 ? last : 0, 0};
   }
   if (p.laws.friction == FrictionLaw::softening) {
-    const double lost = -p.softening_drop * std::expm1(-slip / p.softening_slip);
+    const double drop = p.softening_drop / strength_factor;
+    const double lost = -drop * std::expm1(-slip / p.softening_slip);
     if (lost >= last) return {0, 0};
-    return {last - lost, -p.softening_drop / p.softening_slip * std::exp(-slip / p.softening_slip)};
+    return {last - lost, -drop / p.softening_slip * std::exp(-slip / p.softening_slip)};
   }
   return {last, 0};
 }
 
 SlipReturn return_to_cone(const JointProperties& p, double friction, double plastic_slip, double trial,
-                          double stiffness, double normal_force, double stress) {
+                          double stiffness, double normal_force, double stress, double strength_factor) {
   SlipReturn result;
-  result.snap_back = stiffness < -normal_force * friction_answer(p, friction, plastic_slip, stress).slope;
+  result.snap_back =
+      stiffness < -normal_force * friction_answer(p, friction, plastic_slip, stress, strength_factor).slope;
   if (p.laws.friction == FrictionLaw::constant) {
     result.slip = (trial - std::tan(friction) * normal_force) / stiffness;
     return result;
@@ -83,7 +86,7 @@ SlipReturn return_to_cone(const JointProperties& p, double friction, double plas
   // Newton's steps shorten quadratically; halving, which rounding may ask for, needs as many as a double has digits
   constexpr int limit = 2 * std::numeric_limits<double>::digits;
   for (int i = 0; i < limit; ++i) {
-    const FrictionAnswer at = friction_answer(p, friction, plastic_slip + slip, stress);
+    const FrictionAnswer at = friction_answer(p, friction, plastic_slip + slip, stress, strength_factor);
     const double excess = trial - stiffness * slip - at.coefficient * normal_force;
     (excess > 0 ? low : high) = slip;
     double next = slip + excess / (stiffness + at.slope * normal_force);
@@ -98,7 +101,7 @@ SlipReturn return_to_cone(const JointProperties& p, double friction, double plas
 
 template <int Dim>
 JointForce<Dim> joint_law(const JointProperties& p, double friction, double dashpot,
-                          const JointKinematics<Dim>& kinematics, JointState<Dim>& history) {
+                          const JointKinematics<Dim>& kinematics, JointState<Dim>& history, double strength_factor) {
   Vector<Dim>& shear = history.shear_force;
   const double area = kinematics.area;
   JointForce<Dim> result;
@@ -126,8 +129,9 @@ JointForce<Dim> joint_law(const JointProperties& p, double friction, double dash
   shear -= stiffness * kinematics.slip;
   const double trial = length_of<Dim>(shear);
   const auto strength = [&] {
-    const double coefficient = friction_answer(p, friction, history.plastic_slip, normal.stress).coefficient;
-    return std::max((history.bonded ? p.cohesion * area : 0) + coefficient * normal_force(), 0.0);
+    const double coefficient =
+        friction_answer(p, friction, history.plastic_slip, normal.stress, strength_factor).coefficient;
+    return std::max((history.bonded ? p.cohesion / strength_factor * area : 0) + coefficient * normal_force(), 0.0);
   };
   if (trial > strength()) {
     if (history.bonded) {
@@ -136,8 +140,8 @@ JointForce<Dim> joint_law(const JointProperties& p, double friction, double dash
     }
     double limit = strength();  // of the bond's loss; a little slip hardens, so that there may be none left to find
     if (stiffness > 0 && trial > limit) {
-      const SlipReturn back =
-          return_to_cone(p, friction, history.plastic_slip, trial, stiffness, normal_force(), normal.stress);
+      const SlipReturn back = return_to_cone(p, friction, history.plastic_slip, trial, stiffness, normal_force(),
+                                             normal.stress, strength_factor);
       result.plastic_slip = back.slip;
       result.snap_back = back.snap_back;
       history.plastic_slip += back.slip;
@@ -154,7 +158,9 @@ JointForce<Dim> joint_law(const JointProperties& p, double friction, double dash
   return result;
 }
 
-template JointForce<2> joint_law<2>(const JointProperties&, double, double, const JointKinematics<2>&, JointState<2>&);
-template JointForce<3> joint_law<3>(const JointProperties&, double, double, const JointKinematics<3>&, JointState<3>&);
+template JointForce<2> joint_law<2>(const JointProperties&, double, double, const JointKinematics<2>&, JointState<2>&,
+                                    double);
+template JointForce<3> joint_law<3>(const JointProperties&, double, double, const JointKinematics<3>&, JointState<3>&,
+                                    double);
 
 }  // namespace voussoir

@@ -29,11 +29,13 @@ double overlap_at(const JointProperties& properties, double stress);
 double shear_stiffness_at(const JointProperties& properties, double stress);
 
 // tan φ after a plastic slip `slip`, m, under a normal stress, Pa, where `friction`, rad, is the joint's own
-// (Eqs 4.16, 4.18, 6.7), and its derivative, 1/m
+// (Eqs 4.16, 4.18, 6.7), and its derivative, 1/m. In a search for a factor of safety the joint's friction angle is that
+// of tan φ over the factor; here it divides what softening takes, and elsewhere cohesion.
 struct FrictionAnswer {
   double coefficient = 0, slope = 0;
 };
-FrictionAnswer friction_answer(const JointProperties& properties, double friction, double slip, double stress);
+FrictionAnswer friction_answer(const JointProperties& properties, double friction, double slip, double stress,
+                               double strength_factor = 1);
 
 // The plastic slip p of a return to the cone after the slip β = `plastic_slip`: trial - K p = μ(β + p) N, within [0,
 // trial/K], where the left side less the right goes from positive to not positive. Hardening makes that difference
@@ -44,12 +46,12 @@ struct SlipReturn {
   bool snap_back = false;  // friction fell faster than the spring unloads, N |μ'| > K: no quasi-static path leads here
 };
 SlipReturn return_to_cone(const JointProperties& properties, double friction, double plastic_slip, double trial,
-                          double stiffness, double normal_force, double stress);
+                          double stiffness, double normal_force, double stress, double strength_factor = 1);
 
 // As elastic_coulomb, for a joint with any laws; stiffness per area only. Of the history it brings shear force, plastic
 // slip, shear stiffness and bond up to date.
 template <int Dim>
 JointForce<Dim> joint_law(const JointProperties& properties, double friction, double dashpot,
-                          const JointKinematics<Dim>& kinematics, JointState<Dim>& history);
+                          const JointKinematics<Dim>& kinematics, JointState<Dim>& history, double strength_factor = 1);
 
 }  // namespace voussoir

@@ -231,6 +231,38 @@ TEST(ShearLaw, TensionAndSlipBreakTheSameBond) {
   EXPECT_EQ(history.shear_force, Vector<2>::Zero());
 }
 
+// A factor divides friction, what softening takes of it, and cohesion: the joint answers as one of that strength, and
+// one of factor 1 as ever, to the bit. Tension stays.
+TEST(ShearLaw, AFactorDividesTheWholeStrengthInShear) {
+  constexpr double factor = 1.6;
+  JointProperties p = softened();
+  p.laws.bond = true;
+  p.cohesion = 1e5;
+  p.tension = 1e3;
+  JointProperties weaker = p;
+  weaker.friction = std::atan(std::tan(p.friction) / factor);
+  weaker.cohesion /= factor;
+  weaker.softening_drop /= factor;
+  JointState<2> divided, stated, plain, of_one;
+  for (JointState<2>* history : {&divided, &stated, &plain, &of_one})
+    history->bonded = true;
+  JointKinematics<2> k;
+  k.normal = {0, 1};
+  k.area = 2;
+  k.overlap = 1e-4;
+  bool broken = false;
+  for (int step = 0; step < 400; ++step) {
+    k.slip = {-1e-4 * (1 + step % 3), 0};
+    const Vector<2> force = joint_law<2>(p, weaker.friction, 0, k, divided, factor).force;
+    EXPECT_EQ(force, joint_law<2>(weaker, weaker.friction, 0, k, stated).force) << step;
+    EXPECT_EQ(divided.plastic_slip, stated.plastic_slip);
+    EXPECT_EQ(joint_law<2>(p, p.friction, 0, k, plain).force, joint_law<2>(p, p.friction, 0, k, of_one, 1).force);
+    broken = broken || !divided.bonded;
+  }
+  EXPECT_TRUE(broken);
+  EXPECT_GT(divided.plastic_slip, 0.02) << "softening has set in";
+}
+
 TEST(ShearLaw, SnapBackIsReported) {
   JointProperties p = softened();
   p.softening_slip = 1e-4;  // 0.059 of 10 MPa over 0.1 mm: 5.9 GPa/m, more than the spring's 0.1

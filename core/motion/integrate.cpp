@@ -216,7 +216,10 @@ double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& 
   }
   const double mean = all.touching > 0 ? all.forces / static_cast<double>(all.touching) : mean_water_force(state);
 
-  const auto raise = [&](int b, double& most) { most = std::max(most, unbalanced_force(model, state, b)); };
+  const auto raise = [&](int b, double& most) {
+    if (!state.left_behind.empty() && state.left_behind[b]) return;
+    most = std::max(most, unbalanced_force(model, state, b));
+  };
   double largest = 0;
   for (const double of_some : sums_in_groups<double>(threads, model.bodies.size(), raise))
     largest = std::max(largest, of_some);

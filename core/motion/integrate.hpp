@@ -52,7 +52,7 @@ double damped(double force, double velocity, double local_damping);
 
 // The largest fraction of the mean contact force that a body's unbalanced force and momentum still amount to (see
 // EquilibriumSettings); infinity when bodies move without any contact. Under relaxation the momentum is that of the
-// fictitious inertia, since this is what swings. Found on as many threads.
+// fictitious inertia, since this is what swings. Bodies left behind do not count. Found on as many threads.
 template <int Dim>
 double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& state);
 

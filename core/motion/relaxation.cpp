@@ -85,13 +85,15 @@ double critical_damping(const Model<Dim>& model, State<Dim>& state) {
     const Motion<Dim>& m = state.motions[b];
     const Spin<Dim> spin = angular_velocity(model.bodies[b], m);
     const Load<Dim> now{state.loads[b].force - weight(model, state, b), state.loads[b].moment};
-    if (!first) {
+    const bool counts = state.left_behind.empty() || !state.left_behind[b];  // else what falls would end all damping
+    if (!first && counts) {
       stiffness -= m.velocity.dot(now.force - r.contact_load[b].force);
       stiffness -= spin.dot(now.moment - r.contact_load[b].moment);
       if (!r.imposed.empty()) stiffness += m.velocity.dot(r.imposed[b].force) + spin.dot(r.imposed[b].moment);
     }
-    inertia += r.inertia[b] * (model.bodies[b].mass * m.velocity.squaredNorm() +
-                               m.angular_momentum.dot(m.angular_momentum.cwiseQuotient(model.bodies[b].inertia)));
+    if (counts)
+      inertia += r.inertia[b] * (model.bodies[b].mass * m.velocity.squaredNorm() +
+                                 m.angular_momentum.dot(m.angular_momentum.cwiseQuotient(model.bodies[b].inertia)));
     r.contact_load[b] = now;
   }
   const double dt = state.step_allowed, least = least_damping / dt, most = 4 / dt;  // 2 ω at the limit of stability

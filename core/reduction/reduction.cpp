@@ -49,15 +49,39 @@ Trial judge(StopReason reason) {
   }
 }
 
-// What a trial does: it seeks rest at a friction angle, or the friction falls at constant rate from the last stable
-// angle to this one.
+// What a trial does: it seeks rest at a level, or the friction falls at constant rate from the last stable angle to
+// this one.
 struct Attempt {
   int number = 0;          // of the trial, from 0
-  double target = 0;       // rad
+  double target = 0;       // level, rad or 1
   bool from_base = false;  // it begins at the last stable state, not where the trial before ended
   bool falls = false;
   double rate = 0;  // rad/s, of a fall
 };
+
+// What is searched, on the way from a stable to a failed level, and how messages name it: a friction angle falls, a
+// factor grows.
+struct Levels {
+  double from, to, tolerance, step;  // rad or 1
+  double direction;                  // of failure
+  double unit;                       // of a level in words
+  const char *symbol, *name;         // of that unit; of the keys
+  const char *start, *end;           // repairs of a search in the wrong place
+  const char *towards, *one;
+
+  // "33.4 deg"
+  std::string text(double level) const { return fmt::format("{:.6g}{}", level / unit, symbol); }
+  // the one of two that is nearer to stability
+  double safer(double a, double b) const { return direction < 0 ? std::max(a, b) : std::min(a, b); }
+};
+
+Levels levels_of(const ReducePlan& plan) {
+  if (plan.searched == Searched::friction)
+    return {plan.from, plan.to, plan.tolerance, plan.step, -1,     degree,
+            " deg",    "deg",   "higher",       "lower",   "down", "angle"};
+  const FactorPlan& f = plan.factor;
+  return {f.from, f.to, f.tolerance, f.step, 1, 1, "", "factor", "lower", "higher", "up", "factor"};
+}
 
 // The ways of searching stand at the end, each in one place. A way goes through its trials by their numbers, so that an
 // interrupted search, called again with its progress, continues in the trial that was under way.
@@ -72,6 +96,7 @@ struct Search {
   ReductionProgress<Dim>& progress;
   std::vector<int> properties;
   double failure_displacement;
+  Levels levels;
   ReductionReport report;
 
   // ---- one trial ----------------------------------------------------------------------------------------------------
@@ -92,21 +117,27 @@ struct Search {
     progress.target = attempt.target;
     state.schedule.started = state.time;
     if (attempt.falls) {
-      progress.friction_from = progress.stable;
-      progress.friction_rate = attempt.rate;
+      progress.level_from = progress.stable;
+      progress.level_rate = attempt.rate;
       progress.time_limit = state.time + (progress.stable - attempt.target) / attempt.rate;
       return;
     }
-    // friction falls gently to the trial's angle: dropped at once, it would set the model in motion, and slip that
+    // strength falls gently to the trial's level: dropped at once, it would set the model in motion, and slip that
     // inertia causes wipes out the shear that settlement has locked in
-    progress.friction_from = state.schedule.friction[properties.front()];
-    progress.friction_rate = 0;
+    progress.level_from = level_in_force();
+    progress.level_rate = 0;
     const double ramp = static_cast<double>(plan.ramp_steps) * state.time_step;
-    if (progress.target < progress.friction_from && ramp > 0)
-      progress.friction_rate = (progress.friction_from - progress.target) / ramp;
+    const double fall = levels.direction * (progress.target - progress.level_from);
+    if (fall > 0 && ramp > 0)
+      progress.level_rate = fall / ramp;
     else
-      for (int p : properties)
-        state.schedule.friction[p] = progress.target;
+      set_strength(model, plan.searched, properties, progress.target, state.schedule);
+  }
+
+  double level_in_force() const {
+    const Schedule& schedule = state.schedule;
+    if (plan.searched == Searched::friction) return schedule.friction[properties.front()];
+    return schedule.strength_factor.empty() ? 1 : schedule.strength_factor[properties.front()];
   }
 
   // relaxation and true motion take turns
@@ -129,10 +160,15 @@ struct Search {
     RunGoal goal;
     goal.rest = !attempt.falls;
     goal.moved_away = failure_displacement;
+    goal.moved_fraction = plan.failure_fraction;
     goal.step_limit = plan.step_limit - progress.trial_steps;
     if (relaxes_first(attempt)) goal.step_limit = std::min(*goal.step_limit, round());
     if (attempt.falls) goal.time_limit = progress.time_limit;
-    const RunSchedule schedule{{}, progress.friction_rate, progress.friction_from, progress.target, properties};
+    const RunSchedule schedule{.searched = plan.searched,
+                               .strength_rate = progress.level_rate,
+                               .strength_from = progress.level_from,
+                               .strength_to = progress.target,
+                               .properties = properties};
     Settings own = settings;
     if (progress.true_motion) own.damping.statics = Statics::local;
     report.last = run(model, own, goal, schedule, state, progress.run, hooks);
@@ -140,10 +176,8 @@ struct Search {
     return judge(report.last.reason);
   }
 
-  // the friction angle that the trial has come to, rad
-  double friction_of(const Attempt& attempt) const {
-    return attempt.falls ? state.schedule.friction[properties.front()] : attempt.target;
-  }
+  // the level that the trial has come to
+  double level_of(const Attempt& attempt) const { return attempt.falls ? level_in_force() : attempt.target; }
 
   // nothing: interrupted, or a numerical failure
   std::optional<Trial> carry_out(const Attempt& attempt) {
@@ -152,7 +186,7 @@ struct Search {
     while (takes_turn(attempt))
       outcome = run_turn(attempt);
     if (report.last.reason == StopReason::interrupted) return {};
-    if (on_trial) on_trial(state, friction_of(attempt), outcome);
+    if (on_trial) on_trial(state, level_of(attempt), outcome);
     if (outcome != Trial::broken) return outcome;
     report.message = report.last.detail;
     return {};
@@ -162,29 +196,31 @@ struct Search {
   std::optional<Trial> decide(const Attempt& attempt) {
     const std::optional<Trial> outcome = carry_out(attempt);
     if (!outcome) return {};
-    const double friction = friction_of(attempt);
+    const double level = level_of(attempt);
     if (outcome == Trial::undecided) {
-      give_up_undecided(attempt, friction);
+      give_up_undecided(attempt, level);
       return {};
     }
     if (outcome == Trial::failed && attempt.number == 0) {
-      report.message = fmt::format("fails already at from_deg = {:.6g}: start higher", plan.from / degree);
+      report.message = fmt::format("fails already at from_{} = {:.6g}: start {}", levels.name,
+                                   levels.from / levels.unit, levels.start);
       return {};
     }
     if (outcome == Trial::failed) {
-      progress.failed = friction;
+      progress.failed = level;
       return outcome;
     }
-    progress.stable = friction;
+    progress.stable = level;
     progress.unbalanced = report.last.unbalanced;
     if (plan.method != ReductionMethod::rate) progress.base = state;
-    if (attempt.number == 0 || friction != plan.to) return outcome;
-    report.message = fmt::format("still stable at to_deg = {:.6g}: end lower", plan.to / degree);
+    if (attempt.number == 0 || level != levels.to) return outcome;
+    report.message =
+        fmt::format("still stable at to_{} = {:.6g}: end {}", levels.name, levels.to / levels.unit, levels.end);
     return {};
   }
 
-  std::optional<Trial> rest_at(int number, double friction, bool from_base = false) {
-    return decide({.number = number, .target = friction, .from_base = from_base});
+  std::optional<Trial> rest_at(int number, double level, bool from_base = false) {
+    return decide({.number = number, .target = level, .from_base = from_base});
   }
   std::optional<Trial> fall(int number, double rate) {
     return decide({.number = number, .target = plan.to, .falls = true, .rate = rate});
@@ -197,10 +233,11 @@ struct Search {
     report.critical = critical;
     report.error_bar = error_bar;
   }
+  double bracket() const { return levels.direction * (progress.failed - progress.stable); }
   void close_bracket() {
     go_back_to_base();
     report.unbalanced = progress.unbalanced;
-    close(0.5 * (progress.stable + progress.failed), 0.5 * (progress.stable - progress.failed));
+    close(0.5 * (progress.stable + progress.failed), 0.5 * bracket());
   }
 
   // The body that is farthest from where the search began, as a clause: what an undecided trial shows. The trial ended
@@ -223,30 +260,32 @@ struct Search {
   }
 
   // what a trial that neither came to rest nor failed leaves of the search
-  void give_up_undecided(const Attempt& attempt, double friction) {
+  void give_up_undecided(const Attempt& attempt, double level) {
     if (attempt.falls) {
-      report.message = fmt::format("no failure down to {:.6g} deg ({}), stable at {:.6g} deg", friction / degree,
-                                   describe(report.last.reason), progress.stable / degree);
+      report.message = fmt::format("no failure {} to {} ({}), stable at {}", levels.towards, levels.text(level),
+                                   describe(report.last.reason), levels.text(progress.stable));
       return;
     }
-    report.message = fmt::format("neither rest nor failure at {:.6g} deg within {} steps (unbalanced {:.2g}): {}",
-                                 friction / degree, progress.trial_steps, report.last.unbalanced, farthest_mover());
+    report.message = fmt::format("neither rest nor failure at {} within {} steps (unbalanced {:.2g}): {}",
+                                 levels.text(level), progress.trial_steps, report.last.unbalanced, farthest_mover());
     if (attempt.number == 0) {
-      report.message += "; neither a stable nor a failed angle is known";
+      report.message += fmt::format("; neither a stable nor a failed {} is known", levels.one);
       return;
     }
-    report.message += fmt::format("; stable at {:.6g} deg, ", progress.stable / degree);
-    // of the ways that continue to seek rest only a bisection knows a failed angle, from its second trial on
+    report.message += fmt::format("; stable at {}, ", levels.text(progress.stable));
+    // of the ways that continue to seek rest only a bisection knows a failed level, from its second trial on
     if (plan.method != ReductionMethod::bisection || attempt.number == 1) {
-      report.message += "no failed angle is known";
+      report.message += fmt::format("no failed {} is known", levels.one);
       return;
     }
-    report.message += fmt::format("failed at {:.6g} deg", progress.failed / degree);
+    report.message += fmt::format("failed at {}", levels.text(progress.failed));
     close_bracket();
   }
 
   std::string failed_rule() const {
-    return fmt::format("failed: a body moved more than {:.3g} m", failure_displacement);
+    if (plan.failure_fraction == 0) return fmt::format("failed: a body moved more than {:.3g} m", failure_displacement);
+    return fmt::format("failed: bodies of {:g} of the free mass moved more than {:.3g} m", plan.failure_fraction,
+                       failure_displacement);
   }
   std::string stable_and_failed_rule() const {
     return fmt::format("stable: unbalanced ratio below {:.0e}; ", settings.equilibrium.unbalanced) + failed_rule();
@@ -255,9 +294,9 @@ struct Search {
   // ---- bisection: every trial starts from the last stable state -----------------------------------------------------
 
   void bisect() {
-    if (progress.trial == 0 && !rest_at(0, plan.from)) return;
-    if (progress.trial <= 1 && !rest_at(1, plan.to, true)) return;
-    for (int n = std::max(progress.trial, 2); progress.stable - progress.failed > plan.tolerance; ++n)
+    if (progress.trial == 0 && !rest_at(0, levels.from)) return;
+    if (progress.trial <= 1 && !rest_at(1, levels.to, true)) return;
+    for (int n = std::max(progress.trial, 2); bracket() > levels.tolerance; ++n)
       if (!rest_at(n, 0.5 * (progress.stable + progress.failed), true)) return;
     close_bracket();
   }
@@ -267,13 +306,14 @@ struct Search {
 
   void go_by_steps() {
     for (int n = progress.trial;; ++n) {
-      const std::optional<Trial> outcome = rest_at(n, std::max(plan.from - n * plan.step, plan.to));
+      const std::optional<Trial> outcome =
+          rest_at(n, levels.safer(levels.from + levels.direction * n * levels.step, levels.to));
       if (outcome == Trial::failed) close_bracket();
       if (outcome != Trial::stable) return;
     }
   }
   std::string steps_rule() const {
-    return fmt::format("steps of {:.4g} deg; ", plan.step / degree) + stable_and_failed_rule();
+    return fmt::format("steps of {:.4g}{}; ", levels.step / levels.unit, levels.symbol) + stable_and_failed_rule();
   }
 
   // ---- rate: one fall from rest -------------------------------------------------------------------------------------
@@ -366,6 +406,10 @@ struct Search {
   }
 };
 
+bool of_rates(ReductionMethod method) {
+  return method == ReductionMethod::rate || method == ReductionMethod::two_rates;
+}
+
 template <int Dim>
 double default_failure_displacement(const Model<Dim>& model) {
   double smallest = 0;
@@ -402,11 +446,16 @@ std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& pl
 template <int Dim>
 ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,
                        ReductionProgress<Dim>& progress, const RunHooks<Dim>& hooks, const TrialHook<Dim>& on_trial) {
-  Search<Dim> search{model, settings, plan, hooks, on_trial, state, progress, chosen_properties(model, plan), 0, {}};
+  Search<Dim> search{model, settings,        plan, hooks, on_trial, state, progress, chosen_properties(model, plan),
+                     0,     levels_of(plan), {}};
   search.failure_displacement =
       plan.failure_displacement > 0 ? plan.failure_displacement : default_failure_displacement(model);
-  search.search();
   ReductionReport& report = search.report;
+  if (plan.searched == Searched::factor && of_rates(plan.method)) {
+    report.message = "a factor of safety is searched by bisection or in steps: how late a rate finds it is not known";
+    return report;
+  }
+  search.search();
   if (report.last.reason != StopReason::interrupted) {
     report.stable = progress.stable;
     report.failed = progress.failed;

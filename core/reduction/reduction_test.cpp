@@ -191,6 +191,117 @@ TEST(Reduction, WithOneSideKnownItSaysWhichOne) {
   EXPECT_NE(report.message.find("stable at 35 deg, no failed angle is known"), std::string::npos) << report.message;
 }
 
+// ---- factor of safety ----------------------------------------------------------------------------------------------
+
+ReducePlan factor_plan(ReductionMethod method, double from, double to) {
+  ReducePlan plan;
+  plan.method = method;
+  plan.searched = Searched::factor;
+  plan.factor = {.from = from, .to = to, .tolerance = 0.002, .step = 0.02};
+  plan.failure_displacement = 0.01;
+  return plan;
+}
+
+// on a plane it is the ratio of the tangents, wherever the search begins
+TEST(FactorOfSafety, OfABlockOnASlopeIsTheRatioOfTheTangents) {
+  const Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);
+  const double exact = std::tan(40 * degree) / std::tan(30 * degree);
+  for (const ReductionMethod method : {ReductionMethod::bisection, ReductionMethod::steps})
+    for (const double from : {0.6, 1.3}) {
+      State<2> state = initial_state(model);
+      const ReductionReport report = reduce_from_scratch(model, factor_plan(method, from, 1.6), state);
+      ASSERT_TRUE(report.bracketed) << report.message;
+      EXPECT_LT(report.stable, report.failed);
+      EXPECT_NEAR(report.critical, exact, report.error_bar + 1e-4);
+      EXPECT_LE(report.error_bar, method == ReductionMethod::steps ? 0.01 * (1 + 1e-9) : 0.001);
+      EXPECT_EQ(state.schedule.strength_factor, std::vector<double>{report.stable}) << "stays in force";
+      EXPECT_EQ(state.schedule.friction.front(), std::atan(std::tan(40 * degree) / report.stable));
+    }
+}
+
+// A bonded joint carries (c A + tan φ N)/F. Too weak for its own slope, it is only stable where the search begins.
+TEST(FactorOfSafety, DividesTheCohesionOfABondToo) {
+  const double slope = 30 * degree, weight = shapes::density * 0.5 * gravity;
+  Model<2> model = block_on_plate<2>(slope, 15 * degree);
+  model.bodies[index_of(model, "block")].free_rotation.fill(false);
+  model.properties.front().laws.bond = true;
+  model.properties.front().cohesion = 0.3 * weight;  // Pa, over 1 m²
+  const double exact = (0.3 * weight + weight * std::cos(slope) * std::tan(15 * degree)) / (weight * std::sin(slope));
+  ASSERT_NEAR(exact, 1.064, 1e-3);
+  for (const double part : {1.0, 0.7}) {  // of the strength that this case states
+    model.properties.front().cohesion = 0.3 * weight * part;
+    model.properties.front().friction = std::atan(std::tan(15 * degree) * part);
+    Prepared<2> scene;
+    scene.model = model;
+    scene.state = initial_state(model);
+    scene.stages.resize(1);
+    scene.stages[0].name = "factor";
+    scene.stages[0].plan = factor_plan(ReductionMethod::bisection, 0.4, 2);
+    scene.stages[0].change.bond = true;
+    Progress<2> progress = initial_progress(scene);
+    ASSERT_TRUE(simulate(scene, progress, {}));
+    EXPECT_EQ(progress.results.outcome, Outcome::done) << progress.results.message;
+    const Value* found = progress.results.find("factor_of_safety");
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->unit, "1");
+    EXPECT_NEAR(found->value, part * exact, *found->error_bar + 1e-3);
+    EXPECT_EQ(progress.results.history.columns,
+              (std::vector<std::string>{"time_s", "stage", "trial", "friction_joint_deg", "strength_factor"}));
+    EXPECT_NEAR(progress.results.history.rows.back()[4], found->value, *found->error_bar + 1e-12);
+  }
+}
+
+TEST(FactorOfSafety, SaysWhenTheSearchIsInTheWrongPlace) {
+  const Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);
+  const auto message = [&](const ReducePlan& plan) {
+    State<2> state = initial_state(model);
+    const ReductionReport report = reduce_from_scratch(model, plan, state);
+    EXPECT_FALSE(report.bracketed);
+    return report.message;
+  };
+  const std::string late = message(factor_plan(ReductionMethod::bisection, 1.5, 2)),
+                    early = message(factor_plan(ReductionMethod::bisection, 0.5, 1.2)),
+                    rate = message(factor_plan(ReductionMethod::rate, 0.5, 1.2));
+  EXPECT_NE(late.find("fails already at from_factor = 1.5: start lower"), std::string::npos) << late;
+  EXPECT_NE(early.find("still stable at to_factor = 1.2: end higher"), std::string::npos) << early;
+  EXPECT_NE(rate.find("by bisection or in steps"), std::string::npos) << rate;
+}
+
+// ---- a loose stone --------------------------------------------------------------------------------------------------
+
+// A block on a slope of 20 degrees, and a stone of 4 % of the free mass on one of 40, which slides down and falls: with
+// a fraction of the mass it ends neither the search nor the rest of a trial.
+TEST(Reduction, ALooseStoneEndsNoSearchByFraction) {
+  const Matrix<2> steep = matrix(Rotation<2>{40 * degree}), gentle = matrix(Rotation<2>{20 * degree});
+  const auto turned_box = [](const Vector<2>& low, const Vector<2>& high, const Matrix<2>& turn, double x) {
+    return shapes::placed<2>(shapes::box<2>(low, high), turn, Vector<2>(x, 0));
+  };
+  const Model<2> model =
+      shapes::model_of<2>({shapes::body_of<2>(turned_box({-3, -3}, {3, 0}, gentle, 0), true, "plate"),
+                           shapes::body_of<2>(turned_box({-0.5, 0}, {0.5, 0.5}, gentle, 0), false, "block"),
+                           shapes::body_of<2>(turned_box({-0.3, -0.3}, {0.3, 0}, steep, 20), true, "ledge"),
+                           shapes::body_of<2>(turned_box({-0.1, 0}, {0.1, 0.1}, steep, 20), false, "stone")},
+                          50 * degree);
+  ReducePlan plan;
+  plan.from = 45 * degree;
+  plan.to = 15 * degree;
+  plan.tolerance = 1 * degree;
+  plan.failure_displacement = 0.01;
+  for (const Statics statics : {Statics::adaptive, Statics::local}) {
+    Settings settings;
+    settings.damping.statics = statics;
+    for (const auto& [fraction, critical] : {std::pair(0.0, 40.0), {0.03, 40.0}, {0.1, 20.0}, {1.0, 20.0}}) {
+      plan.failure_fraction = fraction;
+      State<2> state = initial_state(model);
+      ReductionProgress<2> progress;
+      const ReductionReport report = reduce<2>(model, settings, plan, state, progress);
+      ASSERT_TRUE(report.bracketed && report.message.empty()) << fraction << ": " << report.message;
+      EXPECT_NEAR(report.critical / degree, critical, report.error_bar / degree + 0.01) << fraction;
+      EXPECT_EQ(report.rule.find("of the free mass") != std::string::npos, fraction > 0) << report.rule;
+    }
+  }
+}
+
 TEST(Reduction, SaysWhenTheSearchIsInTheWrongPlace) {
   Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);
   ReducePlan plan;

@@ -62,15 +62,23 @@ const Node* text_of(const Node& table, std::string_view key) {
   return node && node->kind == Node::Kind::text ? node : nullptr;
 }
 
+bool holds(const Node& table, const Groups& groups, const Condition& condition);
+
 }  // namespace
 
 bool key_applies(const Node& table, const Groups& groups, const KeyRow& row) {
-  if (row.when.key.empty()) return true;
-  const KeyRow* decisive = find_row(groups, row.when.key);
+  return holds(table, groups, row.when) && holds(table, groups, row.and_when);
+}
+
+namespace {
+
+bool holds(const Node& table, const Groups& groups, const Condition& condition) {
+  if (condition.key.empty()) return true;
+  const KeyRow* decisive = find_row(groups, condition.key);
   if (!decisive || !key_applies(table, groups, *decisive)) return false;
-  const Node* stated = text_of(table, row.when.key);
+  const Node* stated = text_of(table, condition.key);
   const std::string word = stated ? '"' + stated->text + '"' : std::string(decisive->default_value);
-  std::string_view allowed = row.when.value;
+  std::string_view allowed = condition.value;
   while (true) {
     const std::size_t bar = allowed.find('|');
     if (word == '"' + std::string(allowed.substr(0, bar)) + '"') return true;
@@ -78,8 +86,6 @@ bool key_applies(const Node& table, const Groups& groups, const KeyRow& row) {
     allowed.remove_prefix(bar + 1);
   }
 }
-
-namespace {
 
 [[noreturn]] void refuse_unknown(const Node& node, const Groups& groups, const std::string& path,
                                  std::string_view key) {
@@ -99,17 +105,18 @@ namespace {
 // names the outermost condition that fails; one that is not stated at all is reported as missing later
 void refuse_inapplicable(const Node& table, const Groups& groups, const KeyRow& row, const Node& node,
                          const std::string& path) {
-  const KeyRow& decisive = *find_row(groups, row.when.key);
+  const Condition& failing = holds(table, groups, row.when) ? row.and_when : row.when;
+  const KeyRow& decisive = *find_row(groups, failing.key);
   if (!key_applies(table, groups, decisive)) return refuse_inapplicable(table, groups, decisive, node, path);
-  const Node* stated = text_of(table, row.when.key);
+  const Node* stated = text_of(table, failing.key);
   if (!stated && decisive.default_value.empty()) return;
-  std::string values = "\"" + std::string(row.when.value) + "\"";
+  std::string values = "\"" + std::string(failing.value) + "\"";
   if (const std::size_t bar = values.find('|'); bar != std::string::npos) values.replace(bar, 1, "\" or \"");
   const std::string found =
       stated ? '"' + one_line(stated->text, 40) + '"' : std::string(decisive.default_value) + " (the default)";
   refuse(node, path,
-         "applies only where " + std::string(row.when.key) + " = " + values + ", which here is " + found +
-             "; remove it or change " + std::string(row.when.key));
+         "applies only where " + std::string(failing.key) + " = " + values + ", which here is " + found +
+             "; remove it or change " + std::string(failing.key));
 }
 
 // in the order of the file, so that the first mistake is reported first

@@ -118,10 +118,14 @@ std::string default_text(const KeyRow& row) {
 }
 
 std::string when_text(const KeyRow& row) {
-  if (row.when.key.empty()) return "";
-  std::string values = std::string(row.when.value);
-  if (const std::size_t bar = values.find('|'); bar != std::string::npos) values.replace(bar, 1, " or ");
-  return "(" + std::string(row.when.key) + " " + values + ") ";
+  std::string text;
+  for (const Condition& condition : {row.when, row.and_when}) {
+    if (condition.key.empty()) continue;
+    std::string values = std::string(condition.value);
+    if (const std::size_t bar = values.find('|'); bar != std::string::npos) values.replace(bar, 1, " or ");
+    text += "(" + std::string(condition.key) + " " + values + ") ";
+  }
+  return text;
 }
 
 std::string row_text(const KeyRow& row) {

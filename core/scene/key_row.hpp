@@ -42,7 +42,7 @@ struct Range {
   bool holds(double x) const;
 };
 
-// the key means something only where another key of its table has this value
+// the key means something only where another key of its table has this value, or one of several: "a|b"
 struct Condition {
   std::string_view key, value;
 };
@@ -69,13 +69,13 @@ struct KeyRow {
   std::vector<KeyMember> members{};
   KeyType type = KeyType::number;
   std::string_view unit{};
-  Range range{};                // anything else is refused; of vectors, each entry
-  Range plausible{};            // anything else is legal but more likely a mistake: a warning; of vectors, the length
-  std::string default_value{};  // as TOML; empty: none
-  std::string_view example{};   // a value as TOML
-  bool required = false;        // where its condition holds
-  bool no_default = false;      // what its member holds at first is no value that a scene could leave out
-  Condition when{};
+  Range range{};                 // anything else is refused; of vectors, each entry
+  Range plausible{};             // anything else is legal but more likely a mistake: a warning; of vectors, the length
+  std::string default_value{};   // as TOML; empty: none
+  std::string_view example{};    // a value as TOML
+  bool required = false;         // where its condition holds
+  bool no_default = false;       // what its member holds at first is no value that a scene could leave out
+  Condition when{}, and_when{};  // both must hold where both are stated
   std::vector<std::string_view> choices{};
   Groups holds{};  // table, tables: the groups of keys inside
   std::string_view meaning{};

@@ -46,9 +46,14 @@ void add_stage(Values& values, const StagePlan& stage) {
     add(values, "stage", *run);
     add(values, "stage", run->gravity);
   }
-  if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan)) add(values, "stage", *reduce);
+  if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan)) {
+    add(values, "stage", *reduce);
+    add(values, "stage", reduce->factor);
+  }
   if (stage.damping) add(values, "damping", *stage.damping);
   add(values, "stage", stage.change);
+  for (const FrictionPlan& friction : stage.change.friction_of)
+    add(values, "friction", friction);
   for (const MovePlan& move : stage.change.move) {
     add(values, "move", move);
     add(values, "factor", move.factor);

@@ -265,9 +265,14 @@ std::vector<StagePlan> checked_stages(const Scene& scene, const Model<Dim>& mode
       }
     for (const SelectorSpec& spec : stage.chosen_by("force"))
       check_point<Dim>(spec.subject, model, chosen<Dim>(model, spec));
+    for (const Subject& item : children(stage.subject, "friction"))
+      if (const std::string& name = item.node->find("name")->text; index_of(names, name) < 0)
+        refuse(item, "name",
+               names.empty() ? "there are no joint_properties to give a friction angle to; add [[joint_properties]]"
+                             : "no joint_properties of this name; " + suggestion(name, names));
     if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan.plan)) {
       if (names.empty())
-        refuse(*stage.subject.node, stage.subject.path, "there is no friction to reduce; add [[joint_properties]]");
+        refuse(*stage.subject.node, stage.subject.path, "there is no strength to reduce; add [[joint_properties]]");
       for (const std::string& name : reduce->properties)
         if (index_of(names, name) < 0)
           refuse(stage.subject, "joint_properties",

@@ -23,6 +23,9 @@ JointSet read_set(const Subject& item, int dimension) {
   set.dip = plane.dip;
   set.dip_direction = plane.dip_direction;
   check_intensity(item, set);
+  if (!set.point.empty() && set.scatter != Scatter::none)
+    refuse(item, "point",
+           "stands beside scatter: a joint of random orientation passes through no stated point; remove one of them");
 
   if (dimension == 2) {
     if (set.scatter == Scatter::fisher)

@@ -15,8 +15,21 @@ bool chooses(const Selector& s) {
   return s.all || !s.names.empty() || !s.above.empty() || !s.below.empty() || s.inside.has_value();
 }
 
+void check_factor(const Subject& table, const ReducePlan& plan) {
+  if (plan.method == ReductionMethod::rate || plan.method == ReductionMethod::two_rates)
+    refuse(table, "method",
+           "how late a rate finds failure is known for a friction angle, not for a factor of safety; write method = "
+           "\"bisection\" or \"steps\", or leave out search = \"factor\"");
+  if (!(plan.factor.from < plan.factor.to))
+    refuse(table, "from_factor",
+           "must be less than to_factor (" + value_text(*table.node->find("to_factor")) +
+               "): a search for the factor of safety starts at the stable, smaller factor; swap the two");
+}
+
 void read_plan(const Subject& table, ReducePlan& plan) {
   read_keys(*table.node, "stage", plan);
+  read_keys(*table.node, "stage", plan.factor);
+  if (plan.searched == Searched::factor) return check_factor(table, plan);
   if (!(plan.from > plan.to))
     refuse(table, "from_deg",
            "must be greater than to_deg (" + value_text(*table.node->find("to_deg")) +
@@ -177,6 +190,8 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping, int d
   choose("fix", change.fix);
   choose("release", change.release);
   choose("remove", change.remove);
+  for (const Subject& item : children(table, "friction"))
+    read_keys(*item.node, "friction", change.friction_of.emplace_back());
   read_chosen("move", [&](const Subject& at, const Selector& bodies) { change.move.push_back(read_move(at, bodies)); });
   read_chosen("boundary", [&](const Subject& at, const Selector& bodies) {
     change.boundary.push_back(read_boundary(at, bodies, dimension));

@@ -41,6 +41,10 @@ struct JointSums {
   long long snap_backs = 0, bonds_made = 0;
 };
 
+double factor_of(const Schedule& schedule, int properties) {
+  return schedule.strength_factor.empty() ? 1 : schedule.strength_factor[properties];
+}
+
 // the answer of a plain joint, inlined as below; `damping` over the root of the normal stiffness
 template <int Dim>
 [[gnu::always_inline]] inline JointForce<Dim> plain_answer(const JointProperties& properties, double friction,
@@ -55,9 +59,11 @@ template <int Dim>
 // the answer of a joint with laws of its own
 template <int Dim>
 JointForce<Dim> answer_of_laws(const JointProperties& properties, double friction, double damping,
-                               const JointKinematics<Dim>& k, JointSums& sums, JointState<Dim>& history) {
+                               const JointKinematics<Dim>& k, double strength_factor, JointSums& sums,
+                               JointState<Dim>& history) {
   const double stiffness = damping > 0 ? normal_answer(properties, k.overlap, history.bonded).stiffness : 0;
-  const JointForce<Dim> answer = joint_law<Dim>(properties, friction, damping * std::sqrt(stiffness), k, history);
+  const JointForce<Dim> answer =
+      joint_law<Dim>(properties, friction, damping * std::sqrt(stiffness), k, history, strength_factor);
   sums.stiffening += answer.stiffening;
   if (answer.snap_back) ++sums.snap_backs;
   return answer;
@@ -116,7 +122,8 @@ template <int Dim>
                              : 0;
   const JointForce<Dim> answer = properties.laws.is_plain()
                                      ? plain_answer<Dim>(properties, friction, damping, k, history)
-                                     : answer_of_laws<Dim>(properties, friction, damping, k, sums, history);
+                                     : answer_of_laws<Dim>(properties, friction, damping, k,
+                                                           factor_of(state.schedule, friction_of), sums, history);
   sums.elastic += answer.elastic;
   sums.friction += answer.friction;
   sums.dashpots += 0.5 * (history.dashpot * closing_before + answer.dashpot * k.closing_speed) * dt;
@@ -269,6 +276,14 @@ void remove_bonds(const Model<Dim>& model, State<Dim>& state) {
 }
 
 template <int Dim>
+void zero_slip(State<Dim>& state) {
+  for (Contact<Dim>& c : state.contacts)
+    c.history.plastic_slip = 0;
+  for (SubContact<Dim>& s : state.subs)
+    s.history.plastic_slip = 0;
+}
+
+template <int Dim>
 BondCount count_bonds(const State<Dim>& state) {
   BondCount count{.made = state.bonds.made, .removed = state.bonds.removed};
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
@@ -286,6 +301,8 @@ template PairWrench<2> joint_wrench<2>(const Model<2>&, const Settings&, const S
 template PairWrench<3> joint_wrench<3>(const Model<3>&, const Settings&, const State<3>&, const Contact<3>&,
                                        std::span<const SubContact<3>>, const PairMotion<3>&, const JointState<3>&,
                                        std::span<const JointState<3>>);
+template void zero_slip<2>(State<2>&);
+template void zero_slip<3>(State<3>&);
 template void remove_bonds<2>(const Model<2>&, State<2>&);
 template void remove_bonds<3>(const Model<3>&, State<3>&);
 template BondCount count_bonds<2>(const State<2>&);

@@ -53,6 +53,11 @@ void make_bonds(const Model<Dim>& model, const Settings& settings, State<Dim>& s
 template <int Dim>
 void remove_bonds(const Model<Dim>& model, State<Dim>& state);
 
+// Sets the plastic slip of every joint to 0, so that friction that hardens or softens begins again. No force is
+// touched.
+template <int Dim>
+void zero_slip(State<Dim>& state);
+
 template <int Dim>
 BondCount count_bonds(const State<Dim>& state);
 

@@ -55,6 +55,12 @@ dip = 30
 dip_direction = 90
 intensity = 1e-9
 [[joint_sets]]
+name = "equal"
+dip = 30
+dip_direction = 90
+arrangement = "equal"
+intensity = 1e-9
+[[joint_sets]]
 name = "fisher"
 dip = 30
 dip_direction = 90
@@ -147,6 +153,7 @@ water = [{ name = "lake", level = 0.2, rate = 1 }]
 release = [{ bodies = ["by planes"] }]
 remove = [{ bodies = ["by vertices"] }]
 move = [{ bodies = ["by planes"], velocity = [1, 0, 0], frequency_hz = 1 }]
+friction = [{ name = "rock", friction_deg = 35 }]
 boundary = [{ bodies = ["by vertices"], stress = [1, 1, 0, 0, 0, 0] }]
 force = [{ name = "push", bodies = ["by planes"], force = [1, 0, 0], point = [10.5, 0, 0.5] }]
 [[stage]]
@@ -162,6 +169,21 @@ method = "steps"
 from_deg = 60
 to_deg = 5
 step_deg = 0.5
+[[stage]]
+name = "factor"
+kind = "reduce"
+search = "factor"
+from_factor = 0.8
+to_factor = 2
+tolerance_factor = 0.02
+[[stage]]
+name = "factor_steps"
+kind = "reduce"
+search = "factor"
+method = "steps"
+from_factor = 0.8
+to_factor = 2
+step_factor = 0.02
 [[stage]]
 name = "rate"
 kind = "reduce"
@@ -213,6 +235,7 @@ inline std::string address(const KeyRow& row) {
                                                           {"restrain", "restrain.1"},
                                                           {"motion", "initial_velocity.1"},
                                                           {"boundary", "stage.run.boundary.1"},
+                                                          {"friction", "stage.run.friction.rock"},
                                                           {"force", "stage.run.force.push"},
                                                           {"move", "stage.run.move.1"},
                                                           {"factor", "stage.run.move.1"},
@@ -221,7 +244,8 @@ inline std::string address(const KeyRow& row) {
   if (const auto at = tables.find(row.table); at != tables.end()) table = at->second;
   if (row.table == "stage") {
     const std::string kind(row.when.value.substr(0, row.when.value.find('|')));
-    table = "stage." + (kind.empty() ? "settle" : kind == "reduce" ? "bisection" : kind);
+    table = "stage." + (kind.empty() ? "settle" : kind == "reduce" || kind == "friction" ? "bisection" : kind);
+    if (row.and_when.value == "factor") table = kind == "steps" ? "stage.factor_steps" : "stage.factor";
   }
   if (row.table == "joint_properties" && !row.when.value.empty())
     table = row.when.value == "linear" || row.when.value == "hardening" ? "joint_properties.linear"
@@ -233,6 +257,7 @@ inline std::string address(const KeyRow& row) {
     const bool plain = row.key != "spacing" && (row.when.value.empty() || row.when.value == "persistent");
     table = plain ? "joint_sets.plain" : row.when.value == "fisher" ? "joint_sets.fisher" : "joint_sets.finite";
   }
+  if (row.table == "joint_sets" && row.when.key == "arrangement") table = "joint_sets.equal";
   if (row.table == "blocks" && row.key == "vertices") table = "blocks.by vertices";
   if (row.table == "blocks.planes" && row.key == "point") table = "blocks.by planes.planes.5";
   if (row.table == "monitors" && row.key == "joint") table = "monitors.joint";

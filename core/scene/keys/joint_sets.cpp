@@ -62,7 +62,11 @@ KeyTable joint_set_keys() {
     {.key = "arrangement", .members = {one_of(&JointSet::arrangement,
          {{"poisson", Arrangement::poisson}, {"equal", Arrangement::equal}})},
      .example = "\"equal\"", .when = {"size", "persistent"},
-     .meaning = "poisson: joints anywhere, spacings exponential; equal: at one distance, the first anywhere"},
+     .meaning = "poisson: joints anywhere, spacings exponential; equal: at one distance, the first anywhere, or one of "
+         "them through `point`"},
+    {.key = "point", .members = {in(&JointSet::point)}, .unit = "m", .range = sane, .example = "[0, 0, 2]",
+     .when = {"arrangement", "equal"},
+     .meaning = "one joint of the set passes through it, the others lie at equal distances from there; without scatter"},
     {.key = "seed", .members = {in(&JointSet::seed)}, .range = {0, 1e15}, .example = "7",
      .meaning = "another seed, another sample; sets of different names are independent although their seed is one"},
     {.key = "within", .type = table, .holds = {"region"},

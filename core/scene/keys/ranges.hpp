@@ -16,6 +16,7 @@ inline constexpr Range dip_range{0, 90};
 inline constexpr Range direction_range{0, 360};
 inline constexpr Range friction_range{0, 90, false, true};
 inline constexpr Range count{1, 1e15};
+inline constexpr Range factor_range{0, 1000, true};
 
 // what rock and its models usually are: a value outside is warned of before a run
 inline constexpr Range plausible_density{500, 8000};
@@ -27,6 +28,7 @@ inline constexpr Range plausible_scatter{.low = 0.5, .high = 30, .or_zero = true
 inline constexpr Range plausible_friction{1.6, 85};
 inline constexpr Range plausible_speed{.low = 1e-9, .high = 100, .above_low = true, .or_zero = true};  // 3 cm a year
 inline constexpr Range plausible_factor{.low = 0.01, .high = 200, .or_zero = true};                    // a centrifuge
+inline constexpr Range plausible_strength{0.05, 50};
 inline constexpr Range plausible_ramp{.low = 0.01, .high = 100, .or_zero = true};
 
 inline constexpr std::string_view dip_repair =

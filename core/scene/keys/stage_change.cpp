@@ -21,10 +21,25 @@ KeyTable stage_change_keys() {
          "freedoms stay as they are, those of a fixed block are held. Afterwards a fixed block stands, a free one keeps moving"},
     {.key = "friction_deg", .members = {degrees(&Change::friction)}, .unit = "deg", .range = friction_range,
      .plausible = plausible_friction, .example = "30",
-     .meaning = "friction angle of every joint from this stage on", .mistake = friction_mistake},
+     .meaning = "friction angle of every joint from this stage on, whatever a search left it at", .mistake = friction_mistake},
+    {.key = "friction", .type = tables, .holds = {"friction"},
+     .meaning = "friction angle of joint properties by name from this stage on, those that friction_deg does not mean"},
     {.key = "bond", .members = {in(&Change::bond)}, .example = "true",
      .meaning = "bonds joints that are closed and state tension or cohesion: where they press, or first do before they "
          "part by a thousandth of the smallest inscribed radius; a bond breaks once, by tension or slip"},
+    {.key = "zero_slip", .members = {in(&Change::zero_slip)}, .example = "true",
+     .meaning = "the plastic slip of every joint is set to zero before the stage begins, so that friction that hardens or "
+         "softens does so from here on, as after the generation of stresses"},
+  }};
+}
+
+KeyTable stage_friction_keys() {
+  return {"friction", {
+    {.key = "name", .members = {in(&FrictionPlan::properties, name)}, .example = "\"rock\"", .required = true,
+     .meaning = "of the joint_properties"},
+    {.key = "friction_deg", .members = {degrees(&FrictionPlan::friction)}, .unit = "deg", .range = friction_range,
+     .plausible = plausible_friction, .example = "30", .required = true,
+     .meaning = "their friction angle from this stage on", .mistake = friction_mistake},
   }};
 }
 // clang-format on
