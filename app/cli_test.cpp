@@ -2,22 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "app/commands/progress_line.hpp"
-#include "app/run_scene.hpp"
 #include "app/testing/program.hpp"
 
 namespace voussoir {
 namespace {
 
 using namespace program;
-
-// what every build has goes by no name
-bool is_built_in(const std::string& part) {
-  for (const auto& [name, is_there] : features())
-    if (name == part) return is_there;
-  return true;
-}
 
 TEST(ProgressLine, WithoutATerminalItAddsALineAtTimes) {
   ProgressReport report;
@@ -292,6 +286,30 @@ TEST_F(Program, LimitAnswersProvesAndDraws) {
   expect_one_line(run("limit " + cubes_ + "--out bad"), 2, "dimension = 3");
   expect_one_line(run("limit " + slump + "--friction roc --out bad"), 2, "there are: rock");
   EXPECT_FALSE(fs::exists(folder_ / "bad"));
+}
+
+// with friction alone the factor of safety is the ratio of the tangents; cohesion adds to it where it is asked for
+TEST_F(Program, LimitFindsTheFactorOfSafety) {
+  if (!is_built_in("glpk")) GTEST_SKIP();
+  const std::string slump = "'" + (fs::path(VOUSSOIR_SOURCE_DIR) / "cases/slump/scene.toml").string() +
+                            "' --set joint_properties.rock.friction_deg=30 --overwrite --out out ";
+  const auto factor = [&](const std::string& options) {
+    const Ended ended = run("limit " + slump + "--factor " + options);
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_NE(ended.out.find("factor_of_safety "), std::string::npos) << ended.out;
+    const nlohmann::json value = results("out")["values"]["factor_of_safety"];
+    EXPECT_LT(value["error_bar"].get<double>(), 1e-6);
+    return value["value"].get<double>();
+  };
+  const double degree = std::numbers::pi / 180, friction = factor("");
+  EXPECT_NEAR(friction, std::tan(30 * degree) / std::tan(15.335 * degree), 1e-3);
+  EXPECT_EQ(factor("--joint rock"), friction);
+  EXPECT_EQ(factor("--set joint_properties.rock.cohesion=1e4"), friction) << "left out unless asked for";
+  EXPECT_GT(factor("--cohesion --set joint_properties.rock.cohesion=1e4"), friction * 1.01);
+  expect_one_line(run("limit " + slump + "--factor --joint roc"), 2, "--joint roc: no joint_properties of this name");
+  expect_one_line(run("limit " + slump + "--factor --load left"), 2, "--load");
+  expect_one_line(run("limit " + slump + "--factor --friction rock"), 2, "--friction");
+  expect_one_line(run("limit " + slump + "--joint rock"), 2, "--factor");
 }
 
 TEST_F(Program, LimitFindsTheFactorOfAppliedForces) {

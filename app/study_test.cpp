@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "app/testing/program.hpp"
 
@@ -274,6 +276,103 @@ TEST_F(Study, ARunThatIsKilledLosesOneSetting) {
   ASSERT_EQ(rows().size(), 4u);
   EXPECT_NE(rows()[2].find("ended by signal"), std::string::npos) << rows()[2];
   EXPECT_NE(rows()[3].find(",ok,"), std::string::npos) << rows()[3];
+}
+
+// twice the stiffness under twice the weight: nothing changes
+TEST_F(Study, KeysThatAreTiedChangeTogether) {
+  write("study.toml", R"(
+scene = "scene.toml"
+quantity = "top_displacement_z"
+[[sweep]]
+name = "stiffness and density"
+key = "joint_properties.rock.normal_stiffness"
+values = [1e8, 2e8]
+with = [{ key = "density", values = [2000, 4000] }, { key = "joint_properties.rock.shear_stiffness", values = [1e7, 2e7] }]
+)");
+  const Ended ended = run("study study.toml --out out");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const std::vector<std::string> rows = this->rows();
+  ASSERT_EQ(rows.size(), 4u);
+  std::vector<double> results;
+  for (const std::string& row : {rows[2], rows[3]}) {
+    std::istringstream cells(row);
+    std::string cell;
+    for (int k = 0; k < 6; ++k)
+      std::getline(cells, cell, ',');
+    results.push_back(std::stod(cell));
+  }
+  EXPECT_LT(results[0], 0);
+  EXPECT_NEAR(results[1] / results[0], 1, 1e-5);
+
+  for (const char* wrong :
+       {"[{ key = \"density\", values = [1] }]", "[{ values = [1, 2] }]", "3", "[]", "[3]",
+        "[{ key = \"density\", values = [1, 2], unit = \"kg\" }]", "[{ key = \"densty\", values = [1, 2] }]"}) {
+    write("study.toml", std::string("scene = \"scene.toml\"\nquantity = \"x\"\n[[sweep]]\nname = \"a\"\nkey = "
+                                    "\"time.fraction\"\nvalues = [0.1, 0.2]\nwith = ") +
+                            wrong + "\n");
+    expect_one_line(run("study study.toml --out bad"), 2, "");
+    EXPECT_FALSE(fs::exists(folder_ / "bad")) << wrong;
+  }
+}
+
+// `voussoir limit` as the run: on a plane the critical friction is its dip
+TEST_F(Study, MayRunLimitAnalysis) {
+  if (!is_built_in("glpk")) GTEST_SKIP();
+  write("plane.toml", R"(
+dimension = 2
+gravity = [0, -10]
+density = 2000
+domain = { box = { min = [-2, -3], max = [2, 3] } }
+joints = [{ name = "A", dip = 30, dip_direction = 90, point = [0, -1] }]
+joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 40, cohesion = 1e3 }]
+fix = [{ below = ["A"] }]
+stage = [{ name = "settle", kind = "settle" }]
+)");
+  const auto numbers = [&] {
+    std::vector<double> found;
+    for (const std::string& row : rows()) {
+      std::istringstream cells(row);
+      std::string cell;
+      for (int k = 0; k < 6; ++k)
+        std::getline(cells, cell, ',');
+      if (row.find(",ok,") != std::string::npos) found.push_back(std::stod(cell));
+    }
+    return found;
+  };
+  const double dips[] = {30, 10, 20};  // the scene's own, then the sweep's
+  const std::string sweep = "[[sweep]]\nname = \"dip\"\nkey = \"joints.A.dip\"\nvalues = [10, 20]\n";
+  write("study.toml", "scene = \"plane.toml\"\nquantity = \"critical_friction\"\nlimit = {}\n" + sweep);
+  const Ended first = run("study study.toml --out out");
+  ASSERT_EQ(first.code, 0) << first.err << first.out;
+  ASSERT_EQ(numbers().size(), 3u);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(numbers()[k], dips[k], 1e-5);
+  EXPECT_NE(run("study study.toml --out out").out.find("3 of them kept"), std::string::npos);
+
+  // another question is another run, of one sweep alone too
+  write("study.toml",
+        "scene = \"plane.toml\"\nquantity = \"factor_of_safety\"\nlimit = { factor = true }\n" + sweep +
+            "[[sweep]]\nname = \"bonded\"\nkey = \"joints.A.dip\"\nvalues = [20]\nlimit = { factor = true, cohesion = "
+            "true, joint = [\"rock\"] }\n");
+  const Ended second = run("study study.toml --out out");
+  ASSERT_EQ(second.code, 0) << second.err << second.out;
+  ASSERT_EQ(numbers().size(), 4u);
+  const double deg = std::numbers::pi / 180, friction = std::tan(40 * deg);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(numbers()[k], friction / std::tan(dips[k] * deg), 1e-6);
+  // 4 m wide and, in the mean, 4 m high
+  const double weight = 2000 * 10 * 4 * 4, length = 4 / std::cos(20 * deg);
+  EXPECT_NEAR(numbers()[3], numbers()[2] + 1e3 * length / (weight * std::sin(20 * deg)), 1e-6);
+
+  const std::string begin = "scene = \"plane.toml\"\nquantity = \"critical_friction\"\n";
+  for (const char* wrong :
+       {"limit = 3", "limit = { load = \"up\" }", "limit = { load = \"left\", factor = true }",
+        "limit = { joint = [\"rock\"] }", "limit = { cohesion = 1 }", "limit = { friction = \"rock\" }",
+        "limit = { lod = \"left\" }", "limit = {}\nhistory = { column = \"x\", take = \"last\", unit = \"m\" }"}) {
+    write("study.toml", begin + wrong + "\n" + sweep);
+    expect_one_line(run("study study.toml --out bad"), 2, "");
+    EXPECT_FALSE(fs::exists(folder_ / "bad")) << wrong;
+  }
 }
 
 TEST_F(Study, IsReadStrictly) {

@@ -48,7 +48,7 @@ voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_t
   LIBS voussoir_core ${outside_solvers} Boost::headers)
 
 if(TARGET voussoir_limit)
-  voussoir_test(unit.limit LABEL unit SOURCES limit/limit_test.cpp LIBS voussoir_limit)
+  voussoir_test(unit.limit LABEL unit SOURCES limit/limit_test.cpp limit/factor_of_safety_test.cpp LIBS voussoir_limit)
 endif()
 
 # the exact referee: GPL, so a library of its own that only tests link

@@ -154,8 +154,9 @@ void add_slice(CLI::App& program, SliceArguments& arguments, Action& action) {
 }
 
 void add_limit(CLI::App& program, LimitArguments& arguments, Action& action) {
-  CLI::App* command = program.add_subcommand(
-      "limit", "critical friction angle, or collapse load, of blocks in the plane by rigid-block limit analysis");
+  CLI::App* command = program.add_subcommand("limit",
+                                             "critical friction angle, factor of safety or collapse load of blocks in "
+                                             "the plane by rigid-block limit analysis");
   add_scene(command, arguments.scene);
   add_out(command, arguments.out, "folder of the results (default: results/<scene>_limit)");
   CLI::Option* load =
@@ -174,6 +175,20 @@ void add_limit(CLI::App& program, LimitArguments& arguments, Action& action) {
       ->allow_extra_args(false)
       ->check(plain_text())
       ->excludes(load);
+  CLI::Option* factor = command
+                            ->add_flag("--factor", arguments.factor,
+                                       "seek the factor of safety: what tan φ and cohesion are divided by until the "
+                                       "blocks collapse under gravity")
+                            ->excludes(load)
+                            ->excludes("--friction");
+  command
+      ->add_option("--joint", arguments.joints,
+                   "name of joint_properties whose strength --factor divides; may be repeated (default: all)")
+      ->allow_extra_args(false)
+      ->check(plain_text())
+      ->needs(factor);
+  command->add_flag("--cohesion", arguments.cohesion,
+                    "count the cohesion that joint_properties state, as of bonds that are whole; tension is left out");
   add_overwrite(command, arguments.overwrite);
   command->callback([&] { action = [&] { return limit_command(arguments); }; });
 }

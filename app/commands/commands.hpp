@@ -60,6 +60,9 @@ struct LimitArguments {
   std::filesystem::path out;            // empty: results/<name of the scene's file>_limit
   std::string load;                     // gravity, left, right, applied; empty: the critical friction is sought
   std::vector<std::string> properties;  // whose friction is sought; none: all
+  bool factor = false;                  // the factor of safety is sought
+  std::vector<std::string> joints;      // of whose joint_properties; none: of all
+  bool cohesion = false;                // joints have the cohesion that their properties state
   bool overwrite = false;
 };
 

@@ -26,7 +26,9 @@ namespace fs = std::filesystem;
 
 LimitRequest request_of(const LimitArguments& arguments) {
   LimitRequest request;
-  request.properties = arguments.properties;
+  request.properties = arguments.factor ? arguments.joints : arguments.properties;
+  request.factor = arguments.factor;
+  request.cohesion = arguments.cohesion;
   if (arguments.load == "gravity") request.load = LimitLoad::gravity;
   if (arguments.load == "left") request.load = LimitLoad::left;
   if (arguments.load == "right") request.load = LimitLoad::right;

@@ -34,9 +34,11 @@ struct StudyRow {
   double seconds = 0;
 };
 
-std::vector<std::string> overrides_of(const Sweep& sweep, const std::string& value) {
+std::vector<std::string> overrides_of(const Sweep& sweep, std::size_t place) {
   std::vector<std::string> overrides = sweep.overrides;
-  if (!sweep.key.empty()) overrides.push_back(sweep.key + "=" + value);
+  if (!sweep.key.empty()) overrides.push_back(sweep.key + "=" + sweep.values[place]);
+  for (const TiedKey& tied : sweep.with)
+    overrides.push_back(tied.key + "=" + tied.values[place]);
   // pictures cost time and say nothing here
   overrides.push_back("output.frames=false");
   return overrides;
@@ -51,11 +53,15 @@ std::vector<StudyRun> runs_of(const StudyPlan& plan) {
   const std::string program = fingerprint(program_bytes());
   std::vector<StudyRun> runs;
   for (const Sweep& sweep : plan.sweeps)
-    for (const std::string& value : sweep.values) {
-      StudyRun run{sweep.scene, overrides_of(sweep, value), {}, ""};
+    for (std::size_t k = 0; k < sweep.values.size(); ++k) {
+      StudyRun run{sweep.scene, overrides_of(sweep, k), sweep.limit, {}, ""};
       const LoadedScene scene = load_scene(run.scene, run.overrides);
       run.files = scene.files;
-      run.name = fingerprint(scene.hash + program);
+      std::string what = scene.hash + program;
+      for (const std::string& option : run.limit.value_or(std::vector<std::string>()))
+        what += " " + option;
+      if (run.limit) what += " limit";
+      run.name = fingerprint(what);
       std::replace(run.name.begin(), run.name.end(), ':', '-');
       runs.push_back(std::move(run));
     }

@@ -65,10 +65,12 @@ std::optional<Value> value_of(const nlohmann::json& values, const std::string& n
 
 RunFound found_in_json(const nlohmann::json& results, const fs::path& folder, const StudyPlan& plan) {
   RunFound found;
-  found.contact_evaluations = results.at("counters").at("contact_evaluations");
-  found.steps = results.at("counters").at("steps");
-  const nlohmann::json& seconds = results.at("timing").at("seconds");
-  if (seconds.is_number()) found.seconds = seconds;
+  if (results.contains("counters")) {  // limit analysis takes no steps
+    found.contact_evaluations = results.at("counters").at("contact_evaluations");
+    found.steps = results.at("counters").at("steps");
+    const nlohmann::json& seconds = results.at("timing").at("seconds");
+    if (seconds.is_number()) found.seconds = seconds;
+  }
   const std::string status = results.at("status");
   if (status != "done") {
     found.status = printable(status + ": " + results.at("message").get<std::string>());

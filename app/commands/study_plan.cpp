@@ -26,6 +26,8 @@ constexpr StudyKey study_keys[] = {
      "a value of results.json, e.g. `\"critical_friction\"`; with `history` the name of what it takes"},
     {"", "history", "table", "takes the quantity from a column of history.csv instead"},
     {"", "set", "list of texts", "`\"key=value\"` as after --set, for every run"},
+    {"", "limit", "table",
+     "runs by `voussoir limit` instead of `voussoir run`; `{}` for the critical friction under gravity"},
     {"", "sweep", "list of tables, required", "one setting that is changed, `[[sweep]]`, as many as are wanted"},
     {"history", "column", "text, required", "a column of history.csv, by its whole name"},
     {"history", "take", "one of `\"largest\"` `\"smallest\"` `\"last\"`, required", "which of its numbers"},
@@ -33,12 +35,21 @@ constexpr StudyKey study_keys[] = {
     {"sweep", "name", "text, required", "in the table and the figure"},
     {"sweep", "key", "text, required", "key of the scene as after --set, e.g. `\"time.fraction\"`"},
     {"sweep", "values", "list, required", "what the key is set to, a run each"},
+    {"sweep", "with", "list of tables", "further keys that change together with `key`, value by value"},
     {"sweep", "unit", "text", "of the values, e.g. `\"deg\"`"},
     {"sweep", "scene", "text", "another scene for this sweep"},
     {"sweep", "set", "list of texts", "`\"key=value\"` for every run of this sweep, after the study's own"},
     {"sweep", "extrapolate", "table",
      "adds what each two neighbouring runs give at a value of 0, where the result goes with a power of the value"},
+    {"sweep", "limit", "table", "runs of this sweep by `voussoir limit`, instead of the study's own `limit`"},
+    {"with", "key", "text, required", "key of the scene as after --set"},
+    {"with", "values", "list, required", "what it is set to, one for each of the sweep's values"},
     {"extrapolate", "power", "number, required", "that power, above 0, at most 10; 0.6666667 for a rate of reduction"},
+    {"limit", "load", "one of `\"gravity\"` `\"left\"` `\"right\"` `\"applied\"`", "as after `voussoir limit --load`"},
+    {"limit", "friction", "list of texts", "names as after `--friction`"},
+    {"limit", "factor", "true or false", "`--factor`"},
+    {"limit", "joint", "list of texts", "names as after `--joint`"},
+    {"limit", "cohesion", "true or false", "`--cohesion`"},
 };
 
 void refuse_unknown_keys(const Subject& table, std::string_view kind) {
@@ -54,6 +65,22 @@ const std::string& text_of(const Subject& table, const char* key, const std::str
   const Node* node = table.node->find(key);
   if (!node || node->kind != Node::Kind::text || node->text.empty()) refuse(table, key, rule);
   return node->text;
+}
+
+std::vector<std::string> texts_of(const Subject& table, const char* key, const std::string& rule) {
+  std::vector<std::string> texts;
+  const Node* list = table.node->find(key);
+  if (!list) return texts;
+  if (list->kind != Node::Kind::list) refuse(table, key, rule);
+  for (const Node& item : list->items) {
+    if (item.kind != Node::Kind::text) refuse(item, key_path(table.path, key), rule);
+    texts.push_back(item.text);
+  }
+  return texts;
+}
+
+std::vector<std::string> read_overrides(const Subject& table) {
+  return texts_of(table, "set", "must be a list of texts \"key=value\"");
 }
 
 // as --set takes it; a text in quotes, so that it is never read as a number
@@ -96,15 +123,79 @@ std::optional<HistoryQuantity> read_history(const Subject& top) {
   return quantity;
 }
 
-void read_values(const Subject& table, Sweep& sweep) {
+std::vector<std::string> read_values(const Subject& table) {
   const Node* list = table.node->find("values");
   if (!list || list->kind != Node::Kind::list || list->items.empty())
     refuse(table, "values", "must be a list of at least one value, e.g. values = [1.0, 0.1, 0.01]");
-  for (std::size_t k = 0; k < list->items.size(); ++k) {
-    const Node& item = list->items[k];
-    sweep.values.push_back(override_text(item, fmt::format("{}.{}", key_path(table.path, "values"), k + 1)));
-    sweep.numbers.push_back(item.is_number() ? std::optional(item.number) : std::nullopt);
+  std::vector<std::string> values;
+  for (std::size_t k = 0; k < list->items.size(); ++k)
+    values.push_back(override_text(list->items[k], fmt::format("{}.{}", key_path(table.path, "values"), k + 1)));
+  return values;
+}
+
+// the tables of a list under `key`; none where there is no such key
+std::vector<Subject> tables_of(const Subject& table, const char* key) {
+  const Node* list = table.node->find(key);
+  if (!list) return {};
+  const std::string rule = fmt::format("must be a list of tables, e.g. {} = [{{ key = …, values = … }}]", key);
+  if (list->kind != Node::Kind::list || list->items.empty()) refuse(table, key, rule);
+  for (const Node& item : list->items)
+    if (item.kind != Node::Kind::table) refuse(item, key_path(table.path, key), rule);
+  return children(table, key);
+}
+
+std::vector<TiedKey> read_tied(const Subject& sweep, std::size_t count) {
+  std::vector<TiedKey> tied;
+  for (const Subject& table : tables_of(sweep, "with")) {
+    refuse_unknown_keys(table, "with");
+    tied.push_back({text_of(table, "key", "must be a key of the scene as after --set, e.g. \"time.fraction\""),
+                    read_values(table)});
+    if (tied.back().values.size() != count)
+      refuse(table, "values",
+             fmt::format("must be {} values, as many as the sweep's own: they change together", count));
   }
+  return tied;
+}
+
+bool flag_of(const Subject& table, const char* key) {
+  const Node* node = table.node->find(key);
+  if (node && node->kind != Node::Kind::boolean) refuse(table, key, "must be true or false");
+  return node && node->boolean;
+}
+
+// what `voussoir limit` is asked, as its options; it judges what goes together
+std::optional<std::vector<std::string>> read_limit(const Subject& table) {
+  const Node* node = table.node->find("limit");
+  if (!node) return std::nullopt;
+  if (node->kind != Node::Kind::table)
+    refuse(table, "limit",
+           "must be a table, e.g. limit = { load = \"right\" }, or limit = {} for the critical friction");
+  const Subject limit{node, key_path(table.path, "limit")};
+  refuse_unknown_keys(limit, "limit");
+  std::vector<std::string> options;
+  if (node->find("load")) {
+    const std::string rule = "must be one of \"gravity\", \"left\", \"right\", \"applied\"";
+    const std::string& load = text_of(limit, "load", rule);
+    if (load != "gravity" && load != "left" && load != "right" && load != "applied") refuse(limit, "load", rule);
+    options = {"--load", load};
+  }
+  const bool factor = flag_of(limit, "factor");
+  for (const char* key : {"load", "friction"})
+    if (factor && node->find(key)) refuse(limit, key, "stands beside factor = true; one run answers one question");
+  if (node->find("load") && node->find("friction"))
+    refuse(limit, "friction", "stands beside load; one run answers one question");
+  if (!factor && node->find("joint")) refuse(limit, "joint", "names what factor = true divides; write that beside it");
+  if (factor) options.emplace_back("--factor");
+  if (flag_of(limit, "cohesion")) options.emplace_back("--cohesion");
+  for (const char* key : {"friction", "joint"})
+    for (const std::string& name : texts_of(limit, key, "must be a list of names of joint_properties"))
+      options.insert(options.end(), {fmt::format("--{}", key), name});
+  return options;
+}
+
+void read_numbers(const Subject& table, Sweep& sweep) {
+  for (const Node& item : table.node->find("values")->items)
+    sweep.numbers.push_back(item.is_number() ? std::optional(item.number) : std::nullopt);
 }
 
 void read_extrapolation(const Subject& table, Sweep& sweep) {
@@ -127,19 +218,6 @@ void read_extrapolation(const Subject& table, Sweep& sweep) {
       refuse(table, "values", "must differ from one to the next to be extrapolated");
 }
 
-std::vector<std::string> read_overrides(const Subject& table) {
-  std::vector<std::string> overrides;
-  const Node* list = table.node->find("set");
-  if (!list) return overrides;
-  const std::string rule = "must be a list of texts \"key=value\"";
-  if (list->kind != Node::Kind::list) refuse(table, "set", rule);
-  for (const Node& item : list->items) {
-    if (item.kind != Node::Kind::text) refuse(item, key_path(table.path, "set"), rule);
-    overrides.push_back(item.text);
-  }
-  return overrides;
-}
-
 Sweep read_sweep(const Subject& table, const std::string& scene, const fs::path& folder) {
   refuse_unknown_keys(table, "sweep");
   Sweep sweep;
@@ -149,7 +227,10 @@ Sweep read_sweep(const Subject& table, const std::string& scene, const fs::path&
   sweep.scene = folder / scene;
   if (table.node->find("scene"))
     sweep.scene = folder / text_of(table, "scene", "must be a scene's file name, relative to the study");
-  read_values(table, sweep);
+  sweep.values = read_values(table);
+  read_numbers(table, sweep);
+  sweep.with = read_tied(table, sweep.values.size());
+  sweep.limit = read_limit(table);
   sweep.overrides = read_overrides(table);
   read_extrapolation(table, sweep);
   return sweep;
@@ -205,8 +286,13 @@ StudyPlan read_study_plan(const fs::path& path) {
     plan.sweeps.push_back(read_sweep({&item, item_path("sweep", item, k)}, scene, path.parent_path()));
   }
   const std::vector<std::string> everywhere = read_overrides(top);
-  for (Sweep& sweep : plan.sweeps)
+  const std::optional<std::vector<std::string>> limit = read_limit(top);
+  for (Sweep& sweep : plan.sweeps) {
     sweep.overrides.insert(sweep.overrides.begin(), everywhere.begin(), everywhere.end());
+    if (!sweep.limit) sweep.limit = limit;
+    if (sweep.limit && plan.history)
+      refuse(top, "history", "a run of `voussoir limit` has no history; name a value of its results.json in quantity");
+  }
   return plan;
 }
 

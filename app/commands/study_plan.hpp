@@ -8,16 +8,24 @@
 
 namespace voussoir {
 
+// a key that changes with that of its sweep
+struct TiedKey {
+  std::string key;
+  std::vector<std::string> values;  // one for each of the sweep's
+};
+
 // one key, several values
 struct Sweep {
   std::string name;
   std::string key = {};                             // as after --set; empty: the scene as it is
   std::vector<std::string> values = {};             // as after --set key=
   std::vector<std::optional<double>> numbers = {};  // the same where they are numbers
-  std::string unit = {};                            // of the values; may be empty
+  std::vector<TiedKey> with = {};
+  std::string unit = {};  // of the values; may be empty
   std::filesystem::path scene = {};
-  std::vector<std::string> overrides = {};  // key=value, for every run of this sweep; the plan's own first
-  std::optional<double> power = {};         // fit result against value^power and extrapolate to value 0
+  std::vector<std::string> overrides = {};             // key=value, for every run of this sweep; the plan's own first
+  std::optional<double> power = {};                    // fit result against value^power and extrapolate to value 0
+  std::optional<std::vector<std::string>> limit = {};  // run by `voussoir limit` with these options, not `voussoir run`
 };
 
 enum class Take { largest, smallest, last };

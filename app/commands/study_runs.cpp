@@ -100,11 +100,12 @@ class Runs {
     if (resume) {
       arguments = {"resume", folder.string()};
     } else {
-      arguments = {"run", run.scene.string(), "--overwrite", "--out", folder.string()};
+      arguments = {run.limit ? "limit" : "run", run.scene.string(), "--overwrite", "--out", folder.string()};
       for (const std::string& text : run.overrides)
         arguments.insert(arguments.end(), {"--set", text});
+      if (run.limit) arguments.insert(arguments.end(), run.limit->begin(), run.limit->end());
     }
-    arguments.insert(arguments.end(), {"--quiet", "--threads", std::to_string(options_.threads)});
+    if (!run.limit) arguments.insert(arguments.end(), {"--quiet", "--threads", std::to_string(options_.threads)});
     active_.push_back({&run, std::make_unique<ChildProcess>(arguments, messages_of(run)), resume, false, {}});
   }
 

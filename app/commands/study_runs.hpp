@@ -12,7 +12,8 @@ namespace voussoir {
 struct StudyRun {
   std::filesystem::path scene;
   std::vector<std::string> overrides;
-  std::vector<std::filesystem::path> files;  // that the scene reads
+  std::optional<std::vector<std::string>> limit;  // by `voussoir limit` with these options, not `voussoir run`
+  std::vector<std::filesystem::path> files;       // that the scene reads
   std::string name;  // of its folder: tells scene and program apart from all others; equal runs share one
 };
 

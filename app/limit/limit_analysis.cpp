@@ -34,14 +34,23 @@ std::vector<std::string> unsupported(const LimitAnalysis& analysis) {
   return warnings;
 }
 
-// strength beside friction has no place in the linear programs
-void warn_of_strengths(const std::vector<JointProperties>& properties, std::vector<std::string>& warnings) {
-  for (const JointProperties& p : properties)
-    if (p.laws.bond)
+// what of the strength beside friction is left out
+void warn_of_strengths(const std::vector<JointProperties>& properties, bool cohesion,
+                       std::vector<std::string>& warnings) {
+  for (const JointProperties& p : properties) {
+    if (p.laws.bond && !cohesion)
       warnings.push_back(
           fmt::format("joint_properties '{}' state tension {:.4g} Pa and cohesion {:.4g} Pa; limit analysis "
-                      "leaves both out: its joints have friction alone",
+                      "leaves both out: its joints have friction alone ('--cohesion' counts the cohesion)",
                       p.name, p.tension, p.cohesion));
+    if (cohesion && p.tension > 0)
+      warnings.push_back(fmt::format(
+          "joint_properties '{}' state tension {:.4g} Pa, which limit analysis leaves out: its joints open freely",
+          p.name, p.tension));
+    if (p.laws.friction == FrictionLaw::softening)
+      warnings.push_back(
+          fmt::format("joint_properties '{}' soften; limit analysis takes their friction before any slip", p.name));
+  }
 }
 
 // The stage whose applied forces are looked at: the first that states any.
@@ -56,7 +65,7 @@ void warn_of_changes(const std::vector<StagePlan>& stages, const StagePlan* look
   for (const StagePlan& stage : stages) {
     const Change& change = stage.change;
     if (!change.fix.empty() || !change.release.empty() || !change.remove.empty() || change.friction ||
-        !change.boundary.empty())
+        !change.friction_of.empty() || !change.boundary.empty())
       warnings.push_back(
           fmt::format("stage '{}' changes blocks, loads or friction; limit analysis takes the scene as it is before "
                       "its first stage",
@@ -71,29 +80,56 @@ void warn_of_changes(const std::vector<StagePlan>& stages, const StagePlan* look
       warnings.push_back(fmt::format("force '{}' has a factor of time; it counts at a factor of 1", plan.name));
 }
 
-Value bracketed(double low, double high, const std::string& rule) {
-  return {to_degrees(0.5 * (low + high)), "deg", to_degrees(0.5 * (high - low)), rule};
+Value bracketed(double low, double high, const std::string& unit) {
+  return {0.5 * (low + high), unit, 0.5 * (high - low), "bisection over linear programs"};
 }
 
-void seek_friction(const std::vector<std::string>& properties, LimitAnalysis& analysis) {
-  analysis.sought = "critical friction angle of " +
-                    (properties.empty() ? "all joints" : fmt::format("{}", fmt::join(properties, ", ")));
-  CriticalFriction found;
+// what both questions about strength have in common; `option` names the properties on the command line
+template <class Find>
+CriticalStrength seek_strength(const LimitRequest& request, const Find& find, const char* option,
+                               LimitAnalysis& analysis) {
+  CriticalStrength found;
   try {
-    found = find_critical_friction(analysis.model, analysis.interfaces, properties);
+    found = find(analysis.model, analysis.interfaces, request.properties, Loads());
   } catch (const std::out_of_range& unknown) {
     std::vector<std::string> names;
     for (const JointProperties& p : analysis.model.properties)
       names.push_back(p.name);
-    throw BadInput(fmt::format("--friction {}: no joint_properties of this name; there are: {}", unknown.what(),
+    throw BadInput(fmt::format("{} {}: no joint_properties of this name; there are: {}", option, unknown.what(),
                                fmt::join(names, ", ")));
   }
+  analysis.sought += request.properties.empty() ? "all joints" : fmt::format("{}", fmt::join(request.properties, ", "));
   analysis.status = found.status;
   analysis.state = found.state;
   analysis.evidence = found.evidence;
+  return found;
+}
+
+void seek_factor_of_safety(const LimitRequest& request, LimitAnalysis& analysis) {
+  analysis.sought = "factor of safety of ";
+  const CriticalStrength found = seek_strength(request, find_factor_of_safety, "--joint", analysis);
+  if (found.status == LimitStatus::found) {
+    analysis.values.emplace_back("factor_of_safety", bracketed(found.stands, found.collapses, "1"));
+    analysis.values.emplace_back("force_missing_beyond", Value{found.missing, "weight of a block", {}, ""});
+  }
+  if (found.status == LimitStatus::carries_any)
+    analysis.message = "the blocks stand without any strength of these joints: no factor is critical";
+  if (found.status == LimitStatus::carries_nothing) {
+    analysis.values.emplace_back("factor_not_enough",
+                                 Value{found.collapses, "1", {}, "fails at the smallest factor tried"});
+    analysis.values.emplace_back("force_missing", Value{found.missing, "weight of a block", {}, "at that factor"});
+    analysis.message =
+        "not even a thousand times the strength is enough: the mechanism overturns blocks or leaves them without "
+        "support; look at the figure, fix what should hold, or restrain the rotation that should not count";
+  }
+}
+
+void seek_friction(const LimitRequest& request, LimitAnalysis& analysis) {
+  analysis.sought = "critical friction angle of ";
+  const CriticalStrength found = seek_strength(request, find_critical_friction, "--friction", analysis);
   if (found.status == LimitStatus::found) {
     analysis.values.emplace_back("critical_friction",
-                                 bracketed(found.collapses, found.stands, "bisection over linear programs"));
+                                 bracketed(to_degrees(found.collapses), to_degrees(found.stands), "deg"));
     analysis.values.emplace_back("force_missing_below", Value{found.missing, "weight of a block", {}, ""});
   }
   if (found.status == LimitStatus::carries_any) {
@@ -187,9 +223,9 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
   analysis.title = scene.title;
   analysis.input_hash = scene.hash;
   analysis.model = prepared->model;
-  analysis.interfaces = find_interfaces(analysis.model);
+  analysis.interfaces = find_interfaces(analysis.model, request.cohesion);
   analysis.warnings = unsupported(analysis);
-  warn_of_strengths(analysis.model.properties, analysis.warnings);
+  warn_of_strengths(analysis.model.properties, request.cohesion, analysis.warnings);
   const StagePlan* looked_at = request.load == LimitLoad::applied ? stage_of_forces(prepared->stages) : nullptr;
   if (request.load == LimitLoad::applied && !looked_at)
     throw BadInput(
@@ -197,8 +233,10 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
         "gravity, left or right");
   warn_of_changes(prepared->stages, looked_at, analysis.warnings);
 
-  request.load ? seek_factor(live_load(*request.load, analysis.model, looked_at), analysis)
-               : seek_friction(request.properties, analysis);
+  if (request.load)
+    seek_factor(live_load(*request.load, analysis.model, looked_at), analysis);
+  else
+    request.factor ? seek_factor_of_safety(request, analysis) : seek_friction(request, analysis);
   refuse_empty(analysis, looked_at);
   if (analysis.status == LimitStatus::solver_failed)
     analysis.message = "GLPK found no answer to a linear program; blocks of very different size are the usual cause";

@@ -16,14 +16,16 @@ enum class LimitLoad { gravity, left, right, applied };
 
 struct LimitRequest {
   std::optional<LimitLoad> load;        // whose factor is sought; none: the critical friction under gravity
-  std::vector<std::string> properties;  // whose friction is sought; none: all
+  std::vector<std::string> properties;  // whose friction is sought, or whose strength is divided; none: all
+  bool factor = false;                  // the factor of safety is sought instead
+  bool cohesion = false;                // joints have the cohesion that their properties state
 };
 
 struct LimitAnalysis {
   std::string title, input_hash;
   Model<2> model;
   std::vector<Interface> interfaces;
-  std::string sought;  // "critical friction angle of all joints", …
+  std::string sought;  // "critical friction angle of all joints", "factor of safety of all joints", …
   LimitStatus status = LimitStatus::found;
   bool answered = false;  // a value was found, that no friction is needed included
   std::string message;    // why none was, and what helps, or what the value means; else empty

@@ -12,11 +12,20 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/run_scene.hpp"
+
 namespace voussoir::program {
 
 namespace fs = std::filesystem;
 
 inline const fs::path scenes = fs::path(VOUSSOIR_SOURCE_DIR) / "app/testing";
+
+// what every build has goes by no name
+inline bool is_built_in(const std::string& part) {
+  for (const auto& [name, is_there] : features())
+    if (name == part) return is_there;
+  return true;
+}
 
 inline std::string read(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);

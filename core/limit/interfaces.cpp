@@ -77,7 +77,7 @@ void find_between(const Model<2>& model, const PlacedPart& a, const PlacedPart& 
 
 }  // namespace
 
-std::vector<Interface> find_interfaces(const Model<2>& model) {
+std::vector<Interface> find_interfaces(const Model<2>& model, bool bonded) {
   std::vector<PlacedPart> parts;
   for (const PartId& id : model.parts)
     if (model.bodies[id.body].present) parts.push_back(place(model, id));
@@ -93,6 +93,9 @@ std::vector<Interface> find_interfaces(const Model<2>& model) {
       if (a == b || (model.bodies[a].fixed && model.bodies[b].fixed)) continue;
       find_between(model, parts[a < b ? i : j], parts[a < b ? j : i], interfaces);
     }
+  if (bonded)
+    for (Interface& face : interfaces)
+      face.cohesion = model.properties[face.properties].cohesion;
   std::stable_sort(interfaces.begin(), interfaces.end(), [](const Interface& p, const Interface& q) {
     const auto key = [](const Interface& x) { return std::tuple(x.body_a, x.body_b, x.ends[0][0], x.ends[0][1]); };
     return key(p) < key(q);

@@ -15,7 +15,7 @@ struct Interface {
   int joint = no_joint;           // of the two faces' joints the later cut, as in a contact
   int properties = 0;             // index into Model::properties
   double friction = 0;            // rad
-  double cohesion = 0;            // Pa; a joint's properties have none yet, and no tension is ever carried
+  double cohesion = 0;            // Pa; no tension is ever carried
 
   double length() const { return (ends[1] - ends[0]).norm(); }  // m
 };
@@ -23,7 +23,7 @@ struct Interface {
 // Every stretch where faces of two present bodies, not both fixed, lie on each other in the reference configuration.
 // Faces count as lying on each other when they are no farther apart than 1e-6 of the smaller inscribed radius along
 // the whole stretch, and when it is longer than that. Sorted by bodies, then by place. Corners that touch a face or
-// another corner are no interface.
-std::vector<Interface> find_interfaces(const Model<2>& model);
+// another corner are no interface. `bonded`: they have the cohesion that their properties state, else none.
+std::vector<Interface> find_interfaces(const Model<2>& model, bool bonded = false);
 
 }  // namespace voussoir

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -15,6 +16,12 @@ constexpr double largest_factor = 1e6;                // of weights: what carrie
 constexpr double least_friction = 0;                  // of the bisection
 constexpr double largest_friction = 89 * degree;      // beyond it a cone is a half-plane
 constexpr double friction_tolerance = 1e-6 * degree;  // width of the bracket
+// A factor F is bisected as 1/(1 + F), which takes all of them into a finite range: of that variable
+constexpr double least_left = 0, most_left = 1000.0 / 1001;
+constexpr double left_tolerance = 2e-8;  // below it the solver no longer tells what is missing from its own rounding
+// Where the solver gives up so many tolerances from the end, feasibility is a matter of rounding: the bracket stays
+// wider.
+constexpr double near_enough = 100;
 constexpr double balanced = 1e-10;  // of a body's weight: ten times what the solver's tolerance may leave
 
 // The rows of the program are the balance of every free freedom, each divided by its body's own weight (moments by its
@@ -189,11 +196,6 @@ bool stands(const Margin& margin) {
   return margin.certificate.primal <= balanced;
 }
 
-void set_friction(std::vector<Interface>& interfaces, const std::vector<bool>& chosen, double friction) {
-  for (Interface& face : interfaces)
-    if (chosen[face.properties]) face.friction = friction;
-}
-
 std::vector<bool> choose(const Model<2>& model, const std::vector<std::string>& names) {
   std::vector<bool> chosen(model.properties.size(), names.empty());
   for (const std::string& name : names) {
@@ -203,6 +205,71 @@ std::vector<bool> choose(const Model<2>& model, const std::vector<std::string>& 
     chosen[at - model.properties.begin()] = true;
   }
   return chosen;
+}
+
+// a measure of strength, from where little is left to where much is, and how interfaces take it
+struct StrengthRange {
+  double weakest, strongest, tolerance;
+  std::function<void(double strength, std::vector<Interface>& interfaces)> weaken;
+};
+
+// between which two strengths gravity and what acts besides are just carried
+CriticalStrength bisect(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& besides,
+                        const StrengthRange& range) {
+  CriticalStrength result;
+  Loads dead = loads_of_acceleration(model, model.gravity);
+  for (std::size_t b = 0; b < besides.size(); ++b)
+    dead[b] += besides[b];
+  const Rows rows = number_rows(model, model.gravity.norm());
+  if (rows.count == 0) return result.status = LimitStatus::nothing_free, result;
+  if (model.gravity.isZero(0)) return result.status = LimitStatus::no_load, result;
+
+  std::vector<Interface> trial = interfaces;
+  const auto at = [&](double strength) {
+    range.weaken(strength, trial);
+    ++result.evidence.programs;
+    return find_margin(model, rows, trial, dead);
+  };
+  const auto keep_standing = [&](double strength, const Margin& margin) {
+    result.stands = strength;
+    result.state.forces = read_forces(rows, trial, margin.solution.x);
+    result.evidence.out_of_balance = std::max(margin.certificate.primal, margin.certificate.primal_violation);
+  };
+  const auto keep_collapsing = [&](double strength, const Margin& margin) {
+    result.collapses = strength;
+    result.missing = margin.certificate.dual;
+    result.state.velocities = read_velocities(rows, margin.solution.y);
+    result.evidence.gap = std::abs(margin.certificate.primal - margin.certificate.dual);
+    result.evidence.inadmissible = find_inadmissible(model, trial, result.state.velocities);
+  };
+  const auto failed = [&](const Margin& margin) { return margin.solution.status != ProgramStatus::optimal; };
+
+  // the ends of the range
+  const Margin weak = at(range.weakest);
+  if (failed(weak)) return result.status = LimitStatus::solver_failed, result;
+  if (stands(weak)) {
+    keep_standing(range.weakest, weak);
+    return result.status = LimitStatus::carries_any, result;
+  }
+  keep_collapsing(range.weakest, weak);
+  const Margin strong = at(range.strongest);
+  if (failed(strong)) return result.status = LimitStatus::solver_failed, result;
+  if (!stands(strong)) {
+    keep_collapsing(range.strongest, strong);
+    return result.status = LimitStatus::carries_nothing, result;
+  }
+  keep_standing(range.strongest, strong);
+
+  while (result.stands - result.collapses > range.tolerance) {
+    const double middle = 0.5 * (result.collapses + result.stands);
+    const Margin margin = at(middle);
+    if (failed(margin)) {
+      if (result.stands - result.collapses > near_enough * range.tolerance) result.status = LimitStatus::solver_failed;
+      break;
+    }
+    stands(margin) ? keep_standing(middle, margin) : keep_collapsing(middle, margin);
+  }
+  return result;
 }
 
 }  // namespace
@@ -264,58 +331,32 @@ LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>&
   return result;
 }
 
-CriticalFriction find_critical_friction(const Model<2>& model, const std::vector<Interface>& interfaces,
-                                        const std::vector<std::string>& properties) {
-  CriticalFriction result;
+CriticalStrength find_critical_friction(const Model<2>& model, const std::vector<Interface>& interfaces,
+                                        const std::vector<std::string>& properties, const Loads& besides) {
   const std::vector<bool> chosen = choose(model, properties);
-  const Loads gravity = loads_of_acceleration(model, model.gravity);
-  const Rows rows = number_rows(model, model.gravity.norm());
-  if (rows.count == 0) return result.status = LimitStatus::nothing_free, result;
-  if (model.gravity.isZero(0)) return result.status = LimitStatus::no_load, result;
-
-  std::vector<Interface> trial = interfaces;
-  const auto at = [&](double friction) {
-    set_friction(trial, chosen, friction);
-    ++result.evidence.programs;
-    return find_margin(model, rows, trial, gravity);
+  const auto weaken = [&](double friction, std::vector<Interface>& trial) {
+    for (Interface& face : trial)
+      if (chosen[face.properties]) face.friction = friction;
   };
-  const auto keep_standing = [&](double friction, const Margin& margin) {
-    result.stands = friction;
-    result.state.forces = read_forces(rows, trial, margin.solution.x);
-    result.evidence.out_of_balance = std::max(margin.certificate.primal, margin.certificate.primal_violation);
-  };
-  const auto keep_collapsing = [&](double friction, const Margin& margin) {
-    result.collapses = friction;
-    result.missing = margin.certificate.dual;
-    result.state.velocities = read_velocities(rows, margin.solution.y);
-    result.evidence.gap = std::abs(margin.certificate.primal - margin.certificate.dual);
-    result.evidence.inadmissible = find_inadmissible(model, trial, result.state.velocities);
-  };
-  const auto failed = [&](const Margin& margin) { return margin.solution.status != ProgramStatus::optimal; };
+  return bisect(model, interfaces, besides, {least_friction, largest_friction, friction_tolerance, weaken});
+}
 
-  // the ends of the range
-  const Margin slippery = at(least_friction);
-  if (failed(slippery)) return result.status = LimitStatus::solver_failed, result;
-  if (stands(slippery)) {
-    keep_standing(least_friction, slippery);
-    return result.status = LimitStatus::carries_any, result;
-  }
-  keep_collapsing(least_friction, slippery);
-  const Margin rough = at(largest_friction);
-  if (failed(rough)) return result.status = LimitStatus::solver_failed, result;
-  if (!stands(rough)) {
-    keep_collapsing(largest_friction, rough);
-    return result.status = LimitStatus::carries_nothing, result;
-  }
-  keep_standing(largest_friction, rough);
-
-  while (result.stands - result.collapses > friction_tolerance) {
-    const double middle = 0.5 * (result.collapses + result.stands);
-    const Margin margin = at(middle);
-    if (failed(margin)) return result.status = LimitStatus::solver_failed, result;
-    stands(margin) ? keep_standing(middle, margin) : keep_collapsing(middle, margin);
-  }
-  return result;
+CriticalStrength find_factor_of_safety(const Model<2>& model, const std::vector<Interface>& interfaces,
+                                       const std::vector<std::string>& properties, const Loads& besides) {
+  const std::vector<bool> chosen = choose(model, properties);
+  // the strength that is left, of what is stated: 1/F
+  const auto weaken = [&](double fraction, std::vector<Interface>& trial) {
+    const double left = fraction / (1 - fraction);
+    for (std::size_t i = 0; i < trial.size(); ++i) {
+      if (!chosen[trial[i].properties]) continue;
+      trial[i].friction = std::atan(left * std::tan(interfaces[i].friction));
+      trial[i].cohesion = left * interfaces[i].cohesion;
+    }
+  };
+  CriticalStrength found = bisect(model, interfaces, besides, {least_left, most_left, left_tolerance, weaken});
+  for (double* end : {&found.collapses, &found.stands})
+    *end = *end > 0 ? (1 - *end) / *end : infinity;
+  return found;
 }
 
 }  // namespace voussoir

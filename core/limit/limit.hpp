@@ -68,9 +68,10 @@ Loads loads_of_applied_forces(const Model<2>& model);                           
 LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& dead,
                             const Loads& live);
 
-struct CriticalFriction {
+// The strength at which loads are just carried, between one that stands and one that collapses.
+struct CriticalStrength {
   LimitStatus status = LimitStatus::found;
-  double collapses = 0, stands = 0;  // rad: the bracket
+  double collapses = 0, stands = 0;  // the bracket: friction angle in rad, or factor of safety
   double missing = 0;  // at `collapses`: the least sum of added forces, of their bodies' weights, that would stand
   LimitState state;    // forces at `stands`, velocities at `collapses`
   Evidence evidence;   // gap: of what is missing at `collapses`; out_of_balance at `stands`
@@ -78,8 +79,16 @@ struct CriticalFriction {
 
 // The friction angle at which the model's gravity is just carried, by bisection over linear programs that ask for the
 // least force to be added, to 1e-6 degrees. Interfaces whose properties are named all take it, the others keep theirs;
-// no name: all. Unknown names throw std::out_of_range with the name.
-CriticalFriction find_critical_friction(const Model<2>& model, const std::vector<Interface>& interfaces,
-                                        const std::vector<std::string>& properties = {});
+// no name: all. Cohesion stays. `besides`: further dead loads, by body. Unknown names throw std::out_of_range with the
+// name.
+CriticalStrength find_critical_friction(const Model<2>& model, const std::vector<Interface>& interfaces,
+                                        const std::vector<std::string>& properties = {}, const Loads& besides = {});
+
+// The factor F of safety: gravity is just carried where tan(friction) and cohesion of the interfaces whose properties
+// are named are divided by F, those of the others as they are. Likewise, to some 1e-7 of itself; it is looked for from
+// 1e-3 (carries_nothing: not even a thousand times the strength is enough) to infinity (carries_any: no strength is
+// needed).
+CriticalStrength find_factor_of_safety(const Model<2>& model, const std::vector<Interface>& interfaces,
+                                       const std::vector<std::string>& properties = {}, const Loads& besides = {});
 
 }  // namespace voussoir

@@ -4,61 +4,20 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <sstream>
 
 #include "core/limit/limit.hpp"
 #include "core/limit/mechanism.hpp"
 #include "core/scene/scene.hpp"
+#include "core/testing/limit_models.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
 
+using namespace limit_models;
+
 constexpr double bracket = 1.01e-6 * degree;  // of find_critical_friction, as the header states it
 constexpr double rounding = 1e-9;             // of a small program's sums
-
-using Points = std::vector<Vector<2>>;
-
-struct TestBlock {
-  std::string name;
-  Points corners;
-  bool fixed = false;
-  std::string part_of = {};
-};
-
-Points box(double x0, double y0, double x1, double y1) {
-  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-}
-
-Points turned(Points points, double angle) {
-  for (Vector<2>& p : points)
-    p = matrix(Rotation<2>{angle}) * p;
-  return points;
-}
-
-std::string text_of(const std::vector<TestBlock>& blocks, double friction_deg) {
-  std::ostringstream text;
-  text.precision(17);
-  text << "dimension = 2\ngravity = [0, -10]\ndensity = 2000\n[[joint_properties]]\nname = \"rock\"\n"
-       << "normal_stiffness = 1e9\nshear_stiffness = 1e9\nfriction_deg = " << friction_deg << '\n';
-  for (const TestBlock& block : blocks) {
-    text << "[[blocks]]\nname = \"" << block.name << "\"\n";
-    if (block.fixed) text << "fixed = true\n";
-    if (!block.part_of.empty()) text << "part_of = \"" << block.part_of << "\"\n";
-    const char* separator = "vertices = [";
-    for (const Vector<2>& p : block.corners) {
-      text << separator << "[" << p[0] << ", " << p[1] << "]";
-      separator = ", ";
-    }
-    text << "]\n";
-  }
-  text << "[[stage]]\nname = \"settle\"\nkind = \"settle\"\n";
-  return text.str();
-}
-
-Model<2> model_of(const std::vector<TestBlock>& blocks, double friction_deg = 30) {
-  return prepare<2>(parse_scene(text_of(blocks, friction_deg), "test.toml")).model;
-}
 
 int body_named(const Model<2>& model, const std::string& name) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
@@ -66,7 +25,7 @@ int body_named(const Model<2>& model, const std::string& name) {
   return -1;
 }
 
-CriticalFriction critical_friction(const Model<2>& model) {
+CriticalStrength critical_friction(const Model<2>& model) {
   return find_critical_friction(model, find_interfaces(model));
 }
 
@@ -102,13 +61,6 @@ void expect_proven(const LoadFactor& found) {
   EXPECT_LE(found.evidence.gap, rounding);
   EXPECT_LE(found.evidence.out_of_balance, rounding);
   EXPECT_LE(found.evidence.inadmissible, rounding);
-}
-
-// a block `width` by `height` on a fixed plate that dips by `slope`
-Model<2> block_on_plate(double width, double height, double slope, double friction_deg = 30) {
-  return model_of({{"plate", turned(box(-3, -1, 3, 0), slope), true},
-                   {"block", turned(box(-width / 2, 0, width / 2, height), slope)}},
-                  friction_deg);
 }
 
 // ---- the linear program and its judge ------------------------------------------------------------------------------
@@ -184,7 +136,7 @@ TEST(Interfaces, AreTheStretchesThatFacesShare) {
 
 TEST(CriticalFriction, OfABlockOnAnInclineIsTheDip) {
   for (const double dip : {3.0, 30.0, 60.0, 80.0}) {
-    const CriticalFriction found = critical_friction(block_on_plate(2, 0.1, dip * degree));
+    const CriticalStrength found = critical_friction(block_on_plate(2, 0.1, dip * degree));
     ASSERT_EQ(found.status, LimitStatus::found);
     EXPECT_LT(found.collapses, dip * degree);
     EXPECT_GE(found.stands, dip * degree);
@@ -219,7 +171,7 @@ TEST(CriticalFriction, IsThatOfTheLightestBlockToo) {
 // a slender block topples whatever the friction, unless it cannot turn
 TEST(CriticalFriction, DoesNotHelpWhatTopples) {
   Model<2> model = block_on_plate(1, 4, 20 * degree);
-  CriticalFriction found = critical_friction(model);
+  CriticalStrength found = critical_friction(model);
   EXPECT_EQ(found.status, LimitStatus::carries_nothing);
   EXPECT_NE(found.state.velocities[body_named(model, "block")].spin, 0);
 
@@ -354,7 +306,7 @@ TEST(AppliedForces, OfAnySize) {
 // ---- slopes of many blocks -----------------------------------------------------------------------------------------
 
 // Equilibrium and cone at `stands`, velocities and their power at `collapses`: summed here once more.
-void expect_proven(const Model<2>& model, const std::vector<Interface>& faces, const CriticalFriction& found) {
+void expect_proven(const Model<2>& model, const std::vector<Interface>& faces, const CriticalStrength& found) {
   std::vector<Vector<3>> load(model.bodies.size(), Vector<3>::Zero());
   double weight = 0, power = 0, fastest_closing = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -394,7 +346,7 @@ TEST(Slump, RotatesItsOuterLayerAt15335) {
       prepare<2>(read_scene(std::filesystem::path(VOUSSOIR_SOURCE_DIR) / "cases/slump/scene.toml")).model;
   const std::vector<Interface> faces = find_interfaces(model);
   EXPECT_EQ(faces.size(), 42u) << "three layers of seven blocks: as many below as behind";
-  const CriticalFriction found = find_critical_friction(model, faces);
+  const CriticalStrength found = find_critical_friction(model, faces);
   ASSERT_EQ(found.status, LimitStatus::found);
   EXPECT_NEAR(found.stands / degree, 15.335, 0.001);
   EXPECT_LT(found.evidence.gap, 1e-3 * found.missing) << "or the lower end of the bracket is not proven";
@@ -457,7 +409,7 @@ TEST(Toppling, ShowsWhatAssociatedFlowCosts) {
 
   const Model<2> model = toppling_slope();
   const std::vector<Interface> faces = find_interfaces(model);
-  const CriticalFriction found = find_critical_friction(model, faces);
+  const CriticalStrength found = find_critical_friction(model, faces);
   ASSERT_EQ(found.status, LimitStatus::found);
   EXPECT_NEAR(found.stands / degree, 33.4, 0.05);
   // the three columns at the toe slide, the next ones up to the crest topple

@@ -1,0 +1,61 @@
+// The factor of safety by limit analysis against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/limit/limit.hpp"
+#include "core/testing/limit_models.hpp"
+#include "text/angle.hpp"
+
+namespace voussoir {
+namespace {
+
+using limit_models::block_on_plate;
+
+constexpr double bracket = 1.01e-6 * degree;  // of find_critical_friction, as the header states it
+constexpr double rounding = 1e-9;             // of a small program's sums
+
+// A block 2 wide and 0.1 high on its plane: (c L + W cos dip tan φ)/(W sin dip), of the named properties.
+TEST(FactorOfSafety, OfABlockOnAnInclineIsItsStrengthOverItsWeight) {
+  for (const double dip : {20.0, 40.0})
+    for (const double cohesion : {0.0, 500.0}) {
+      Model<2> model = block_on_plate(2, 0.1, dip * degree);
+      model.properties.front().cohesion = cohesion;
+      const std::vector<Interface> faces = find_interfaces(model, true);
+      const double weight = 2 * 0.1 * 2000 * 10, s = std::sin(dip * degree), c = std::cos(dip * degree);
+      const double exact = (2 * cohesion + weight * c * std::tan(30 * degree)) / (weight * s);
+      const CriticalStrength found = find_factor_of_safety(model, faces);
+      ASSERT_EQ(found.status, LimitStatus::found);
+      EXPECT_LE(found.stands, found.collapses);
+      EXPECT_NEAR(found.stands, exact, 1e-7 * exact) << dip << " " << cohesion;
+      EXPECT_NEAR(found.collapses, exact, 1e-7 * exact);
+      EXPECT_LT(found.evidence.gap, rounding);
+      EXPECT_EQ(find_interfaces(model).front().cohesion, 0) << "where bonds are not asked for";
+    }
+}
+
+TEST(FactorOfSafety, IsThatOfTheNamedPropertiesAndOfFurtherLoads) {
+  Model<2> model = block_on_plate(2, 0.1, 20 * degree);
+  model.properties.push_back(model.properties.front());
+  model.properties.back().name = "unused";
+  const std::vector<Interface> faces = find_interfaces(model);
+  EXPECT_THROW(find_factor_of_safety(model, faces, {"roc"}), std::out_of_range);
+  EXPECT_EQ(find_factor_of_safety(model, faces, {"unused"}).status, LimitStatus::carries_any);
+  const double ratio = std::tan(30 * degree) / std::tan(20 * degree);
+  EXPECT_NEAR(find_factor_of_safety(model, faces, {"rock"}).stands, ratio, 2e-7);
+  // half the weight lifted: friction has half to work on; along the plane there is half to carry
+  Loads lifted(model.bodies.size());
+  for (std::size_t b = 0; b < lifted.size(); ++b)
+    if (!model.bodies[b].fixed) lifted[b].force = -0.5 * model.bodies[b].mass * model.gravity;
+  EXPECT_NEAR(find_factor_of_safety(model, faces, {}, lifted).stands, ratio, 2e-7);
+  // lifted across the plane alone
+  const Vector<2> normal = matrix(Rotation<2>{20 * degree}) * Vector<2>(0, 1);
+  for (std::size_t b = 0; b < lifted.size(); ++b)
+    lifted[b].force = lifted[b].force.dot(normal) * normal;
+  EXPECT_NEAR(find_factor_of_safety(model, faces, {}, lifted).stands, 0.5 * ratio, 2e-7);
+  const double critical = std::atan(2 * std::tan(20 * degree));
+  EXPECT_NEAR(find_critical_friction(model, faces, {}, lifted).stands, critical, bracket);
+}
+
+}  // namespace
+}  // namespace voussoir
