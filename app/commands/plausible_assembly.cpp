@@ -52,6 +52,16 @@ class Groups {
   std::vector<int> parent_;
 };
 
+// in water, which may carry it
+template <int Dim>
+bool is_wet(const State<Dim>& state, int body) {
+  const auto acts = [&](Source source) {
+    const std::vector<Load<Dim>>& loads = state.loads_of[source];
+    return !loads.empty() && !loads[static_cast<std::size_t>(body)].force.isZero(0);
+  };
+  return acts(Source::water) || acts(Source::water_pressure);
+}
+
 template <int Dim>
 void judge_ties(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings) {
   if (model.gravity.norm() == 0) return;
@@ -71,7 +81,7 @@ void judge_ties(const Model<Dim>& model, const State<Dim>& state, std::vector<st
   const std::vector<int>* first_group = nullptr;
   for (const auto& [root, bodies] : untied) {
     if (bodies.size() == 1) {
-      alone.push_back(bodies.front());
+      if (!is_wet(state, bodies.front())) alone.push_back(bodies.front());
       continue;
     }
     together += bodies.size();

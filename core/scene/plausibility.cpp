@@ -350,11 +350,13 @@ void judge_water(const Scene& scene, const Prepared<Dim>& prepared, Warnings& wa
       const WaterChangeSpec& spec = scene.stages[s].water[k];
       if (!model.waters[plan.water].uniform) judge_height(spec.subject, spec.surface, plan.to, model, warnings);
     }
+  constexpr double in_balance =
+      1e-6;  // what floats where the scene has it weighs what it displaces, to rounded numbers
   const std::vector<Load<Dim>> loads = water_loads_at_reference(model);
   for (std::size_t b = 0; b < loads.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
     const double weight = -body.mass * model.gravity[Dim - 1], lift = loads[b].force[Dim - 1];
-    if (body.fixed || lift <= std::max(weight, 0.0)) continue;
+    if (body.fixed || lift <= std::max((1 + in_balance) * weight, 0.0)) continue;
     warnings.push_back(scene.file + ": " + described(model, body) + " weighs " + text(weight) +
                        " N, and water lifts it by " + text(lift) +
                        " N: it floats or is pushed up; is the density that of wet rock?");
