@@ -312,6 +312,30 @@ TEST_F(Program, LimitFindsTheFactorOfSafety) {
   expect_one_line(run("limit " + slump + "--joint rock"), 2, "--factor");
 }
 
+// under water a block has its buoyant weight: it leaves friction's part of the factor, and raises that of cohesion
+TEST_F(Program, LimitCountsWater) {
+  if (!is_built_in("glpk")) GTEST_SKIP();
+  write("plane.toml", R"(
+dimension = 2
+gravity = [0, -10]
+density = 2000
+domain = { box = { min = [-2, -3], max = [2, 3] } }
+joints = [{ name = "A", dip = 20, dip_direction = 90, point = [0, -1] }]
+joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 40, cohesion = 1e3 }]
+water = [{ name = "lake", level = 5 }]
+fix = [{ below = ["A"] }]
+stage = [{ name = "settle", kind = "settle" }]
+)");
+  const double dip = 20 * std::numbers::pi / 180, friction = std::tan(2 * dip) / std::tan(dip);
+  const double weight = 4 * 4 * (2000 * 10 - 9810), cohesion = 1e3 * 4 / std::cos(dip) / (weight * std::sin(dip));
+  const auto factor = [&](const std::string& options) {
+    EXPECT_EQ(run("limit plane.toml --factor --overwrite --out out " + options).code, 0);
+    return results("out")["values"]["factor_of_safety"]["value"].get<double>();
+  };
+  EXPECT_NEAR(factor(""), friction, 1e-6);
+  EXPECT_NEAR(factor("--cohesion"), friction + cohesion, 1e-6);
+}
+
 TEST_F(Program, LimitFindsTheFactorOfAppliedForces) {
   if (!is_built_in("glpk")) GTEST_SKIP();
   // a column of 1 x 3 m and 75 kN/m, pushed at 2 m: it tips at 75 kN / 4

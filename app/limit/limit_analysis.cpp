@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/bad_input.hpp"
+#include "core/waters.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -65,11 +66,11 @@ void warn_of_changes(const std::vector<StagePlan>& stages, const StagePlan* look
   for (const StagePlan& stage : stages) {
     const Change& change = stage.change;
     if (!change.fix.empty() || !change.release.empty() || !change.remove.empty() || change.friction ||
-        !change.friction_of.empty() || !change.boundary.empty())
-      warnings.push_back(
-          fmt::format("stage '{}' changes blocks, loads or friction; limit analysis takes the scene as it is before "
-                      "its first stage",
-                      stage.name));
+        !change.friction_of.empty() || !change.boundary.empty() || !stage.water.empty())
+      warnings.push_back(fmt::format(
+          "stage '{}' changes blocks, loads, water or friction; limit analysis takes the scene as it is before "
+          "its first stage",
+          stage.name));
     if (!change.force.empty() && &stage != looked_at)
       warnings.push_back(fmt::format("the applied forces of stage '{}' are left out{}", stage.name,
                                      looked_at ? fmt::format("; those of stage '{}' are looked at", looked_at->name)
@@ -90,7 +91,7 @@ CriticalStrength seek_strength(const LimitRequest& request, const Find& find, co
                                LimitAnalysis& analysis) {
   CriticalStrength found;
   try {
-    found = find(analysis.model, analysis.interfaces, request.properties, Loads());
+    found = find(analysis.model, analysis.interfaces, request.properties, analysis.water);
   } catch (const std::out_of_range& unknown) {
     std::vector<std::string> names;
     for (const JointProperties& p : analysis.model.properties)
@@ -150,7 +151,7 @@ void seek_friction(const LimitRequest& request, LimitAnalysis& analysis) {
 // the load whose factor is sought, beside gravity or instead of it
 struct LiveLoad {
   std::string sought, if_any;  // if_any: what it means, or what to ask for, where any factor is carried
-  Loads loads;
+  Loads loads;                 // none: gravity itself is sought
   bool beside_gravity = true;
 };
 
@@ -175,14 +176,24 @@ LiveLoad live_load(LimitLoad load, const Model<2>& model, const StagePlan* looke
   return {"multiple of gravity at collapse",
           "without cohesion any multiple of gravity is as good as another: ask for the critical friction, or --load "
           "left, right or applied",
-          loads_of_acceleration(model, model.gravity), false};
+          {},
+          false};
 }
 
+Loads with_water(const LimitAnalysis& analysis, Loads loads) {
+  for (std::size_t b = 0; b < analysis.water.size(); ++b)
+    loads[b] += analysis.water[b];
+  return loads;
+}
+
+// Water grows with the factor of gravity, as in a run.
 void seek_factor(const LiveLoad& live, LimitAnalysis& analysis) {
   analysis.sought = live.sought;
-  const Vector<2> dead = live.beside_gravity ? analysis.model.gravity : Vector<2>::Zero();
-  const LoadFactor found =
-      find_load_factor(analysis.model, analysis.interfaces, loads_of_acceleration(analysis.model, dead), live.loads);
+  const Model<2>& model = analysis.model;
+  const Loads gravity = with_water(analysis, loads_of_acceleration(model, model.gravity)),
+              nothing = loads_of_acceleration(model, Vector<2>::Zero());
+  const LoadFactor found = live.beside_gravity ? find_load_factor(model, analysis.interfaces, gravity, live.loads)
+                                               : find_load_factor(model, analysis.interfaces, nothing, gravity);
   analysis.status = found.status;
   analysis.state = found.state;
   analysis.evidence = found.evidence;
@@ -224,6 +235,7 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
   analysis.input_hash = scene.hash;
   analysis.model = prepared->model;
   analysis.interfaces = find_interfaces(analysis.model, request.cohesion);
+  if (!analysis.model.waters.empty()) analysis.water = water_loads_at_reference<2>(analysis.model);
   analysis.warnings = unsupported(analysis);
   warn_of_strengths(analysis.model.properties, request.cohesion, analysis.warnings);
   const StagePlan* looked_at = request.load == LimitLoad::applied ? stage_of_forces(prepared->stages) : nullptr;

@@ -24,6 +24,7 @@ struct LimitRequest {
 struct LimitAnalysis {
   std::string title, input_hash;
   Model<2> model;
+  Loads water;  // by body, at full gravity; none of a scene without water
   std::vector<Interface> interfaces;
   std::string sought;  // "critical friction angle of all joints", "factor of safety of all joints", …
   LimitStatus status = LimitStatus::found;
