@@ -127,7 +127,7 @@ struct Finder {
     for (int i = 0; i < static_cast<int>(planes.size()); ++i) {
       const double along = planes[i].normal.dot(n), steep = std::sqrt(std::max(1 - along * along, 0.0));
       const double distance = std::abs(signed_distance(planes[i], place));
-      if (!(distance < least * steep)) continue;
+      if (!(steep > 0 && distance < least * steep)) continue;  // one across the normal bounds no section
       least = distance / steep;
       nearest = i;
     }

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "core/checkpoint/checkpoint.hpp"
@@ -127,6 +129,38 @@ TEST(Newton, AColumnOfAnyHeightTakesAsManyIterations) {
   }
 }
 
+// courses of bricks, each half a brick on the next
+Model<2> wall(int courses) {
+  std::vector<Body<2>> bodies{body_of<2>(box<2>({-1, -1}, {courses + 1.0, 0}), true)};
+  for (int row = 0; row < courses; ++row) {
+    const double low = 0.5 * row, first = row % 2 ? 0.5 : 0;
+    if (first > 0) bodies.push_back(body_of<2>(box<2>({0, low}, {first, low + 0.5})));
+    for (double x = first; x < courses; ++x)
+      bodies.push_back(body_of<2>(box<2>({x, low}, {std::min(x + 1, 1.0 * courses), low + 0.5})));
+  }
+  Model<2> model = shapes::model_of<2>(std::move(bodies));
+  model.properties[0].normal_stiffness = 1e10;
+  model.properties[0].shear_stiffness = 5e9;
+  model.properties[0].sub_contacts = 2;
+  return model;
+}
+
+// Joints between bricks of a course carry next to nothing and open and close as the wall settles.
+TEST(Newton, AWallOfAnySizeTakesAsManyEvaluationsAPair) {
+  std::vector<double> a_pair, blocks;
+  for (const int courses : {5, 17}) {
+    const Model<2> model = wall(courses);
+    const auto [report, state] = rest_of(model, Statics::newton);
+    const auto touching =
+        std::count_if(state.contacts.begin(), state.contacts.end(), [](const Contact<2>& c) { return c.touching(); });
+    a_pair.push_back(static_cast<double>(state.counters.contact_evaluations) / static_cast<double>(touching));
+    blocks.push_back(static_cast<double>(model.bodies.size() - 1));
+    EXPECT_EQ(state.counters.static_fallbacks, 0) << courses;
+    EXPECT_LT(a_pair.back(), 50) << courses;
+  }
+  EXPECT_LT(a_pair[1] / a_pair[0], std::pow(blocks[1] / blocks[0], 0.15));
+}
+
 template <int Dim>
 void expect_same_rest(const Model<Dim>& model, double allowed) {
   const auto [marched, by_steps] = rest_of(model, Statics::adaptive);
@@ -185,9 +219,13 @@ TEST(Newton, GravityComesInIncrements) {
 Model<3> loaded_block() {
   Model<3> model = block_on_plate<3>(20 * degree, 35 * degree);
   const int block = index_of(model, "block");
-  model.applied = {
-      {.name = "keeps", .body = block, .place = {0.2, -0.1, 0.3}, .force = {2e3, 1e3, -4e3}},
-      {.name = "turns", .body = block, .place = {-0.3, 0.2, 0.1}, .force = {1e3, -2e3, -1e3}, .turns_with_body = true}};
+  model.applied = {{.name = "keeps", .body = block, .place = {0.2, -0.1, 0.3}, .force = {2e3, 1e3, -4e3}, .factor = {}},
+                   {.name = "turns",
+                    .body = block,
+                    .place = {-0.3, 0.2, 0.1},
+                    .force = {1e3, -2e3, -1e3},
+                    .turns_with_body = true,
+                    .factor = {}}};
   model.boundary = {{block, {{{0.1, 0.2, 0.25}, {1e3, 500, -3e3}}, {{0, -0.3, 0.1}, {0, 2e3, -1e3}}}}};
   return model;
 }

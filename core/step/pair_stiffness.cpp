@@ -29,6 +29,12 @@ bool is_free(const Model<Dim>& model, int body) {
   return !model.bodies[body].fixed && model.bodies[body].present;
 }
 
+template <int Dim>
+bool turns(const Model<Dim>& model, int body) {
+  const auto& free = model.bodies[body].free_rotation;
+  return is_free(model, body) && std::find(free.begin(), free.end(), true) != free.end();
+}
+
 // of the smaller of a pair's free bodies, m
 template <int Dim>
 double size_of(const Model<Dim>& model, int a, int b) {
@@ -128,6 +134,7 @@ struct MovedContacts {
       steps.push_back(f < Dim ? way : way / std::max(width, least_width * size));
       pairs.push_back(moved(here, state.poses[p.body_b], f, steps.back()));
       contacts.push_back(c);
+      if (f >= Dim && !turns(model, p.body_a) && !turns(model, p.body_b)) continue;  // held: what it says is not used
       if (closed_form) {
         move_contact(sensitivity, here.axes, f, steps.back(), contacts.back());
       } else {
