@@ -105,7 +105,7 @@ std::vector<std::pair<std::string, bool>> features() {
 #else
   const bool ipopt = false;
 #endif
-  return {{"glpk", glpk}, {"ipopt", ipopt}, {"openmp", has_openmp()}, {"fast_arithmetic", fast_arithmetic()}};
+  return {{"glpk", glpk}, {"ipopt", ipopt}, {"fast_arithmetic", fast_arithmetic()}};
 }
 
 }  // namespace voussoir

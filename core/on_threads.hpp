@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <exception>
 #include <vector>
 
 namespace voussoir {
@@ -16,7 +15,20 @@ inline int team(int threads, std::size_t pieces) {
   return pieces < too_few_for_a_team ? 1 : threads;
 }
 
-// work(i) for each i below `count`; of what it throws, one exception continues when all are done
+// some pieces of work in a row: call(work, first, last) does those from first up to last
+struct PieceWork {
+  const void* work;
+  void (*call)(const void* work, int first, int last);
+};
+
+// Does all pieces below `count`, this thread and up to `threads` - 1 others. Whoever has time takes the next pieces: a
+// thread that another program holds up holds up no other, and this one waits for none that has not begun. They wait
+// asleep, after a moment in which the next loop may come. Where the system gives no more threads, fewer do it; within a
+// piece, or while another thread has the team, this one does it alone. What the first of the pieces that failed has
+// thrown continues when all are done.
+void share_out(int threads, int count, const PieceWork& pieces);
+
+// work(i) for each i below `count`
 template <class Work>
 void on_threads(int threads, int count, const Work& work) {
   if (threads == 1 || count < 2) {
@@ -24,17 +36,10 @@ void on_threads(int threads, int count, const Work& work) {
       work(i);
     return;
   }
-  std::exception_ptr failure;
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (int i = 0; i < count; ++i) {
-    try {
-      work(i);
-    } catch (...) {
-#pragma omp critical
-      if (!failure) failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+  share_out(threads, count, {&work, [](const void* of_all, int first, int last) {
+                               for (int i = first; i < last; ++i)
+                                 (*static_cast<const Work*>(of_all))(i);
+                             }});
 }
 
 // the same for pieces as light as one body or one contact
@@ -43,17 +48,22 @@ void each_on_threads(int threads, std::size_t count, const Work& work) {
   on_threads(team(threads, count), static_cast<int>(count), work);
 }
 
-// Sums over light pieces: work(i, sum) for those of each group, the groups' sums in their order. Groups are of a fixed
-// size, so that no sum depends on the number of threads. What it gives holds until its next use.
+// Pieces that are summed together: a fixed number, so that no sum depends on the number of threads.
+inline constexpr std::size_t summed_together = 256;
+constexpr std::size_t groups_of(std::size_t pieces) {
+  return (pieces + summed_together - 1) / summed_together;
+}
+
+// Sums over light pieces: work(i, sum) for those of each group, the groups' sums in their order. What it gives holds
+// until its next use.
 template <class Sum, class Work>
 const std::vector<Sum>& sums_in_groups(int threads, std::size_t count, const Work& work) {
-  constexpr std::size_t together = 256;
   static thread_local std::vector<Sum> own;
   std::vector<Sum>& sums = own;  // this thread's, filled by all
-  sums.resize((count + together - 1) / together);
+  sums.resize(groups_of(count));
   on_threads(team(threads, count), static_cast<int>(sums.size()), [&](int group) {
     Sum sum{};
-    for (std::size_t i = group * together; i < std::min(count, (group + 1) * together); ++i)
+    for (std::size_t i = group * summed_together; i < std::min(count, (group + 1) * summed_together); ++i)
       work(static_cast<int>(i), sum);
     sums[group] = sum;
   });

@@ -7,7 +7,7 @@ target_include_directories(voussoir_oracle_algebra PUBLIC ${PROJECT_SOURCE_DIR})
 target_compile_definitions(voussoir_oracle_algebra PUBLIC EIGEN_MAX_STATIC_ALIGN_BYTES=16 EIGEN_DONT_VECTORIZE)
 
 voussoir_test(unit.blocks LABEL unit
-  SOURCES floating_point_traps_test.cpp geometry/geometry_test.cpp optimise/optimise_test.cpp slicing/slicing_test.cpp
+  SOURCES floating_point_traps_test.cpp on_threads_test.cpp geometry/geometry_test.cpp optimise/optimise_test.cpp slicing/slicing_test.cpp
     slicing/sliver_test.cpp slicing/joints_test.cpp slicing/tiling_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 

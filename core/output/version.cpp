@@ -30,14 +30,6 @@ std::string compiler() {
 #endif
 }
 
-bool has_openmp() {
-#ifdef _OPENMP
-  return true;
-#else
-  return false;
-#endif
-}
-
 bool fast_arithmetic() {
 #ifdef VOUSSOIR_FAST_ARITHMETIC
   return true;

@@ -14,9 +14,6 @@ std::string commit();
 // e.g. "GNU 12.2.0"
 std::string compiler();
 
-// whether the core was built with threads
-bool has_openmp();
-
 // whether the contact kernel was built with CMake's VOUSSOIR_FAST_ARITHMETIC: its bits are then no other build's
 bool fast_arithmetic();
 

@@ -5,11 +5,11 @@
 #include <cassert>
 #include <cmath>
 #include <deque>
-#include <exception>
 #include <map>
 #include <numeric>
 #include <optional>
 
+#include "core/on_threads.hpp"
 #include "core/slicing/block.hpp"
 
 namespace voussoir {
@@ -231,16 +231,7 @@ std::vector<Polytope<Dim>> slice(const Polytope<Dim>& domain, const std::vector<
 
   const int count = static_cast<int>(pieces.size());
   harvests.resize(1 + pieces.size());
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic) num_threads(limits.threads) if (limits.threads > 1)
-  for (int i = 0; i < count; ++i)
-    try {
-      cut_up(std::move(pieces[i]), cuts, limits, made, harvests[1 + i]);
-    } catch (...) {
-#pragma omp critical
-      failure = std::current_exception();
-    }
-  if (failure) std::rethrow_exception(failure);
+  on_threads(limits.threads, count, [&](int i) { cut_up(std::move(pieces[i]), cuts, limits, made, harvests[1 + i]); });
 
   for (const Harvest<Dim>& h : harvests)
     add(counters, h.counters);

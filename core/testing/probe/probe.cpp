@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "core/output/version.hpp"
 #include "core/state_hash.hpp"
 #include "core/step.hpp"
 #include "core/testing/probe/models.hpp"
@@ -97,10 +96,6 @@ void run(probe::Scene<Dim> scene, const Options& options) {
 
 int main(int argc, char** argv) {
   const Options options = read(argc, argv);
-  if (options.threads > 1 && !has_openmp()) {
-    std::puts("skipped: built without threads");
-    return 77;
-  }
   if (options.flush) flush_denormals();
   run(probe::collapse(), options);
   run(probe::wall(), options);
