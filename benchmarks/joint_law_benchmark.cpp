@@ -108,7 +108,7 @@ void by_hand(const Model<3>& model, State<3>& state) {
       c.history.shear_force = carried(c.history.shear_force, c.history.normal, n, k.turn);
     }
     const JointForce<3> answer =
-        elastic_coulomb<3>(p, state.schedule.friction[c.properties], 0, k, c.history.shear_force);
+        elastic_coulomb<3>(p, std::tan(state.schedule.friction[c.properties]), 0, k, c.history.shear_force);
     state.energy.elastic += answer.elastic;
     state.energy.flows[Source::friction] += answer.friction;
     c.history.plastic_slip += answer.plastic_slip;

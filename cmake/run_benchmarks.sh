@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # run_benchmarks.sh BUILD: times the kernels; medians on the terminal, Google Benchmark's JSON in the build folder. The
 # contact kernel's peers take turns with it at random, so that a busy moment of the machine hits all alike.
-# Then whole steps of piles by stages, as a table and step.csv, and twenty thousand blocks from their fall to rest with
-# what they promise (fall.csv), which takes most of the time; broken promises fail.
+# Then the parts of a step beside its kernel, whole steps of piles by stages, as a table and step.csv, and twenty thousand
+# blocks from their fall to rest with what they promise (fall.csv), which takes most of the time; broken promises fail.
 # VOUSSOIR_BENCHMARK=quick: only the contact kernel, in less than a minute, for the manual.
 set -euo pipefail
 build=$1
@@ -23,6 +23,7 @@ else
     "$program" --benchmark_repetitions=9 --benchmark_min_time=0.05 --benchmark_report_aggregates_only=true \
                --benchmark_out="$out/$(basename "$program").json" --benchmark_out_format=json
   done
+  "$build/benchmarks/step_parts" "$(dirname "$0")/../cases/slicing/settling.toml" | tee "$out/step_parts.txt"
   "$build/benchmarks/pile_benchmark" "$out"
   "$build/benchmarks/fall_benchmark" "$out" "${VOUSSOIR_FALL_BLOCKS:-20000}"
 fi

@@ -48,6 +48,16 @@ struct ContactsByBody {
   std::vector<int> first, places;
 };
 
+// What a contact does to its bodies, apart from all else that is known of it: bodies ask for it in another order than
+// contacts lie in.
+template <int Dim>
+struct ContactLoad {
+  int second = -1;                             // the second body; -1: they do not touch
+  Vector<Dim> force = Vector<Dim>::Zero();     // N on the second body
+  Spin<Dim> about_first = Spin<Dim>::Zero();   // N m: this force's moment about the first body's centroid
+  Spin<Dim> about_second = Spin<Dim>::Zero();  // N m: about its own
+};
+
 // of bodies, by source
 template <int Dim>
 using LoadsBySource = BySource<std::vector<Load<Dim>>, load_count>;
@@ -199,9 +209,10 @@ struct State {
   std::vector<double> path_bounds;         // m, by body: how far any of its points may have gone, all ways added up
   std::vector<char> left_behind;  // by body: has failed in a search that its failure does not end, and counts no more
                                   // where rest is judged; empty: none
-  std::vector<CachedPose<Dim>> poses;  // by body; rebuilt every step
-  ContactsByBody by_body;              // places in `contacts`; rebuilt with them
-  std::vector<double> frequency;       // rad/s, by body: stiffest mode of the last time-step estimate
+  std::vector<CachedPose<Dim>> poses;           // by body; rebuilt every step
+  ContactsByBody by_body;                       // places in `contacts`; rebuilt with them
+  std::vector<ContactLoad<Dim>> contact_loads;  // by contact; found every step
+  std::vector<double> frequency;                // rad/s, by body: stiffest mode of the last time-step estimate
   Relaxation<Dim> relaxation;
   NewtonIncrement<Dim> newton;
   Schedule schedule;

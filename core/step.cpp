@@ -1,6 +1,5 @@
 #include "core/step.hpp"
 
-#include "core/step/contacts.hpp"
 #include "core/step/joint_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
@@ -14,11 +13,9 @@ void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   // who may touch whom: bounding boxes with a skin, renewed only when a body has left it
   find_neighbours(model, settings, state);
 
-  // who does: point, normal, overlap and area of each candidate pair, each in its own slot
-  find_contacts(model, settings, state);
-
-  // what the joints answer: overlap and slip to forces, histories renewed
-  apply_joint_laws(model, settings, state);
+  // who does: point, normal, overlap and area of each candidate pair, each in its own slot; and what its joint answers
+  // while all of it is at hand: overlap and slip to forces, histories renewed
+  find_joint_forces(model, settings, state);
 
   // what acts on each body: joint forces in the order of the contacts, then gravity
   sum_loads(model, settings, state);

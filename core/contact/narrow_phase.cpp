@@ -1,7 +1,7 @@
 #include "core/contact/narrow_phase.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <array>
 
 #include "core/contact/extended_precision_overlap.hpp"
 #include "core/contact/kernel/kernel.hpp"
@@ -95,40 +95,60 @@ void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const 
   if (task.magnified) measure_overlap_in_extended_precision(pair, contact);
 }
 
-// as many as the nearest cache holds with their contacts
-constexpr std::size_t pairs_together = 64;
+// Places of some pairs, of which each fits into a byte.
+struct Places {
+  std::array<unsigned char, pairs_together> place;
+  std::size_t count = 0;
+};
+
+// by a number of planes, those with more than most have all alike; equal ones stay in their order
+template <class Planes>
+Places sorted_by(const Places& places, const Planes& planes) {
+  constexpr std::size_t most = 32;
+  std::array<unsigned char, most + 2> first{};
+  const auto key = [&](unsigned char place) { return std::min(planes(place), most); };
+  for (std::size_t i = 0; i < places.count; ++i)
+    ++first[key(places.place[i]) + 1];
+  for (std::size_t k = 1; k < first.size(); ++k)
+    first[k] = static_cast<unsigned char>(first[k] + first[k - 1]);
+  Places sorted;
+  sorted.count = places.count;
+  for (std::size_t i = 0; i < places.count; ++i)
+    sorted.place[first[key(places.place[i])]++] = places.place[i];
+  return sorted;
+}
 
 // Pairs that need the same work side by side: a register is as slow as its largest pair.
 template <int Dim>
-void sort_by_work(std::span<KernelTask<Dim>> tasks) {
-  const auto less = [](const KernelTask<Dim>& s, const KernelTask<Dim>& t) {
-    return std::tuple(s.pair->level, s.planes_a, s.planes_b) < std::tuple(t.pair->level, t.planes_a, t.planes_b);
-  };
-  if (!std::is_sorted(tasks.begin(), tasks.end(), less)) std::sort(tasks.begin(), tasks.end(), less);
+Places sorted_by_work(std::span<const Pair<Dim>> pairs, const Places& places) {
+  return sorted_by(sorted_by(places, [&](int i) { return pairs[i].b->faces.size(); }),
+                   [&](int i) { return pairs[i].a->faces.size(); });
 }
 
 // at most pairs_together
 template <int Dim>
 void resolve_batch(std::span<const Pair<Dim>> pairs, const ContactSettings& settings, const Solvers<Dim>& solvers,
                    std::span<Contact<Dim>* const> contacts, KernelCounters& counters) {
-  KernelTask<Dim> tasks[pairs_together];
-  std::size_t count = 0;
+  Places together;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Pair<Dim>& pair = pairs[i];
     Contact<Dim>& contact = *contacts[i];
-    const Proof<Dim>& proof = contact.proof;
-    if (remains_separated(pair, contact, counters)) continue;
-    KernelTask<Dim>& task = tasks[count] = kernel_task(pair, settings, contact);
     // persistent contacts are resolved together, below
-    if (proof.kind == ProofKind::interior_point)
-      ++count;
-    else
-      resolve_cold(task, settings, solvers, counters);
+    if (contact.proof.kind == ProofKind::interior_point) {
+      together.place[together.count++] = static_cast<unsigned char>(i);
+      continue;
+    }
+    if (remains_separated(pair, contact, counters)) continue;
+    KernelTask<Dim> task = kernel_task(pair, settings, contact);
+    resolve_cold(task, settings, solvers, counters);
   }
-  if (count == 0) return;
+  if (together.count == 0) return;
 
-  const std::span<KernelTask<Dim>> persistent(tasks, count);
-  sort_by_work(persistent);
+  KernelTask<Dim> tasks[pairs_together];
+  const Places sorted = sorted_by_work(pairs, together);
+  for (std::size_t i = 0; i < sorted.count; ++i)
+    tasks[i] = kernel_task(pairs[sorted.place[i]], settings, *contacts[sorted.place[i]]);
+  const std::span<KernelTask<Dim>> persistent(tasks, sorted.count);
   resolve_persistent<Dim>(persistent, kernel_options(settings), counters);
   for (KernelTask<Dim>& task : persistent) {
     if (!task.answered) {

@@ -83,7 +83,7 @@ Vector<3> carried(const Vector<3>& shear, const Vector<3>& old_normal, const Vec
 }
 
 template <int Dim>
-JointForce<Dim> elastic_coulomb(const JointProperties& properties, double friction, double dashpot,
+JointForce<Dim> elastic_coulomb(const JointProperties& properties, double coefficient, double dashpot,
                                 const JointKinematics<Dim>& kinematics, Vector<Dim>& shear) {
   const double normal_stiffness = properties.normal_stiffness * kinematics.area * kinematics.stiffness_factor;
   const double shear_stiffness = properties.shear_stiffness * kinematics.area;
@@ -94,7 +94,7 @@ JointForce<Dim> elastic_coulomb(const JointProperties& properties, double fricti
   JointForce<Dim> result;
   const Vector<Dim> old_shear = shear;
   shear -= shear_stiffness * kinematics.slip;
-  const double limit = std::tan(friction) * normal_force, trial = length_of<Dim>(shear);
+  const double limit = coefficient * normal_force, trial = length_of<Dim>(shear);
   if (trial > limit) {
     const Vector<Dim> excess = shear * (1 - limit / trial);
     shear *= limit / trial;

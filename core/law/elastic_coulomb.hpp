@@ -41,9 +41,9 @@ Vector<2> carried(const Vector<2>& shear, const Vector<2>& old_normal, const Vec
 Vector<3> carried(const Vector<3>& shear, const Vector<3>& old_normal, const Vector<3>& normal, double turn);
 
 // Force on the second body. `shear` is its old shear force already carried to the new plane and is updated to the new
-// one. `friction` in rad; `dashpot` in N s/m adds to the normal force, which never pulls.
+// one. `coefficient` of friction; `dashpot` in N s/m adds to the normal force, which never pulls.
 template <int Dim>
-JointForce<Dim> elastic_coulomb(const JointProperties& properties, double friction, double dashpot,
+JointForce<Dim> elastic_coulomb(const JointProperties& properties, double coefficient, double dashpot,
                                 const JointKinematics<Dim>& kinematics, Vector<Dim>& shear);
 
 }  // namespace voussoir

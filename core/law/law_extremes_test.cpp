@@ -2,6 +2,7 @@
 // …Long hold the long siblings of the tests before them (`make test-long`).
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -64,7 +65,7 @@ void expect_full_turn(std::uint64_t seed, long long steps) {
   for (long long i = 1; i <= steps; ++i) {
     const Vector<Dim> next = at_angle<Dim>(start, second, 2 * pi * static_cast<double>(i) / static_cast<double>(steps));
     shear = carried(shear, normal, next, 0);
-    elastic_coulomb<Dim>(joint, 0.5, 0, pressed<Dim>(next, 1e-3, 1), shear);
+    elastic_coulomb<Dim>(joint, std::tan(0.5), 0, pressed<Dim>(next, 1e-3, 1), shear);
     normal = next;
   }
   EXPECT_LT(std::abs(static_cast<double>(length<Dim>(shear) / length<Dim>(first)) - 1), walk(steps)) << steps;
@@ -141,7 +142,7 @@ void expect_exact_return(std::uint64_t seed) {
       const double trial = excess * shapes::uniform(random, 1, 1.1) * limit, before = i % 2 ? 0 : trial / 2;
       k.slip = -(trial - before) / (joint.shear_stiffness * k.area) * across;
       Vector<Dim> shear = before * across;
-      const JointForce<Dim> answer = elastic_coulomb<Dim>(joint, friction, 0, k, shear);
+      const JointForce<Dim> answer = elastic_coulomb<Dim>(joint, std::tan(friction), 0, k, shear);
       EXPECT_LE(length<Dim>(shear), limit * (1 + cone_rounding));
       EXPECT_LE((shear - limit * across).norm(), 2 * cone_rounding * limit);
       EXPECT_NEAR(answer.plastic_slip, (trial - limit) / (joint.shear_stiffness * k.area),
@@ -161,7 +162,7 @@ void expect_zero_cases(std::uint64_t seed) {
   JointProperties joint{"joint", 2e9, 1e9, 0.5, false};
   // nothing old, nothing new
   Vector<Dim> shear = Vector<Dim>::Zero();
-  EXPECT_EQ(elastic_coulomb<Dim>(joint, 0.5, 0, pressed<Dim>(n, 1e-3, 1), shear).plastic_slip, 0);
+  EXPECT_EQ(elastic_coulomb<Dim>(joint, std::tan(0.5), 0, pressed<Dim>(n, 1e-3, 1), shear).plastic_slip, 0);
   EXPECT_EQ(shear, Vector<Dim>(Vector<Dim>::Zero()));
   // no normal force, no friction, no area: nothing can be carried
   for (const auto& [friction, overlap, area] : {std::array{0.5, 0.0, 1.0}, {0.0, 1e-3, 1.0}, {0.5, 1e-3, 0.0}})
@@ -169,7 +170,7 @@ void expect_zero_cases(std::uint64_t seed) {
       shear = 5 * across;
       JointKinematics<Dim> k = pressed<Dim>(n, overlap, area);
       k.slip = slip * across;
-      const JointForce<Dim> answer = elastic_coulomb<Dim>(joint, friction, 0, k, shear);
+      const JointForce<Dim> answer = elastic_coulomb<Dim>(joint, std::tan(friction), 0, k, shear);
       EXPECT_EQ(shear, Vector<Dim>(Vector<Dim>::Zero()));
       EXPECT_TRUE(answer.force.allFinite());
       EXPECT_GE(answer.plastic_slip, 0);
@@ -179,7 +180,7 @@ void expect_zero_cases(std::uint64_t seed) {
   shear = 5 * across;
   JointKinematics<Dim> k = pressed<Dim>(n, 1e-9, 1);
   k.slip = across;
-  EXPECT_EQ(elastic_coulomb<Dim>(joint, 0.5, 0, k, shear).plastic_slip, 0);
+  EXPECT_EQ(elastic_coulomb<Dim>(joint, std::tan(0.5), 0, k, shear).plastic_slip, 0);
   EXPECT_LE(length<Dim>(shear), std::tan(0.5) * 2 * (1 + cone_rounding));
 }
 
@@ -206,7 +207,7 @@ void expect_triangle_loop(std::uint64_t seed, double amplitude_over_limit) {
     const auto slip = [&](int steps, double towards) {
       for (int i = 0; i < steps; ++i) {
         k.slip = towards * amplitude / quarter * across;
-        const JointForce<Dim> answer = elastic_coulomb<Dim>(joint, 0.5, 0, k, shear);
+        const JointForce<Dim> answer = elastic_coulomb<Dim>(joint, std::tan(0.5), 0, k, shear);
         dissipated += shear.norm() * answer.plastic_slip;
       }
     };
@@ -253,7 +254,7 @@ TEST(LawExtremes, ACircularLoopCostsWhatPlasticityCosts) {
           k.slip = next - place;
           place = next;
           const Vector<3> before = shear;
-          const JointForce<3> answer = elastic_coulomb<3>(joint, 0.5, 0, k, shear);
+          const JointForce<3> answer = elastic_coulomb<3>(joint, std::tan(0.5), 0, k, shear);
           dissipated += shear.norm() * answer.plastic_slip;
           work -= 0.5 * (before + shear).dot(k.slip);
         }
@@ -297,7 +298,7 @@ void expect_no_negative_dissipation(std::uint64_t seed, int paths) {
       const Vector<Dim> motion = shapes::power_of_ten(random, -3, 2) * overlap * shapes::direction<Dim>(random);
       k.slip = motion - normal.dot(motion) * normal;
       const Vector<Dim> before = shear;
-      const JointForce<Dim> answer = elastic_coulomb<Dim>(joint, friction, 0, k, shear);
+      const JointForce<Dim> answer = elastic_coulomb<Dim>(joint, std::tan(friction), 0, k, shear);
 
       const double stiffness = joint.shear_stiffness * area;
       const Vector<Dim> plastic = k.slip + (shear - before) / stiffness;
@@ -339,7 +340,7 @@ void expect_any_size(std::uint64_t seed) {
         k.slip = std::array{0.0, 1e-3, 1.0, 1e3}[i] * k.overlap * perpendicular(n);
         Vector<Dim> shear = 0.3 * normal_force * perpendicular(n);
         shear = carried(shear, n, n, 0.1);
-        const JointForce<Dim> answer = elastic_coulomb<Dim>(joint, friction, 0, k, shear);
+        const JointForce<Dim> answer = elastic_coulomb<Dim>(joint, std::tan(friction), 0, k, shear);
         ASSERT_TRUE(shear.allFinite() && answer.force.allFinite() && std::isfinite(answer.plastic_slip));
         const long double limit = std::tan(friction) * normal_force;
         ASSERT_LE(length<Dim>(shear), limit * (1 + cone_rounding)) << "1e" << power << " N, kn/ks " << ratio;
@@ -369,7 +370,7 @@ void expect_no_pull(std::uint64_t seed) {
       k.slip = 1e-3 * shapes::power_of_ten(random, -6, 0) * perpendicular(n);
       const double dashpot = 2 * ratio * std::sqrt(joint.normal_stiffness * shapes::power_of_ten(random, -3, 9));
       Vector<Dim> shear = Vector<Dim>::Zero();
-      const JointForce<Dim> answer = elastic_coulomb<Dim>(joint, 0.5, dashpot, k, shear);
+      const JointForce<Dim> answer = elastic_coulomb<Dim>(joint, std::tan(0.5), dashpot, k, shear);
       const Vector<Dim> along = answer.force - shear;
       EXPECT_GE(along.dot(n), 0);
       released += along.isZero(0);

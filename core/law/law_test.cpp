@@ -1,6 +1,7 @@
 // The joint law: the friction cone, shear carried along, and energy.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "core/law/elastic_coulomb.hpp"
@@ -48,7 +49,7 @@ void expect_return_to_the_cone(std::uint64_t seed) {
       k.slip = -trial / (joint.shear_stiffness * k.area) * across;
 
       Vector<Dim> shear = Vector<Dim>::Zero();
-      const JointForce<Dim> f = elastic_coulomb<Dim>(joint, friction, 0, k, shear);
+      const JointForce<Dim> f = elastic_coulomb<Dim>(joint, std::tan(friction), 0, k, shear);
       EXPECT_NEAR(shear.norm(), limit, rounding * limit);
       EXPECT_NEAR(shear.dot(across), limit, 10 * rounding * limit);  // along the trial's direction
       EXPECT_NEAR(f.plastic_slip, (trial - limit) / (joint.shear_stiffness * k.area), 10 * rounding * k.slip.norm());
@@ -67,7 +68,7 @@ TEST(Coulomb, IsElasticInsideTheCone) {
   const Vector<3> n(0, 0, 1);
   Vector<3> shear(3, -4, 0);
   const JointKinematics<3> k = pressed<3>(n, 1e-3, {1e-6, 2e-6, 0});
-  const JointForce<3> f = elastic_coulomb<3>(joint, 0.5, 0, k, shear);
+  const JointForce<3> f = elastic_coulomb<3>(joint, std::tan(0.5), 0, k, shear);
   const double ks = joint.shear_stiffness * k.area;
   EXPECT_NEAR((shear - Vector<3>(3 - 1e-6 * ks, -4 - 2e-6 * ks, 0)).norm(), 0, rounding * ks);
   EXPECT_EQ(f.plastic_slip, 0);
@@ -87,7 +88,8 @@ TEST(Coulomb, WithoutFrictionThereIsNoShear) {
   EXPECT_TRUE(
       std::isfinite(elastic_coulomb<3>(smooth, 0, 0, pressed<3>({0, 0, 1}, 1e-3, {1e-3, 0, 0}), shear).plastic_slip));
   shear.setZero();
-  const Vector<3> unloaded = elastic_coulomb<3>(joint, 0.5, 0, pressed<3>({0, 0, 1}, 0, {0, 0, 0}), shear).force;
+  const Vector<3> unloaded =
+      elastic_coulomb<3>(joint, std::tan(0.5), 0, pressed<3>({0, 0, 1}, 0, {0, 0, 0}), shear).force;
   EXPECT_EQ(unloaded.norm(), 0);
 }
 
@@ -101,7 +103,7 @@ TEST(Coulomb, NeverPulls) {
     Vector<3> shear = Vector<3>::Zero();
     const double dashpot = shapes::power_of_ten(random, 0, 8);
     const double expected = joint.normal_stiffness * k.area * k.overlap + dashpot * k.closing_speed;
-    const JointForce<3> f = elastic_coulomb<3>(joint, 0.5, dashpot, k, shear);
+    const JointForce<3> f = elastic_coulomb<3>(joint, std::tan(0.5), dashpot, k, shear);
     const double largest = std::abs(expected) + f.force.norm();
     EXPECT_NEAR(f.force.dot(n), std::max(expected, 0.0), 10 * rounding * largest);
     // the limit follows the total normal force, damping included
@@ -123,7 +125,7 @@ void expect_energy_on_random_paths(std::uint64_t seed) {
     for (int step = 0; step < 500; ++step) {
       const double size = shapes::power_of_ten(random, -3, 1) * overlap;
       const JointKinematics<Dim> k = pressed<Dim>(n, overlap, size * shapes::direction<Dim>(random));
-      const JointForce<Dim> f = elastic_coulomb<Dim>(joint, friction, 0, k, shear);
+      const JointForce<Dim> f = elastic_coulomb<Dim>(joint, std::tan(friction), 0, k, shear);
       EXPECT_GE(f.plastic_slip, 0);
       EXPECT_LE(f.plastic_slip, k.slip.norm() + 10 * rounding * (overlap + size));
       work -= shear.dot(k.slip);
@@ -149,8 +151,10 @@ TEST(Coulomb, APathInAPlaneIsTheSameInBothDimensions) {
   Vector<3> solid = Vector<3>::Zero();
   for (int i = 0; i < 200; ++i) {
     const double slip = shapes::uniform(random, -1, 1) * 1e-4, overlap = shapes::uniform(random, 0, 1) * 1e-4;
-    const Vector<2> f2 = elastic_coulomb<2>(joint, 0.6, 0, pressed<2>({0, 1}, overlap, {slip, 0}), flat).force;
-    const Vector<3> f3 = elastic_coulomb<3>(joint, 0.6, 0, pressed<3>({0, 1, 0}, overlap, {slip, 0, 0}), solid).force;
+    const Vector<2> f2 =
+        elastic_coulomb<2>(joint, std::tan(0.6), 0, pressed<2>({0, 1}, overlap, {slip, 0}), flat).force;
+    const Vector<3> f3 =
+        elastic_coulomb<3>(joint, std::tan(0.6), 0, pressed<3>({0, 1, 0}, overlap, {slip, 0, 0}), solid).force;
     EXPECT_NEAR((f2 - f3.head<2>()).norm(), 0, rounding * 1e6);
     EXPECT_EQ(f3[2], 0);
   }

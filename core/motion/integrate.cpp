@@ -204,13 +204,13 @@ double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& 
     long long touching = 0;
   };
   const auto add_contact = [&](int i, ContactForces& sum) {
-    const Contact<Dim>& c = state.contacts[i];
-    if (!c.touching()) return;
+    const ContactLoad<Dim>& c = state.contact_loads[i];
+    if (c.second < 0) return;
     sum.forces += c.force.norm();
     ++sum.touching;
   };
   ContactForces all;
-  for (const ContactForces& some : sums_in_groups<ContactForces>(threads, state.contacts.size(), add_contact)) {
+  for (const ContactForces& some : sums_in_groups<ContactForces>(threads, state.contact_loads.size(), add_contact)) {
     all.forces += some.forces;
     all.touching += some.touching;
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "core/law/elastic_coulomb.hpp"
@@ -223,7 +224,7 @@ double weight_and_contact(double y) {
   if (y >= 0) return -1;
   JointKinematics<2> k{.normal = Vector<2>::UnitY(), .overlap = -y, .area = 1, .slip = Vector<2>::Zero()};
   Vector<2> shear = Vector<2>::Zero();
-  return elastic_coulomb<2>(one_sided, 0.5, 0, k, shear).force[1] - 1;
+  return elastic_coulomb<2>(one_sided, std::tan(0.5), 0, k, shear).force[1] - 1;
 }
 
 EnergyError bouncing(double height, double fraction, long long steps) {

@@ -249,11 +249,7 @@ TEST(Unbalanced, ComparesForceAndMomentumWithTheContacts) {
   EXPECT_EQ(unbalanced_ratio(model, 1, state), 0);
   state.loads[1].force = {3, 4};
   EXPECT_EQ(unbalanced_ratio(model, 1, state), std::numeric_limits<double>::infinity());
-  Contact<2> contact;
-  contact.part_b = 1;
-  contact.status = ContactStatus::touching;
-  contact.force = {0, 50};
-  state.contacts = {contact};
+  state.contact_loads = {{}, {.second = 1, .force = {0, 50}}};
   EXPECT_NEAR(unbalanced_ratio(model, 1, state), 0.1, rounding);
   // momentum times frequency counts as force
   state.loads[1].force.setZero();

@@ -150,6 +150,7 @@ struct BodiesToUpdate {
   void begin(std::size_t count) {
     place.assign(count, -1);
     bodies.clear();
+    bodies.reserve(count);
   }
   template <int Dim>
   void add(const Model<Dim>& model, int body) {

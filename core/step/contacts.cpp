@@ -1,6 +1,7 @@
 #include "core/step/contacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "core/contact/narrow_phase.hpp"
@@ -54,37 +55,32 @@ struct Tally {
   long long unconverged = 0;
 };
 
-// the contacts [first, last) of the list, in one batch
+// contacts that are to be resolved together
 template <int Dim>
-void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& state, QueryLevel level, double gap,
-             int first, int last, Tally& tally) {
-  static thread_local std::vector<Pair<Dim>> pairs;
-  static thread_local std::vector<Contact<Dim>*> waiting;
-  static thread_local std::vector<char> touched;  // of those that wait, before
-  pairs.clear();
-  waiting.clear();
-  touched.clear();
-  for (int i = first; i < last; ++i) {
-    Contact<Dim>& c = state.contacts[i];
-    if (!is_near(model, state, gap, c)) {
-      if (c.bond_due && whole_bonds(state, static_cast<std::size_t>(i)) > 0)
-        c.bond_due = false;  // lost, not to be made again
-      set_apart(c);
-      continue;
-    }
-    if (c.status == ContactStatus::separated && !c.bond_due && travelled(model, state, c) < c.free_until) {
-      ++tally.kernel.motion_skips;
-      continue;
-    }
-    pairs.push_back(pair_of(model, state, c.part_a, c.part_b, level));
-    waiting.push_back(&c);
-    touched.push_back(c.touching());
-  }
-  narrow_phase<Dim>(pairs, settings.contact, model.solvers, waiting, tally.kernel);
+struct Waiting {
+  int count = 0;
+  std::array<Pair<Dim>, pairs_together> pairs;
+  std::array<Contact<Dim>*, pairs_together> contacts;
+  std::array<bool, pairs_together> touched;  // before
 
+  void add(const Model<Dim>& model, const State<Dim>& state, QueryLevel level, Contact<Dim>& c) {
+    set_pair(model, state, c.part_a, c.part_b, level, pairs[count]);
+    contacts[count] = &c;
+    touched[count] = c.touching();
+    ++count;
+  }
+};
+
+// what they turn out to be
+template <int Dim>
+void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& state, double gap,
+             const Waiting<Dim>& waiting, Tally& tally) {
+  const std::span contacts = std::span(waiting.contacts).first(waiting.count);
+  narrow_phase<Dim>(std::span(waiting.pairs).first(waiting.count), settings.contact, model.solvers, contacts,
+                    tally.kernel);
   const std::size_t stride = state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
-  for (std::size_t i = 0; i < waiting.size(); ++i) {
-    Contact<Dim>* const c = waiting[i];
+  for (int i = 0; i < waiting.count; ++i) {
+    Contact<Dim>* const c = contacts[i];
     const std::size_t place = c - state.contacts.data();
     const long long bonds = c->bond_due ? whole_bonds(state, place) : 0;
     if (c->unanswered()) ++tally.unconverged;
@@ -93,14 +89,14 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
       c->properties = c->joint == no_joint ? model.default_properties : model.joints[c->joint].properties;
       const int along = model.properties[c->properties].sub_contacts;
       if (const int cells = sub_contact_count<Dim>(along); cells > 0)
-        divide<Dim>(pairs[i], along, *c, std::span(state.subs).subspan(place * stride, cells));
+        divide<Dim>(waiting.pairs[i], along, *c, std::span(state.subs).subspan(place * stride, cells));
       else
         c->cells = 0;
       if (bonds > 0 && whole_bonds(state, place) < bonds) c->bond_due = false;
       continue;
     }
     if (bonds > 0 || (c->status == ContactStatus::separated && c->proof.margin > gap)) c->bond_due = false;
-    if (touched[i]) {
+    if (waiting.touched[i]) {
       c->near_until = 0;  // only its boxes were looked at
       if (!is_near(model, state, gap, *c)) {
         set_apart(*c);
@@ -111,6 +107,35 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
     c->free_until =
         c->status == ContactStatus::separated ? (travelled(model, state, *c) + c->proof.margin) * downwards : 0;
   }
+}
+
+// the contacts of one group
+template <int Dim>
+void find_contacts_of(const Model<Dim>& model, const Settings& settings, State<Dim>& state, QueryLevel level,
+                      double gap, int group, const FoundContacts<Dim>& found, Tally& tally) {
+  static thread_local Waiting<Dim> waiting;
+  const auto resolve_waiting = [&] {
+    resolve(model, settings, state, gap, waiting, tally);
+    if (found) found(group, std::span(waiting.contacts).first(waiting.count));
+    waiting.count = 0;
+  };
+  const std::size_t first = group * summed_together, last = std::min(first + summed_together, state.contacts.size());
+  for (std::size_t i = first; i < last; ++i) {
+    Contact<Dim>& c = state.contacts[i];
+    state.contact_loads[i].second = -1;
+    if (!is_near(model, state, gap, c)) {
+      if (c.bond_due && whole_bonds(state, i) > 0) c.bond_due = false;  // lost, not to be made again
+      set_apart(c);
+      continue;
+    }
+    if (c.status == ContactStatus::separated && !c.bond_due && travelled(model, state, c) < c.free_until) {
+      ++tally.kernel.motion_skips;
+      continue;
+    }
+    waiting.add(model, state, level, c);
+    if (waiting.count == pairs_together) resolve_waiting();
+  }
+  if (waiting.count > 0) resolve_waiting();
 }
 
 void add(Counters& total, const Tally& tally) {
@@ -133,25 +158,23 @@ void add(Counters& total, const Tally& tally) {
 }  // namespace
 
 template <int Dim>
-void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  const int count = static_cast<int>(state.contacts.size());
+void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
+                   const FoundContacts<Dim>& found) {
   const QueryLevel level = needs_area(model) ? QueryLevel::area : QueryLevel::overlap;
   const double gap = closed_gap(model);
   cache_poses(model, settings.threads, state);
   count_travels(model, settings, state);
-  // batches that stay in the cache, and enough of them for every thread
-  const int batch = std::clamp(count / settings.threads + 1, 16, 256), batches = (count + batch - 1) / batch;
+  state.contact_loads.resize(state.contacts.size());
   static thread_local std::vector<Tally> own;
   std::vector<Tally>& tallies = own;  // this thread's, filled by all
-  tallies.assign(batches, {});
-  on_threads(settings.threads, batches, [&](int i) {
-    resolve(model, settings, state, level, gap, i * batch, std::min(count, (i + 1) * batch), tallies[i]);
-  });
+  tallies.assign(groups_of_contacts(state), {});
+  on_threads(settings.threads, static_cast<int>(tallies.size()),
+             [&](int group) { find_contacts_of(model, settings, state, level, gap, group, found, tallies[group]); });
   for (const Tally& tally : tallies)
     add(state.counters, tally);
 }
 
-template void find_contacts<2>(const Model<2>&, const Settings&, State<2>&);
-template void find_contacts<3>(const Model<3>&, const Settings&, State<3>&);
+template void find_contacts<2>(const Model<2>&, const Settings&, State<2>&, const FoundContacts<2>&);
+template void find_contacts<3>(const Model<3>&, const Settings&, State<3>&, const FoundContacts<3>&);
 
 }  // namespace voussoir

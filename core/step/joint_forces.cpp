@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "core/law/joint_law.hpp"
@@ -41,8 +42,25 @@ struct JointSums {
   long long snap_backs = 0, bonds_made = 0;
 };
 
-double factor_of(const Schedule& schedule, int properties) {
-  return schedule.strength_factor.empty() ? 1 : schedule.strength_factor[properties];
+// of some joint properties as it is now
+struct Friction {
+  double angle;            // rad
+  double coefficient;      // its tangent
+  double strength_factor;  // divides cohesion; the tangent is divided already
+};
+
+Friction friction_of(const Schedule& schedule, std::size_t properties) {
+  const double angle = schedule.friction[properties];
+  return {angle, std::tan(angle), schedule.strength_factor.empty() ? 1 : schedule.strength_factor[properties]};
+}
+
+// of all joint properties; until the next call on this thread
+const std::vector<Friction>& frictions_of(const Schedule& schedule) {
+  static thread_local std::vector<Friction> frictions;
+  frictions.clear();
+  for (std::size_t i = 0; i < schedule.friction.size(); ++i)
+    frictions.push_back(friction_of(schedule, i));
+  return frictions;
 }
 
 // the answer of a plain joint, inlined as below; `damping` over the root of the normal stiffness
@@ -74,8 +92,8 @@ JointForce<Dim> answer_of_laws(const JointProperties& properties, double frictio
 template <int Dim>
 [[gnu::always_inline]] inline Vector<Dim> joint_force(const JointProperties& properties, const Settings& settings,
                                                       const State<Dim>& state, const PairMotion<Dim>& motion,
-                                                      const Bearing<Dim>& at, int friction_of, JointState<Dim>& history,
-                                                      JointSums& sums) {
+                                                      const Bearing<Dim>& at, const Friction& friction,
+                                                      JointState<Dim>& history, JointSums& sums) {
   // the slip is the one of the step that led here
   const double dt = state.time_step;
   const Vector<Dim>& n = at.normal;
@@ -115,15 +133,14 @@ template <int Dim>
   }
 
   // the dashpot over the root of the normal stiffness; between two immobile bodies there is nothing to damp
-  const double friction = state.schedule.friction[friction_of];
   const double damping = settings.damping.viscous_ratio > 0 && motion.inverse_mass > 0 && !state.relaxation.under_way
                              ? 2 * settings.damping.viscous_ratio *
                                    std::sqrt(k.area * k.stiffness_factor / motion.inverse_mass * at.fraction)
                              : 0;
-  const JointForce<Dim> answer = properties.laws.is_plain()
-                                     ? plain_answer<Dim>(properties, friction, damping, k, history)
-                                     : answer_of_laws<Dim>(properties, friction, damping, k,
-                                                           factor_of(state.schedule, friction_of), sums, history);
+  const JointForce<Dim> answer =
+      properties.laws.is_plain()
+          ? plain_answer<Dim>(properties, friction.coefficient, damping, k, history)
+          : answer_of_laws<Dim>(properties, friction.angle, damping, k, friction.strength_factor, sums, history);
   sums.elastic += answer.elastic;
   sums.friction += answer.friction;
   sums.dashpots += 0.5 * (history.dashpot * closing_before + answer.dashpot * k.closing_speed) * dt;
@@ -154,15 +171,31 @@ void bond_what_presses(const JointProperties& properties, std::size_t place, Sta
   }
 }
 
+// what the force of a contact that touches does to its bodies; the second one's centroid is `apart` from the first's
+template <int Dim>
+[[gnu::always_inline]] inline void note_load(const Contact<Dim>& c, std::span<const SubContact<Dim>> subs, int second,
+                                             const Vector<Dim>& apart, ContactLoad<Dim>& load) {
+  load = {.second = second, .force = c.force};
+  const auto add = [&](const Vector<Dim>& point, const Vector<Dim>& force) {
+    load.about_first += moment(point, force);
+    load.about_second += moment(Vector<Dim>(point - apart), force);
+  };
+  if (c.cells == 0) add(c.geometry.point, c.force);
+  for (const SubContact<Dim>& s : subs)
+    if (s.area > 0) add(s.point, s.force);
+}
+
 // The joint of one contact, or of each of its cells; inlined as above.
 template <int Dim>
-[[gnu::always_inline]] inline void answer(const Model<Dim>& model, const Settings& settings, std::size_t place,
-                                          State<Dim>& state, JointSums& sums) {
+[[gnu::always_inline]] inline void answer(const Model<Dim>& model, const Settings& settings,
+                                          const std::vector<Friction>& frictions, std::size_t place, State<Dim>& state,
+                                          JointSums& sums) {
   Contact<Dim>& c = state.contacts[place];
   if (!c.touching()) return;
   const JointProperties& properties = model.properties[c.properties];
   if (c.bond_due) [[unlikely]]
     bond_what_presses(properties, place, state, sums.bonds_made);
+  const Friction& friction = frictions[c.properties];
   const PairMotion<Dim> motion = motion_of(model, state, c);
   if (c.cells == 0) {
     Bearing<Dim> at{c.geometry.point, c.geometry.normal, c.geometry.overlap, c.geometry.area};
@@ -170,7 +203,8 @@ template <int Dim>
       at.area = 1;
       at.stiffness_factor = c.geometry.stiffness_factor;
     }
-    c.force = joint_force<Dim>(properties, settings, state, motion, at, c.properties, c.history, sums);
+    c.force = joint_force<Dim>(properties, settings, state, motion, at, friction, c.history, sums);
+    note_load<Dim>(c, {}, model.parts[c.part_b].body, motion.between, state.contact_loads[place]);
     return;
   }
   // each cell answers for itself; the contact keeps what they are together
@@ -189,13 +223,29 @@ template <int Dim>
     const bool bonded = s.history.bonded;
     s.force = joint_force<Dim>(properties, settings, state, motion,
                                {s.point, c.geometry.normal, s.overlap, area, s.overlap_variance, s.area / whole},
-                               c.properties, s.history, sums);
+                               friction, s.history, sums);
     c.force += s.force;
     c.history.shear_force += s.history.shear_force;
     c.history.plastic_slip += s.area / whole * s.history.plastic_slip;
     c.history.dashpot += s.history.dashpot;
     c.history.bonded = c.history.bonded && s.history.bonded;
     if (bonded && !s.history.bonded) c.bond_due = false;  // where one breaks, none is made any more
+  }
+  note_load<Dim>(c, subs_of(std::as_const(state), place), model.parts[c.part_b].body, motion.between,
+                 state.contact_loads[place]);
+}
+
+// the sums of all groups of contacts, in their order
+template <int Dim>
+void add(const std::vector<JointSums>& sums, State<Dim>& state) {
+  state.energy.elastic = 0;
+  for (const JointSums& b : sums) {
+    state.energy.elastic += b.elastic;
+    state.energy.flows[Source::friction] += b.friction;
+    state.energy.flows[Source::dashpots] += b.dashpots;
+    state.energy.flows[Source::stiffening] += b.stiffening;
+    state.counters.snap_backs += b.snap_backs;
+    state.bonds.made += b.bonds_made;
   }
 }
 
@@ -209,9 +259,10 @@ PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Settings& settings, 
   PairWrench<Dim> wrench = PairWrench<Dim>::Zero();
   if (!c.touching()) return wrench;
   const JointProperties& properties = model.properties[c.properties];
+  const Friction friction = friction_of(state.schedule, c.properties);
   JointSums sums;
   const auto add = [&](const Bearing<Dim>& at, JointState<Dim> past) {
-    const Vector<Dim> force = joint_force<Dim>(properties, settings, state, motion, at, c.properties, past, sums);
+    const Vector<Dim> force = joint_force<Dim>(properties, settings, state, motion, at, friction, past, sums);
     wrench.template head<Dim>() += force;
     wrench.template tail<spin_freedoms<Dim>>() += moment(Vector<Dim>(at.point - motion.between), force);
   };
@@ -237,17 +288,27 @@ PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Settings& settings, 
 }
 
 template <int Dim>
+void find_joint_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  static thread_local std::vector<JointSums> own;
+  std::vector<JointSums>& sums = own;  // this thread's, filled by all
+  sums.assign(groups_of_contacts(state), {});
+  const std::vector<Friction>& frictions = frictions_of(state.schedule);
+  const auto answer_found = [&](int group, std::span<Contact<Dim>* const> found) {
+    for (const Contact<Dim>* c : found)
+      answer(model, settings, frictions, static_cast<std::size_t>(c - state.contacts.data()), state, sums[group]);
+  };
+  find_contacts<Dim>(model, settings, state, std::ref(answer_found));
+  add(sums, state);
+}
+
+template <int Dim>
 void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  state.energy.elastic = 0;
-  const auto work = [&](int i, JointSums& sum) { answer(model, settings, static_cast<std::size_t>(i), state, sum); };
-  for (const JointSums& b : sums_in_groups<JointSums>(settings.threads, state.contacts.size(), work)) {
-    state.energy.elastic += b.elastic;
-    state.energy.flows[Source::friction] += b.friction;
-    state.energy.flows[Source::dashpots] += b.dashpots;
-    state.energy.flows[Source::stiffening] += b.stiffening;
-    state.counters.snap_backs += b.snap_backs;
-    state.bonds.made += b.bonds_made;
-  }
+  state.contact_loads.resize(state.contacts.size());
+  const std::vector<Friction>& frictions = frictions_of(state.schedule);
+  const auto work = [&](int i, JointSums& sum) {
+    answer(model, settings, frictions, static_cast<std::size_t>(i), state, sum);
+  };
+  add(sums_in_groups<JointSums>(settings.threads, state.contacts.size(), work), state);
 }
 
 template <int Dim>
@@ -309,6 +370,8 @@ template BondCount count_bonds<2>(const State<2>&);
 template BondCount count_bonds<3>(const State<3>&);
 template void make_bonds<2>(const Model<2>&, const Settings&, State<2>&);
 template void make_bonds<3>(const Model<3>&, const Settings&, State<3>&);
+template void find_joint_forces<2>(const Model<2>&, const Settings&, State<2>&);
+template void find_joint_forces<3>(const Model<3>&, const Settings&, State<3>&);
 template void apply_joint_laws<2>(const Model<2>&, const Settings&, State<2>&);
 template void apply_joint_laws<3>(const Model<3>&, const Settings&, State<3>&);
 

@@ -1,4 +1,4 @@
-// The step's third line: what the joints answer.
+// The step's second line: which candidate pairs touch, and what their joints answer.
 #pragma once
 
 #include "core/model.hpp"
@@ -27,7 +27,11 @@ struct PairMotion {
   }
 };
 
-// joint forces from overlap and from the slip over the last step
+// Finds the contacts, and for each its joint's force from overlap and from the slip over the last step
+template <int Dim>
+void find_joint_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+
+// the forces alone, of contacts that have been found
 template <int Dim>
 void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 

@@ -7,37 +7,21 @@
 namespace voussoir {
 namespace {
 
-// what a contact that touches does to one of its bodies
-template <int Dim>
-void push(const Model<Dim>& model, const State<Dim>& state, int place, int body, Load<Dim>& load) {
-  const Contact<Dim>& c = state.contacts[place];
-  if (!c.touching()) return;
-  const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
-  const bool on_b = body == b;
-  Vector<Dim> centroid = Vector<Dim>::Zero();  // of this body, from that of the first
-  if (on_b) centroid = between(state.poses[a], state.poses[b]);
-  Spin<Dim> turn = Spin<Dim>::Zero();  // of the force on the second body, about the centroid of this one
-  const auto add = [&](const Vector<Dim>& point, const Vector<Dim>& force) {
-    turn += moment(Vector<Dim>(point - centroid), force);
-  };
-  if (c.cells == 0) {
-    add(c.geometry.point, c.force);
-  } else {
-    for (const SubContact<Dim>& s : subs_of(state, static_cast<std::size_t>(place)))
-      if (s.area > 0) add(s.point, s.force);
-  }
-  const double sign = on_b ? 1 : -1;
-  load.force += sign * c.force;
-  load.moment += sign * turn;
-}
-
 // Each finds what its source does to the bodies; the loads are zero before.
 template <int Dim>
-void contact_loads(const Model<Dim>& model, int threads, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
+void contact_loads(const Model<Dim>&, int threads, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
   each_on_threads(threads, loads.size(), [&](int b) {
     Load<Dim> load;
-    for (const int place : contacts_of(state, b))
-      push(model, state, place, b, load);
+    for (const int place : contacts_of(state, b)) {
+      const ContactLoad<Dim>& c = state.contact_loads[place];
+      if (c.second == b) {
+        load.force += c.force;
+        load.moment += c.about_second;
+      } else if (c.second >= 0) {
+        load.force -= c.force;
+        load.moment -= c.about_first;
+      }
+    }
     loads[b] = load;
   });
 }

@@ -36,14 +36,22 @@ double travelled(const Model<Dim>& model, const State<Dim>& state, const Contact
 
 // two parts as the kernel sees them, where their bodies stand
 template <int Dim>
-Pair<Dim> pair_of(const Model<Dim>& model, const State<Dim>& state, int part_a, int part_b, QueryLevel level) {
+void set_pair(const Model<Dim>& model, const State<Dim>& state, int part_a, int part_b, QueryLevel level,
+              Pair<Dim>& pair) {
   const CachedPose<Dim>&at_a = state.poses[model.parts[part_a].body], &at_b = state.poses[model.parts[part_b].body];
-  return {&model.polytope(part_a),
-          &model.polytope(part_b),
-          at_a.axes,
-          at_a.axes.transpose() * at_b.axes,
-          at_a.axes.transpose() * between(at_a, at_b),
-          level};
+  pair.a = &model.polytope(part_a);
+  pair.b = &model.polytope(part_b);
+  pair.axes = at_a.axes;
+  pair.rotation.noalias() = at_a.axes.transpose() * at_b.axes;
+  pair.offset.noalias() = at_a.axes.transpose() * between(at_a, at_b);
+  pair.level = level;
+}
+
+template <int Dim>
+Pair<Dim> pair_of(const Model<Dim>& model, const State<Dim>& state, int part_a, int part_b, QueryLevel level) {
+  Pair<Dim> pair;
+  set_pair(model, state, part_a, part_b, level, pair);
+  return pair;
 }
 
 // m: a joint that is to be bonded (make_bonds) must not open by more before it presses; 0 where no joint has strength
