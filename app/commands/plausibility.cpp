@@ -148,8 +148,6 @@ void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, Sta
     if (g > 0 && result.overlap > 0)
       settling = settling_time(result.overlap, g, damping, prepared.settings.equilibrium.unbalanced);
     forecast.duration = std::visit(Forecaster{settling, g, smallest, forecast.time_step, relaxed}, stage.plan);
-    for (const WaterPlan& water : stage.water)
-      forecast.duration = std::max(forecast.duration, water.ramp);
     if (forecast.time_step > 0) forecast.steps = forecast.duration / forecast.time_step;
     result.stages.push_back(forecast);
   }
@@ -375,9 +373,7 @@ void judge_times(const StagePlan& stage, const StageForecast& forecast, double s
          fmt::format("shorter than one swing of the blocks on their joints, {:.2g} s, it acts as a blow", swing));
   for (const WaterPlan& water : stage.water)
     if (water.ramp > 0 && water.ramp < swing)
-      warn(where + ".water", water.ramp,
-           fmt::format("a change shorter than one swing of the blocks on their joints, {:.2g} s, acts as a blow",
-                       swing));
+      warn(where + ".water", water.ramp, fmt::format("shorter than one swing, {:.2g} s, it acts as a blow", swing));
   if (output.history_interval > 0 && forecast.duration / output.history_interval > many_rows &&
       forecast.steps > many_rows)
     warn("output.history_interval_s", output.history_interval,
