@@ -62,7 +62,7 @@ class Team {
     round_.fetch_add(1);
     round_.notify_all();
     work(0);
-    // whoever has not come by now is not needed
+    // threads that have not come by now are not needed
     inside_.fetch_and(~gate_open);
     wait_a_moment([&] { return inside_.load(std::memory_order_acquire) == 0; });
     for (unsigned others; (others = inside_.load(std::memory_order_acquire)) != 0;)

@@ -21,11 +21,11 @@ struct PieceWork {
   void (*call)(const void* work, int first, int last);
 };
 
-// Does all pieces below `count`, this thread and up to `threads` - 1 others. Whoever has time takes the next pieces: a
-// thread that another program holds up holds up no other, and this one waits for none that has not begun. They wait
-// asleep, after a moment in which the next loop may come. Where the system gives no more threads, fewer do it; within a
-// piece, or while another thread has the team, this one does it alone. What the first of the pieces that failed has
-// thrown continues when all are done.
+// Does all pieces below `count`, this thread and up to `threads` - 1 others. A thread that has time takes the next
+// pieces: a thread that another program holds up holds up no other, and this one waits for none that has not begun.
+// They wait asleep, after a moment in which the next loop may come. Where the system gives no more threads, fewer do
+// it; within a piece, or while another thread has the team, this one does it alone. What the first of the pieces that
+// failed has thrown continues when all are done.
 void share_out(int threads, int count, const PieceWork& pieces);
 
 // work(i) for each i below `count`
