@@ -260,6 +260,9 @@ TEST(Unbalanced, ComparesForceAndMomentumWithTheContacts) {
 
 // ---- time step ------------------------------------------------------------------------------------------------------
 
+// the 64th root of 1/6: six modes as stiff as each other
+const double least_of_limit = std::pow(6, -1.0 / 64);
+
 template <int Dim>
 void expect_safe_time_step(std::uint64_t seed) {
   Random random(seed);
@@ -274,7 +277,7 @@ void expect_safe_time_step(std::uint64_t seed) {
   }
   EXPECT_LE(highest, 1 + rounding);
   EXPECT_GT(highest, 0.9);
-  EXPECT_GE(lowest, (1 - 1e-9) / std::sqrt(2.0));
+  EXPECT_GE(lowest, least_of_limit / std::sqrt(2.0));
 }
 
 TEST(TimeStep, IsNeverAboveTheFullSystemsLimit3D) {
@@ -285,26 +288,30 @@ TEST(TimeStep, IsNeverAboveTheFullSystemsLimit2D) {
 }
 
 template <int Dim>
-void expect_exact_for_one_free_body(std::uint64_t seed) {
+void expect_close_for_one_free_body(std::uint64_t seed) {
   Random random(seed);
+  double mean = 0;
   for (int trial = 0; trial < 50; ++trial) {
     RandomAssembly<Dim> assembly(random, 1, 4, 6);
     for (Contact<Dim>& c : assembly.state.contacts)
       c.properties = 0;
     const double limit = 2 / std::sqrt(assembly.largest_eigenvalue());
     const TimeStepEstimate estimate = estimate_time_step(assembly.model, {}, {}, assembly.state);
-    EXPECT_NEAR(estimate.limit / limit, 1, 1e-9);
+    EXPECT_LE(estimate.limit / limit, 1 + 1e-9);
+    EXPECT_GE(estimate.limit / limit, least_of_limit);
+    mean += estimate.limit / limit / 50;
     EXPECT_NEAR(estimate.step, Settings{}.time.fraction * estimate.limit / std::sqrt(area_margin),
                 1e-15 * estimate.limit);
     EXPECT_NEAR(assembly.state.frequency[0], 2 / estimate.limit, 1e-9 * assembly.state.frequency[0]);
     for (const Contact<Dim>& c : assembly.state.contacts)
       EXPECT_NEAR(c.area_rated, area_margin * c.geometry.area, 1e-15);
   }
+  EXPECT_GT(mean, 0.998);
 }
 
-TEST(TimeStep, IsExactWhenOneBodyIsFree) {
-  expect_exact_for_one_free_body<3>(48);
-  expect_exact_for_one_free_body<2>(49);
+TEST(TimeStep, IsABoundCloseToTheLimitWhenOneBodyIsFree) {
+  expect_close_for_one_free_body<3>(48);
+  expect_close_for_one_free_body<2>(49);
 }
 
 TEST(TimeStep, OnlyBodiesOfGrownContactsAreLookedAtAnew) {
