@@ -47,6 +47,8 @@ void find_surfaces(const Model<Dim>& model, const WaterValues& values, double fa
     surface.weight = factor * model.waters[w].unit_weight;
     if (model.waters[w].uniform) {
       surface.pressure = factor * values[w].front();
+      surface.stretches.clear();  // of another model's water
+      surface.steepest = 0;
       continue;
     }
     list_stretches<Dim>(values[w], surface.stretches);

@@ -73,6 +73,22 @@ TEST(RaftInWater, HeavesInItsPeriodWithAClosedLedger) {
   heave<3>();
 }
 
+// What is asked of one model after another, as in a program that runs several scenes, holds nothing of the one before.
+TEST(WaterSurfaces, OfAPressureAreThoseOfNoTableBefore) {
+  const Model<2> lake = raft<2>();
+  Model<2> pressed = raft<2>();
+  assign_waters(pressed, {{"joints", unit_weight, true, {1000}}}, {0, 0});
+  WaterSurfaces<2> surfaces, fresh;
+  find_surfaces(lake, initial_water(lake), 1, surfaces);
+  find_surfaces(pressed, initial_water(pressed), 1, surfaces);
+  find_surfaces(pressed, initial_water(pressed), 1, fresh);
+  const Standing<2> tilted{.centroid = Vector<2>(0, -2)};
+  EXPECT_EQ(water_load(pressed, surfaces, 0, tilted).force, water_load(pressed, fresh, 0, tilted).force);
+  EXPECT_NEAR(water_load(pressed, surfaces, 0, tilted).force.norm(), 0, 1e-9);  // the same all round
+  EXPECT_EQ(water_stiffness(pressed, surfaces, 0, tilted).translation,
+            water_stiffness(pressed, fresh, 0, tilted).translation);
+}
+
 // The work of the water against the change of its potential, from a tilted start out of balance: what is left falls
 // with the square of the step.
 TEST(RaftInWater, HasAPotentialThatClosesWithTheSquareOfTheStep) {
