@@ -10,6 +10,7 @@
 #include "reports/case_page.hpp"
 #include "reports/html.hpp"
 #include "reports/kernel_page.hpp"
+#include "reports/text_page.hpp"
 #include "reports/trade_page.hpp"
 #include "reports/verdict_tables.hpp"
 #include "verification/verdicts.hpp"
@@ -33,7 +34,8 @@ std::string navigation(const Verdicts& verdicts) {
   if (!open.empty()) text += "<p>Not yet modelled</p><ul>\n" + open + "</ul>\n";
   return text +
          "<p>Speed</p><ul>\n<li><a href=\"#what-accuracy-costs\">What accuracy costs</a></li>\n"
-         "<li><a href=\"#contact-kernel\">The contact kernel</a></li>\n</ul>\n<p>Reference</p><ul>\n<li><a "
+         "<li><a href=\"#contact-kernel\">The contact kernel</a></li>\n</ul>\n<p>Reference</p><ul>\n"
+         "<li><a href=\"#what-water-means\">What water means here</a></li>\n<li><a "
          "href=\"#scene-keys\">Scene keys</a></li>\n</ul></nav>\n";
 }
 
@@ -75,8 +77,8 @@ std::string manual(const Folders& folders, const Verdicts& verdicts, const fs::p
           "</section>\n";
   for (const CaseStatus& status : verdicts.cases)
     text += case_page(folders, verdicts, status, missing);
-  return text + trade_page(folders, missing) + kernel_page(folders, missing) + scene_keys(keys, missing) +
-         "</main>\n</body></html>\n";
+  return text + trade_page(folders, missing) + kernel_page(folders, missing) +
+         text_page(folders, "water", "what-water-means") + scene_keys(keys, missing) + "</main>\n</body></html>\n";
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "reports/case_page.hpp"
 #include "reports/html.hpp"
 #include "reports/kernel_page.hpp"
+#include "reports/text_page.hpp"
 #include "reports/trade_page.hpp"
 #include "reports/verdict_tables.hpp"
 
@@ -49,6 +50,20 @@ TEST(Html, MakesIdsOfAFigureUnique) {
   EXPECT_TRUE(holds(text, "href='#wedge-gpDot'"));
   write_atomically(path, "");
   EXPECT_THROW(inline_svg(path, "wedge"), std::runtime_error);
+}
+
+TEST(TextPage, LeadsToCasesAndTheirScenes) {
+  const fs::path root = fs::path(testing::TempDir()) / "voussoir_text_page_test";
+  write_atomically(root / "reports/water.md",
+                   "# Of water\n\n## What acts\n\n[case](../cases/water/README.md), [scene](../cases/water/raft.toml), "
+                   "[elsewhere](../core/README.md)\n");
+  const std::string page = text_page({root, root / "build"}, "water", "of-water");
+  EXPECT_TRUE(holds(page, "id=\"of-water\""));
+  EXPECT_TRUE(holds(page, "<h2>Of water</h2>"));
+  EXPECT_TRUE(holds(page, "<h3>What acts</h3>"));
+  EXPECT_TRUE(holds(page, "href=\"#water\""));
+  EXPECT_TRUE(holds(page, "href=\"#water-raft-toml\""));
+  EXPECT_FALSE(holds(page, "core/README.md"));
 }
 
 TEST(CasePage, ShowsWhatThereIsAndNamesWhatIsNot) {

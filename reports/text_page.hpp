@@ -1,0 +1,13 @@
+#pragma once
+// A page of the manual that is a text of its own: reports/<name>.md.
+#include <string>
+
+#include "reports/case_page.hpp"
+
+namespace voussoir::reports {
+
+// A section with the anchor `anchor`, the text's own title its heading. Links to a case, ../cases/<case>/README.md, or
+// to a scene of one lead to where the manual has it.
+std::string text_page(const Folders& folders, const std::string& name, const std::string& anchor);
+
+}  // namespace voussoir::reports
