@@ -21,12 +21,15 @@ using verification::Check;
 using verification::Kind;
 
 constexpr double vertical = 90 * degree, rock = 40 * degree;
+constexpr double unit_weight = 2395.5 * 9.81;  // N/m3, as scene.toml states it; beside water it matters
 
 struct Cut {
   std::string scene, name;
 };
 const std::vector<Cut> cuts{
     {"scene.toml", "3 blocks"}, {"beds_80.toml", "33 blocks, 80 m"}, {"beds_40.toml", "114 blocks, 40 m"}};
+const std::vector<Cut> wet_cuts{
+    {"wet.toml", "3 blocks"}, {"wet_80.toml", "33 blocks, 80 m"}, {"wet_40.toml", "114 blocks, 40 m"}};
 
 LimitAnalysis analyse(const std::string& scene, const std::vector<std::string>& overrides,
                       const LimitRequest& request = {{}, {"slide"}}) {
@@ -42,9 +45,9 @@ double answer(const LimitAnalysis& analysis) {
 const std::string source = "blocks that translate behind mobilised cross joints, reference/vaiont";
 
 // By each of the three cuts; the closed form knows the bends' cross joints alone.
-void judge_angle(CaseReport& report, const std::string& of, double expected,
-                 const std::vector<std::string>& overrides) {
-  for (const Cut& cut : cuts)
+void judge_angle(CaseReport& report, const std::string& of, double expected, const std::vector<std::string>& overrides,
+                 const std::vector<Cut>& scenes = cuts) {
+  for (const Cut& cut : scenes)
     report.record({"critical friction, " + of + ", " + cut.name,
                    "deg",
                    Kind::exact,
@@ -65,6 +68,34 @@ TEST(Vaiont, DryNeedsWhatTheBlocksBehindItsBendsNeed) {
   judge_angle(report, "dry", closed_form({}), {});
   judge_angle(report, "rock joints 30°", closed_form({}, 30 * degree), {"joint_properties.rock.friction_deg=30"});
   judge_angle(report, "seat 1.8°", closed_form({}, rock, vertical, 1.8 * degree), {"joints.seat.dip=1.8"});
+}
+
+SectionLoads water(double above_the_seat) {
+  SectionLoads loads;
+  loads.unit_weight = unit_weight;
+  loads.table = {{0, 620 + above_the_seat}};
+  return loads;
+}
+
+TEST(Vaiont, WetNeedsMore) {
+  CaseReport report("vaiont", {"critical friction, water 90 m, 3 blocks", "critical friction, drawn down, 3 blocks"});
+  judge_angle(report, "water 90 m", closed_form(water(90)), {}, wet_cuts);
+  SectionLoads drawn_down = water(90);
+  drawn_down.table = {{900, 710}, {1137.590, 680}};
+  judge_angle(report, "drawn down", closed_form(drawn_down), {"water.reservoir.table=[[900, 710], [1137.590, 680]]"},
+              wet_cuts);
+  std::vector<double> levels, found, form_levels, form;
+  for (double level = 0; level < 231; level += 30) {
+    levels.push_back(level);
+    found.push_back(
+        answer(analyse("wet.toml", {fmt::format("water.reservoir.table=[[900, {0}], [1137.590, {0}]]", 620 + level)})));
+  }
+  for (double level = 0; level < 231; level += 2) {
+    form_levels.push_back(level);
+    form.push_back(closed_form(water(level)) / degree);
+  }
+  write_csv("vaiont", "levels.csv", {"water_m", "limit_deg"}, {levels, found});
+  write_csv("vaiont", "levels_form.csv", {"water_m", "closed_form_deg"}, {form_levels, form});
 }
 
 // Cross joints through both bends that lean: with them the force from block to block.
@@ -140,6 +171,23 @@ TEST(Vaiont, HorizontalCoefficient) {
                    {0, 1e-5},
                    "corners rounded to 0.1 mm; the solver's tolerance is 1e-7 of a block's weight"},
                   answer(analyse(cut.scene, {"joint_properties.slide.friction_deg=25"}, {LimitLoad::right, {}})));
+}
+
+TEST(Vaiont, FactorOfSafety) {
+  CaseReport report("vaiont");
+  const std::vector<SectionBlock> blocks = section_blocks(reference::vaiont_section(), {});
+  const double expected = section_factor_of_safety(blocks, {12 * degree, rock});
+  LimitRequest request;
+  request.factor = true;
+  for (const Cut& cut : cuts)
+    report.record({"factor of safety, slide 12°, rock 40°, " + cut.name,
+                   "1",
+                   Kind::exact,
+                   source,
+                   expected,
+                   {0, 1e-5},
+                   "corners rounded to 0.1 mm; the bracket is less"},
+                  answer(analyse(cut.scene, {"joint_properties.slide.friction_deg=12"}, request)));
 }
 
 }  // namespace
