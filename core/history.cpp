@@ -5,6 +5,7 @@
 
 #include "core/monitor.hpp"
 #include "core/reduction/reduction.hpp"
+#include "core/waters.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -23,6 +24,21 @@ std::vector<int> properties_followed(const Prepared<Dim>& scene) {
     }
   }
   return {followed.begin(), followed.end()};
+}
+
+// monitors of the waters that some stage changes: each has columns in the history
+template <int Dim>
+std::vector<Monitor> waters_followed(const Prepared<Dim>& scene) {
+  std::set<int> changed;
+  for (const StagePlan& stage : scene.stages)
+    for (const WaterPlan& plan : stage.water)
+      changed.insert(plan.water);
+  std::vector<Monitor> followed;
+  for (const int water : changed) {
+    const Water& w = scene.model.waters[water];
+    followed.push_back({"water_" + w.name, {"level", Quantity::level}, water, levels_of<Dim>(w)});
+  }
+  return followed;
 }
 
 // whether some stage searches a factor of safety: then the history has a column for it
@@ -66,6 +82,8 @@ std::vector<std::string> history_columns(const Prepared<Dim>& scene) {
   if (has_trials(scene)) columns.push_back("trial");
   for (const int p : properties_followed(scene))
     columns.push_back("friction_" + scene.model.properties[p].name + "_deg");
+  for (const Column& c : monitor_columns<Dim>(waters_followed(scene)))
+    columns.push_back(c.header());
   if (has_factor(scene)) columns.push_back("strength_factor");
   for (const Column& c : monitor_columns<Dim>(scene.monitors))
     columns.push_back(c.header());
@@ -79,9 +97,13 @@ std::vector<double> history_row(const Prepared<Dim>& scene, const Model<Dim>& mo
   if (has_trials(scene)) values.push_back(trial);
   for (const int p : properties_followed(scene))
     values.push_back(to_degrees(state.schedule.friction[p]));
+  const auto append = [&](const std::vector<Monitor>& monitors) {
+    const std::vector<double> monitored = monitor_values<Dim>(monitors, model, state);
+    values.insert(values.end(), monitored.begin(), monitored.end());
+  };
+  append(waters_followed(scene));
   if (has_factor(scene)) values.push_back(strength_factor(state.schedule));
-  const std::vector<double> monitored = monitor_values<Dim>(scene.monitors, model, state);
-  values.insert(values.end(), monitored.begin(), monitored.end());
+  append(scene.monitors);
   return values;
 }
 

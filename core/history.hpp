@@ -13,8 +13,8 @@ template <int Dim>
 std::vector<int> properties_changed(const Model<Dim>& model, const Change& change);
 
 // Columns: time_s, stage; trial where some stage searches by trials that are taken back; friction_<name>_deg of all
-// joint properties whose friction some stage changes; strength_factor where some stage searches a factor of safety;
-// those of the monitors.
+// joint properties whose friction some stage changes; water_<name>_level_m of each water that some stage changes
+// (monitor.hpp); strength_factor where some stage searches a factor of safety; those of the monitors.
 template <int Dim>
 std::vector<std::string> history_columns(const Prepared<Dim>& scene);
 

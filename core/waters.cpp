@@ -98,6 +98,12 @@ BodyStiffness water_stiffness(const Model<Dim>& model, const WaterSurfaces<Dim>&
 }
 
 template <int Dim>
+int levels_of(const Water& water) {
+  if (water.uniform) return 0;
+  return Dim == 3 ? 1 : static_cast<int>(water.values.size() / 2);
+}
+
+template <int Dim>
 WaterValues initial_water(const Model<Dim>& model) {
   WaterValues values;
   for (const Water& water : model.waters)
@@ -127,6 +133,7 @@ std::vector<Load<Dim>> water_loads_at_reference(const Model<Dim>& model) {
   template double water_potential<Dim>(const Model<Dim>&, const WaterSurfaces<Dim>&, int, const Standing<Dim>&); \
   template BodyStiffness water_stiffness<Dim>(const Model<Dim>&, const WaterSurfaces<Dim>&, int,                 \
                                               const Standing<Dim>&);                                             \
+  template int levels_of<Dim>(const Water&);                                                                     \
   template WaterValues initial_water<Dim>(const Model<Dim>&);                                                    \
   template std::vector<Load<Dim>> water_loads_at_reference<Dim>(const Model<Dim>&, const WaterValues&);          \
   template std::vector<Load<Dim>> water_loads_at_reference<Dim>(const Model<Dim>&);

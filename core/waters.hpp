@@ -40,6 +40,10 @@ template <int Dim>
 BodyStiffness water_stiffness(const Model<Dim>& model, const WaterSurfaces<Dim>& surfaces, int body,
                               const Standing<Dim>& standing);
 
+// How many levels a water has: of each point of a table in the plane, one in space; 0: a constant pressure.
+template <int Dim>
+int levels_of(const Water& water);
+
 // The waters' numbers before the first stage.
 template <int Dim>
 WaterValues initial_water(const Model<Dim>& model);

@@ -22,6 +22,7 @@ constexpr Meaning column_meanings[] = {
     {"trial",
      "where some stage searches by trials: the number of one that is taken back; 0: on the path to the answer"},
     {"friction", "friction angle in force, of each of the joint properties whose friction some stage changes"},
+    {"water", "present level of each water that some stage changes, as a monitor of its level has it"},
     {"strength_factor",
      "where some stage searches a factor of safety: what the strength of the joint properties that are searched is "
      "divided by"},
@@ -60,6 +61,8 @@ std::string history_documentation() {
   ReducePlan reduction;
   reduction.searched = Searched::factor;
   example.stages.emplace_back().plan = reduction;
+  example.model.waters.push_back({.name = "lake", .values = {0, 0, 0}});
+  example.stages.back().water.emplace_back();
   std::string text = R"(
 # history.csv
 

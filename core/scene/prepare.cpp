@@ -12,6 +12,7 @@
 #include "core/scene/keys.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/wet_faces.hpp"
+#include "core/waters.hpp"
 
 namespace voussoir {
 namespace {
@@ -318,13 +319,6 @@ int body_of(const Scene& scene, const Model<Dim>& model, const MonitorSpec& spec
            "chooses " + std::to_string(bodies.size()) +
                " blocks but must choose exactly one; add sides of more joints, or a point inside");
   return bodies.front();
-}
-
-// how many levels a water has to follow: of each point of a table in the plane
-template <int Dim>
-int levels_of(const Water& water) {
-  if (water.uniform) return 0;
-  return Dim == 3 ? 1 : static_cast<int>(water.values.size() / 2);
 }
 
 template <int Dim>

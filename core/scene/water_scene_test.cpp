@@ -64,6 +64,11 @@ TEST(WaterOfAScene, ChangesAsItsStagesSay) {
   EXPECT_DOUBLE_EQ(value("lake_level_1"), 1);
   EXPECT_DOUBLE_EQ(value("lake_level_2"), 1.5);
   EXPECT_DOUBLE_EQ(value("lake_level_3"), 1.2);
+  const std::vector<std::string>& columns = progress.results.history.columns;
+  const auto column = std::ranges::find(columns, "water_lake_level_2_m");
+  ASSERT_NE(column, columns.end());
+  EXPECT_DOUBLE_EQ(progress.results.history.rows.front()[column - columns.begin()], 0.3);
+  EXPECT_DOUBLE_EQ(progress.results.history.rows.back()[column - columns.begin()], 1.5);
   // h(-0.8) = 1.1, h(0) = 1.5, h(0.6) = 1.32, less 1
   EXPECT_NEAR(value("upper_water_load_y"), 9810 * (0.8 * 0.3 + 0.6 * 0.41), 10);
 }
