@@ -1,6 +1,8 @@
 // Water of scenes: how stages change it, and that no thread, pause or way to rest changes what comes of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/checkpoint/checkpoint.hpp"
 #include "core/checkpoint/fields.hpp"
 #include "core/scene/scene.hpp"
