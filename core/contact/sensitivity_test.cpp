@@ -146,7 +146,8 @@ double of_gradients(const Posed<Dim>& p, const ContactGeometry<Dim>& g) {
     Vector<Dim> gradient = Vector<Dim>::Zero();
     for (const HalfSpace<Dim>& plane : planes)
       gradient += std::max(radius + signed_distance(plane, g.point), 0.0) * plane.normal;
-    sum += (1 + width / gradient.norm()) / gradient.norm();
+    const double length = gradient.norm();
+    if (length > 0) sum += (1 + width / length) / length;  // else its direction is a face's
   }
   return sum;
 }
