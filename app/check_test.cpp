@@ -85,6 +85,18 @@ TEST_F(Check, PrintsWhatLiesInWater) {
   says(ground + box("stone", 0, 0) + rock + settle, "applied forces, water");
 }
 
+// Where a table slopes, a block that slides leaves its water before the displacement that counts as failure.
+TEST_F(Check, WarnsWhereASearchLetsBlocksLeaveTheirWater) {
+  const std::string search = settle +
+                             "[[stage]]\nname = \"reduce\"\nkind = \"reduce\"\nfrom_deg = 30\nto_deg = 1\n"
+                             "tolerance_deg = 0.1\n";
+  const std::string wet = ground + box("stone", 0, 0) + rock + "[[water]]\nname = \"lake\"\n";
+  const char* const warning = "stage.reduce: before block stone has moved by 0.05 m and counts as failed";
+  says(wet + "table = [[0, 0.5], [1, 0]]\n" + search, warning);
+  silent(wet + "table = [[0, 0.5], [1, 0]]\n" + search + "failure_displacement = 0.0005\n", "counts as failed");
+  silent(wet + "level = 0.5\n" + search, "counts as failed");
+}
+
 // ---- blocks -------------------------------------------------------------------------------------------------------
 
 TEST_F(Check, WarnsOfBlocksThatNothingHolds) {

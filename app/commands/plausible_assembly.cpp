@@ -9,6 +9,10 @@
 #include <optional>
 #include <set>
 
+#include "core/reduction/reduction.hpp"
+#include "core/waters.hpp"
+#include "text/angle.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -175,6 +179,59 @@ void judge_last_block(const Prepared<Dim>& prepared, std::vector<std::string>& w
   }
 }
 
+// The largest change of a free block's water force as it moves by a way along a horizontal axis, of its weight.
+template <int Dim>
+struct WaterLeft {
+  double most = 0;
+  int body = 0;
+};
+
+template <int Dim>
+WaterLeft<Dim> find_water_left(const Model<Dim>& model, const WaterValues& values, double way) {
+  WaterLeft<Dim> left;
+  WaterSurfaces<Dim> surfaces;
+  find_surfaces(model, values, 1, surfaces);
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
+    const Body<Dim>& body = model.bodies[b];
+    const double weight = body.mass * model.gravity.norm();
+    if (!is_free(body) || !(weight > 0)) continue;
+    const Vector<Dim> here = water_load<Dim>(model, surfaces, b, {.centroid = body.reference}).force;
+    for (int axis = 0; axis < Dim - 1; ++axis)
+      for (const double by : {way, -way}) {
+        const Standing<Dim> moved{.centroid = body.reference + by * Vector<Dim>::Unit(axis)};
+        const double change = (water_load<Dim>(model, surfaces, b, moved).force - here).norm() / weight;
+        if (change > left.most) left = {change, b};
+      }
+  }
+  return left;
+}
+
+// A table stays in place while blocks move: in a search they may leave their water before they count as failed.
+template <int Dim>
+void judge_searches_in_water(const Prepared<Dim>& prepared, std::vector<std::string>& warnings) {
+  constexpr double may_leave = 5e-4;  // of the weight: some 0.03 degrees of friction
+  const Model<Dim>& model = prepared.model;
+  if (model.waters.empty()) return;
+  WaterValues values = initial_water(model);
+  for (const StagePlan& stage : prepared.stages) {
+    for (const WaterPlan& change : stage.water)
+      values[change.water] = change.to;
+    const auto* search = std::get_if<ReducePlan>(&stage.plan);
+    if (!search) continue;
+    const double way = failure_displacement_of(model, *search);
+    const WaterLeft<Dim> left = find_water_left(model, values, way);
+    if (left.most <= may_leave) continue;
+    warnings.push_back(
+        fmt::format("stage.{}: before block {} has moved by {:.3g} m and counts as failed, the force of its water "
+                    "changes by {:.2g} % "
+                    "of its weight, for a table stays in place; that may be {:.2g} degrees of friction: state "
+                    "failure_displacement = "
+                    "{:.1g} or less",
+                    stage.name, name_of(model, left.body), way, 100 * left.most, to_degrees(left.most),
+                    way * may_leave / left.most));
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -189,6 +246,7 @@ void judge_assembly(const Prepared<Dim>& prepared, const Model<Dim>& model, cons
   judge_places(model, state, warnings);
   judge_points(model, state, warnings);
   judge_last_block(prepared, warnings);
+  judge_searches_in_water(prepared, warnings);
 }
 
 template std::string name_of<2>(const Model<2>&, int);

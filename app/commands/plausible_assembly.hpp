@@ -1,5 +1,5 @@
 // What the places of the blocks say before anything is run: which nothing holds, which lie in one another, which meet
-// on one point a face, after which stage none is left.
+// on one point a face, after which stage none is left, which leave their water before a search counts them as failed.
 #pragma once
 
 #include <string>

@@ -410,14 +410,6 @@ bool of_rates(ReductionMethod method) {
   return method == ReductionMethod::rate || method == ReductionMethod::two_rates;
 }
 
-template <int Dim>
-double default_failure_displacement(const Model<Dim>& model) {
-  double smallest = 0;
-  for (const Body<Dim>& b : model.bodies)
-    if (!b.fixed) smallest = smallest == 0 ? b.size : std::min(smallest, b.size);
-  return default_failure_fraction * smallest;
-}
-
 }  // namespace
 
 bool is_detour(ReductionMethod method, int trial, Trial outcome) {
@@ -431,6 +423,15 @@ bool is_detour(ReductionMethod method, int trial, Trial outcome) {
       return trial == faster_fall || (trial == coming_nearer && outcome != Trial::stable);
   }
   return false;
+}
+
+template <int Dim>
+double failure_displacement_of(const Model<Dim>& model, const ReducePlan& plan) {
+  if (plan.failure_displacement > 0) return plan.failure_displacement;
+  double smallest = 0;
+  for (const Body<Dim>& b : model.bodies)
+    if (!b.fixed) smallest = smallest == 0 ? b.size : std::min(smallest, b.size);
+  return default_failure_fraction * smallest;
 }
 
 template <int Dim>
@@ -448,8 +449,7 @@ ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const 
                        ReductionProgress<Dim>& progress, const RunHooks<Dim>& hooks, const TrialHook<Dim>& on_trial) {
   Search<Dim> search{model, settings,        plan, hooks, on_trial, state, progress, chosen_properties(model, plan),
                      0,     levels_of(plan), {}};
-  search.failure_displacement =
-      plan.failure_displacement > 0 ? plan.failure_displacement : default_failure_displacement(model);
+  search.failure_displacement = failure_displacement_of(model, plan);
   ReductionReport& report = search.report;
   if (plan.searched == Searched::factor && of_rates(plan.method)) {
     report.message = "a factor of safety is searched by bisection or in steps: how late a rate finds it is not known";
@@ -465,6 +465,8 @@ ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const 
   return report;
 }
 
+template double failure_displacement_of<2>(const Model<2>&, const ReducePlan&);
+template double failure_displacement_of<3>(const Model<3>&, const ReducePlan&);
 template std::vector<int> chosen_properties<2>(const Model<2>&, const ReducePlan&);
 template std::vector<int> chosen_properties<3>(const Model<3>&, const ReducePlan&);
 template ReductionReport reduce<2>(const Model<2>&, const Settings&, const ReducePlan&, State<2>&,

@@ -52,6 +52,10 @@ using TrialHook = std::function<void(const State<Dim>&, double level, Trial outc
 template <int Dim>
 std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& plan);
 
+// m: how far a block must have moved to have failed: as the plan states, or a tenth of the smallest inscribed radius
+template <int Dim>
+double failure_displacement_of(const Model<Dim>& model, const ReducePlan& plan);
+
 // Lowers the friction of the plan's joint properties from `from` towards `to`, or raises the factor that divides their
 // tan φ and cohesion; a bonded joint then carries cA/F + tan φ/F · Fn, its tensile strength stays. A factor is searched
 // by bisection or in steps only: with another method the report's message says so.

@@ -43,7 +43,7 @@ KeyTable stage_reduce_keys() {
      .plausible = plausible_strength, .example = "3", .required = true, .when = {"search", "factor"},
      .meaning = "factor at which the search ends"},
     {.key = "tolerance_factor", .members = {in(&FactorPlan::tolerance)}, .unit = "1", .range = factor_range,
-     .plausible = {1e-5, 0.5}, .example = "0.001", .required = true, .when = {"method", "bisection"},
+     .plausible = {5e-5, 0.5}, .example = "0.001", .required = true, .when = {"method", "bisection"},
      .and_when = {"search", "factor"},
      .meaning = "largest bracket at the end"},
     {.key = "step_factor", .members = {in(&FactorPlan::step)}, .unit = "1", .range = factor_range,

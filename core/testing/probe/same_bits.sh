@@ -21,7 +21,6 @@ cmake -S "$source" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COM
 cmake --build "$folder" --target voussoir_probe --parallel "${BUILD_JOBS:-1}" >"$folder/build.txt" 2>&1 ||
   { cat "$folder/build.txt"; exit 1; }
 
-export OMP_WAIT_POLICY=passive # more threads than cores must not spin
 probe=$folder/core/voussoir_probe
 # shellcheck disable=SC2086
 "$reference" $options >"$folder/expected.txt"
