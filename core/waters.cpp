@@ -42,17 +42,17 @@ Load<Dim> load_by_faces(const Model<Dim>& model, const WaterSurfaces<Dim>& surfa
 template <int Dim>
 void find_surfaces(const Model<Dim>& model, const WaterValues& values, double factor, WaterSurfaces<Dim>& surfaces) {
   surfaces.of.resize(model.waters.size());
+  surfaces.steepest = 0;
   for (std::size_t w = 0; w < model.waters.size(); ++w) {
     auto& surface = surfaces.of[w];
     surface.weight = factor * model.waters[w].unit_weight;
     if (model.waters[w].uniform) {
       surface.pressure = factor * values[w].front();
       surface.stretches.clear();  // of another model's water
-      surface.steepest = 0;
       continue;
     }
     list_stretches<Dim>(values[w], surface.stretches);
-    surface.steepest = std::abs(surface.weight) * steepness<Dim>(surface.stretches);
+    surfaces.steepest = std::max(surfaces.steepest, std::abs(surface.weight) * steepness<Dim>(surface.stretches));
   }
 }
 
@@ -79,13 +79,11 @@ template <int Dim>
 BodyStiffness water_stiffness(const Model<Dim>& model, const WaterSurfaces<Dim>& surfaces, int body,
                               const Standing<Dim>& standing) {
   const Body<Dim>& b = model.bodies[body];
-  double gradient = 0, pressure = 0;
-  for (const auto& surface : surfaces.of)
-    gradient = std::max(gradient, surface.steepest);
   BodyStiffness bound = model.water_bounds[body];
-  bound.translation *= gradient;
-  bound.rotation *= gradient;
+  bound.translation *= surfaces.steepest;
+  bound.rotation *= surfaces.steepest;
   if (model.water_by_volume) return bound;
+  double pressure = 0;
   for (const auto& surface : surfaces.of)
     pressure =
         std::max(pressure, surface.stretches.empty()

@@ -12,13 +12,12 @@ namespace voussoir {
 template <int Dim>
 struct WaterSurfaces {
   struct Surface {
-    double weight = 0;    // N/m³, times the factor of gravity
-    double pressure = 0;  // Pa, likewise: of a water that is no table
-    double steepest =
-        0;  // N/m³: at most how fast the gradient of the pressure changes (core/load/water.hpp, steepness)
+    double weight = 0;                         // N/m³, times the factor of gravity
+    double pressure = 0;                       // Pa, likewise: of a water that is no table
     std::vector<WaterStretch<Dim>> stretches;  // none of a constant pressure
   };
   std::vector<Surface> of;  // by water
+  double steepest = 0;  // N/m³: at most how fast the gradient of a pressure changes (core/load/water.hpp, steepness)
 };
 
 // `factor`: of gravity, with which every water grows, or a ramp of gravity would float the rock

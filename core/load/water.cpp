@@ -27,11 +27,11 @@ Corner<Dim> crossing(const Corner<Dim>& a, double height_a, const Corner<Dim>& b
 }
 
 // The part of a polygon on which a height is positive (Sutherland & Hodgman 1974). Each corner's height is asked once.
-template <int Dim, class Height>
-void clip(std::vector<Corner<Dim>>& polygon, std::vector<Corner<Dim>>& cut, const Height& height) {
+template <class Height>
+void clip(std::vector<Corner<3>>& polygon, std::vector<Corner<3>>& cut, const Height& height) {
   cut.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Corner<Dim>&a = polygon[i], &b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
+    const Corner<3>&a = polygon[i], &b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
     const double of_a = height(a), of_b = height(b);
     if (of_a >= 0) cut.push_back(a);
     if ((of_a < 0 && of_b > 0) || (of_a > 0 && of_b < 0)) cut.push_back(crossing(a, of_a, b, of_b));
@@ -91,39 +91,6 @@ int list_corners(const Polytope<Dim>& part, const WaterStretch<Dim>& stretch, co
   return wet ? 1 : dry ? -1 : 0;
 }
 
-// area and first moment of a polygon, seen from its first corner
-void add_polygon(const std::vector<Corner<2>>& polygon, const WaterStretch<2>& stretch, const Vector<2>& centroid,
-                 Submerged<2>& sum) {
-  if (polygon.size() < 3) return;
-  const Vector<2>& first = polygon.front().place;
-  double area = 0;
-  Vector<2> first_moment = Vector<2>::Zero();
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    const Vector<2> u = polygon[i].place - first, v = polygon[i + 1].place - first;
-    const double piece = 0.5 * (u[0] * v[1] - u[1] * v[0]);
-    area += piece;
-    first_moment += piece / 3 * (u + v);
-  }
-  add_piece<2>(area, first_moment + area * first, stretch, centroid, sum);
-}
-
-// `alone`: the body lies within one stretch
-void add_part(const Polytope<2>& part, const WaterStretch<2>& stretch, bool alone, const Standing<2>& at,
-              Submerged<2>& sum) {
-  auto& [polygon, cut, corners] = buffers<2>();
-  const int side = list_corners(part, stretch, at, corners);
-  if (side < 0) return;
-  if (side > 0 && alone) return add_whole(part, stretch, at, sum);
-  polygon.clear();
-  for (const int v : boundary_ring(part))
-    polygon.push_back(corners[v]);
-  const double from = stretch.from - at.centroid[0], to = stretch.to - at.centroid[0];
-  if (std::isfinite(from)) clip<2>(polygon, cut, [&](const Corner<2>& c) { return c.place[0] - from; });
-  if (std::isfinite(to)) clip<2>(polygon, cut, [&](const Corner<2>& c) { return to - c.place[0]; });
-  if (side == 0) clip<2>(polygon, cut, [](const Corner<2>& c) { return c.depth; });
-  add_polygon(polygon, stretch, at.centroid, sum);
-}
-
 // Tetrahedra from a point of the surface to the faces below it: the cut face itself lies in the plane of their apex and
 // adds nothing.
 void add_part(const Polytope<3>& part, const WaterStretch<3>& stretch, bool, const Standing<3>& at, Submerged<3>& sum) {
@@ -139,7 +106,7 @@ void add_part(const Polytope<3>& part, const WaterStretch<3>& stretch, bool, con
     polygon.clear();
     for (const int v : loop)
       polygon.push_back(corners[v]);
-    clip<3>(polygon, cut, [](const Corner<3>& c) { return c.depth; });
+    clip(polygon, cut, [](const Corner<3>& c) { return c.depth; });
     if (polygon.size() < 3) continue;
     const Vector<3> a = polygon.front().place - apex;
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
@@ -198,8 +165,33 @@ void clip_face(std::vector<Corner<2>>& edge, std::vector<Corner<2>>&, const Wate
   clip_edge(edge, [](const Corner<2>& c) { return c.depth; });
 }
 
+// Each edge below the surface adds what lies between it and the surface straight above, with the sign of its direction
+// along x: what the part does not fill cancels, and where the stretch ends nothing needs closing. `alone`: the body
+// lies within one stretch.
+void add_part(const Polytope<2>& part, const WaterStretch<2>& stretch, bool alone, const Standing<2>& at,
+              Submerged<2>& sum) {
+  auto& [edge, cut, corners] = buffers<2>();
+  const int side = list_corners(part, stretch, at, corners);
+  if (side < 0) return;
+  if (side > 0 && alone) return add_whole(part, stretch, at, sum);
+  double area = 0;
+  Vector<2> first_moment = Vector<2>::Zero();
+  for (const std::vector<int>& ends : part.loops) {
+    if (ends.size() < 2) continue;
+    edge = {corners[ends[0]], corners[ends[1]]};
+    clip_face(edge, cut, stretch, at.centroid);
+    if (edge.size() < 2) continue;
+    const auto& [a, p] = edge[0];  // places and depths
+    const auto& [b, q] = edge[1];
+    const double width = b[0] - a[0];
+    area += 0.5 * width * (p + q);
+    first_moment += width / 6 * ((2 * p + q) * a + (p + 2 * q) * b + Vector<2>(0, p * p + p * q + q * q));
+  }
+  add_piece<2>(area, first_moment, stretch, at.centroid, sum);
+}
+
 void clip_face(std::vector<Corner<3>>& polygon, std::vector<Corner<3>>& cut, const WaterStretch<3>&, const Vector<3>&) {
-  clip<3>(polygon, cut, [](const Corner<3>& c) { return c.depth; });
+  clip(polygon, cut, [](const Corner<3>& c) { return c.depth; });
 }
 
 }  // namespace
@@ -208,17 +200,15 @@ template <>
 void list_stretches(std::span<const double> numbers, std::vector<WaterStretch<2>>& stretches) {
   stretches.clear();
   const std::size_t points = numbers.size() / 2;
-  WaterStretch<2> next;
+  stretches.push_back({.point = {numbers[0], numbers[1]}});
   for (std::size_t k = 0; k < points; ++k) {
     const double x = numbers[2 * k], h = numbers[2 * k + 1];
-    next.to = x;
-    if (k == 0) next.point = {x, h};
-    if (points > 1) stretches.push_back(next);
-    next = {.from = x, .point = {x, h}};
-    if (k + 1 < points) next.rise = {-(numbers[2 * k + 3] - h) / (numbers[2 * k + 2] - x), 1};
+    Vector<2> rise(0, 1);
+    if (k + 1 < points) rise[0] = -(numbers[2 * k + 3] - h) / (numbers[2 * k + 2] - x);
+    if (rise == stretches.back().rise) continue;  // no bend: a block that lies across this point is not cut there
+    stretches.back().to = x;
+    stretches.push_back({.from = x, .point = {x, h}, .rise = rise});
   }
-  if (points == 1) next.from = -std::numeric_limits<double>::infinity();
-  stretches.push_back(next);
 }
 
 template <>
@@ -232,7 +222,8 @@ Submerged<Dim> submerged(const std::vector<Polytope<Dim>>& parts, double radius,
                          std::span<const WaterStretch<Dim>> surface) {
   Submerged<Dim> sum;
   const double x = standing.centroid[0];
-  const bool alone = std::ranges::count_if(surface, [&](const auto& s) { return reaches(s, x, radius); }) == 1;
+  const bool alone =
+      surface.size() == 1 || std::ranges::count_if(surface, [&](const auto& s) { return reaches(s, x, radius); }) == 1;
   for (const WaterStretch<Dim>& stretch : surface) {
     if (!reaches(stretch, x, radius)) continue;
     const double depth = depth_at<Dim>(stretch, standing.centroid, Vector<Dim>::Zero());
