@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <string_view>
 
 namespace voussoir::reports {
 namespace {
@@ -213,6 +215,61 @@ std::string points_table(const std::vector<CaseStudy>& studies) {
          rows + "\n";
 }
 
+// sweeps over how rest is found: "way to rest: local damping"
+constexpr std::string_view way_to_rest = "way to rest: ";
+
+// a column for each way, a row for each case; first what it misses, then what it costs
+std::string ways_table(const std::vector<CaseStudy>& studies) {
+  struct Cell {
+    std::string error, cost;
+  };
+  std::vector<std::string> marched, newton;
+  std::vector<std::map<std::string, Cell>> cells(studies.size());
+  const auto add = [&](std::size_t row, const json& setting, const Cell& cell) {
+    const std::string sweep = setting.at("sweep");
+    if (!sweep.starts_with(way_to_rest)) return;
+    std::string way = sweep.substr(way_to_rest.size());
+    const bool by_increments = setting.at("key") == "damping.increments";
+    if (by_increments) way += ", " + setting.at("value").get<std::string>();
+    std::vector<std::string>& group = by_increments ? newton : marched;
+    if (std::ranges::find(group, way) == group.end()) group.push_back(way);
+    cells[row][way] = cell;
+  };
+  for (std::size_t row = 0; row < studies.size(); ++row) {
+    for (const json& point : studies[row].study.at("points"))
+      add(row, point,
+          {percent(point.at("relative_error_upper")),
+           fmt::format("{}", point.at("contact_evaluations").get<long long>())});
+    for (const json& failure : studies[row].study.at("failed")) {
+      const std::string status = failure.at("status");  // what it was in full stands below
+      add(row, failure, {fmt::format("**{}**", status.substr(0, status.find(':'))), "–"});
+    }
+  }
+  std::vector<std::string> ways = marched;
+  ways.insert(ways.end(), newton.begin(), newton.end());
+  if (ways.empty()) return "";
+  const auto table = [&](const std::string& what, auto member) {
+    std::string text = "| " + what + " |", line = "|---|";
+    for (const std::string& way : ways) {
+      text += " " + way + " |";
+      line += "--:|";
+    }
+    text += "\n" + line + "\n";
+    for (std::size_t row = 0; row < studies.size(); ++row) {
+      if (cells[row].empty()) continue;
+      text += "| " + link(studies[row]) + " |";
+      for (const std::string& way : ways)
+        text += " " + cells[row][way].*member + " |";
+      text += "\n";
+    }
+    return text + "\n";
+  };
+  return "### Ways to rest\n\nThe same scene by dynamic relaxation, by the true motion with Cundall's damping or with "
+         "dashpots alone, and by Newton's method on the joints, with the increments in which a ramp of gravity or a "
+         "fall of friction is put on. Newton's evaluations include those that confirm its rest.\n\n" +
+         table("error with error bar", &Cell::error) + table("contact evaluations", &Cell::cost);
+}
+
 }  // namespace
 
 std::vector<std::string> compared_cases(const std::vector<CaseStudy>& studies) {
@@ -249,8 +306,8 @@ std::string trade_markdown(const std::vector<CaseStudy>& studies) {
   for (std::size_t level = 0; level < studies.front().study.at("recommendations").size(); ++level)
     text += reading_of_level(studies, level);
   text += reading_of_digits(studies) + "\n";
-  text +=
-      "### The cheapest settings\n\n" + cheapest_table(studies) + "\n" + points_table(studies) + level_table(studies);
+  text += "### The cheapest settings\n\n" + cheapest_table(studies) + "\n" + points_table(studies) +
+          ways_table(studies) + level_table(studies);
   text +=
       "### Observed orders\n\nThe slope of log error over log setting where the error falls, with two standard errors; "
       "none where it does not fall beyond its scatter: the knob buys nothing there, or something else limits the "

@@ -56,6 +56,21 @@ TEST(Trade, ListsThePointsAlongAFace) {
   EXPECT_EQ(trade_markdown({made("flight", flight)}).find("Points along"), std::string::npos);
 }
 
+TEST(Trade, SetsTheWaysToRestBesideEachOther) {
+  const std::string lines =
+      "default,,,,angle,30,0,deg,ok,100,10,1\n"
+      "way to rest: true motion,damping.viscous_ratio,0.3,,angle,,,deg,incomplete: step limit,100,10,1\n"
+      "way to rest: Newton,damping.increments,4,,angle,30.3,0,deg,ok,7,11,1.5\n";
+  const std::string page = trade_markdown({made("slope", lines), made("flight", flight)});
+  EXPECT_NE(page.find("| error with error bar | true motion | Newton, 4 |\n|---|--:|--:|\n"
+                      "| [slope](../slope/README.md) | **incomplete** | 1 % |\n\n"
+                      "| contact evaluations | true motion | Newton, 4 |\n|---|--:|--:|\n"
+                      "| [slope](../slope/README.md) | – | 7 |\n\n"),
+            std::string::npos)
+      << page;
+  EXPECT_EQ(trade_markdown({made("flight", flight)}).find("Ways to rest"), std::string::npos);
+}
+
 TEST(Trade, LeavesOutWhatHasNothingToCompareWith) {
   const std::vector<CaseStudy> studies{
       made("broken", "default,,,,angle,,,deg,diverged,9,9,1\ntolerance,t,1,deg,angle,30,0,deg,ok,200,20,0.2\n")};

@@ -99,6 +99,7 @@ TEST_P(Overhang, EndsWhereElasticJointsEndIt) {
   const SceneRun scene = run(v.scene);
   const double expected = elastic_overhang(stack, stated).turn;
   const double left_out = limit.turn * limit.turn * (1 - limit.fraction);
+  if (v.dimension == 3) report.reference("top_rotation_y", expected / degree, "deg");
   report.record({turned,
                  "rad",
                  Kind::exact,

@@ -287,8 +287,18 @@ struct Search {
     return fmt::format("failed: bodies of {:g} of the free mass moved more than {:.3g} m", plan.failure_fraction,
                        failure_displacement);
   }
+  // what the error bar, a bracket, leaves out
+  std::string newton_rule() const {
+    if (settings.damping.statics != Statics::newton) return "";
+    return fmt::format(
+        "; by Newton's method in {} increment{} a trial: what slip along the chords of increments "
+        "changes is not in the error bar",
+        settings.damping.increments, settings.damping.increments == 1 ? "" : "s");
+  }
+
   std::string stable_and_failed_rule() const {
-    return fmt::format("stable: unbalanced ratio below {:.0e}; ", settings.equilibrium.unbalanced) + failed_rule();
+    return fmt::format("stable: unbalanced ratio below {:.0e}; ", settings.equilibrium.unbalanced) + failed_rule() +
+           newton_rule();
   }
 
   // ---- bisection: every trial starts from the last stable state -----------------------------------------------------

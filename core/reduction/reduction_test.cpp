@@ -287,7 +287,7 @@ TEST(Reduction, ALooseStoneEndsNoSearchByFraction) {
   plan.to = 15 * degree;
   plan.tolerance = 1 * degree;
   plan.failure_displacement = 0.01;
-  for (const Statics statics : {Statics::adaptive, Statics::local}) {
+  for (const Statics statics : {Statics::adaptive, Statics::local, Statics::newton}) {
     Settings settings;
     settings.damping.statics = statics;
     for (const auto& [fraction, critical] : {std::pair(0.0, 40.0), {0.03, 40.0}, {0.1, 20.0}, {1.0, 20.0}}) {
@@ -298,6 +298,7 @@ TEST(Reduction, ALooseStoneEndsNoSearchByFraction) {
       ASSERT_TRUE(report.bracketed && report.message.empty()) << fraction << ": " << report.message;
       EXPECT_NEAR(report.critical / degree, critical, report.error_bar / degree + 0.01) << fraction;
       EXPECT_EQ(report.rule.find("of the free mass") != std::string::npos, fraction > 0) << report.rule;
+      EXPECT_EQ(report.rule.find("is not in the error bar") != std::string::npos, statics == Statics::newton);
     }
   }
 }
