@@ -106,6 +106,12 @@ std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
     bodies[body[part]].fixed = true;
   for (std::size_t p = 0; p < parts.size(); ++p)
     bodies[body[p]].parts.push_back(std::move(parts[p]));
+  // pieces that an outline left of blocks
+  std::erase_if(bodies, [&](const DomainBody<Dim>& b) {
+    return !b.fixed && std::ranges::all_of(b.parts, [&](const Polytope<Dim>& part) {
+      return part.inscribed_radius < limits.smallest_inscribed_radius;
+    });
+  });
   return bodies;
 }
 

@@ -111,6 +111,20 @@ outline = true
   EXPECT_EQ(prepared.model.joints.size(), 13u);
 }
 
+// A region that leaves 0.05 m of one of the two blocks, which is cut whatever the least size is, and then is too small.
+TEST(SlicingScene, WhatAnOutlineLeavesTooSmallGoes) {
+  const std::string cutting = R"(
+[[excavations]]
+name = "cutting"
+box = { min = [-0.95, -2], max = [0, 2] }
+outline = true
+)";
+  EXPECT_NEAR(mass(square(cutting)), 2000 * (2 + 0.05 * 2), 1e-9);
+  const Prepared<2> prepared = square(cutting, {"slicing.smallest_inscribed_radius=0.1"});
+  EXPECT_EQ(prepared.model.bodies.size(), 1u);
+  EXPECT_NEAR(mass(prepared), 2000 * 2, 1e-9);
+}
+
 TEST(SlicingScene, OutlinesInSpace) {
   const std::string text = R"(
 dimension = 3

@@ -305,6 +305,14 @@ TEST(Clump, ATunnelLeavesOneBodyOfExactVolume) {
   const std::vector<int> body = bodies_of<3>(left, cuts, false);
   EXPECT_EQ(*std::max_element(body.begin(), body.end()), 0);
 
+  // whatever the least block size: a joint may leave no smaller block, the tunnel does
+  SlicingLimits large;
+  large.smallest_inscribed_radius = 0.3;
+  SlicingCounters counters;
+  cuts.push_back({{z, 0.7}, 2 + sides});
+  EXPECT_NEAR(volume(excavated<3>(slice<3>(cube(), cuts, large, counters), tunnel)), volume(left), volume_tolerance);
+  EXPECT_GT(counters.undone, 0);
+
   const HalfSpaces<2> circle = circle_region({0.1, 0.2}, 0.4, sides);
   std::vector<Cut<2>> lines;
   for (const HalfSpace<2>& p : circle)

@@ -126,9 +126,13 @@ std::optional<Pair<Dim>> split(const Piece<Dim>& piece, const Cuts<Dim>& cuts, c
     Pair<Dim> children;
     auto& [below, above] = children;
     const HalfSpace<Dim> reversed{-cut.plane.normal, -cut.plane.offset};
-    const bool made =
-        cut_draft(piece.block, cut.plane, cut.joint, below.block) == BlockStatus::ok && sound(below.block, limits) &&
-        cut_draft(piece.block, reversed, cut.joint, above.block) == BlockStatus::ok && sound(above.block, limits);
+    // what a construction joint cuts stays one body with its surroundings, or is not there: an outline is exact
+    const auto suits = [&](const Draft<Dim>& child) {
+      return cut.kind == JointKind::construction || sound(child, limits);
+    };
+    const bool made = cut_draft(piece.block, cut.plane, cut.joint, below.block) == BlockStatus::ok &&
+                      suits(below.block) &&
+                      cut_draft(piece.block, reversed, cut.joint, above.block) == BlockStatus::ok && suits(above.block);
     if (!made) {
       ++counters.undone;
       continue;

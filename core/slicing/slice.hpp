@@ -14,6 +14,7 @@ enum class AspectMeasure {
   balls  // circumscribed over inscribed radius, the outer ball about the middle of that box
 };
 
+// Construction joints cut whatever they leave: an outline is exact.
 struct SlicingLimits {
   double smallest_inscribed_radius = 0;  // m: a cut that would leave a smaller child is not made in that block
   double largest_aspect_ratio = std::numeric_limits<double>::infinity();  // likewise one that is more elongated

@@ -15,7 +15,7 @@ KeyTable joint_set_keys() {
     {.key = "dip_direction", .members = {degrees(&PlaneSpec::dip_direction)}, .unit = "deg", .range = direction_range,
      .plausible = plausible_direction, .example = "90", .no_default = true,
      .meaning = dip_direction_meaning, .repair = direction_repair, .mistake = angle_mistake},
-    {.key = "spacing", .members = {in(&JointSet::spacing)}, .unit = "m", .range = positive, .plausible = {0.05, 100},
+    {.key = "spacing", .members = {in(&JointSet::spacing)}, .unit = "m", .range = positive, .plausible = {0.05, 500},
      .example = "2",
      .meaning = "mean distance from joint to joint along the normal of the mean plane; this or intensity",
      .mistake = "was it given in mm?"},

@@ -1,0 +1,73 @@
+// Vaiont slide in space: how much rock the planes of the slide and of the ground enclose, and the friction that a
+// coarse cut of it needs.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "cases/case_tools.hpp"
+#include "core/waters.hpp"
+#include "reference/vaiont/slide_in_space.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using verification::CaseReport;
+using verification::Kind;
+
+constexpr double grid = 2.5;  // m, cells of the reference
+
+const std::string source = "grid between the planes, reference/vaiont";
+
+Model<3> model_of(const std::string& scene, const std::vector<std::string>& overrides = {}) {
+  return std::get<Prepared<3>>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides).prepared).model;
+}
+
+// m3, of the blocks that may move
+double free_volume(const Model<3>& model) {
+  double sum = 0;
+  for (const Body<3>& body : model.bodies)
+    if (!body.fixed) sum += volume(body);
+  return sum;
+}
+
+// m3, of the blocks that may move, from what the water lifts
+double submerged_volume(const Model<3>& model) {
+  const std::vector<Load<3>> loads = water_loads_at_reference(model);
+  double lift = 0;
+  for (std::size_t b = 0; b < loads.size(); ++b)
+    if (!model.bodies[b].fixed) lift += loads[b].force[2];
+  return lift / model.waters.front().unit_weight;
+}
+
+// Cut along the outline, the slide has the volume between its planes. Of one that is cut into blocks those go of which
+// the outline leaves less than 10 m inscribed radius.
+TEST(VaiontInSpace, HasTheVolumeBetweenItsPlanes) {
+  const reference::SlideInSpace slide = reference::vaiont_in_space();
+  const std::string all = "free volume", cut = "free volume, 80 m, blocks of any size",
+                    coarse = "pieces of blocks that go, 160 m", fine = "pieces of blocks that go, 80 m";
+  CaseReport report("vaiont", {all, cut, coarse, fine});
+  const double expected = slide_volumes(slide, grid).all;
+  const double apart = std::abs(expected - slide_volumes(slide, 2 * grid).all);
+  const double whole = free_volume(model_of("space.toml"));
+  report.record(
+      {all, "m3", Kind::exact, source, expected, {apart, 0}, "the grid's error: what half its spacing changes"}, whole);
+  report.record({cut, "m3", Kind::exact, "space.toml, the slide as one body", whole, {1e-9 * whole, 0}, "rounding"},
+                free_volume(model_of("space_80.toml", {"slicing.smallest_inscribed_radius=0"})));
+  for (const auto& [name, scene] : {std::pair(coarse, "space_160.toml"), {fine, "space_80.toml"}})
+    report.report(name, "1", 1 - free_volume(model_of(scene)) / whole, "as a fraction of the free volume");
+}
+
+TEST(VaiontInSpace, HasTheVolumesBelowTheReservoir) {
+  const reference::SlideInSpace slide = reference::vaiont_in_space();
+  for (const int level : {460, 600, 710}) {
+    const std::string quantity = fmt::format("volume below {} m", level);
+    CaseReport report("vaiont", {quantity});
+    const double expected = slide_volumes(slide, grid, level).below;
+    const double apart = std::abs(expected - slide_volumes(slide, 2 * grid, level).below);
+    report.record(
+        {quantity, "m3", Kind::exact, source, expected, {apart, 0}, "the grid's error: what half its spacing changes"},
+        submerged_volume(model_of("space.toml", {fmt::format("water.reservoir.level={}", level)})));
+  }
+}
+
+}  // namespace
+}  // namespace voussoir::cases
