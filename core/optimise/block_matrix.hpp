@@ -1,6 +1,5 @@
-// A square sparse matrix of small dense blocks, and the solution of its linear systems: BiCGStab (van der Vorst 1992)
-// with an incomplete block factorisation of the matrix's own pattern, ILU(0) (Meijerink and van der Vorst 1977). All
-// sums are in a fixed order, so that no bit depends on the number of threads.
+// A square sparse matrix of small dense blocks. All sums are in a fixed order, so that no bit depends on the number of
+// threads.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,16 +29,5 @@ struct BlockMatrix {
   std::vector<int> first, column, diagonal;  // blocks of row i: first[i] up to first[i + 1]; the place of its diagonal
   std::vector<Block> blocks;
 };
-
-struct LinearAnswer {
-  Eigen::VectorXd x;
-  int iterations = 0;
-  double residual = 0;  // |b - A x| / |b|; infinite when a pivot block is singular
-};
-
-// Solves A x = b until |b - A x| <= tolerance |b|, or gives the best it met within the limit.
-template <int Size>
-LinearAnswer solve_blocks(const BlockMatrix<Size>& matrix, const Eigen::VectorXd& b, double tolerance,
-                          int iteration_limit, int threads);
 
 }  // namespace voussoir

@@ -12,7 +12,8 @@
 #include "core/checkpoint/checkpoint.hpp"
 #include "core/checkpoint/fields.hpp"
 #include "core/on_threads.hpp"
-#include "core/optimise/block_matrix.hpp"
+#include "core/optimise/block_factors.hpp"
+#include "core/optimise/block_solver.hpp"
 #include "core/run.hpp"
 #include "core/simulate.hpp"
 #include "core/state_hash.hpp"
@@ -78,6 +79,44 @@ TEST(BlockMatrix, SolvesSmallBlocks) {
   expect_solved<6>();
 }
 
+// each block on the next along every axis of a box of so many blocks; stiff enough on its diagonal to be definite
+template <int Size>
+BlockMatrix<Size> grid(int dimensions, int side) {
+  int count = 1;
+  for (int d = 0; d < dimensions; ++d)
+    count *= side;
+  std::vector<std::vector<typename BlockMatrix<Size>::Entry>> rows(count);
+  for (int i = 0; i < count; ++i) {
+    rows[i].push_back({i, 2.01 * dimensions * BlockMatrix<Size>::Block::Identity()});
+    for (int d = 0, step = 1; d < dimensions; ++d, step *= side)
+      for (const int way : {-1, 1})
+        if (const int at = i / step % side + way; at >= 0 && at < side)
+          rows[i].push_back({i + way * step, -BlockMatrix<Size>::Block::Identity()});
+  }
+  BlockMatrix<Size> matrix;
+  matrix.assign(1, rows);
+  return matrix;
+}
+
+// Complete factors solve what lies in a chain or in the plane at once, however much; in a box they would fill in too
+// much.
+TEST(BlockFactors, AreCompleteWhereTheyFillInLittle) {
+  const auto iterations = [](const auto& matrix) {
+    const LinearAnswer answer =
+        solve_blocks(matrix, Eigen::VectorXd(Eigen::VectorXd::Ones(matrix.rows() * 6)), 1e-10, 100, 1);
+    EXPECT_LE(answer.residual, 1e-10);
+    return answer.iterations;
+  };
+  for (const auto& matrix : {grid<6>(1, 2000), grid<6>(2, 20)}) {
+    EXPECT_TRUE(BlockFactors<6>(matrix).complete());
+    EXPECT_EQ(iterations(matrix), 1);
+  }
+  EXPECT_TRUE(BlockFactors<3>(grid<3>(2, 100)).complete());
+  const BlockMatrix<6> in_a_box = grid<6>(3, 12);
+  EXPECT_FALSE(BlockFactors<6>(in_a_box).complete());
+  EXPECT_GT(iterations(in_a_box), 1);
+}
+
 TEST(BlockMatrix, SaysThatItIsSingular) {
   BlockMatrix<3> matrix;
   matrix.assign(1, {{{0, BlockMatrix<3>::Block::Zero()}}});
@@ -110,8 +149,8 @@ Model<2> column(int blocks) {
 }
 
 // Linear springs: the whole weight at once, whatever the height. Stiff enough that no step is shortened.
-TEST(Newton, AColumnOfAnyHeightTakesAsManyIterations) {
-  for (const int blocks : {10, 100, 1000}) {
+void expect_columns_take_as_many_iterations(const std::vector<int>& heights) {
+  for (const int blocks : heights) {
     Model<2> model = column(blocks);
     model.properties[0].normal_stiffness = 26000 * gravity * blocks / 1e-3;  // overlaps up to a millimetre
     const auto [report, state] = rest_of(model, Statics::newton);
@@ -127,6 +166,15 @@ TEST(Newton, AColumnOfAnyHeightTakesAsManyIterations) {
     EXPECT_LE(state.counters.contact_evaluations, 100 * blocks) << blocks;
     EXPECT_LT(state.energy.relative_error(), 1e-9) << "the mean of the loads at both ends is exact for springs";
   }
+}
+
+TEST(Newton, AColumnOfAnyHeightTakesAsManyIterations) {
+  expect_columns_take_as_many_iterations({10, 100, 1000});
+}
+
+// 10,000 blocks high the middle presses only after more iterations than it counts as stiff for by their number alone
+TEST(NewtonLong, AColumnOfAnyHeightTakesAsManyIterations) {
+  expect_columns_take_as_many_iterations({10'000, 20'000});
 }
 
 // courses of bricks, each half a brick on the next
@@ -146,9 +194,9 @@ Model<2> wall(int courses) {
 }
 
 // Joints between bricks of a course carry next to nothing and open and close as the wall settles.
-TEST(Newton, AWallOfAnySizeTakesAsManyEvaluationsAPair) {
+void expect_walls_take_as_many_evaluations_a_pair(const std::vector<int>& sizes) {
   std::vector<double> a_pair, blocks;
-  for (const int courses : {5, 17}) {
+  for (const int courses : sizes) {
     const Model<2> model = wall(courses);
     const auto [report, state] = rest_of(model, Statics::newton);
     const auto touching =
@@ -156,9 +204,18 @@ TEST(Newton, AWallOfAnySizeTakesAsManyEvaluationsAPair) {
     a_pair.push_back(static_cast<double>(state.counters.contact_evaluations) / static_cast<double>(touching));
     blocks.push_back(static_cast<double>(model.bodies.size() - 1));
     EXPECT_EQ(state.counters.static_fallbacks, 0) << courses;
+    EXPECT_LE(state.counters.linear_iterations, 2 * state.counters.static_iterations) << "factors are complete";
     EXPECT_LT(a_pair.back(), 50) << courses;
   }
-  EXPECT_LT(a_pair[1] / a_pair[0], std::pow(blocks[1] / blocks[0], 0.15));
+  EXPECT_LT(a_pair.back() / a_pair.front(), std::pow(blocks.back() / blocks.front(), 0.15));
+}
+
+TEST(Newton, AWallOfAnySizeTakesAsManyEvaluationsAPair) {
+  expect_walls_take_as_many_evaluations_a_pair({5, 17});
+}
+
+TEST(NewtonLong, AWallOfAnySizeTakesAsManyEvaluationsAPair) {
+  expect_walls_take_as_many_evaluations_a_pair({5, 55, 141});
 }
 
 template <int Dim>
