@@ -13,6 +13,7 @@
 #include "core/motion/relaxation.hpp"
 #include "core/step.hpp"
 #include "core/step/newton.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
@@ -95,13 +96,22 @@ int first_not_finite(const State<Dim>& state) {
   return -1;
 }
 
-// the body to blame that there is no rest; to be asked while it moves
+// rad; in space at most half a turn
+double turn_of(const Rotation<2>& rotation) {
+  return std::abs(rotation.angle);
+}
+double turn_of(const Rotation<3>& rotation) {
+  return 2 * std::atan2(rotation.quaternion.vec().norm(), std::abs(rotation.quaternion.w()));
+}
+
+// the body to blame that there is no rest, and what of it moves; to be asked while it does
 template <int Dim>
 std::string restless(const Model<Dim>& model, const State<Dim>& state) {
   const int body = fastest(model, state);
   if (body < 0) return {};
-  return fmt::format("{} moves most, {:.3g} m from where it began", label_of(model, body),
-                     state.motions[body].displacement.norm());
+  const Motion<Dim>& m = state.motions[body];
+  return fmt::format("{} moves most, {:.3g} m from where it began and turned by {:.3g} degrees", label_of(model, body),
+                     m.displacement.norm(), to_degrees(turn_of(m.rotation)));
 }
 
 template <int Dim>

@@ -346,7 +346,25 @@ TEST(Newton, AMechanismIsNamed) {
   EXPECT_NE(report.detail.find("block"), std::string::npos) << report.detail;
 }
 
-// One point carries the face: nothing resists a turn about the normal, and nothing turns the block.
+// One point carries the face: nothing resists a turn about the normal. A couple that turns with the block spins it
+// without end, though it goes nowhere.
+TEST(Newton, ABodyThatNothingKeepsFromTurningIsNamed) {
+  Model<3> model = block_on_plate<3>(0, 35 * degree);
+  const int block = index_of(model, "block");
+  for (const double side : {0.5, -0.5})
+    model.applied.push_back({.name = "couple",
+                             .body = block,
+                             .place = {side, 0, 0},
+                             .force = {0, 400 * side, 0},
+                             .turns_with_body = true,
+                             .factor = {}});
+  const RunReport report = no_rest_of(model);
+  EXPECT_EQ(report.reason, StopReason::step_limit);
+  EXPECT_NE(report.detail.find("block"), std::string::npos) << report.detail;
+  EXPECT_NE(report.detail.find("turned by"), std::string::npos) << report.detail;
+}
+
+// One point carries the face, and nothing turns the block.
 TEST(Newton, AFreeTurnThatNothingDrivesIsAtRest) {
   const auto [report, state] = rest_of(block_on_plate<3>(0, 35 * degree), Statics::newton);
   EXPECT_EQ(state.counters.static_fallbacks, 0);
