@@ -66,7 +66,7 @@ voussoir_test(unit.certainty LONG LABEL unit
   LIBS voussoir_exact_referee Boost::headers fmt::fmt hwy::hwy)
 
 voussoir_test(unit.newton LONG LABEL unit
-  SOURCES step/newton_test.cpp step/newton_verdict_test.cpp
+  SOURCES step/newton_test.cpp step/newton_verdict_test.cpp optimise/block_solver_test.cpp
   LIBS voussoir_core cereal::cereal Boost::headers)
 
 voussoir_test(unit.step LABEL unit

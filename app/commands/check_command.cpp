@@ -9,6 +9,7 @@
 #include "app/run_scene.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/scene/plausibility.hpp"
+#include "core/step/newton.hpp"
 #include "core/waters.hpp"
 #include "text/angle.hpp"
 
@@ -361,18 +362,16 @@ std::string solvers_text(const ContactSettings& contact) {
                      normal);
 }
 
-// joints whose laws Newton's method has no tangents of, where it is asked for
+// joints whose laws Newton's method does not follow, where it is asked for
 template <int Dim>
 void print_left_to_relaxation(const Prepared<Dim>& prepared) {
   if (!asks_for_newton(prepared.settings.damping, prepared.stages)) return;
   std::vector<std::string> names;
   for (const JointProperties& p : prepared.model.properties)
-    if (!p.laws.is_plain()) names.push_back(p.name);
+    if (!newton_follows(p)) names.push_back(p.name);
   if (!names.empty())
-    line("",
-         fmt::format("Newton's method leaves all to relaxation: {} has stiffness by stress, hardening, softening or "
-                     "bonds",
-                     fmt::join(names, ", ")));
+    line("", fmt::format("Newton's method leaves all to relaxation: {} loses strength (bonds or softening)",
+                         fmt::join(names, ", ")));
 }
 
 template <int Dim>

@@ -287,11 +287,14 @@ struct Newton {
 
 }  // namespace
 
+bool newton_follows(const JointProperties& joint) {
+  return !joint.laws.bond && joint.laws.friction != FrictionLaw::softening;
+}
+
 template <int Dim>
 bool newton_applies(const Model<Dim>& model, const DampingSettings& damping) {
   return damping.statics == Statics::newton && model.prescribed.empty() &&
-         std::all_of(model.properties.begin(), model.properties.end(),
-                     [](const JointProperties& p) { return p.laws.is_plain(); });
+         std::all_of(model.properties.begin(), model.properties.end(), newton_follows);
 }
 
 template <int Dim>

@@ -20,7 +20,12 @@
 
 namespace voussoir {
 
-// Whether a model's joints have the tangents: plain laws. Others are left to relaxation.
+// Whether Newton's method follows a joint's laws: stiffness that depends on stress and friction that hardens, besides
+// the plain ones. Strength that is lost makes the force of an increment jump, or fall as it goes on: bonds and
+// softening.
+bool newton_follows(const JointProperties& joint);
+
+// whether it follows those of all joints; else all is left to relaxation
 template <int Dim>
 bool newton_applies(const Model<Dim>& model, const DampingSettings& damping);
 

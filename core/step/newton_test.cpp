@@ -4,16 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "core/checkpoint/checkpoint.hpp"
 #include "core/checkpoint/fields.hpp"
+#include "core/law/joint_law.hpp"
 #include "core/on_threads.hpp"
-#include "core/optimise/block_factors.hpp"
-#include "core/optimise/block_solver.hpp"
 #include "core/run.hpp"
 #include "core/simulate.hpp"
 #include "core/state_hash.hpp"
@@ -31,97 +28,6 @@ using shapes::gravity;
 using shapes::index_of;
 
 constexpr double rounding = 1e-9;  // what relaxation's window of ten steps adds, of a displacement
-
-// ---- linear systems -------------------------------------------------------------------------------------------------
-
-// blocks in a ring with a few chords, diagonally dominant: against a dense factorisation
-template <int Size>
-void expect_solved() {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  constexpr int count = 40;
-  using Entry = typename BlockMatrix<Size>::Entry;
-  std::vector<std::vector<Entry>> rows(count);
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(Size * count, Size * count);
-  const auto put = [&](int row, int column, double weight) {
-    Entry entry{column, {}};
-    for (int i = 0; i < Size * Size; ++i)
-      entry.block.data()[i] = weight * uniform(random);
-    if (row == column) entry.block.diagonal().array() += 3 * Size;
-    rows[row].push_back(entry);
-    dense.block<Size, Size>(Size * row, Size * column) += entry.block;
-  };
-  for (int i = 0; i < count; ++i) {
-    put(i, (i + 1) % count, 1);
-    put(i, i, 1);
-    put(i, (i + 7) % count, 0.5);
-    put(i, (i + 1) % count, 0.5);  // twice in the same place
-  }
-  BlockMatrix<Size> matrix;
-  matrix.assign(1, rows);
-  Eigen::VectorXd more(Size * count), b(Size * count);
-  for (int i = 0; i < more.size(); ++i) {
-    more[i] = 1 + uniform(random);
-    b[i] = uniform(random);
-  }
-  matrix.add_diagonal(more);
-  dense.diagonal() += more;
-  EXPECT_LT((matrix.times(1, b) - dense * b).norm(), 1e-13 * b.norm() * dense.norm());
-  const LinearAnswer answer = solve_blocks(matrix, b, 1e-12, 100, 1);
-  EXPECT_LE(answer.residual, 1e-12);
-  EXPECT_LT((answer.x - dense.lu().solve(b)).norm(), 1e-11 * answer.x.norm());
-  EXPECT_LT((dense * answer.x - b).norm(), 1e-11 * b.norm());
-  EXPECT_EQ(solve_blocks(matrix, Eigen::VectorXd(0 * b), 1e-12, 100, 1).x.norm(), 0);
-}
-
-TEST(BlockMatrix, SolvesSmallBlocks) {
-  expect_solved<3>();
-  expect_solved<6>();
-}
-
-// each block on the next along every axis of a box of so many blocks; stiff enough on its diagonal to be definite
-template <int Size>
-BlockMatrix<Size> grid(int dimensions, int side) {
-  int count = 1;
-  for (int d = 0; d < dimensions; ++d)
-    count *= side;
-  std::vector<std::vector<typename BlockMatrix<Size>::Entry>> rows(count);
-  for (int i = 0; i < count; ++i) {
-    rows[i].push_back({i, 2.01 * dimensions * BlockMatrix<Size>::Block::Identity()});
-    for (int d = 0, step = 1; d < dimensions; ++d, step *= side)
-      for (const int way : {-1, 1})
-        if (const int at = i / step % side + way; at >= 0 && at < side)
-          rows[i].push_back({i + way * step, -BlockMatrix<Size>::Block::Identity()});
-  }
-  BlockMatrix<Size> matrix;
-  matrix.assign(1, rows);
-  return matrix;
-}
-
-// Complete factors solve what lies in a chain or in the plane at once, however much; in a box they would fill in too
-// much.
-TEST(BlockFactors, AreCompleteWhereTheyFillInLittle) {
-  const auto iterations = [](const auto& matrix) {
-    const LinearAnswer answer =
-        solve_blocks(matrix, Eigen::VectorXd(Eigen::VectorXd::Ones(matrix.rows() * 6)), 1e-10, 100, 1);
-    EXPECT_LE(answer.residual, 1e-10);
-    return answer.iterations;
-  };
-  for (const auto& matrix : {grid<6>(1, 2000), grid<6>(2, 20)}) {
-    EXPECT_TRUE(BlockFactors<6>(matrix).complete());
-    EXPECT_EQ(iterations(matrix), 1);
-  }
-  EXPECT_TRUE(BlockFactors<3>(grid<3>(2, 100)).complete());
-  const BlockMatrix<6> in_a_box = grid<6>(3, 12);
-  EXPECT_FALSE(BlockFactors<6>(in_a_box).complete());
-  EXPECT_GT(iterations(in_a_box), 1);
-}
-
-TEST(BlockMatrix, SaysThatItIsSingular) {
-  BlockMatrix<3> matrix;
-  matrix.assign(1, {{{0, BlockMatrix<3>::Block::Zero()}}});
-  EXPECT_FALSE(std::isfinite(solve_blocks(matrix, Eigen::VectorXd(Eigen::VectorXd::Ones(3)), 1e-3, 10, 1).residual));
-}
 
 // ---- rest -----------------------------------------------------------------------------------------------------------
 
@@ -370,16 +276,94 @@ TEST(Newton, AFreeTurnThatNothingDrivesIsAtRest) {
   EXPECT_EQ(state.counters.static_fallbacks, 0);
 }
 
-// Laws whose tangents are not there are left to relaxation, to the bit.
-TEST(Newton, LeavesOtherLawsToRelaxation) {
-  Model<2> model = block_on_plate<2>(20 * degree, 35 * degree);
-  model.properties[0].laws.friction = FrictionLaw::softening;
-  model.properties[0].softening_drop = 0.1;
-  model.properties[0].softening_slip = 0.1;
-  const auto [marched, by_steps] = rest_of(model, Statics::adaptive);
-  const auto [found, by_newton] = rest_of(model, Statics::newton);
-  EXPECT_EQ(by_newton.counters.static_iterations, 0);
-  EXPECT_EQ(state_hash(model, by_newton), state_hash(model, by_steps));
+// ---- joint laws -----------------------------------------------------------------------------------------------------
+
+void stiffen_by_stress(JointProperties& joint) {
+  joint.laws.normal = joint.laws.shear = StiffnessLaw::linear;
+  joint.normal_growth = 3e4;
+  joint.shear_growth = 1e4;
+}
+
+void stiffen_by_a_power(JointProperties& joint) {
+  joint.laws.normal = joint.laws.shear = StiffnessLaw::power;
+  joint.normal_stiffness = 1e6;
+  joint.shear_stiffness = 5e5;
+  joint.normal_exponent = joint.shear_exponent = 0.5;
+}
+
+void harden(JointProperties& joint) {
+  joint.laws.friction = FrictionLaw::hardening;
+  joint.hardening_slip = 1e-6;
+}
+
+// each joint closes by the weight on it, as its own law says
+TEST(Newton, AColumnClosesAsStressStiffensIt) {
+  for (const auto& law : {stiffen_by_stress, stiffen_by_a_power}) {
+    Model<2> model = column(30);
+    law(model.properties[0]);
+    const auto [report, state] = rest_of(model, Statics::newton);
+    double weight = 0, settled = 0;  // from the top down
+    for (std::size_t b = model.bodies.size(); b-- > 1;) {
+      weight += model.bodies[b].mass * gravity;
+      settled += overlap_at(model.properties[0], weight);
+    }
+    EXPECT_NEAR(-state.motions.back().displacement[1], settled, 1e-6 * settled) << "unbalanced forces";
+    EXPECT_EQ(state.counters.static_fallbacks, 0);
+    EXPECT_GT(state.counters.static_iterations, 0);
+  }
+}
+
+TEST(Newton, OtherLawsRestWhereRelaxationPutsThem) {
+  for (const auto& law : {stiffen_by_stress, stiffen_by_a_power, harden}) {
+    Model<3> model = block_on_plate<3>(20 * degree, 35 * degree);
+    law(model.properties[0]);
+    model.properties[0].laws.shear = StiffnessLaw::constant;  // one that varies depends on the path: below
+    expect_same_rest<3>(model, 1e-3);
+    model.properties[0].sub_contacts = 2;
+    expect_same_rest<3>(model, 1e-3);
+  }
+}
+
+// Shear and normal stress grow together, so that du = dτ/ks(σ) can be integrated. An increment takes all of its shear
+// at the stiffness of its end.
+TEST(Newton, ShearThatStressStiffensComesToItsClosedFormInIncrements) {
+  const double slope = 20 * degree;
+  Model<2> model = block_on_plate<2>(slope, 35 * degree);
+  const int block = index_of(model, "block");
+  model.bodies[block].free_rotation.fill(false);
+  JointProperties& joint = model.properties[0];
+  stiffen_by_stress(joint);
+  const double normal = model.bodies[block].mass * gravity * std::cos(slope);  // a face of 1 m
+  const double shear = std::tan(slope) * normal, last = joint.shear_stiffness + joint.shear_growth * normal;
+  const double exact = shear / (last - joint.shear_stiffness) * std::log(last / joint.shear_stiffness);
+  const Vector<2> down(std::cos(slope), std::sin(slope));
+  for (const int increments : {1, 4, 16}) {
+    const RunSchedule ramp{.gravity = {.ramp = 1}, .properties = {}};
+    const auto [report, state] = rest_of(model, Statics::newton, 1, ramp, increments);
+    const double slip = std::abs(state.motions[block].displacement.dot(down));
+    EXPECT_LT(slip, exact) << increments;
+    EXPECT_GT(slip, exact - (shear / joint.shear_stiffness - shear / last) / increments) << "of a sum for an integral";
+  }
+}
+
+// Joints that lose strength are left to relaxation, to the bit.
+TEST(Newton, LeavesLossOfStrengthToRelaxation) {
+  for (const bool bonds : {false, true}) {
+    Model<2> model = block_on_plate<2>(20 * degree, 35 * degree);
+    JointProperties& joint = model.properties[0];
+    if (bonds) {
+      joint.laws.bond = true;
+      joint.cohesion = 1e5;
+    } else {
+      joint.laws.friction = FrictionLaw::softening;
+      joint.softening_drop = joint.softening_slip = 0.1;
+    }
+    EXPECT_FALSE(newton_follows(joint));
+    const auto [marched, by_steps] = rest_of(model, Statics::adaptive);
+    const auto [found, by_newton] = rest_of(model, Statics::newton);
+    EXPECT_EQ(by_newton.counters.static_iterations, 0);
+    EXPECT_EQ(state_hash(model, by_newton), state_hash(model, by_steps));
+  }
 }
 
 // ---- the same bits --------------------------------------------------------------------------------------------------
