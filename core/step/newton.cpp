@@ -40,6 +40,9 @@ constexpr double most_in_new_contacts = 0.1;
 // may double.
 constexpr double may_rise = 1.05, may_double = 2;
 
+// What a step was just refused without is not given up at once: lambda falls by no more than this factor after.
+constexpr double after_refusal = 0.5;
+
 // Of the residual, for the linear systems; their iterations. What is left in the softest directions moves joints that
 // carry next to nothing: at 1e-3 they open and close in turn, and a wall of 1,000 bricks takes three times the
 // evaluations.
@@ -142,7 +145,8 @@ struct Newton {
     // the better the residual falls, the less is needed
     const double last = n.merits.back();
     n.flat = n.overshoot <= 1 && left <= 0.5 && now > 0.7 * last ? n.flat + 1 : 0;
-    n.regularisation *= n.overshoot > 1 ? 0.5 : left > 0.5 ? 0.1 : std::clamp(now / last, 0.02, 0.5);
+    const double fall = n.overshoot > 1 ? 0.5 : left > 0.5 ? 0.1 : std::clamp(now / last, 0.02, 0.5);
+    n.regularisation *= n.tries > 0 ? std::max(fall, after_refusal) : fall;
     if (n.regularisation < least_regularisation) n.regularisation = 0;
     // contacts that open and close in turn: a short step breaks the ring
     if (n.flat > 0) {
