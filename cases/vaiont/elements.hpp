@@ -1,0 +1,45 @@
+// What the tests of the section by distinct elements share: its settings for another spacing and another water.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "app/limit/limit_analysis.hpp"
+#include "cases/case_tools.hpp"
+
+namespace voussoir::cases {
+
+using Overrides = std::vector<std::string>;
+
+constexpr double seat_m = 620;  // elevation
+
+inline Overrides operator+(Overrides first, const Overrides& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+// cross joints and beds every `metres`, the rock mass as stiff as at any other spacing (Boon 2013, table 6.4)
+inline Overrides spacing(double metres) {
+  Overrides settings;
+  for (const char* set : {"cross", "beds above the back", "beds above the middle", "beds above the seat"})
+    settings.push_back(fmt::format("joint_sets.{}.spacing={}", set, metres));
+  settings.push_back(fmt::format("joint_properties.rock.normal_stiffness={}", 7680e6 / metres));
+  settings.push_back(fmt::format("joint_properties.rock.shear_stiffness={}", 3072e6 / metres));
+  return settings;
+}
+
+inline Overrides water_above_the_seat(double metres) {
+  return {fmt::format("water.reservoir.level={}", seat_m + metres)};
+}
+
+// deg: what rigid-block limit analysis finds for the same blocks
+inline double by_limit_analysis(const std::string& scene, const Overrides& settings) {
+  const LimitAnalysis found =
+      analyse_limit(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, settings), {{}, {"slide"}});
+  if (found.status != LimitStatus::found) throw std::runtime_error(scene + ": " + found.message);
+  return found.values.front().second.value;
+}
+
+}  // namespace voussoir::cases

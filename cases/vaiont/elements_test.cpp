@@ -1,0 +1,128 @@
+// The section by distinct elements, without bonds: on a slide of constant friction it needs what limit analysis says,
+// on one that softens what elastic-plastic blocks that move little need.
+#include <gtest/gtest.h>
+
+#include "cases/vaiont/elements.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using verification::CaseReport;
+using verification::Kind;
+
+const std::string newton = ", Newton", relaxation = ", relaxation";
+
+struct Ground {
+  double spacing, water;  // m
+};
+
+std::string name(const Ground& ground) {
+  return fmt::format(", {:g} m, {}", ground.spacing,
+                     ground.water > 0 ? fmt::format("water {:g} m", ground.water) : "dry");
+}
+
+Overrides settings_of(const Ground& ground) {
+  return spacing(ground.spacing) + water_above_the_seat(ground.water);
+}
+
+void judge_against_limit_analysis(CaseReport& report, const Ground& ground, const std::string& way,
+                                  const Overrides& settings = {}) {
+  const SceneRun found = run("dem.toml", settings_of(ground) + settings);
+  report.record(
+      {"critical friction, DEM" + name(ground) + way,
+       "deg",
+       Kind::limit,
+       "rigid-block limit analysis of the same blocks",
+       by_limit_analysis("dem.toml", settings_of(ground)),
+       {0.2, 0},
+       "half the bracket is 0.06; joints that are not rigid let the blocks move by up to 1.4 m before the slide "
+       "is lost, which turns the forces between them by some 0.1 deg"},
+      value(found, "critical_friction"), cost(found));
+}
+
+TEST(VaiontElements, NeedWhatLimitAnalysisSays) {
+  CaseReport report("vaiont", {"critical friction, DEM, 80 m, dry, Newton"});
+  report.reference("critical_friction", by_limit_analysis("dem.toml", {}), "deg");
+  for (const double metres : {150, 80})
+    for (const double water : {0, 90})
+      judge_against_limit_analysis(report, {metres, water}, newton);
+}
+
+TEST(VaiontElementsLong, NeedWhatLimitAnalysisSaysOfManyBlocks) {
+  CaseReport report("vaiont");
+  for (const double metres : {40, 20})
+    for (const double water : {0, 90})
+      judge_against_limit_analysis(report, {metres, water}, newton);
+}
+
+TEST(VaiontElementsLong, NeedTheSameByRelaxation) {
+  CaseReport report("vaiont");
+  for (const double water : {0, 90})
+    judge_against_limit_analysis(report, {80, water}, relaxation, {"damping.statics=adaptive"});
+}
+
+// a corner of 5 cm instead of 9 and 16 m: the blocks meet the slide beyond the bends before they count as failed
+TEST(VaiontElementsLong, WholeCornersHoldTheSlopeUp) {
+  CaseReport report("vaiont");
+  for (const double failed : {1.0, 3.0}) {
+    const SceneRun found = run("dem.toml", {"slicing.smallest_inscribed_radius=0",
+                                            "excavations.upper corner.planes.1.point=[718.3277, 644.04085]",
+                                            "excavations.lower corner.planes.1.point=[818.3277, 620.0120012]",
+                                            fmt::format("stage.critical.failure_displacement={}", failed)});
+    report.report(fmt::format("critical friction, DEM, 80 m, dry, whole corners, failure at {:g} m", failed), "deg",
+                  value(found, "critical_friction"), "corners that are not cut off at the bends", cost(found));
+  }
+}
+
+// the path to the answer must not matter
+struct Path {
+  std::string scene, name;
+  Overrides settings;
+};
+const Path bisection{"softening.toml", ", bisection", {}}, steps{"softening_steps.toml", ", steps", {}};
+
+double judge_softening(CaseReport& report, double water, const Path& path) {
+  const Ground ground{80, water};
+  const SceneRun found = run(path.scene, settings_of(ground) + path.settings);
+  const double angle = value(found, "critical_friction");
+  report.record({"critical friction, DEM, softening" + name(ground) + path.name,
+                 "deg",
+                 Kind::limit,
+                 "elastic-plastic blocks with softening, small displacements",
+                 water > 0 ? 20.5 : 18.8,
+                 {0.3, 0},
+                 "half a bracket or step is 0.1, half the reference's step 0.05; the reference's blocks move little, "
+                 "these by a metre before the slide is lost"},
+                angle, cost(found));
+  return angle;
+}
+
+TEST(VaiontElements, NeedMoreOnASlideThatSoftens) {
+  CaseReport report("vaiont", {"critical friction, DEM, softening, 80 m, dry, bisection"});
+  for (const double water : {0, 90})
+    judge_softening(report, water, bisection);
+}
+
+TEST(VaiontElementsLong, NeedTheSameBySteps) {
+  CaseReport report("vaiont");
+  for (const double water : {0, 90})
+    judge_softening(report, water, steps);
+}
+
+TEST(VaiontElementsLong, NeedTheSameByOtherRampsAndBrackets) {
+  CaseReport report("vaiont");
+  double least = 90, most = 0;
+  for (const Path& path : std::vector<Path>{
+           {"softening.toml", ", ramps of 100 steps", {"stage.critical.ramp_steps=100"}},
+           {"softening.toml", ", ramps of 4000 steps", {"stage.critical.ramp_steps=4000"}},
+           {"softening.toml", ", bracket 24 to 17 deg", {"stage.critical.from_deg=24", "stage.critical.to_deg=17"}},
+           {"softening_steps.toml", ", steps of 0.1 deg", {"stage.critical.step_deg=0.1"}}}) {
+    const double angle = judge_softening(report, 0, path);
+    least = std::min(least, angle);
+    most = std::max(most, angle);
+  }
+  EXPECT_LE(most - least, 0.22) << "further apart than two brackets of 0.22 deg are";
+}
+
+}  // namespace
+}  // namespace voussoir::cases
