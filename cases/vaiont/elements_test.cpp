@@ -7,6 +7,7 @@
 namespace voussoir::cases {
 namespace {
 
+using verification::Bound;
 using verification::CaseReport;
 using verification::Kind;
 
@@ -59,6 +60,31 @@ TEST(VaiontElementsLong, NeedTheSameByRelaxation) {
   CaseReport report("vaiont");
   for (const double water : {0, 90})
     judge_against_limit_analysis(report, {80, water}, relaxation, {"damping.statics=adaptive"});
+}
+
+// Cross joints that dip into the slope: as the rock gets stiffer, what distinct elements need falls towards what limit
+// analysis says, for soft joints let the blocks go metres before the slide is lost.
+TEST(VaiontElements, NeedMoreOfSoftRockBehindLeaningJoints) {
+  CaseReport report("vaiont");
+  const Overrides leaning{"joints.upper cross.dip=50", "joints.lower cross.dip=50", "joint_sets.cross.dip=50",
+                          "stage.critical.failure_displacement=1"};
+  double softer = 90;
+  for (const double stiffness : {0.096, 1.0, 10.0}) {  // GPa/m
+    const SceneRun found =
+        run("dem.toml", leaning + Overrides{fmt::format("joint_properties.rock.normal_stiffness={}", 1e9 * stiffness),
+                                            fmt::format("joint_properties.rock.shear_stiffness={}", 4e8 * stiffness)});
+    const double angle = value(found, "critical_friction");
+    report.record({fmt::format("critical friction, DEM, cross joints 50°, rock {:g} GPa/m", stiffness),
+                   "deg",
+                   Kind::limit,
+                   "rigid-block limit analysis of the same blocks",
+                   by_limit_analysis("dem.toml", leaning),
+                   {0, 0, Bound::at_least},
+                   "dilation, which limit analysis implies, only holds"},
+                  angle, cost(found));
+    EXPECT_LT(angle, softer) << "stiffer rock needs less";
+    softer = angle;
+  }
 }
 
 // a corner of 5 cm instead of 9 and 16 m: the blocks meet the slide beyond the bends before they count as failed
