@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "cases/vaiont/elements.hpp"
+#include "reference/vaiont/section.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -26,19 +28,39 @@ Overrides settings_of(const Ground& ground) {
   return spacing(ground.spacing) + water_above_the_seat(ground.water);
 }
 
-void judge_against_limit_analysis(CaseReport& report, const Ground& ground, const std::string& way,
-                                  const Overrides& settings = {}) {
+struct Expected {
+  std::string source;
+  double angle;  // deg
+};
+
+Expected limit_analysis(const Ground& ground) {
+  return {"rigid-block limit analysis of the same blocks", by_limit_analysis("dem.toml", settings_of(ground))};
+}
+
+// for many blocks, of which limit analysis takes a minute, and finds no answer at 40 m under water (README)
+Expected closed_form(const Ground& ground) {
+  constexpr double vertical = 90 * degree, rock = 40 * degree;
+  reference::SectionLoads loads;
+  loads.unit_weight = 2395.5 * 9.81;
+  loads.table = {{0, seat_m + ground.water}};
+  return {
+      "blocks that translate behind mobilised cross joints, reference/vaiont",
+      reference::critical_slide_friction(section_blocks(reference::vaiont_section(), loads, vertical), rock, vertical) /
+          degree};
+}
+
+void judge(CaseReport& report, const Ground& ground, const Expected& expected, const std::string& way,
+           const Overrides& settings = {}) {
   const SceneRun found = run("dem.toml", settings_of(ground) + settings);
-  report.record(
-      {"critical friction, DEM" + name(ground) + way,
-       "deg",
-       Kind::limit,
-       "rigid-block limit analysis of the same blocks",
-       by_limit_analysis("dem.toml", settings_of(ground)),
-       {0.2, 0},
-       "half the bracket is 0.06; joints that are not rigid let the blocks move by up to 1.4 m before the slide "
-       "is lost, which turns the forces between them by some 0.1 deg"},
-      value(found, "critical_friction"), cost(found));
+  report.record({"critical friction, DEM" + name(ground) + way,
+                 "deg",
+                 Kind::limit,
+                 expected.source,
+                 expected.angle,
+                 {0.2, 0},
+                 "half the bracket is 0.06; joints that are not rigid let the blocks move by up to 1.4 m before the "
+                 "slide is lost, which turns the forces between them by some 0.1 deg"},
+                value(found, "critical_friction"), cost(found));
 }
 
 TEST(VaiontElements, NeedWhatLimitAnalysisSays) {
@@ -46,20 +68,20 @@ TEST(VaiontElements, NeedWhatLimitAnalysisSays) {
   report.reference("critical_friction", by_limit_analysis("dem.toml", {}), "deg");
   for (const double metres : {150, 80})
     for (const double water : {0, 90})
-      judge_against_limit_analysis(report, {metres, water}, newton);
+      judge(report, {metres, water}, limit_analysis({metres, water}), newton);
 }
 
-TEST(VaiontElementsLong, NeedWhatLimitAnalysisSaysOfManyBlocks) {
+TEST(VaiontElementsLong, NeedWhatTheClosedFormSaysOfManyBlocks) {
   CaseReport report("vaiont");
   for (const double metres : {40, 20})
     for (const double water : {0, 90})
-      judge_against_limit_analysis(report, {metres, water}, newton);
+      judge(report, {metres, water}, closed_form({metres, water}), newton);
 }
 
 TEST(VaiontElementsLong, NeedTheSameByRelaxation) {
   CaseReport report("vaiont");
-  for (const double water : {0, 90})
-    judge_against_limit_analysis(report, {80, water}, relaxation, {"damping.statics=adaptive"});
+  const Ground dry{80, 0};
+  judge(report, dry, limit_analysis(dry), relaxation, {"damping.statics=adaptive"});
 }
 
 // Cross joints that dip into the slope: as the rock gets stiffer, what distinct elements need falls towards what limit
@@ -90,7 +112,7 @@ TEST(VaiontElements, NeedMoreOfSoftRockBehindLeaningJoints) {
 // a corner of 5 cm instead of 9 and 16 m: the blocks meet the slide beyond the bends before they count as failed
 TEST(VaiontElementsLong, WholeCornersHoldTheSlopeUp) {
   CaseReport report("vaiont");
-  for (const double failed : {1.0, 3.0}) {
+  for (const double failed : {2.0, 5.0}) {
     const SceneRun found = run("dem.toml", {"slicing.smallest_inscribed_radius=0",
                                             "excavations.upper corner.planes.1.point=[718.3277, 644.04085]",
                                             "excavations.lower corner.planes.1.point=[818.3277, 620.0120012]",
