@@ -47,6 +47,15 @@ endforeach()
 voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_test.cpp
   LIBS voussoir_core ${outside_solvers} Boost::headers)
 
+
+set(outside_cone_solver)
+if(TARGET voussoir_ipopt)
+  set(outside_cone_solver voussoir_ipopt)
+endif()
+voussoir_test(unit.potential LONG LABEL unit
+  SOURCES potential/shape_test.cpp potential/mass_test.cpp potential/contact_test.cpp potential/certainty_test.cpp
+  LIBS voussoir_core ${outside_cone_solver} Boost::headers)
+
 if(TARGET voussoir_limit)
   voussoir_test(unit.limit LABEL unit SOURCES limit/limit_test.cpp limit/factor_of_safety_test.cpp LIBS voussoir_limit)
 endif()

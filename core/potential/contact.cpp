@@ -1,0 +1,262 @@
+#include "core/potential/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/potential/surface.hpp"
+
+namespace voussoir {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// far beyond what any pair of the tests needs; who reaches it has no answer
+constexpr int iteration_limit = 400;
+
+// The descent for one λ ends where what is left of it is this fraction of what the next λ will gain; with every change
+// of λ half as much, so that the last ones are exact.
+constexpr double inner_fraction = 0.1;
+
+// and the sign of f_A - f_B counts as that at the sum's least point only where far less is left
+constexpr double sure_fraction = 1e-4;
+
+// what is left to gain, as a fraction of the functions' terms, when the last Newton steps begin
+constexpr double last_gap = 1e-12;
+constexpr int last_steps = 8;  // each squares what is left, or rounding ends them
+
+// a bracket narrower than this fraction of the ratio has lost what it held
+constexpr double shut = 1e-6;
+
+// log λ/(1-λ) changes by no more at once: the model behind the step is a line in logarithms
+constexpr double longest_change = 8;
+
+// about e^x and log x, to first order exact at 0 and 1, from operations that have the same bits on every platform
+double grown(double x) {
+  double power = (16 + x) / (16 - x);
+  for (int i = 0; i < 3; ++i)
+    power *= power;
+  return power;
+}
+double growth(double x) {
+  const double root = std::sqrt(std::sqrt(std::sqrt(x)));
+  return 16 * (root - 1) / (root + 1);
+}
+
+// of a gradient, over its weights and the coordinates: twice that of a slack, for a few planes
+constexpr double gradient_rounding = 64 * std::numeric_limits<double>::epsilon();
+
+// a ratio within the bracket, whose ends may be 0 and infinity, but not both
+double between(double low, double high) {
+  if (low == 0) return high / 4;
+  return std::isfinite(high) ? std::sqrt(low) * std::sqrt(high) : 4 * low;
+}
+
+// The gradient's length on the surface beyond one face, halfway out to the sphere: what the weights of λ balance.
+template <int Dim>
+double usual_slope(const PotentialShape<Dim>& shape) {
+  const double k = shape.sphericity;
+  return std::sqrt((1 - k) * (1 - k / 2)) / shape.corner_radius + k / shape.sphere_radius;
+}
+
+// Both functions at the point, the weighted sum and what Newton's steps need of it.
+template <int Dim>
+struct Place {
+  PotentialDerivatives<Dim> a, b;
+  double lambda, sum;
+  Vector<Dim> gradient, newton, across;  // of the sum; -H⁻¹ gradient; -H⁻¹ (∇f_A - ∇f_B): dx / dλ
+  Matrix<Dim> hessian;
+  double decrement;
+  double spheres;   // the sum's curvature by the spheres, below which it has none anywhere
+  double q_a, q_b;  // f + 1 where Newton's step leads, by the gradients
+};
+
+// No point farther from the centre has f <= value: f is convex, so that along a ray it grows at least as fast beyond
+// the surface, which lies within R, as on the way there.
+template <int Dim>
+double reach_of_value(const PlacedPotential<Dim>& potential, double value) {
+  return potential.reach * std::max(1.0, 1 - value / potential.at_centre);
+}
+
+template <int Dim>
+class Search {
+ public:
+  Search(const PotentialPair<Dim>& pair, PotentialWorkspace<Dim>& workspace)
+      : a_(workspace.a),
+        b_(workspace.b),
+        ray_(workspace.ray),
+        usual_ratio_(usual_slope<Dim>(*pair.b) / usual_slope<Dim>(*pair.a)) {
+    place<Dim>(*pair.a, Matrix<Dim>::Identity(), Vector<Dim>::Zero(), a_);
+    place<Dim>(*pair.b, pair.rotation, pair.offset, b_);
+  }
+
+  // stops early where the particles are proven apart, if that is all that is asked
+  void solve(const PotentialStart<Dim>& start, bool to_the_end, PotentialContact<Dim>& contact) {
+    begin(start, contact);
+    double low = 0, high = infinity;  // of the ratio, as far as the signs of f_A - f_B show
+    double fraction = inner_fraction;
+    int foreseen = 0;
+    while (contact.iterations < iteration_limit) {
+      const Place<Dim> at = look(contact);
+      if (!to_the_end && contact.bound > contact.rounding) return judge(contact);
+      const double terms = 3 + at.a.value + at.b.value;
+      const double mismatch = std::abs(at.q_a - at.q_b) * std::min(at.lambda, 1 - at.lambda);
+      // Where no sphere curves the sum the bound is blunt, and what Newton's step foresees counts instead; twice,
+      // because a point that has only just passed a plane sees none of what lies behind it.
+      foreseen = at.decrement + mismatch <= last_gap * terms ? foreseen + 1 : 0;
+      if (contact.value - contact.bound <= last_gap * terms || foreseen > 1) return finish(at, contact);
+      if (at.decrement <= sure_fraction * mismatch) (at.q_a > at.q_b ? low : high) = contact.ratio;
+      // a sign from a point that had only just passed a plane was wrong if the bracket shuts before the end
+      if (std::isfinite(high) && high - low <= shut * high) low = 0, high = infinity;
+      const bool descended = at.decrement <= fraction * mismatch;
+      if (foreseen == 0 && descended && change_ratio(at, low, high, contact))
+        fraction /= 2;
+      else if (!descend(at, contact) && (descended || !change_ratio(at, low, high, contact)))
+        return finish(at, contact);
+    }
+    contact.status = PotentialStatus::no_answer;
+  }
+
+  void judge(PotentialContact<Dim>& contact) const {
+    contact.status = contact.value + contact.rounding < 0   ? PotentialStatus::touching
+                     : contact.bound - contact.rounding > 0 ? PotentialStatus::separated
+                                                            : PotentialStatus::undecided;
+  }
+
+  const PlacedPotential<Dim>& a() const { return a_; }
+  const PlacedPotential<Dim>& b() const { return b_; }
+
+ private:
+  // from nothing: where the enclosing spheres have equal values, with the weights that balance there
+  void begin(const PotentialStart<Dim>& start, PotentialContact<Dim>& contact) const {
+    contact.point = start.point;
+    contact.ratio = start.ratio;
+    if (contact.ratio > 0) return;
+    contact.point = a_.centre + a_.reach / (a_.reach + b_.reach) * (b_.centre - a_.centre);
+    contact.ratio = usual_ratio_;
+  }
+
+  Place<Dim> look(PotentialContact<Dim>& contact) const {
+    ++contact.iterations;
+    Place<Dim> at;
+    at.a = derivatives<Dim>(a_, contact.point);
+    at.b = derivatives<Dim>(b_, contact.point);
+    at.lambda = contact.ratio / (1 + contact.ratio);
+    const double of_b = 1 / (1 + contact.ratio);
+    at.sum = at.lambda * at.a.value + of_b * at.b.value;
+    at.gradient = at.lambda * at.a.gradient + of_b * at.b.gradient;
+    at.hessian = at.lambda * at.a.hessian + of_b * at.b.hessian;
+    at.spheres = 2 * (at.lambda * a_.sphere_weight + of_b * b_.sphere_weight);
+    at.newton = newton_solution<Dim>(at.hessian, at.spheres, at.gradient);
+    at.across = newton_solution<Dim>(at.hessian, at.spheres, at.a.gradient - at.b.gradient);
+    at.decrement = -at.gradient.dot(at.newton);
+    at.q_a = 1 + at.a.value + at.a.gradient.dot(at.newton);
+    at.q_b = 1 + at.b.value + at.b.gradient.dot(at.newton);
+    contact.value = std::max(at.a.value, at.b.value);
+    contact.bound = bound_below(at, contact.point, contact.value);
+    contact.rounding = value_rounding<Dim>(a_, contact.point) + value_rounding<Dim>(b_, contact.point);
+    return at;
+  }
+
+  // No point has a lower max(f_A, f_B) than this. Three ways to bound what the sum's slope may still gain: by the
+  // curvature of the spheres, below which none falls, and by how far the points reach whose f_A (f_B) is no larger than
+  // the value already found.
+  double bound_below(const Place<Dim>& at, const Vector<Dim>& point, double value) const {
+    const double slope = at.gradient.norm();
+    double gain = std::min(at.gradient.dot(point - a_.centre) + slope * reach_of_value(a_, value),
+                           at.gradient.dot(point - b_.centre) + slope * reach_of_value(b_, value));
+    if (at.spheres > 0) gain = std::min(gain, slope * slope / (2 * at.spheres));
+    return std::max(at.sum - gain, -1.0);  // no f is lower
+  }
+
+  // false: rounding leaves no step
+  bool descend(const Place<Dim>& at, PotentialContact<Dim>& contact) {
+    const WeightedPotentials<Dim> sum{{&a_, &b_}, {at.lambda, 1 / (1 + contact.ratio)}};
+    const Vector<Dim> step = descent_step<Dim>(sum, contact.point, at.gradient, at.hessian, at.spheres, ray_);
+    const bool moves = contact.point + step != contact.point;
+    contact.point += step;
+    return moves;
+  }
+
+  // Newton's step to f_A = f_B, on log Q_A - log Q_B over log λ/(1-λ), Q = f + 1: a straight line for two spheres and
+  // for two flat faces, and nearly one for all else. False: it has no such step here.
+  bool change_ratio(const Place<Dim>& at, double low, double high, PotentialContact<Dim>& contact) const {
+    if (!(at.q_a > 0 && at.q_b > 0)) return false;
+    const double weights = at.lambda * (1 - at.lambda);
+    const double rate = weights * (at.a.gradient.dot(at.across) / at.q_a - at.b.gradient.dot(at.across) / at.q_b);
+    if (!(rate < 0)) return false;
+    const double change = std::clamp(-growth(at.q_a / at.q_b) / rate, -longest_change, longest_change);
+    double ratio = contact.ratio * grown(change);
+    if (ratio <= low || ratio >= high) ratio = between(low, high);
+    contact.point += at.newton + (ratio / (1 + ratio) - at.lambda) * at.across;
+    contact.ratio = ratio;
+    return true;
+  }
+
+  // Newton's method on both conditions at once, as long as its steps grow shorter and the bounds do not part
+  void finish(Place<Dim> at, PotentialContact<Dim>& contact) const {
+    double previous = infinity;
+    for (int i = 0; i < last_steps; ++i) {
+      const Vector<Dim> difference = at.a.gradient - at.b.gradient;
+      const double rate = difference.dot(at.across);
+      if (!(rate < 0)) break;
+      const double change = -(at.a.value - at.b.value + difference.dot(at.newton)) / rate;
+      const Vector<Dim> step = at.newton + change * at.across;
+      const double lambda = at.lambda + change;
+      if (!(step.norm() < previous) || !(lambda > 0 && lambda < 1)) break;
+      previous = step.norm();
+      PotentialContact<Dim> next = contact;
+      next.point += step;
+      next.ratio = lambda / (1 - lambda);
+      at = look(next);
+      if (next.value - next.bound > contact.value - contact.bound + next.rounding) break;
+      contact = next;
+    }
+    judge(contact);
+  }
+
+  PlacedPotential<Dim>&a_, &b_;
+  RayScratch& ray_;
+  double usual_ratio_;
+};
+
+// whether a gradient is more than the rounding of coordinates leaves
+template <int Dim>
+bool has_direction(const PlacedPotential<Dim>& potential, const Vector<Dim>& point, const Vector<Dim>& gradient) {
+  const double size = potential.reach + point.norm() + potential.centre.norm();
+  return gradient.norm() > gradient_rounding * size * (potential.plane_weight + potential.sphere_weight);
+}
+
+template <int Dim>
+void find_overlap(const PlacedPotential<Dim>& a, const PlacedPotential<Dim>& b, PotentialContact<Dim>& contact) {
+  const Vector<Dim> of_a = derivatives<Dim>(a, contact.point).gradient;
+  const Vector<Dim> of_b = derivatives<Dim>(b, contact.point).gradient;
+  contact.status = PotentialStatus::no_normal;
+  if (!has_direction<Dim>(a, contact.point, of_a) || !has_direction<Dim>(b, contact.point, of_b)) return;
+  const Vector<Dim> mean = of_a.normalized() - of_b.normalized();
+  if (!(mean.norm() > 1)) return;  // at the least point the two are opposite
+  contact.status = PotentialStatus::touching;
+  contact.normal = mean.normalized();
+  contact.overlap = distance_to_surface<Dim>(a, contact.point, contact.normal) +
+                    distance_to_surface<Dim>(b, contact.point, -contact.normal);
+}
+
+}  // namespace
+
+template <int Dim>
+PotentialContact<Dim> resolve(const PotentialPair<Dim>& pair, PotentialQuery query, PotentialWorkspace<Dim>& workspace,
+                              const PotentialStart<Dim>& start) {
+  PotentialContact<Dim> contact;
+  Search<Dim> search(pair, workspace);
+  search.solve(start, query == PotentialQuery::least, contact);
+  if (query == PotentialQuery::overlap && contact.status == PotentialStatus::touching)
+    find_overlap<Dim>(search.a(), search.b(), contact);
+  return contact;
+}
+
+template PotentialContact<2> resolve<2>(const PotentialPair<2>&, PotentialQuery, PotentialWorkspace<2>&,
+                                        const PotentialStart<2>&);
+template PotentialContact<3> resolve<3>(const PotentialPair<3>&, PotentialQuery, PotentialWorkspace<3>&,
+                                        const PotentialStart<3>&);
+
+}  // namespace voussoir

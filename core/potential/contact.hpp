@@ -1,0 +1,69 @@
+// The contact of two potential particles (Boon 2013, Eq. A.3): minimise f_A + f_B subject to f_A = f_B, which is
+//   v = min over x of max(f_A, f_B) = max over λ of min over x of λ f_A + (1 - λ) f_B,   0 <= λ <= 1.
+// v < 0: they overlap, and the least point is the contact point, where λ ∇f_A = -(1 - λ) ∇f_B.
+// Every λ and x give two bounds: max(f_A, f_B) at x from above, the weighted sum's least value from below. They prove
+// the decision and show how near the answer is.
+#pragma once
+
+#include "core/potential/descent.hpp"
+
+namespace voussoir {
+
+// Two particles as the first one sees them.
+template <int Dim>
+struct PotentialPair {
+  const PotentialShape<Dim>* a = nullptr;
+  const PotentialShape<Dim>* b = nullptr;
+  Matrix<Dim> rotation = Matrix<Dim>::Identity();  // frame of the second -> frame of the first
+  Vector<Dim> offset = Vector<Dim>::Zero();        // origin of the second in the frame of the first, m
+};
+
+enum class PotentialQuery {
+  decision,  // touching or not, as soon as it is proven
+  least,     // and the least point of both, also where they do not touch
+  overlap    // as `decision`, and where they touch point, normal and overlap
+};
+
+enum class PotentialStatus {
+  separated,  // proven: the bound from below is above zero by more than rounding
+  touching,   // proven: the point lies inside both by more than rounding
+  undecided,  // nearer to touching than rounding can tell: no contact
+  no_normal,  // touching, but the gradients vanish at the point (one centre on the other)
+  no_answer   // the iteration did not end; it must not be taken for separated
+};
+
+// frame of the first body
+template <int Dim>
+struct PotentialContact {
+  PotentialStatus status = PotentialStatus::no_answer;
+  Vector<Dim> point = Vector<Dim>::Zero();   // m
+  double ratio = 1;                          // λ / (1 - λ)
+  double value = 0;                          // max(f_A, f_B) at the point: v from above
+  double bound = 0;                          // v from below; value - bound is the duality gap
+  double rounding = 0;                       // of both
+  Vector<Dim> normal = Vector<Dim>::Zero();  // unit, from the first to the second: mean of the gradients' directions
+  double overlap = 0;                        // between the surfaces along the normal through the point, m
+  int iterations = 0;                        // Newton's, of which each takes one factorisation
+};
+
+// where to begin: the point in the first body's frame and the ratio of the step before
+template <int Dim>
+struct PotentialStart {
+  Vector<Dim> point = Vector<Dim>::Zero();
+  double ratio = 0;  // 0: from nothing
+};
+
+// memory that is kept from one pair to the next
+template <int Dim>
+struct PotentialWorkspace {
+  PlacedPotential<Dim> a, b;
+  RayScratch ray;
+};
+
+// Both shapes are valid (core/potential/valid_shape.hpp) and the offset is finite. For k = 0 of both the least point
+// need not be unique; the value is.
+template <int Dim>
+PotentialContact<Dim> resolve(const PotentialPair<Dim>& pair, PotentialQuery query, PotentialWorkspace<Dim>& workspace,
+                              const PotentialStart<Dim>& start = {});
+
+}  // namespace voussoir

@@ -1,0 +1,215 @@
+// Point, value, normal and overlap against closed forms; what a query stops at; warm starts.
+#include "core/potential/contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/potential/surface.hpp"
+#include "core/testing/potential_pairs.hpp"
+
+namespace voussoir {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+template <int Dim>
+PotentialShape<Dim> sphere(double radius) {
+  PotentialShape<Dim> shape;
+  shape.corner_radius = shape.sphericity = 1;
+  shape.sphere_radius = radius;
+  return shape;
+}
+
+// k = 1: on the line of centres where both are as deep for their size; value (D / (R_A + R_B))² - 1
+template <int Dim>
+void expect_spheres() {
+  shapes::Random random(286);
+  PotentialWorkspace<Dim> workspace;
+  for (int i = 0; i < 2000; ++i) {
+    const double a = shapes::power_of_ten(random, -2, 0), b = shapes::power_of_ten(random, -2, 0), size = a + b;
+    const PotentialShape<Dim> first = sphere<Dim>(a), second = sphere<Dim>(b);
+    const double depth = shapes::power_of_ten(random, -9, -1) * size, distance = size - depth;
+    const Vector<Dim> normal = shapes::direction<Dim>(random);
+    const PotentialPair<Dim> pair{&first, &second, matrix(shapes::orientation<Dim>(random)), distance * normal};
+    const PotentialContact<Dim> c = resolve<Dim>(pair, PotentialQuery::overlap, workspace);
+    ASSERT_EQ(c.status, PotentialStatus::touching);
+    const double ulps = 8 * epsilon * size;
+    ASSERT_LE((c.point - a / size * pair.offset).norm(), ulps);
+    // gradients turn, and values change, by what moves the point over the radius
+    ASSERT_LE((c.normal - normal).norm() * std::min(a, b), ulps);
+    ASSERT_NEAR(c.overlap, depth, ulps);
+    ASSERT_NEAR(c.value, (distance / size) * (distance / size) - 1, 2 * ulps / std::min(a, b));
+  }
+}
+TEST(PotentialContact, OfSpheresIsTheClosedForm) {
+  expect_spheres<2>();
+  expect_spheres<3>();
+}
+
+// Two equal cubes face to face along x, whose only curvature across is that of the spheres: by symmetry half way.
+template <int Dim>
+void expect_faces() {
+  PotentialWorkspace<Dim> workspace;
+  for (const double r : {1e-4, 1e-2, 0.3})
+    for (const double k : {1e-4, 0.01, 0.3, 0.9}) {
+      PotentialShape<Dim> cube{shapes::cube<Dim>(0.5), r, k};
+      cube.sphere_radius = enclosing_radius<Dim>(cube.planes, r, Vector<Dim>::Zero());
+      // the face's middle lies at (1 - k) s² / r² + k (1/2 + s)² / R² = 1
+      const double p = (1 - k) / (r * r), q = k / (cube.sphere_radius * cube.sphere_radius);
+      const double s = (1 - q / 4) / (q / 2 + std::sqrt(q * q / 4 + (p + q) * (1 - q / 4)));
+      const double depth = 0.1 * r;
+      PotentialPair<Dim> pair{&cube, &cube};
+      pair.offset[0] = 1 + 2 * s - depth;
+      const PotentialContact<Dim> c = resolve<Dim>(pair, PotentialQuery::overlap, workspace);
+      ASSERT_EQ(c.status, PotentialStatus::touching);
+      EXPECT_LE((c.point - pair.offset / 2).norm(), 16 * epsilon);
+      EXPECT_LE((c.normal - Vector<Dim>::Unit(0)).norm(), 16 * epsilon);
+      EXPECT_NEAR(c.overlap, depth, 16 * epsilon);
+      EXPECT_NEAR(c.ratio, 1, 16 * epsilon / r);
+    }
+}
+TEST(PotentialContact, OfTwoCubesFaceToFaceIsHalfWay) {
+  expect_faces<2>();
+  expect_faces<3>();
+}
+
+// k = 0, radii r_A and r_B: corner down on a face. Across both, Q = t²/r²: t_A : t_B = r_A : r_B, and what the corner
+// and the face of the inner bodies are apart is G = t_A + t_B.
+TEST(PotentialContact, OfACornerOnAFaceWithoutSpheres) {
+  PotentialWorkspace<3> workspace;
+  const Matrix<3> corner_down =
+      Eigen::Quaterniond::FromTwoVectors(Vector<3>(1, 1, 1), Vector<3>(0, 0, -1)).toRotationMatrix();
+  for (const double r_a : {1e-3, 0.1})
+    for (const double r_b : {1e-3, 0.02}) {
+      const PotentialShape<3> block{shapes::box<3>({-2, -2, -1}, {2, 2, 0}), r_a, 0, 10, {0, 0, -0.5}};
+      const PotentialShape<3> cube{shapes::cube<3>(0.5), r_b, 0, 10};
+      const double depth = 0.1 * std::min(r_a, r_b), gap = r_a + r_b - depth;
+      const PotentialPair<3> pair{&block, &cube, corner_down, {0.3, -0.2, gap + std::sqrt(0.75)}};
+      const PotentialContact<3> c = resolve<3>(pair, PotentialQuery::overlap, workspace);
+      ASSERT_EQ(c.status, PotentialStatus::touching);
+      EXPECT_LE((c.point - Vector<3>(0.3, -0.2, gap * r_a / (r_a + r_b))).norm(), 1e-14);
+      EXPECT_LE((c.normal - Vector<3>::UnitZ()).norm(), 1e-14 / r_b);
+      EXPECT_NEAR(c.overlap, depth, 1e-14);
+      EXPECT_NEAR(c.value, std::pow(gap / (r_a + r_b), 2) - 1, 1e-14 / std::min(r_a, r_b));
+      EXPECT_NEAR(c.ratio, r_a / r_b, 1e-9 * c.ratio);
+    }
+}
+
+TEST(PotentialContact, OneCentreOnTheOtherHasNoNormal) {
+  PotentialWorkspace<3> workspace;
+  const PotentialShape<3> a = sphere<3>(1), b = sphere<3>(0.5);
+  const PotentialPair<3> pair{&a, &b};
+  EXPECT_EQ(resolve<3>(pair, PotentialQuery::overlap, workspace).status, PotentialStatus::no_normal);
+  EXPECT_EQ(resolve<3>(pair, PotentialQuery::decision, workspace).status, PotentialStatus::touching);
+}
+
+TEST(PotentialContact, InnerBodiesThatOverlapHaveNoNormalWithoutSpheres) {
+  PotentialWorkspace<3> workspace;
+  const PotentialShape<3> cube{shapes::cube<3>(0.5), 1e-3, 0, 2};
+  const PotentialPair<3> pair{&cube, &cube, Matrix<3>::Identity(), {0.9, 0.1, 0.2}};
+  const PotentialContact<3> c = resolve<3>(pair, PotentialQuery::overlap, workspace);
+  EXPECT_EQ(c.status, PotentialStatus::no_normal);
+  EXPECT_NEAR(c.value, -1, epsilon);
+}
+
+template <int Dim>
+void expect_overlap_on_the_surfaces() {
+  shapes::Random random(287);
+  PotentialWorkspace<Dim> workspace;
+  for (int i = 0; i < 300; ++i) {
+    const shapes::PotentialCase<Dim> c = shapes::random_potential_case<Dim>(random, 0.01);
+    const PotentialContact<Dim> found = resolve<Dim>(c.pair(), PotentialQuery::overlap, workspace);
+    ASSERT_EQ(found.status, c.depth > 0 ? PotentialStatus::touching : PotentialStatus::separated);
+    if (c.depth < 0) continue;
+    // both ends lie on the surfaces; the weighted gradients cancel; no line is shorter than the least depth, which is
+    // no more than that along the normal the pair was made for
+    const double ahead = distance_to_surface<Dim>(workspace.a, found.point, found.normal);
+    const double behind = distance_to_surface<Dim>(workspace.b, found.point, -found.normal);
+    ASSERT_EQ(found.overlap, ahead + behind);
+    const Vector<Dim> end_a = found.point + ahead * found.normal, end_b = found.point - behind * found.normal;
+    ASSERT_NEAR(value<Dim>(workspace.a, end_a), 0, 2 * value_rounding<Dim>(workspace.a, end_a));
+    ASSERT_NEAR(value<Dim>(workspace.b, end_b), 0, 2 * value_rounding<Dim>(workspace.b, end_b));
+    const Vector<Dim> of_a = derivatives<Dim>(workspace.a, found.point).gradient;
+    const Vector<Dim> of_b = derivatives<Dim>(workspace.b, found.point).gradient;
+    const double rounding = 8 * epsilon * (found.ratio * workspace.a.plane_weight + workspace.b.plane_weight);
+    ASSERT_LE((found.ratio * of_a + of_b).norm(), 1e-9 * (found.ratio * of_a.norm() + of_b.norm()) + rounding);
+  }
+}
+TEST(PotentialContact, OverlapEndsOnBothSurfacesAlongTheCommonGradient) {
+  expect_overlap_on_the_surfaces<2>();
+  expect_overlap_on_the_surfaces<3>();
+}
+
+// whichever is the first: the same contact, with the normal turned round
+template <int Dim>
+void expect_exchange() {
+  shapes::Random random(288);
+  PotentialWorkspace<Dim> workspace;
+  for (int i = 0; i < 300; ++i) {
+    const shapes::PotentialCase<Dim> c = shapes::random_potential_case<Dim>(random, 0.01);
+    const PotentialPair<Dim> other{&c.b, &c.a, c.rotation.transpose(), -c.rotation.transpose() * c.offset};
+    const PotentialContact<Dim> one = resolve<Dim>(c.pair(), PotentialQuery::least, workspace);
+    const PotentialContact<Dim> two = resolve<Dim>(other, PotentialQuery::least, workspace);
+    ASSERT_EQ(one.status, two.status);
+    ASSERT_LE((c.rotation * two.point + c.offset - one.point).norm(), 1e-9);
+    ASSERT_NEAR(one.value, two.value, 1e-10 * (2 + one.value) + one.rounding + two.rounding);
+  }
+}
+TEST(PotentialContact, IsTheSameWhicheverComesFirst) {
+  expect_exchange<2>();
+  expect_exchange<3>();
+}
+
+template <int Dim>
+void expect_warm_starts() {
+  shapes::Random random(289);
+  PotentialWorkspace<Dim> workspace;
+  int cold_total = 0, warm_total = 0;
+  for (int i = 0; i < 300; ++i) {
+    shapes::PotentialCase<Dim> c = shapes::random_potential_case<Dim>(random, 0.01);
+    const PotentialContact<Dim> before = resolve<Dim>(c.pair(), PotentialQuery::least, workspace);
+    c.offset += 0.01 * std::abs(c.depth) * shapes::direction<Dim>(random);
+    const PotentialContact<Dim> cold = resolve<Dim>(c.pair(), PotentialQuery::least, workspace);
+    const PotentialContact<Dim> warm =
+        resolve<Dim>(c.pair(), PotentialQuery::least, workspace, {before.point, before.ratio});
+    ASSERT_EQ(cold.status, warm.status);
+    ASSERT_LE((cold.point - warm.point).norm(), 1e-9);
+    ASSERT_NEAR(cold.value, warm.value, 1e-10 * (2 + cold.value) + cold.rounding);
+    cold_total += cold.iterations;
+    warm_total += warm.iterations;
+  }
+  EXPECT_LT(2 * warm_total, cold_total + 600);  // half of the work, beside the two steps that confirm an answer
+}
+TEST(PotentialContact, AWarmStartGivesTheSameForLess) {
+  expect_warm_starts<2>();
+  expect_warm_starts<3>();
+}
+
+TEST(PotentialContact, SeparatedPairsEndAtTheFirstProof) {
+  shapes::Random random(290);
+  PotentialWorkspace<3> workspace;
+  int early = 0, full = 0;
+  for (int i = 0; i < 200; ++i) {
+    shapes::PotentialCase<3> c = shapes::random_potential_case<3>(random, 0);
+    c.offset += 0.2 * c.normal;
+    const PotentialContact<3> decided = resolve<3>(c.pair(), PotentialQuery::decision, workspace);
+    const PotentialContact<3> least = resolve<3>(c.pair(), PotentialQuery::least, workspace);
+    ASSERT_EQ(decided.status, PotentialStatus::separated);
+    ASSERT_EQ(least.status, PotentialStatus::separated);
+    ASSERT_LE(decided.bound, least.value + least.rounding);
+    early += decided.iterations;
+    full += least.iterations;
+  }
+  EXPECT_LT(2 * early, full);
+}
+
+TEST(PotentialContact, TouchingToRoundingIsUndecided) {
+  PotentialWorkspace<2> workspace;
+  const PotentialShape<2> a = sphere<2>(1), b = sphere<2>(3);
+  const PotentialPair<2> pair{&a, &b, Matrix<2>::Identity(), {4, 0}};
+  EXPECT_EQ(resolve<2>(pair, PotentialQuery::overlap, workspace).status, PotentialStatus::undecided);
+}
+
+}  // namespace
+}  // namespace voussoir

@@ -1,0 +1,52 @@
+// The least point of a weighted sum of potentials: Newton's method on a convex function whose second derivative jumps.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/potential/shape.hpp"
+
+namespace voussoir {
+
+// h(x) = Σ weight f(x) - pull·x, over one potential or two
+template <int Dim>
+struct WeightedPotentials {
+  std::array<const PlacedPotential<Dim>*, 2> potentials{};  // the second may be null
+  std::array<double, 2> weights{};                          // not negative
+  Vector<Dim> pull = Vector<Dim>::Zero();
+};
+
+// a plane along a ray: how far the ray's start lies outside it, and how fast that grows
+struct RayPlane {
+  double slack, rate;
+  double weight;  // of its square in h
+};
+using RayScratch = std::vector<RayPlane>;
+
+// Newton's direction -H⁻¹ g. `spheres` is the curvature that the spheres give H in every direction, 2 Σ weight k / R².
+// Where it is all that curves a direction, but less than H's rounding, it is put in its place there; where there is
+// none at all (k = 0), a floor is: such a direction is given next to nothing, or the search along the line all that it
+// needs.
+template <int Dim>
+Vector<Dim> newton_solution(const Matrix<Dim>& hessian, double spheres, const Vector<Dim>& right);
+
+// A step down from the point, given the sum's derivatives there: along Newton's direction, as far as 1 where that
+// brings the slope of h well down, otherwise to where the slope vanishes. Along a line the slope is a rising chain of
+// straight pieces, so that its zero is found. A plane through the point itself, which the step would only just not
+// pass, counts in the Hessian, so that the step runs along it. Zero: rounding leaves no step.
+template <int Dim>
+Vector<Dim> descent_step(const WeightedPotentials<Dim>& sum, const Vector<Dim>& point, const Vector<Dim>& gradient,
+                         const Matrix<Dim>& hessian, double spheres, RayScratch& scratch);
+
+template <int Dim>
+struct LeastPoint {
+  bool converged = false;
+  Vector<Dim> point = Vector<Dim>::Zero();
+  int iterations = 0;
+};
+
+// The least point of h from a start, to where rounding ends the descent.
+template <int Dim>
+LeastPoint<Dim> find_least_point(const WeightedPotentials<Dim>& sum, const Vector<Dim>& start, RayScratch& scratch);
+
+}  // namespace voussoir
