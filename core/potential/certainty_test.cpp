@@ -62,7 +62,7 @@ void ask_outside(const shapes::PotentialCase<Dim>& c, const PotentialContact<Dim
 #endif
 
 template <int Dim>
-Tally judge_pairs(int pairs, int outside, unsigned seed) {
+Tally judge_pairs(int pairs, [[maybe_unused]] int outside, unsigned seed) {
   shapes::Random random(seed);
   PotentialWorkspace<Dim> workspace;
   Tally tally;
