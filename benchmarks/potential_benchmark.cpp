@@ -1,0 +1,128 @@
+// Contacts of potential particles: our solver cold and warm, Ipopt on the same program, and libccd's GJK+EPA on the
+// polyhedra of the same planes; µs of processor time per pair, by polyhedron type, over the touching pairs of the
+// contact benchmark. The particles' planes lie r inside the polyhedra's, so that their faces coincide.
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+
+#include "benchmarks/peers/peers.hpp"
+#include "core/potential/valid_shape.hpp"
+#ifdef VOUSSOIR_PEER_IPOPT
+#include "core/potential/ipopt.hpp"
+#endif
+
+namespace voussoir::benchmarks {
+namespace {
+
+constexpr int rounds = 5;                 // of which the median counts
+constexpr std::size_t outside_pairs = 4;  // Ipopt's
+constexpr double corner_radius = 1e-5;    // of the size, a tenth of the overlaps: corners recede by less than these
+constexpr double sphericity = 0.01;
+
+double processor_us() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
+
+double median_us(std::size_t pairs, const std::function<void()>& resolve) {
+  std::vector<double> times;
+  for (int i = 0; i < rounds; ++i) {
+    const double begin = processor_us();
+    resolve();
+    times.push_back((processor_us() - begin) / static_cast<double>(pairs));
+  }
+  std::nth_element(times.begin(), times.begin() + rounds / 2, times.end());
+  return times[rounds / 2];
+}
+
+PotentialShape<3> rounded(const Polytope<3>& part) {
+  PotentialShape<3> shape{part.faces, corner_radius, sphericity};
+  for (HalfSpace<3>& plane : shape.planes)
+    plane.offset -= corner_radius;
+  shape.sphere_radius = enclosing_radius<3>(shape.planes, corner_radius, Vector<3>::Zero());
+  return shape;
+}
+
+struct Pairs {
+  std::vector<PotentialShape<3>> shapes;
+  std::vector<PotentialPair<3>> now, before;
+};
+
+Pairs rounded_pairs(const Workload& work) {
+  Pairs pairs;
+  for (const Polytope<3>& part : *work.parts)
+    pairs.shapes.push_back(rounded(part));
+  const auto shape_of = [&](const Polytope<3>* part) { return &pairs.shapes[part - work.parts->data()]; };
+  for (const Pair<3>& p : work.pairs)
+    pairs.now.push_back({shape_of(p.a), shape_of(p.b), p.rotation, p.offset});
+  for (const Pair<3>& p : work.previous[0])
+    pairs.before.push_back({shape_of(p.a), shape_of(p.b), p.rotation, p.offset});
+  return pairs;
+}
+
+void print_row(Shape shape) {
+  const Workload& work = workload(shape, PairState::touch);
+  const Pairs pairs = rounded_pairs(work);
+  PotentialWorkspace<3> workspace;
+  std::vector<PotentialStart<3>> starts;
+  int touching = 0, failed = 0;
+  long long cold_iterations = 0, warm_iterations = 0;
+  for (std::size_t i = 0; i < pairs.now.size(); ++i) {
+    const PotentialContact<3> before = resolve<3>(pairs.before[i], PotentialQuery::least, workspace);
+    starts.push_back({before.point, before.ratio});
+    const PotentialContact<3> cold = resolve<3>(pairs.now[i], PotentialQuery::overlap, workspace);
+    touching += cold.status == PotentialStatus::touching;
+    failed += cold.status == PotentialStatus::no_answer;
+    cold_iterations += cold.iterations;
+    warm_iterations += resolve<3>(pairs.now[i], PotentialQuery::overlap, workspace, starts[i]).iterations;
+  }
+
+  const double cold_us = median_us(pairs.now.size(), [&] {
+    for (const PotentialPair<3>& pair : pairs.now)
+      resolve<3>(pair, PotentialQuery::overlap, workspace);
+  });
+  const double warm_us = median_us(pairs.now.size(), [&] {
+    for (std::size_t i = 0; i < pairs.now.size(); ++i)
+      resolve<3>(pairs.now[i], PotentialQuery::overlap, workspace, starts[i]);
+  });
+  const double count = static_cast<double>(pairs.now.size());
+  fmt::print("{},{:.1f},{:.2f},{:.2f},{:.1f},{:.1f},{},{}", name_of(shape), mean_planes(work), cold_us, warm_us,
+             static_cast<double>(cold_iterations) / count, static_cast<double>(warm_iterations) / count, touching,
+             failed);
+#ifdef VOUSSOIR_PEER_IPOPT
+  fmt::print(",{:.0f}", median_us(outside_pairs, [&] {
+               for (std::size_t i = 0; i < outside_pairs; ++i)
+                 solve_cone_program<3>(pairs.now[i], ConeReading::linked);
+             }));
+#endif
+#ifdef VOUSSOIR_PEER_CCD
+  for (const Method& method : ccd_methods())
+    if (method.name == ccd_epa) {
+      const std::shared_ptr<Prepared> epa = method.prepare(work);
+      fmt::print(",{:.2f}", median_us(pairs.now.size(), [&] { epa->resolve(0, pairs.now.size()); }));
+    }
+#endif
+  fmt::print("\n");
+  std::fflush(stdout);  // a row takes a minute on a busy machine
+}
+
+}  // namespace
+}  // namespace voussoir::benchmarks
+
+int main() {
+  using namespace voussoir::benchmarks;
+  fmt::print("shape,planes,cold_us,warm_us,cold_iterations,warm_iterations,touching,failed");
+#ifdef VOUSSOIR_PEER_IPOPT
+  fmt::print(",ipopt_us");
+#endif
+#ifdef VOUSSOIR_PEER_CCD
+  fmt::print(",ccd_epa_us");
+#endif
+  fmt::print("\n");
+  for (int shape = 0; shape < shape_count; ++shape)
+    print_row(static_cast<Shape>(shape));
+}
