@@ -165,6 +165,39 @@ TEST(SlicingSettling, ThreeHundredBlocksRestByRelaxation) {
   check(report, ", 327 blocks by relaxation", record<3>("rock_mass.toml", {"damping.statics=\"adaptive\""}));
 }
 
+// counts of what coming to rest cost, so that it grows with the rock no faster than core/step/README.md says
+void check_cost(CaseReport& report, const std::string& which, const RecordedRun<3>& settled, double most) {
+  const State<3>& state = settled.last();
+  const auto touching =
+      std::count_if(state.contacts.begin(), state.contacts.end(), [](const Contact<3>& c) { return c.touching(); });
+  const Counters& counters = settled.run.results.counters;
+  report.record({"settling: evaluations a touching pair" + which,
+                 "1",
+                 Kind::limit,
+                 "core/step/README.md",
+                 0,
+                 {most, 0, Bound::at_most},
+                 "those measured, and half as much again: the order of rounding decides "
+                 "which joints open and close on the way"},
+                static_cast<double>(counters.contact_evaluations) / static_cast<double>(touching), cost(settled.run));
+  report.record({"settling: left to relaxation" + which, "1", Kind::exact, "none need be", 0, {0.5, 0}, "a count"},
+                static_cast<double>(counters.static_fallbacks), cost(settled.run));
+}
+
+TEST(SlicingSettling, ThreeHundredBlocksRestByNewtonsMethod) {
+  CaseReport report("slicing");
+  const RecordedRun<3> settled = record<3>("rock_mass.toml", {"damping.statics=\"newton\""});
+  check(report, ", 327 blocks by Newton's method", settled);
+  check_cost(report, ", 327 blocks by Newton's method", settled, 62);
+}
+
+TEST(SlicingSettlingLong, TwentyFiveHundredBlocksRestByNewtonsMethod) {
+  CaseReport report("slicing");
+  const RecordedRun<3> settled = record<3>("settling.toml", {"damping.statics=\"newton\""});
+  check(report, ", 2500 blocks by Newton's method", settled);
+  check_cost(report, ", 2500 blocks by Newton's method", settled, 114);
+}
+
 TEST(SlicingSettlingLong, TwentyFiveHundredBlocksComeToRest) {
   CaseReport report("slicing");
   const RecordedRun<3> settled = record<3>("settling.toml");
