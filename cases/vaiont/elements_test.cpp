@@ -84,6 +84,29 @@ TEST(VaiontElementsLong, NeedTheSameByRelaxation) {
   judge(report, dry, limit_analysis(dry), relaxation, {"damping.statics=adaptive"});
 }
 
+// by other ways the same, within their error bars and 0.1 degrees
+void judge_way(CaseReport& report, const std::string& scene, const std::string& way) {
+  const SceneRun found = run(scene);
+  report.record({"critical friction, DEM, 80 m, dry, " + way,
+                 "deg",
+                 Kind::limit,
+                 "rigid-block limit analysis of the same blocks",
+                 by_limit_analysis(scene, {}),
+                 {*found.results.find("critical_friction")->error_bar + 0.1, 0},
+                 "its error bar, and 0.1 deg as demanded"},
+                value(found, "critical_friction"), cost(found));
+}
+
+TEST(VaiontElements, NeedTheSameInSteps) {
+  CaseReport report("vaiont");
+  judge_way(report, "dem_steps.toml", "steps, Newton");
+}
+
+TEST(VaiontElementsLong, NeedTheSameAtTwoRates) {
+  CaseReport report("vaiont");
+  judge_way(report, "dem_rates.toml", "two rates");
+}
+
 // Cross joints that dip into the slope: as the rock gets stiffer, what distinct elements need falls towards what limit
 // analysis says, for soft joints let the blocks go metres before the slide is lost.
 TEST(VaiontElements, NeedMoreOfSoftRockBehindLeaningJoints) {
