@@ -77,7 +77,7 @@ TEST(VaiontCentralLong, TakesAThirdByTheShortWay) {
   CaseReport report("vaiont");
   const SceneRun slow = run("central.toml"), fast = run("central_fast.toml");
   report.report("critical friction, central analysis", "deg", value(slow, "critical_friction"),
-                "published 20.6; half a degree lower, for its bonds hold (README)", cost(slow));
+                "published 20.6: ours is half a degree lower (README)", cost(slow));
   report.record({"critical friction, the short way against the published one",
                  "deg",
                  Kind::limit,
