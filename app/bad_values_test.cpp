@@ -125,6 +125,7 @@ struct Harmless {
 constexpr std::string_view is_default = "the default: the documented meaning of zero";
 constexpr std::string_view zero_place = "a place like any other";
 constexpr std::string_view slow = "slow, as laboratory tests and creep are";
+constexpr std::string_view kept_whole = "no block is cut; a selector that then chooses none is refused";
 constexpr std::string_view beyond = "a domain plane bounds the box on this side";
 const Harmless harmless[] = {
     {"box", "max", "0", zero_place},
@@ -188,6 +189,8 @@ const Harmless harmless[] = {
     {"output", "history_interval_s", "0", is_default},
     {"slicing", "smallest_inscribed_radius", "0", is_default},
     {"slicing", "largest_aspect_ratio", "0", is_default},
+    {"slicing", "largest_aspect_ratio", "times 1e-6", kept_whole},
+    {"slicing", "largest_aspect_ratio", "times 1e-9", kept_whole},
     {"joints", "corners", "any",
      "another polygon; one that leaves the plane, is not convex or cuts nothing is reported"},
     {"cylinder", "from", "any", "another tunnel; one that takes out no block is refused"},

@@ -162,10 +162,8 @@ LeastPoint<Dim> find_least_point(const WeightedPotentials<Dim>& sum, const Vecto
   return least;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                         \
-  template Vector<Dim> newton_solution<Dim>(const Matrix<Dim>&, double, const Vector<Dim>&);              \
-  template double step_along<Dim>(const WeightedPotentials<Dim>&, const Vector<Dim>&, const Vector<Dim>&, \
-                                  RayScratch&);                                                           \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                            \
+  template Vector<Dim> newton_solution<Dim>(const Matrix<Dim>&, double, const Vector<Dim>&); \
   template LeastPoint<Dim> find_least_point<Dim>(const WeightedPotentials<Dim>&, const Vector<Dim>&, RayScratch&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
