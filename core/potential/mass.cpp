@@ -22,7 +22,7 @@ template <int Dim>
 using Integrals = Eigen::Matrix<double, 1 + Dim + Dim*(Dim + 1) / 2, 1>;
 
 template <int Dim>
-struct Body {
+struct MeasuredShape {
   PlacedPotential<Dim> potential;
   Vector<Dim> half;  // extents
 };
@@ -38,7 +38,7 @@ struct Cell {
 };
 
 template <int Dim>
-void add_ray(const Body<Dim>& body, const Vector<Dim>& through, double weight, Integrals<Dim>& sums) {
+void add_ray(const MeasuredShape<Dim>& body, const Vector<Dim>& through, double weight, Integrals<Dim>& sums) {
   const double reach = distance_to_surface<Dim>(body.potential, body.potential.centre, body.half.cwiseProduct(through));
   const double volume = weight * std::pow(reach, Dim) / Dim;
   const double first = volume * reach * Dim / (Dim + 1), second = first * reach * (Dim + 1) / (Dim + 2);
@@ -52,7 +52,7 @@ void add_ray(const Body<Dim>& body, const Vector<Dim>& through, double weight, I
 }
 
 template <int Dim>
-Integrals<Dim> by_gauss(const Body<Dim>& body, const Cell<Dim>& cell) {
+Integrals<Dim> by_gauss(const MeasuredShape<Dim>& body, const Cell<Dim>& cell) {
   Integrals<Dim> sums = Integrals<Dim>::Zero();
   Vector<Dim> through;
   through[cell.axis] = cell.side;
@@ -103,7 +103,7 @@ double pyramid(const std::array<double, 1 << (Dim - 1)>& reach, double half) {
 }
 
 template <int Dim>
-Enclosure<Dim> enclose(const Body<Dim>& body, const Cell<Dim>& cell) {
+Enclosure<Dim> enclose(const MeasuredShape<Dim>& body, const Cell<Dim>& cell) {
   constexpr int corners = 1 << (Dim - 1);
   const PlacedPotential<Dim>& potential = body.potential;
   const auto ray = [&](const Eigen::Matrix<double, Dim - 1, 1>& across) {
@@ -143,7 +143,7 @@ Enclosure<Dim> enclose(const Body<Dim>& body, const Cell<Dim>& cell) {
 }
 
 template <int Dim>
-void measure(const Body<Dim>& body, Cell<Dim>& cell) {
+void measure(const MeasuredShape<Dim>& body, Cell<Dim>& cell) {
   cell.kept.setZero();
   for (const Cell<Dim>& part : parts_of<Dim>(cell))
     cell.kept += by_gauss<Dim>(body, part);
@@ -172,7 +172,7 @@ std::vector<Cell<Dim>> whole_surface() {
 }
 
 template <int Dim>
-MassProperties<Dim> in_metres(const Body<Dim>& body, const Integrals<Dim>& sums) {
+MassProperties<Dim> in_metres(const MeasuredShape<Dim>& body, const Integrals<Dim>& sums) {
   const double unit = body.half.prod();
   const Vector<Dim>& c = body.potential.centre;
   MassProperties<Dim> mass;
@@ -192,7 +192,7 @@ MassProperties<Dim> in_metres(const Body<Dim>& body, const Integrals<Dim>& sums)
 
 template <int Dim>
 PotentialMass<Dim> integrate(const PotentialShape<Dim>& shape, double tolerance, long long cell_limit) {
-  Body<Dim> body{placed<Dim>(shape), {}};
+  MeasuredShape<Dim> body{placed<Dim>(shape), {}};
   RayScratch scratch;
   const PotentialBox<Dim> box = bounding_box<Dim>(body.potential, scratch);
   body.half = (body.potential.centre - box.low).cwiseMax(box.high - body.potential.centre);
