@@ -39,8 +39,9 @@ template <int Dim>
 void call_kernel(const ContactSettings& settings, std::size_t first, std::size_t count, bool batched,
                  KernelCounters& counters) {
   static const Solvers<Dim> solvers;
-  const std::span<const Pair<Dim>> pairs = std::span<const Pair<Dim>>(desk<Dim>().pairs).subspan(first, count);
-  const std::span<Contact<Dim>* const> slots = std::span<Contact<Dim>* const>(desk<Dim>().slots).subspan(first, count);
+  const std::span<const Pair<Dim>> pairs = std::span<const Pair<Dim>>(fixture<Dim>().pairs).subspan(first, count);
+  const std::span<Contact<Dim>* const> slots =
+      std::span<Contact<Dim>* const>(fixture<Dim>().slots).subspan(first, count);
   if (batched)
     narrow_phase<Dim>(pairs, settings, solvers, slots, counters);
   else
@@ -52,9 +53,9 @@ template <int Dim>
 void lay_out(const std::vector<Pair<Dim>>& pairs, const Contacts<Dim>& contacts, QueryLevel level, std::size_t first,
              std::size_t count) {
   for (std::size_t i = first; i < first + count; ++i) {
-    desk<Dim>().pairs[i] = pairs[i];
-    desk<Dim>().pairs[i].level = level;
-    desk<Dim>().contacts[i] = contacts[i];
+    fixture<Dim>().pairs[i] = pairs[i];
+    fixture<Dim>().pairs[i].level = level;
+    fixture<Dim>().contacts[i] = contacts[i];
   }
 }
 
@@ -68,7 +69,7 @@ Contacts<Dim> contacts_before(const Work& work, const ContactSettings& settings,
   KernelCounters counters;
   lay_out<Dim>(work.previous[move], start, level, 0, pairs_per_workload);
   call_kernel<Dim>(settings, 0, pairs_per_workload, true, counters);
-  return desk<Dim>().contacts;
+  return fixture<Dim>().contacts;
 }
 
 // `work` lives as long as what is made here
@@ -86,7 +87,7 @@ std::shared_ptr<Prepared> prepare_kernel(std::shared_ptr<const Work> work, const
     call_kernel<Dim>(settings, first, count, batched, mine);
     if (first == 0) *counters = mine;
   };
-  prepared->touching = [](std::size_t i) { return desk<Dim>().contacts[i].touching(); };
+  prepared->touching = [](std::size_t i) { return fixture<Dim>().contacts[i].touching(); };
   return prepared;
 }
 
