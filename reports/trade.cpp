@@ -189,6 +189,12 @@ std::string level_table(const std::vector<CaseStudy>& studies) {
          rows + "\n";
 }
 
+// what a failure is called; the whole of it stands in the table of settings that failed
+std::string brief_status(const json& failure) {
+  const std::string status = failure.at("status");
+  return fmt::format("**{}**", status.substr(0, status.find(':')));
+}
+
 // every sweep over how many points carry a joint face
 std::string points_table(const std::vector<CaseStudy>& studies) {
   const auto is_one = [](const json& row) { return row.at("key").get<std::string>().ends_with(".sub_contacts"); };
@@ -196,8 +202,8 @@ std::string points_table(const std::vector<CaseStudy>& studies) {
   for (const CaseStudy& entry : studies) {
     for (const json& row : entry.study.at("failed"))
       if (is_one(row))
-        rows += fmt::format("| {} | {} | {} | **{}** | | | |\n", link(entry), row.at("sweep").get<std::string>(),
-                            row.at("value").get<std::string>(), row.at("status").get<std::string>());
+        rows += fmt::format("| {} | {} | {} | {} | | | |\n", link(entry), row.at("sweep").get<std::string>(),
+                            row.at("value").get<std::string>(), brief_status(row));
     for (const json& point : entry.study.at("points"))
       if (is_one(point))
         rows += fmt::format("| {} | {} | {} | {} | {} | {} | {:.2g} |\n", link(entry),
@@ -240,10 +246,8 @@ std::string ways_table(const std::vector<CaseStudy>& studies) {
       add(row, point,
           {percent(point.at("relative_error_upper")),
            fmt::format("{}", point.at("contact_evaluations").get<long long>())});
-    for (const json& failure : studies[row].study.at("failed")) {
-      const std::string status = failure.at("status");  // what it was in full stands below
-      add(row, failure, {fmt::format("**{}**", status.substr(0, status.find(':'))), "–"});
-    }
+    for (const json& failure : studies[row].study.at("failed"))
+      add(row, failure, {brief_status(failure), "–"});
   }
   std::vector<std::string> ways = marched;
   ways.insert(ways.end(), newton.begin(), newton.end());
