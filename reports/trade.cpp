@@ -189,7 +189,7 @@ std::string level_table(const std::vector<CaseStudy>& studies) {
          rows + "\n";
 }
 
-// what a failure is called; the whole of it stands in the table of settings that failed
+// what a failure is called; its full text is in the table of settings that failed
 std::string brief_status(const json& failure) {
   const std::string status = failure.at("status");
   return fmt::format("**{}**", status.substr(0, status.find(':')));
