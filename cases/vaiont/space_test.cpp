@@ -1,5 +1,5 @@
-// Vaiont slide in space: how much rock the planes of the slide and of the ground enclose, and the friction that a
-// coarse cut of it needs.
+// Vaiont slide in space: how much rock the planes of the slide and of the ground enclose, in all and below the
+// reservoir.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
