@@ -180,15 +180,14 @@ void judge_last_block(const Prepared<Dim>& prepared, std::vector<std::string>& w
 }
 
 // The largest change of a free block's water force as it moves by a way along a horizontal axis, of its weight.
-template <int Dim>
 struct WaterLeft {
   double most = 0;
   int body = 0;
 };
 
 template <int Dim>
-WaterLeft<Dim> find_water_left(const Model<Dim>& model, const WaterValues& values, double way) {
-  WaterLeft<Dim> left;
+WaterLeft find_water_left(const Model<Dim>& model, const WaterValues& values, double way) {
+  WaterLeft left;
   WaterSurfaces<Dim> surfaces;
   find_surfaces(model, values, 1, surfaces);
   for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
@@ -219,14 +218,12 @@ void judge_searches_in_water(const Prepared<Dim>& prepared, std::vector<std::str
     const auto* search = std::get_if<ReducePlan>(&stage.plan);
     if (!search) continue;
     const double way = failure_displacement_of(model, *search);
-    const WaterLeft<Dim> left = find_water_left(model, values, way);
+    const WaterLeft left = find_water_left(model, values, way);
     if (left.most <= may_leave) continue;
     warnings.push_back(
         fmt::format("stage.{}: before block {} has moved by {:.3g} m and counts as failed, the force of its water "
-                    "changes by {:.2g} % "
-                    "of its weight, for a table stays in place; that may be {:.2g} degrees of friction: state "
-                    "failure_displacement = "
-                    "{:.1g} or less",
+                    "changes by {:.2g} % of its weight, for a table stays in place; that may be {:.2g} degrees of "
+                    "friction: state failure_displacement = {:.1g} or less",
                     stage.name, name_of(model, left.body), way, 100 * left.most, to_degrees(left.most),
                     way * may_leave / left.most));
   }

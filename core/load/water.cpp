@@ -165,6 +165,10 @@ void clip_face(std::vector<Corner<2>>& edge, std::vector<Corner<2>>&, const Wate
   clip_edge(edge, [](const Corner<2>& c) { return c.depth; });
 }
 
+void clip_face(std::vector<Corner<3>>& polygon, std::vector<Corner<3>>& cut, const WaterStretch<3>&, const Vector<3>&) {
+  clip(polygon, cut, [](const Corner<3>& c) { return c.depth; });
+}
+
 // Each edge below the surface adds what lies between it and the surface straight above, with the sign of its direction
 // along x: what the part does not fill cancels, and where the stretch ends nothing needs closing. `alone`: the body
 // lies within one stretch.
@@ -188,10 +192,6 @@ void add_part(const Polytope<2>& part, const WaterStretch<2>& stretch, bool alon
     first_moment += width / 6 * ((2 * p + q) * a + (p + 2 * q) * b + Vector<2>(0, p * p + p * q + q * q));
   }
   add_piece<2>(area, first_moment, stretch, at.centroid, sum);
-}
-
-void clip_face(std::vector<Corner<3>>& polygon, std::vector<Corner<3>>& cut, const WaterStretch<3>&, const Vector<3>&) {
-  clip(polygon, cut, [](const Corner<3>& c) { return c.depth; });
 }
 
 }  // namespace
