@@ -84,6 +84,23 @@ TEST(VaiontElementsLong, NeedTheSameByRelaxation) {
   judge(report, dry, limit_analysis(dry), relaxation, {"damping.statics=adaptive"});
 }
 
+// a slice in space, whose blocks could leave the plane
+TEST(VaiontElements, NeedTheSameAsASliceInSpace) {
+  CaseReport report("vaiont", {"critical friction, DEM, 80 m, dry, slice 40 m thick"});
+  for (const double water : {0, 90}) {
+    const Ground ground{80, water};
+    const SceneRun found = run("slice.toml", water_above_the_seat(water));
+    report.record({"critical friction, DEM" + name(ground) + ", slice 40 m thick",
+                   "deg",
+                   Kind::limit,
+                   "rigid-block limit analysis of the same section",
+                   limit_analysis(ground).angle,
+                   {0.2, 0},
+                   "as in the plane"},
+                  value(found, "critical_friction"), cost(found));
+  }
+}
+
 // by other ways the same, within their error bars and 0.1 degrees
 void judge_way(CaseReport& report, const std::string& scene, const std::string& way) {
   const SceneRun found = run(scene);

@@ -11,10 +11,10 @@ double DippingPlane::elevation(double x, double y) const {
   return point[2] - slope * (std::sin(azimuth) * (x - point[0]) + std::cos(azimuth) * (y - point[1]));
 }
 
-SlideInSpace vaiont_in_space() {
+SlideInSpace vaiont_in_space(double east) {
   const double south = 0, north = 2200;
   return {.west = 780,
-          .east = 2690,
+          .east = east,
           .south = south,
           .north = north,
           .slide = {{38, 9.5, {1163, 1575, 644}},
@@ -30,7 +30,7 @@ SlideInSpace vaiont_in_space() {
                      {1350, 2172, 1549, north, {{0, 0, {1622, 1769, 830}}}},
                      {1350, 2172, 1600, north, {{40, 8, {1622, 1769, 830}}}},
                      {2172,
-                      2690,
+                      east,
                       south,
                       north,
                       {{30, 0, {2689, 689, 1380}}, {34, 10, {3589, 689, 1350}}, {55, 5, {2400, 2040, 500}}}}},

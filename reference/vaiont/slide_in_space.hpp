@@ -27,9 +27,9 @@ struct SlideInSpace {
   DippingPlane gorge;               // below it
 };
 
-// The Vaiont slide west of its rigid eastern boundary: dips after Boon (2013), section 6.5, ground and boundary as in
-// his input, points of the slide's planes reconstructed.
-SlideInSpace vaiont_in_space();
+// The Vaiont slide west of its eastern boundary, or of another end in the east, m: dips after Boon (2013), section 6.5,
+// ground and boundary as in his input, points of the slide's planes reconstructed.
+SlideInSpace vaiont_in_space(double east = 2690);
 
 struct SlideVolumes {
   double all = 0, below = 0;  // m3: of the slide, and of its part below an elevation

@@ -32,6 +32,7 @@ TEST(SlideInSpace, HasTheVolumesOfVaiont) {
   EXPECT_NEAR(slide_volumes(slide, 5, 710).below, 110.39e6, 0.05e6);
   EXPECT_NEAR(slide_volumes(slide, 5, 600).below, 43.54e6, 0.03e6);
   EXPECT_NEAR(slide_volumes(slide, 5, 460).below, 4.30e6, 0.01e6);
+  EXPECT_NEAR(slide_volumes(vaiont_in_space(3400), 5).all, (272.46 + 47.24) * 1e6, 0.2e6);
   EXPECT_NEAR(slide_volumes(slide, 5).plan, 2.005e6, 0.003e6);
   EXPECT_NEAR(slide_volumes(slide, 5).thickest, 323, 1.5);
 }
