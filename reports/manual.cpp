@@ -34,6 +34,7 @@ std::string navigation(const Verdicts& verdicts) {
   if (!open.empty()) text += "<p>Not yet modelled</p><ul>\n" + open + "</ul>\n";
   return text +
          "<p>Speed</p><ul>\n<li><a href=\"#what-accuracy-costs\">What accuracy costs</a></li>\n"
+         "<li><a href=\"#what-a-slope-costs\">What it costs on a slope</a></li>\n"
          "<li><a href=\"#contact-kernel\">The contact kernel</a></li>\n</ul>\n<p>Reference</p><ul>\n"
          "<li><a href=\"#what-water-means\">What water means here</a></li>\n<li><a "
          "href=\"#scene-keys\">Scene keys</a></li>\n</ul></nav>\n";
@@ -77,7 +78,7 @@ std::string manual(const Folders& folders, const Verdicts& verdicts, const fs::p
           "</section>\n";
   for (const CaseStatus& status : verdicts.cases)
     text += case_page(folders, verdicts, status, missing);
-  return text + trade_page(folders, missing) + kernel_page(folders, missing) +
+  return text + trade_page(folders, missing) + text_page(folders, "slope_cost", "what-a-slope-costs") + kernel_page(folders, missing) +
          text_page(folders, "water", "what-water-means") + scene_keys(keys, missing) + "</main>\n</body></html>\n";
 }
 
