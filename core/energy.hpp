@@ -23,6 +23,7 @@ enum class Source {
   applied_forces,
   water,
   water_pressure,
+  let_off,
   prescribed_motion,
   local_damping,
   relaxation,
@@ -56,6 +57,7 @@ inline constexpr std::array<SourceRow, source_count> source_table{{
     {Source::applied_forces, "applied_forces", "applied_load", 1, 0, 0, 0, 1},
     {Source::water, "water", "water_load", 1, 0, -1, 0, 0},  // one table on all faces: it has a potential
     {Source::water_pressure, "water_pressure", "water_load", 1, 0, 0, 0, 1},  // others: on some faces, or several
+    {Source::let_off, "let_off", "", 1, 0, 0, 0, 1},                          // what excavated rock still holds
     {Source::prescribed_motion, "prescribed_motion", "", 1, 0, 0, 0, 1},
     {Source::local_damping, "local_damping", "", -1, 0, 0, 1, 0},
     {Source::relaxation, "relaxation", "", -1, 0, 0, 1, 0},

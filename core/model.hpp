@@ -52,6 +52,7 @@ template <int Dim>
 struct BoundaryForces {
   int body = 0;
   std::vector<DeadLoad<Dim>> forces;
+  Matrix<Dim> stress = Matrix<Dim>::Zero();  // Pa
 };
 
 // a force that the scene puts on a body
@@ -76,6 +77,14 @@ struct Water {
 
 // the numbers of each water
 using WaterValues = std::vector<std::vector<double>>;
+
+// a convex region that a stage takes out
+template <int Dim>
+struct Excavation {
+  std::string name;
+  HalfSpaces<Dim> region;   // m
+  double least_radius = 0;  // m: a body of which no more than smaller parts is left goes, too
+};
 
 // a named discontinuity, in slicing order
 template <int Dim>
@@ -105,6 +114,7 @@ struct Model {
       water_of_joint;            // the water on the faces of each joint and, last, on faces that no joint made; -1: dry
   bool water_by_volume = false;  // the one water is a table on all faces: its load has a potential
   std::vector<BodyStiffness> water_bounds;    // by body: core/load/water.hpp, greatest_water_stiffness
+  std::vector<Excavation<Dim>> excavations;   // that stages take out, in the order of the scene
   int default_properties = 0;                 // of contacts between faces that no joint made
   Vector<Dim> gravity = Vector<Dim>::Zero();  // m/s²
   Solvers<Dim> solvers;                       // the two convex programs' solvers in use
@@ -116,6 +126,10 @@ struct Model {
 // axes.
 template <int Dim>
 Body<Dim> make_body(std::vector<Polytope<Dim>> parts, double density);
+
+// The same from parts in the order in which they are to stay.
+template <int Dim>
+Body<Dim> assemble_body(std::vector<Polytope<Dim>> parts, double density);
 
 // of all its parts, m³ (2-D: m²)
 template <int Dim>
@@ -139,8 +153,13 @@ void assign_waters(Model<Dim>& model, std::vector<Water> waters, std::vector<int
 template <int Dim>
 std::vector<int> select(const Model<Dim>& model, const Selector& selector);
 
-// The model of the next stage: prescribed motions ended, bodies fixed, released or removed, friction set, outer faces
-// stressed, forces applied, motions prescribed. Two motions of one body are a mistake of the caller.
+// Stresses the faces of a body that no joint made; it replaces what the body bore before.
+template <int Dim>
+void load_boundary(Model<Dim>& model, int body, const Matrix<Dim>& stress);
+
+// The model of the next stage: prescribed motions ended, regions excavated (excavation.hpp), bodies fixed, released or
+// removed, friction set, outer faces stressed, forces applied, motions prescribed. Two motions of one body are a
+// mistake of the caller.
 template <int Dim>
 Model<Dim> apply(Model<Dim> model, const Change& change);
 

@@ -51,6 +51,12 @@ bool follow(const Model<Dim>& model, const RunSchedule& plan, State<Dim>& state)
       numbers[k] = fraction < 1 ? water.from[k] + (water.to[k] - water.from[k]) * fraction : water.to[k];
     changing = changing || fraction < 1;
   }
+  if (plan.let_off && !state.held.empty()) {
+    const double fraction = state.time >= began + plan.let_off->duration ? 1 : elapsed / plan.let_off->duration;
+    for (HeldLoad<Dim>& held : state.held)
+      held.share = held.begun + (std::min(held.begun, plan.let_off->share) - held.begun) * fraction;
+    changing = changing || fraction < 1;
+  }
   return changing;
 }
 
@@ -74,12 +80,13 @@ bool has_moved_away(const Model<Dim>& model, const RunGoal& goal, const std::vec
   return moved > 0 && moved >= goal.moved_fraction * free;
 }
 
-// s: how long gravity, strength and water still change
+// s: how long gravity, strength, water and what excavated rock holds still change
 double ramp_of(const RunSchedule& plan) {
   const double fall = plan.strength_rate > 0 ? std::abs(plan.strength_from - plan.strength_to) / plan.strength_rate : 0;
   double ramp = std::max(plan.gravity.ramp, fall);
   for (const WaterPlan& water : plan.water)
     ramp = std::max(ramp, water.ramp);
+  if (plan.let_off) ramp = std::max(ramp, plan.let_off->duration);
   return ramp;
 }
 

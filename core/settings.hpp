@@ -208,10 +208,18 @@ struct FrictionPlan {
   double friction = 0;  // rad
 };
 
+// How the forces by which excavated rock held the rest are let off: linearly from the share that still acts to this
+// one, or not at all where no more acts.
+struct LetOffPlan {
+  double share = 0;     // of what acted before the excavation
+  double duration = 0;  // s, from the begin of the stage on
+};
+
 // what changes in the model between two stages
 struct Change {
   std::vector<Selector> fix, release, remove;
-  std::vector<MovePlan> move;  // within the stage only
+  std::vector<std::string> excavate{};  // Model::excavations that are taken out
+  std::vector<MovePlan> move;         // within the stage only
   std::vector<BoundaryPlan> boundary;
   std::vector<ForcePlan> force{};
   std::optional<double> friction;           // rad: new friction angle of every joint
@@ -225,6 +233,7 @@ struct StagePlan {
   std::variant<SettlePlan, RunPlan, ReducePlan> plan;
   Change change;                           // applied before the stage begins
   std::vector<WaterPlan> water{};          // of kind settle or run
+  std::optional<LetOffPlan> let_off{};     // likewise; without it what is excavated is gone at once
   std::optional<DampingSettings> damping;  // replaces the scene's within this stage
   std::optional<double> time_fraction;     // the same of TimeSettings::fraction
 };

@@ -16,6 +16,7 @@
 #include "core/step.hpp"
 #include "core/step/joint_forces.hpp"
 #include "core/step/newton.hpp"
+#include "core/take_out.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -209,7 +210,7 @@ struct Simulation {
   }
 
   std::optional<Executed> go(const RunGoal& goal, const GravityPlan& gravity, StopReason wanted) {
-    const RunSchedule schedule{.gravity = gravity, .properties = {}, .water = plan().water};
+    const RunSchedule schedule{.gravity = gravity, .properties = {}, .water = plan().water, .let_off = plan().let_off};
     const RunReport report = run(model, settings, goal, schedule, state, progress.run, record_run(goal.end_time));
     if (report.reason == StopReason::interrupted) return {};
     judge(report, report.reason == wanted);
@@ -265,6 +266,8 @@ struct Simulation {
   // model and settings of the stage, whether it begins or continues
   void enter_stage() {
     settings = settings_of(plan(), scene.settings);
+    if (!progress.stage_under_way && !plan().change.excavate.empty())
+      take_out(plan().change.excavate, settings, plan().let_off.has_value(), model, state);
     model = apply(std::move(model), plan().change);
   }
 
@@ -281,6 +284,10 @@ struct Simulation {
     state.frequency.clear();
     state.step_allowed = 0;
     state.schedule.started = state.time;
+    for (HeldLoad<Dim>& held : state.held)
+      held.begun = held.share;
+    std::erase_if(state.held,
+                  [&](const HeldLoad<Dim>& held) { return held.share == 0 || !model.bodies[held.body].present; });
     if (state.energy.phase == LedgerPhase::running) state.energy.phase = LedgerPhase::model_changed;
     progress.stage_began = state.time;
     progress.record = {};

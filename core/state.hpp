@@ -120,6 +120,15 @@ struct NewtonIncrement {
   std::vector<typename PairStiffness<Dim>::Block> of_water;  // by body; none without water
 };
 
+// What excavated rock did to a body that it held, as far as it is not yet let off.
+template <int Dim>
+struct HeldLoad {
+  int body = 0;
+  Load<Dim> load;    // at a share of 1; it keeps its direction and acts at the centroid
+  double begun = 1;  // the share when the stage began
+  double share = 1;  // that acts now
+};
+
 // values that vary within a stage
 struct Schedule {
   double gravity_factor = 1;
@@ -216,6 +225,7 @@ struct State {
   Relaxation<Dim> relaxation;
   NewtonIncrement<Dim> newton;
   Schedule schedule;
+  std::vector<HeldLoad<Dim>> held;  // by excavation, then by body
   BondTally bonds;
   double time = 0;          // s
   double time_step = 0;     // s: of the last step; 0 at the start

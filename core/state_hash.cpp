@@ -64,6 +64,12 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
   for (const std::vector<double>& water : state.schedule.water)
     for (const double number : water)
       bytes.add(number);
+  for (const HeldLoad<Dim>& held : state.held) {
+    bytes.add(held.body);
+    bytes.add(held.load.force);
+    bytes.add(held.load.moment);
+    bytes.add(held.share);
+  }
   return fingerprint(bytes.text);
 }
 

@@ -278,6 +278,7 @@ std::string change_text(const Change& change) {
   if (!change.fix.empty()) text += "; fixes blocks";
   if (!change.release.empty()) text += "; releases blocks";
   if (!change.remove.empty()) text += "; removes blocks";
+  if (!change.excavate.empty()) text += fmt::format("; excavates '{}'", fmt::join(change.excavate, "', '"));
   if (change.friction) text += fmt::format("; friction {:g} deg", to_degrees(*change.friction));
   for (const FrictionPlan& plan : change.friction_of)
     text += fmt::format("; friction of {} {:g} deg", plan.properties, to_degrees(plan.friction));
@@ -292,6 +293,8 @@ void print_stages(const std::vector<StagePlan>& stages, const std::vector<Water>
     text += change_text(stage.change);
     for (const WaterPlan& water : stage.water)
       text += fmt::format("; water '{}' changes within {:g} s", waters[water.water].name, water.ramp);
+    if (stage.let_off)
+      text += fmt::format("; lets off to a share of {:g} within {:g} s", stage.let_off->share, stage.let_off->duration);
     const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
     if (stage.damping) text += "; damping " + damping_text(*stage.damping, seeks_rest);
     line(k == 0 ? "stages" : "", text);

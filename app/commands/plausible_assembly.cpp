@@ -168,13 +168,15 @@ void judge_last_block(const Prepared<Dim>& prepared, std::vector<std::string>& w
   bool before = std::any_of(model.bodies.begin(), model.bodies.end(), moves);
   for (const StagePlan& stage : prepared.stages) {
     const Change& change = stage.change;
-    if (change.fix.empty() && change.release.empty() && change.remove.empty() && change.move.empty()) continue;
+    if (change.fix.empty() && change.release.empty() && change.remove.empty() && change.excavate.empty() &&
+        change.move.empty())
+      continue;
     model = apply(std::move(model), change);
     const bool after = std::any_of(model.bodies.begin(), model.bodies.end(), moves);
     if (before && !after)
       warnings.push_back(
           fmt::format("stage.{} {} the last free block: nothing is left to move; keep one, or end before", stage.name,
-                      change.remove.empty() ? "fixes" : "removes"));
+                      change.remove.empty() && change.excavate.empty() ? "fixes" : "removes"));
     before = after;
   }
 }

@@ -65,8 +65,8 @@ void warn_of_changes(const std::vector<StagePlan>& stages, const StagePlan* look
                      std::vector<std::string>& warnings) {
   for (const StagePlan& stage : stages) {
     const Change& change = stage.change;
-    if (!change.fix.empty() || !change.release.empty() || !change.remove.empty() || change.friction ||
-        !change.friction_of.empty() || !change.boundary.empty() || !stage.water.empty())
+    if (!change.fix.empty() || !change.release.empty() || !change.remove.empty() || !change.excavate.empty() ||
+        change.friction || !change.friction_of.empty() || !change.boundary.empty() || !stage.water.empty())
       warnings.push_back(fmt::format(
           "stage '{}' changes blocks, loads, water or friction; limit analysis takes the scene as it is before "
           "its first stage",

@@ -101,6 +101,25 @@ TEST(VaiontElements, NeedTheSameAsASliceInSpace) {
   }
 }
 
+// what the section's distinct elements at 80 m and limit analysis find, with blocks half as large
+TEST(VaiontElementsLong, NeedTheSameAsASliceOfSmallBlocksInSpace) {
+  CaseReport report("vaiont");
+  Overrides small{"joint_properties.rock.normal_stiffness=1.92e8", "joint_properties.rock.shear_stiffness=7.68e7"};
+  for (const char* set : {"cross", "beds above the back", "beds above the middle", "beds above the seat"})
+    small.push_back(fmt::format("joint_sets.{}.spacing=40", set));
+  for (const double water : {0, 90}) {
+    const SceneRun found = run("slice.toml", small + water_above_the_seat(water));
+    report.record({"critical friction, DEM" + name({40, water}) + ", slice 40 m thick",
+                   "deg",
+                   Kind::limit,
+                   "rigid-block limit analysis of the section in blocks of 80 m",
+                   limit_analysis({80, water}).angle,
+                   {0.2, 0},
+                   "as in the plane"},
+                  value(found, "critical_friction"), cost(found));
+  }
+}
+
 // by other ways the same, within their error bars and 0.1 degrees
 void judge_way(CaseReport& report, const std::string& scene, const std::string& way) {
   const SceneRun found = run(scene);

@@ -157,13 +157,19 @@ void serialize(Archive& archive, NewtonIncrement<Dim>& n) {
 }
 
 template <class Archive, int Dim>
+void serialize(Archive& archive, HeldLoad<Dim>& h) {
+  auto& [body, load, begun, share] = h;
+  archive(body, load, begun, share);
+}
+
+template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
   // poses, loads by source with their stiffness, lists by body and loads of contacts are rebuilt before they are read
   auto& [motions, loads, loads_of, stiffened, contacts, subs, built, counted_at, path_bounds, left_behind, poses,
-         by_body, contact_loads, frequency, relaxation, newton, schedule, bonds, time, time_step, step_allowed, energy,
-         counters] = s;
+         by_body, contact_loads, frequency, relaxation, newton, schedule, held, bonds, time, time_step, step_allowed,
+         energy, counters] = s;
   archive(motions, loads, contacts, subs, built, counted_at, path_bounds, left_behind, frequency, relaxation, newton,
-          schedule, bonds, time, time_step, step_allowed, energy, counters);
+          schedule, held, bonds, time, time_step, step_allowed, energy, counters);
 }
 
 template <class Archive, int Dim>

@@ -73,7 +73,7 @@ void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>
 }
 
 // Critical damping of the present motion, 1/s, by Rayleigh's quotient: K v is what the forces of contacts and water
-// lost over the last step, but for what water that rises or falls has imposed. Sums in the order of the bodies.
+// lost over the last step, but for what water that rises or falls has imposed; what excavated rock still holds is imposed. Sums in the order of the bodies.
 template <int Dim>
 double critical_damping(const Model<Dim>& model, State<Dim>& state) {
   Relaxation<Dim>& r = state.relaxation;
@@ -84,7 +84,11 @@ double critical_damping(const Model<Dim>& model, State<Dim>& state) {
     if (model.bodies[b].fixed) continue;
     const Motion<Dim>& m = state.motions[b];
     const Spin<Dim> spin = angular_velocity(model.bodies[b], m);
-    const Load<Dim> now{state.loads[b].force - weight(model, state, b), state.loads[b].moment};
+    Load<Dim> now{state.loads[b].force - weight(model, state, b), state.loads[b].moment};
+    if (const std::vector<Load<Dim>>& held = state.loads_of[Source::let_off]; !held.empty()) {
+      now.force -= held[b].force;
+      now.moment -= held[b].moment;
+    }
     const bool counts = state.left_behind.empty() || !state.left_behind[b];  // else what falls would end all damping
     if (!first && counts) {
       stiffness -= m.velocity.dot(now.force - r.contact_load[b].force);

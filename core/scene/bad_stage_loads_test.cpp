@@ -56,6 +56,41 @@ INSTANTIATE_TEST_SUITE_P(
                  "applies only where kind"}),
     by_name);
 
+const std::string digging =
+    "[[excavations]]\nname = \"pit\"\nbox = { min = [-1, -1, 1], max = [1, 1, 3] }\noutline = true\n[[stage]]\nname = "
+    "\"dig\"\nkind = \"settle\"\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Excavations, BadLoad,
+    testing::Values(
+        BadInput{"unknown", "", digging + "excavate = [\"pti\"] #!", "stage.dig.excavate = [\"pti\"]",
+                 "did you mean 'pit'?"},
+        BadInput{"none_there", "kind = \"settle\"", "kind = \"settle\"\nexcavate = [\"pit\"] #!",
+                 "stage.settle.excavate = [\"pit\"]", "add [[excavations]]"},
+        BadInput{"twice", "",
+                 digging + "excavate = [\"pit\"]\n[[stage]]\nname = \"again\"\nkind = \"settle\"\nexcavate = "
+                           "[\"pit\"] #!",
+                 "stage.again.excavate", "once more"},
+        BadInput{"by_a_word", "", digging + "excavate = 3 #!", "stage.dig.excavate = 3", "names"},
+        BadInput{"nothing_to_let_off", "", digging + "let_off = { share = 0, duration_s = 1 } #!", "stage.dig.let_off",
+                 "nothing to let off"},
+        BadInput{"no_share", "", digging + "excavate = [\"pit\"]\nlet_off = { duration_s = 1 } ",
+                 "stage.dig.let_off.share is missing", "still acts"},
+        BadInput{"share_in_percent", "", digging + "excavate = [\"pit\"]\nlet_off = { share = 40, duration_s = 1 } #!",
+                 "stage.dig.let_off.share = 40", "must lie between"},
+        BadInput{"no_duration", "", digging + "excavate = [\"pit\"]\nlet_off = { share = 0.4 } ",
+                 "stage.dig.let_off.duration_s is missing", "kind settle"},
+        BadInput{"longer_than_the_limit", "",
+                 digging + "time_limit_s = 2\nexcavate = [\"pit\"]\nlet_off = { share = 0.4, duration_s = 3 } #!",
+                 "stage.dig.let_off.duration_s = 3", "time_limit_s (2)"},
+        BadInput{
+            "longer_than_the_stage", "",
+            "[[stage]]\nname = \"dig\"\nkind = \"run\"\nduration_s = 1\nlet_off = { share = 0, duration_s = 3 } #!",
+            "stage.dig.let_off.duration_s = 3", "at most the stage's duration_s (1)"},
+        BadInput{"in_a_search", "to_deg = 5", "to_deg = 5\nlet_off = { share = 0, duration_s = 3 } #!",
+                 "stage.reduce.let_off", "applies only where kind"}),
+    by_name);
+
 const std::string forcing = "[[stage]]\nname = \"press\"\nkind = \"settle\"\n[[stage.force]]\nname = \"jack\"\n";
 const std::string forcing_in_time =
     "[[stage]]\nname = \"press\"\nkind = \"run\"\nduration_s = 1\n[[stage.force]]\nname = \"jack\"\n";

@@ -65,6 +65,11 @@ SlicingLimits limits_of(const Scene& scene) {
   return limits;
 }
 
+bool excavated_by_stage(const Scene& scene, const std::string& name) {
+  return std::ranges::any_of(
+      scene.stages, [&](const StageSpec& stage) { return std::ranges::count(stage.plan.change.excavate, name) > 0; });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -87,15 +92,19 @@ std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
                "slicing.most_blocks");
   for (std::size_t e = 0; e < regions.size(); ++e) {
     const std::size_t before = parts.size();
-    parts = excavated<Dim>(std::move(parts), regions[e]);
-    const Subject& subject = scene.excavations[e].region.subject;
-    if (parts.size() == before)
+    const ExcavationSpec& spec = scene.excavations[e];
+    const bool in_a_stage = excavated_by_stage(scene, spec.name);
+    if (in_a_stage) model.excavations.push_back({spec.name, regions[e], limits.smallest_inscribed_radius});
+    std::vector<Polytope<Dim>> left = excavated<Dim>(in_a_stage ? parts : std::move(parts), regions[e]);
+    const Subject& subject = spec.region.subject;
+    if (left.size() == before)
       refuse(
           *subject.node, subject.path,
           "takes out no block: no block's centroid lies inside; check its place against domain.box and domain.planes, "
           "write outline = true to cut the blocks along it, or relax the limits of slicing that keep them whole");
-    if (parts.empty())
+    if (left.empty())
       refuse(*subject.node, subject.path, "takes out every block of the domain; check its size and its place");
+    if (!in_a_stage) parts = std::move(left);
   }
 
   // what is held together is one body

@@ -52,6 +52,7 @@ void add_stage(Values& values, const StagePlan& stage) {
   }
   if (stage.damping) add(values, "damping", *stage.damping);
   add(values, "stage", stage.change);
+  if (stage.let_off) add(values, "let_off", *stage.let_off);
   for (const FrictionPlan& friction : stage.change.friction_of)
     add(values, "friction", friction);
   for (const MovePlan& move : stage.change.move) {

@@ -248,6 +248,30 @@ void check_point(const Subject& force, const Model<Dim>& model, const std::vecto
   }
 }
 
+// each excavation that stages name exists and is taken out once; forces can be let off only from the first on
+void check_excavations(const Scene& scene) {
+  std::vector<std::string> names, taken_out;
+  for (const ExcavationSpec& excavation : scene.excavations)
+    names.push_back(excavation.name);
+  for (const StageSpec& stage : scene.stages) {
+    for (const std::string& name : stage.plan.change.excavate) {
+      if (index_of(names, name) < 0)
+        refuse(stage.subject, "excavate",
+               names.empty() ? "there are no excavations; add [[excavations]] with a name and a region"
+                             : "no excavation is named '" + one_line(name, 60) + "'; " + suggestion(name, names));
+      if (index_of(taken_out, name) >= 0)
+        refuse(stage.subject, "excavate",
+               "takes out '" + one_line(name, 60) + "' once more; name each excavation in one stage, once");
+      taken_out.push_back(name);
+    }
+    if (stage.plan.let_off && taken_out.empty())
+      refuse(
+          stage.subject, "let_off",
+          "there is nothing to let off: neither this stage nor one before it excavates; write for example excavate = "
+          "[\"tunnel\"]");
+  }
+}
+
 template <int Dim>
 std::vector<StagePlan> checked_stages(const Scene& scene, const Model<Dim>& model) {
   std::vector<StagePlan> plans;
@@ -352,6 +376,7 @@ Prepared<Dim> prepare(const Scene& scene) {
   model.origin = find_origin<Dim>(scene);
   if (scene.gravity) model.gravity = to_vector<Dim>(*scene.gravity);
   add_joints<Dim>(scene, model);
+  check_excavations(scene);
   add_domain<Dim>(scene, model);
   add_blocks<Dim>(scene, model);
   check_blocks<Dim>(scene, model);

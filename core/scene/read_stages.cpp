@@ -163,6 +163,31 @@ ForcePlan read_force(const Subject& table, const Selector& bodies, const RunPlan
   return plan;
 }
 
+LetOffPlan read_let_off(const Subject& table, const std::variant<SettlePlan, RunPlan, ReducePlan>& stage) {
+  LetOffPlan plan;
+  read_keys(*table.node, "let_off", plan);
+  if (const auto* run = std::get_if<RunPlan>(&stage)) {
+    if (!table.node->find("duration_s")) plan.duration = run->duration;
+    if (plan.duration > run->duration)
+      refuse(
+          table, "duration_s",
+          fmt::format("must be at most the stage's duration_s ({:g}): the stage would end before its share is reached; "
+                      "shorten it, or leave it out for the whole stage",
+                      run->duration));
+  } else if (!table.node->find("duration_s")) {
+    refuse(table, "duration_s",
+           "is needed in a stage of kind settle, whose time is not known before; write for example duration_s = 1, as "
+           "long as gravity_ramp_s");
+  } else if (const auto* settle = std::get_if<SettlePlan>(&stage); settle && plan.duration >= settle->time_limit) {
+    refuse(table, "duration_s",
+           fmt::format(
+               "must be less than time_limit_s ({:g}): rest needs the share to be reached; shorten it or raise the "
+               "limit",
+               settle->time_limit));
+  }
+  return plan;
+}
+
 StageSpec read_stage(const Subject& table, const DampingSettings& damping, int dimension) {
   StageSpec stage;
   stage.subject = table;
@@ -179,6 +204,7 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping, int d
     refuse(table, "method",
            "a rate is a motion, which Newton's method does not know; write method = \"bisection\" or \"steps\", or "
            "damping = { statics = \"adaptive\" } in this stage");
+  if (const auto item = child(table, "let_off")) stage.plan.let_off = read_let_off(*item, stage.plan.plan);
   Change& change = stage.plan.change;
   const auto read_chosen = [&](const char* key, const auto& add) {
     for (const SelectorSpec& spec : stage.chosen[key] = read_selectors(table, key))

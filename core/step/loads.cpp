@@ -89,11 +89,17 @@ void add_water_stiffness(const Model<Dim>& model, const State<Dim>& state, std::
 }
 
 template <int Dim>
-bool has_water_by_volume(const Model<Dim>& model) {
+void held_loads(const Model<Dim>&, int, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
+  for (const HeldLoad<Dim>& held : state.held)
+    loads[held.body] += {held.share * held.load.force, held.share * held.load.moment};
+}
+
+template <int Dim>
+bool has_water_by_volume(const Model<Dim>& model, const State<Dim>&) {
   return model.water_by_volume;
 }
 template <int Dim>
-bool has_water_by_faces(const Model<Dim>& model) {
+bool has_water_by_faces(const Model<Dim>& model, const State<Dim>&) {
   return !model.waters.empty() && !model.water_by_volume;
 }
 
@@ -135,7 +141,7 @@ void applied_tangent(const Model<Dim>& model, const State<Dim>& state, std::vect
 template <int Dim>
 struct LoadRow {
   Source source;
-  bool (*acts)(const Model<Dim>&);
+  bool (*acts)(const Model<Dim>&, const State<Dim>&);
   void (*find)(const Model<Dim>&, int threads, const State<Dim>&, std::vector<Load<Dim>>&);
   void (*stiffen)(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&) = nullptr;
   void (*add_tangent)(const Model<Dim>&, const State<Dim>&, std::vector<Block<Dim>>&) = nullptr;
@@ -144,14 +150,15 @@ struct LoadRow {
 // those that are known before the bodies move, in the order in which they are summed
 template <int Dim>
 constexpr LoadRow<Dim> load_table[] = {
-    {Source::contacts, [](const Model<Dim>&) { return true; }, contact_loads<Dim>},
-    {Source::gravity, [](const Model<Dim>& m) { return !m.gravity.isZero(0); }, gravity_loads<Dim>},
-    {Source::boundary_stress, [](const Model<Dim>& m) { return !m.boundary.empty(); }, boundary_stress_loads<Dim>,
-     nullptr, boundary_stress_tangent<Dim>},
-    {Source::applied_forces, [](const Model<Dim>& m) { return !m.applied.empty(); }, applied_loads<Dim>,
-     applied_stiffness<Dim>, applied_tangent<Dim>},
+    {Source::contacts, [](const Model<Dim>&, const State<Dim>&) { return true; }, contact_loads<Dim>},
+    {Source::gravity, [](const Model<Dim>& m, const State<Dim>&) { return !m.gravity.isZero(0); }, gravity_loads<Dim>},
+    {Source::boundary_stress, [](const Model<Dim>& m, const State<Dim>&) { return !m.boundary.empty(); },
+     boundary_stress_loads<Dim>, nullptr, boundary_stress_tangent<Dim>},
+    {Source::applied_forces, [](const Model<Dim>& m, const State<Dim>&) { return !m.applied.empty(); },
+     applied_loads<Dim>, applied_stiffness<Dim>, applied_tangent<Dim>},
     {Source::water, has_water_by_volume<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
     {Source::water_pressure, has_water_by_faces<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
+    {Source::let_off, [](const Model<Dim>&, const State<Dim>& s) { return !s.held.empty(); }, held_loads<Dim>},
 };
 
 }  // namespace
@@ -162,7 +169,7 @@ void sum_loads(const Model<Dim>& model, const Settings& settings, State<Dim>& st
   state.stiffened.clear();
   for (const LoadRow<Dim>& row : load_table<Dim>) {
     std::vector<Load<Dim>>& loads = state.loads_of[row.source];
-    loads.assign(row.acts(model) ? count : 0, {});
+    loads.assign(row.acts(model, state) ? count : 0, {});
     if (loads.empty()) continue;
     row.find(model, settings.threads, state, loads);
     if (!row.stiffen) continue;
@@ -180,7 +187,7 @@ template <int Dim>
 std::vector<typename PairStiffness<Dim>::Block> load_stiffness(const Model<Dim>& model, const State<Dim>& state) {
   std::vector<Block<Dim>> stiffness;
   for (const LoadRow<Dim>& row : load_table<Dim>) {
-    if (!row.add_tangent || !row.acts(model)) continue;
+    if (!row.add_tangent || !row.acts(model, state)) continue;
     stiffness.resize(model.bodies.size(), Block<Dim>::Zero());
     row.add_tangent(model, state, stiffness);
   }

@@ -144,6 +144,8 @@ kind = "settle"
 damping = {}
 fix = [{ bodies = ["by planes"] }]
 water = [{ name = "lake", level = 0.1, duration_s = 5 }]
+excavate = ["tunnel"]
+let_off = { share = 0.5, duration_s = 1 }
 [[stage]]
 name = "run"
 kind = "run"
@@ -231,6 +233,7 @@ inline std::string address(const KeyRow& row) {
                                                           {"water_table", "water.seep.table"},
                                                           {"water_change", "stage.settle.water.lake"},
                                                           {"label", "fix.1"},
+                                                          {"let_off", "stage.settle.let_off"},
                                                           {"selector", "fix.1"},
                                                           {"restrain", "restrain.1"},
                                                           {"motion", "initial_velocity.1"},

@@ -15,6 +15,10 @@ KeyTable stage_change_keys() {
      .meaning = "blocks set free before the stage begins"},
     {.key = "remove", .type = tables, .holds = {"label", "selector"},
      .meaning = "blocks excavated before the stage begins"},
+    {.key = "excavate", .members = {in(&Change::excavate)}, .example = "[\"tunnel\"]",
+     .meaning = "names of [[excavations]] that are taken out before the stage begins, and not before the first stage: until "
+         "then their blocks are whole. A block that loses a part keeps moving and keeps the forces of its other joints; what "
+         "is left of it in smaller pieces than slicing.smallest_inscribed_radius goes, too"},
     {.key = "move", .type = tables, .when = {"kind", "run"},
      .holds = {"label", "motion", "move", "factor", "selector"},
      .meaning = "blocks whose motion is prescribed while the stage lasts, whatever the load on them; their other "
@@ -30,6 +34,20 @@ KeyTable stage_change_keys() {
     {.key = "zero_slip", .members = {in(&Change::zero_slip)}, .example = "true",
      .meaning = "the plastic slip of every joint is set to zero before the stage begins, so that friction that hardens or "
          "softens does so from here on, as after the generation of stresses"},
+  }};
+}
+
+KeyTable let_off_keys() {
+  return {"let_off", {
+    {.key = "share", .members = {in(&LetOffPlan::share)}, .unit = "1", .range = {0, 1},
+     .plausible = {.low = 0.01, .high = 1, .or_zero = true}, .example = "0.4", .required = true,
+     .meaning = "of these forces that still acts when the stage has ended, and goes on acting until a later stage lets off "
+         "more; 0: all is let off", .mistake = "was it given in percent?"},
+    {.key = "duration_s", .members = {in(&LetOffPlan::duration)}, .unit = "s", .range = {0, 1e9, true},
+     .plausible = plausible_ramp, .example = "1", .no_default = true,
+     .meaning = "time within which they fall to it, linearly, from the begin of the stage on. In a stage of kind run at "
+         "most its duration_s, which it is where it is not stated; in one of kind settle it must be stated and is a ramp, "
+         "as gravity_ramp_s", .mistake = "was it given in ms?"},
   }};
 }
 

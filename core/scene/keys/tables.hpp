@@ -40,6 +40,7 @@ KeyTable stage_keys();
 KeyTable stage_run_keys();
 KeyTable stage_reduce_keys();
 KeyTable stage_change_keys();
+KeyTable let_off_keys();
 KeyTable stage_friction_keys();
 KeyTable move_keys();
 std::vector<KeyTable> stage_load_keys();

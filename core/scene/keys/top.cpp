@@ -36,7 +36,8 @@ KeyTable top_keys() {
      .meaning = "random joints that fill the domain, cut after [[joints]], set by set; every set is drawn by itself and "
          "gives the same joints on every platform"},
     {.key = "excavations", .type = tables, .holds = {"excavations", "region"},
-     .meaning = "convex regions: blocks of the domain whose centroids lie inside are taken out before the first stage"},
+     .meaning = "convex regions: blocks of the domain whose centroids lie inside are taken out before the first stage, "
+         "or by the stage that names them in excavate"},
     {.key = "joint_properties", .type = tables, .holds = {"joint_properties"},
      .meaning = "stiffness and strength of joints, by name; `default`, or else the first table, also serves contacts "
          "between faces that no joint made"},

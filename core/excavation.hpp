@@ -1,0 +1,28 @@
+// Regions taken out of a model: bodies, and parts of bodies, which keep their ids.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model.hpp"
+
+namespace voussoir {
+
+// what has become of parts and bodies
+template <int Dim>
+struct Excavated {
+  std::vector<int> part;           // of each part as it was: its place in Model::parts now; -1: taken out
+  std::vector<int> origin;         // of each body now: which body it was, or was a piece of
+  std::vector<Vector<Dim>> shift;  // of each body now: how its centroid moved in its body's frame, m
+};
+
+// Takes out the parts whose centroids lie, where the scene has them, in one of the named regions of Model::excavations.
+// A body that loses all of them, or all but parts smaller than the regions' least radius, is no longer present (a fixed
+// body keeps what is left); one that loses some keeps its id, and mass, centroid and inertia are renewed. Pieces that
+// no longer hang together are bodies of their own: the largest keeps the id, the others follow at the end of the list.
+// Stresses and forces go on acting on what is left; a force that acted on what was taken out is gone. Names that the
+// model does not know throw std::out_of_range. Taking out twice changes nothing.
+template <int Dim>
+Excavated<Dim> excavate(Model<Dim>& model, const std::vector<std::string>& names);
+
+}  // namespace voussoir
