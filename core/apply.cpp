@@ -78,11 +78,30 @@ void apply_forces(Model<Dim>& model, const std::vector<ForcePlan>& plans) {
 
 }  // namespace
 
+namespace {
+
 template <int Dim>
-void load_boundary(Model<Dim>& model, int body, const Matrix<Dim>& stress) {
+DepthStress<Dim> depth_stress_of(const BoundaryPlan& plan, double origin) {
+  DepthStress<Dim> stress{stress_tensor<Dim>(plan.stress), Matrix<Dim>::Zero(), 0};
+  if (!plan.in_situ) return stress;
+  const InSituPlan& in_situ = *plan.in_situ;
+  stress.surface = in_situ.surface - origin;
+  Vector<Dim> ratios = Vector<Dim>::Constant(in_situ.k0);
+  if constexpr (Dim == 3) ratios[1] = in_situ.k0_y.value_or(in_situ.k0);
+  ratios[Dim - 1] = 1;
+  stress.per_depth = (in_situ.unit_weight.value() * ratios).asDiagonal();
+  return stress;
+}
+
+}  // namespace
+
+template <int Dim>
+void load_boundary(Model<Dim>& model, int body, const DepthStress<Dim>& stress) {
   BoundaryForces<Dim> loaded{body, {}, stress};
+  DepthStress<Dim> seen = stress;  // from the body
+  seen.surface -= model.bodies[body].reference[Dim - 1];
   for (const Polytope<Dim>& part : model.bodies[body].parts)
-    for (const DeadLoad<Dim>& load : boundary_loads<Dim>(part, stress))
+    for (const DeadLoad<Dim>& load : boundary_loads<Dim>(part, seen))
       loaded.forces.push_back(load);
   std::erase_if(model.boundary, [&](const BoundaryForces<Dim>& b) { return b.body == body; });
   if (loaded.forces.empty()) return;
@@ -108,7 +127,7 @@ Model<Dim> apply(Model<Dim> model, const Change& change) {
     }
   for (const BoundaryPlan& plan : change.boundary)
     for (int b : select(model, plan.bodies))
-      load_boundary(model, b, stress_tensor<Dim>(plan.stress));
+      load_boundary(model, b, depth_stress_of<Dim>(plan, model.origin[Dim - 1]));
   apply_forces(model, change.force);
   for (JointProperties& p : model.properties) {
     if (change.friction) p.friction = *change.friction;
@@ -124,7 +143,7 @@ Model<Dim> apply(Model<Dim> model, const Change& change) {
 
 template Model<2> apply<2>(Model<2>, const Change&);
 template Model<3> apply<3>(Model<3>, const Change&);
-template void load_boundary<2>(Model<2>&, int, const Matrix<2>&);
-template void load_boundary<3>(Model<3>&, int, const Matrix<3>&);
+template void load_boundary<2>(Model<2>&, int, const DepthStress<2>&);
+template void load_boundary<3>(Model<3>&, int, const DepthStress<3>&);
 
 }  // namespace voussoir

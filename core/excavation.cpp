@@ -130,7 +130,7 @@ void divide(Model<Dim>& model, int b, const std::vector<std::vector<int>>& piece
 
   const auto stressed = std::ranges::find(model.boundary, b, &BoundaryForces<Dim>::body);
   if (stressed != model.boundary.end()) {
-    const Matrix<Dim> stress = stressed->stress;
+    const DepthStress<Dim> stress = stressed->stress;
     for (const int id : bodies)
       load_boundary(model, id, stress);
   }

@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cassert>
+#include <limits>
 #include <stdexcept>
 
 #include "core/load/water.hpp"
@@ -43,9 +43,57 @@ bool contains(const Body<Dim>& body, const Vector<Dim>& point) {
   });
 }
 
+// visits the outer faces of a body that look along an axis, with where they lie, m
+template <int Dim, class Visit>
+void each_outer_face(const Body<Dim>& body, int axis, double sign, const Visit& visit) {
+  constexpr double aligned = 1 - 1e-12;
+  for (const Polytope<Dim>& part : body.parts)
+    for (std::size_t f = 0; f < part.faces.size(); ++f)
+      if (part.joints[f] == no_joint && sign * part.faces[f].normal[axis] > aligned)
+        visit(body.reference[axis] + part.vertices[part.loops[f].front()][axis]);
+}
+
+// a side of the model: where the outermost of all such faces lie
+struct Side {
+  int axis = 0;
+  double sign = 1, place = 0, size = 0;  // m
+};
+
 template <int Dim>
-bool chosen(const Model<Dim>& model, const Body<Dim>& body, const Selector& s) {
+Side side_named(const Model<Dim>& model, const std::string& name) {
+  const std::vector<std::string> names = side_names<Dim>();
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) throw std::out_of_range(name);
+  const auto number = found - names.begin();
+  Side side{.axis = static_cast<int>(number / 2), .sign = number % 2 == 0 ? -1.0 : 1.0};
+  side.place = -side.sign * std::numeric_limits<double>::infinity();
+  for (const Body<Dim>& body : model.bodies) {
+    each_outer_face(body, side.axis, side.sign, [&](double place) {
+      side.place = side.sign < 0 ? std::min(side.place, place) : std::max(side.place, place);
+    });
+    side.size = std::max(side.size, body.reference.norm() + body.radius);
+  }
+  return side;
+}
+
+template <int Dim>
+bool touches(const Body<Dim>& body, const Side& side) {
+  constexpr double rounding = 1e-9;
+  bool found = false;
+  each_outer_face(body, side.axis, side.sign,
+                  [&](double place) { found = found || std::abs(place - side.place) <= rounding * side.size; });
+  return found;
+}
+
+template <int Dim>
+bool chosen(const Model<Dim>& model, const Body<Dim>& body, const Selector& s, const std::vector<Side>& sides) {
   if (!body.present) return false;
+  if (!sides.empty() && std::ranges::none_of(sides, [&](const Side& side) { return touches(body, side); }))
+    return false;
+  for (std::size_t k = 0; k < s.low.size(); ++k) {
+    const double place = model.origin[static_cast<int>(k)] + body.reference[static_cast<int>(k)];
+    if (place < s.low[k] || place > s.high[k]) return false;
+  }
   for (const std::string& name : s.above)
     if (!(signed_distance<Dim>(joint_named(model, name).plane, body.reference) > 0)) return false;
   for (const std::string& name : s.below)
@@ -58,15 +106,26 @@ bool chosen(const Model<Dim>& model, const Body<Dim>& body, const Selector& s) {
 }  // namespace
 
 template <int Dim>
+std::vector<std::string> side_names() {
+  if constexpr (Dim == 2)
+    return {"left", "right", "bottom", "top"};
+  else
+    return {"west", "east", "south", "north", "bottom", "top"};
+}
+
+template <int Dim>
 std::vector<int> select(const Model<Dim>& model, const Selector& selector) {
   for (const std::string& name : selector.names)
     if (std::none_of(model.bodies.begin(), model.bodies.end(), [&](const Body<Dim>& b) { return b.name == name; }))
       throw std::out_of_range(name);
   std::vector<int> bodies;
+  std::vector<Side> sides;
+  for (const std::string& name : selector.sides)
+    sides.push_back(side_named(model, name));
   const bool any = selector.all || !selector.names.empty() || !selector.above.empty() || !selector.below.empty() ||
-                   selector.inside.has_value();
+                   selector.inside.has_value() || !selector.sides.empty() || !selector.low.empty();
   for (std::size_t b = 0; any && b < model.bodies.size(); ++b)
-    if (chosen(model, model.bodies[b], selector)) bodies.push_back(static_cast<int>(b));
+    if (chosen(model, model.bodies[b], selector, sides)) bodies.push_back(static_cast<int>(b));
   return bodies;
 }
 
@@ -148,6 +207,8 @@ template double volume<2>(const Body<2>&);
 template double volume<3>(const Body<3>&);
 template void number_bodies<2>(Model<2>&);
 template void number_bodies<3>(Model<3>&);
+template std::vector<std::string> side_names<2>();
+template std::vector<std::string> side_names<3>();
 template std::vector<int> select<2>(const Model<2>&, const Selector&);
 template std::vector<int> select<3>(const Model<3>&, const Selector&);
 template void assign_waters<2>(Model<2>&, std::vector<Water>, std::vector<int>);

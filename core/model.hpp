@@ -52,7 +52,7 @@ template <int Dim>
 struct BoundaryForces {
   int body = 0;
   std::vector<DeadLoad<Dim>> forces;
-  Matrix<Dim> stress = Matrix<Dim>::Zero();  // Pa
+  DepthStress<Dim> stress{};
 };
 
 // a force that the scene puts on a body
@@ -147,15 +147,20 @@ void list_parts(Model<Dim>& model);
 template <int Dim>
 void assign_waters(Model<Dim>& model, std::vector<Water> waters, std::vector<int> water_of_joint);
 
-// The bodies a selector names, in ascending order. Sides are those of a body's reference centroid, `inside` (world
-// coordinates) tests its parts; several conditions must all hold. An unknown name throws std::out_of_range with the
-// name; choosing none is not an error here.
+// the names of the sides of a model, by axis the lower and the upper one
+template <int Dim>
+std::vector<std::string> side_names();
+
+// The bodies a selector names, in ascending order. Sides of joints are those of a body's reference centroid, `inside`
+// (world coordinates) tests its parts, and a side of the model is where its outer faces end along an axis; several
+// conditions must all hold. An unknown name throws std::out_of_range with the name; choosing none is not an error here.
 template <int Dim>
 std::vector<int> select(const Model<Dim>& model, const Selector& selector);
 
-// Stresses the faces of a body that no joint made; it replaces what the body bore before.
+// Stresses the faces of a body that no joint made, its surface in model coordinates; it replaces what the body bore
+// before.
 template <int Dim>
-void load_boundary(Model<Dim>& model, int body, const Matrix<Dim>& stress);
+void load_boundary(Model<Dim>& model, int body, const DepthStress<Dim>& stress);
 
 // The model of the next stage: prescribed motions ended, regions excavated (excavation.hpp), bodies fixed, released or
 // removed, friction set, outer faces stressed, forces applied, motions prescribed. Two motions of one body are a

@@ -165,6 +165,8 @@ struct Selector {
   std::vector<std::string> names;             // bodies or joints' sides by name
   std::vector<std::string> above, below;      // joints
   std::optional<std::vector<double>> inside;  // m: a point in the body
+  std::vector<std::string> sides{};           // left, right, …: an outer face of the body lies in one of these sides
+  std::vector<double> low{}, high{};          // m: corners of a box that holds its centroid; empty: anywhere
 };
 
 // a factor that varies with time: linear between the points of a table and constant beyond them, times a sine
@@ -184,10 +186,19 @@ struct MovePlan {
   TimeFactor factor;
 };
 
+// stress of the rock's own weight, which begins at a surface
+struct InSituPlan {
+  double surface = 0;                 // m, its elevation
+  double k0 = 1;                      // horizontal over vertical stress
+  std::optional<double> k0_y;         // along y, in space; empty: k0
+  std::optional<double> unit_weight;  // N/m³; once a scene is read it is stated
+};
+
 // A stress on the faces of bodies that no joint made, from the stage on; it replaces what the bodies bore before.
 struct BoundaryPlan {
   Selector bodies;
-  std::vector<double> stress;  // Pa, compression positive: 2-D xx, yy, xy; 3-D xx, yy, zz, yz, zx, xy
+  std::vector<double> stress;           // Pa, compression positive: 2-D xx, yy, xy; 3-D xx, yy, zz, yz, zx, xy
+  std::optional<InSituPlan> in_situ{};  // and this
 };
 
 // A force on bodies, from the stage on, until a later stage states one of the same name. Its factor runs while the
@@ -219,7 +230,7 @@ struct LetOffPlan {
 struct Change {
   std::vector<Selector> fix, release, remove;
   std::vector<std::string> excavate{};  // Model::excavations that are taken out
-  std::vector<MovePlan> move;         // within the stage only
+  std::vector<MovePlan> move;           // within the stage only
   std::vector<BoundaryPlan> boundary;
   std::vector<ForcePlan> force{};
   std::optional<double> friction;           // rad: new friction angle of every joint

@@ -245,5 +245,53 @@ TEST(TakeOut, SurvivesAnInterruption) {
   EXPECT_EQ(simulated(scene).results.state_hash, whole.results.state_hash);
 }
 
+// Two blocks on a smooth floor pressed together from both sides: what the floor carries is their weight, and what the
+// joint between them does is the stress of the depth, but for a share of the joints' closure over the blocks' size.
+TEST(InSitu, StressBetweenTwoSidesIsThatOfTheDepth) {
+  const std::string text = R"(
+dimension = 2
+gravity = [0, -10]
+density = 2000
+domain = { box = { min = [-5, -4], max = [5, 4] } }
+equilibrium = { unbalanced = 1e-8 }
+joint_properties = [{ name = "rock", normal_stiffness = 1e11, shear_stiffness = 5e10, friction_deg = 40, sub_contacts = 2 },
+                    { name = "smooth", normal_stiffness = 1e11, shear_stiffness = 5e10, friction_deg = 0 }]
+[[joints]]
+name = "wall"
+dip = 90
+dip_direction = 90
+point = [0, 0]
+properties = "rock"
+[[joints]]
+name = "floor"
+dip = 0
+point = [0, -3]
+properties = "smooth"
+[[fix]]
+side = ["bottom"]
+[[stage]]
+name = "stress"
+kind = "settle"
+gravity_ramp_s = 1
+[[stage.boundary]]
+side = ["left", "right"]
+box = { min = [-5, -3], max = [5, 4] }
+in_situ = { surface = 4, k0 = 0.5 }
+)";
+  const Prepared<2> scene = scene_of(text);
+  ASSERT_EQ(scene.model.bodies.size(), 4u);
+  const Progress<2> end = simulated(scene);
+  const Model<2> model = apply(scene.model, scene.stages.front().change);
+  EXPECT_EQ(model.boundary.size(), 2u) << "the two upper ones";
+  double across = 0, down = 0;  // N/m
+  for (const Contact<2>& c : end.state.contacts) {
+    const bool on_floor =
+        model.bodies[model.parts[c.part_a].body].fixed || model.bodies[model.parts[c.part_b].body].fixed;
+    if (c.touching()) (on_floor ? down : across) += std::abs(c.force[on_floor]);
+  }
+  EXPECT_NEAR(across, 0.5 * weight * 7 * 7 / 2, 1e-6 * weight * 12) << "of 7 m of depth";
+  EXPECT_NEAR(down, weight * 70, 1e-6 * weight * 70);
+}
+
 }  // namespace
 }  // namespace voussoir

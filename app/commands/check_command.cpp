@@ -263,10 +263,15 @@ std::string change_text(const Change& change) {
   std::string text;
   for (const MovePlan& move : change.move)
     text += "; moves blocks " + move_text(move);
-  for (const BoundaryPlan& plan : change.boundary)
+  for (const BoundaryPlan& plan : change.boundary) {
     text +=
         fmt::format("; stress {} = {} Pa on outer faces of blocks",
                     plan.stress.size() == 3 ? "(xx, yy, xy)" : "(xx, yy, zz, yz, zx, xy)", numbers_text(plan.stress));
+    if (plan.in_situ)
+      text += fmt::format(" and that of {:g} N/m³ below {:g} m, horizontally {:g}{} times as much",
+                          plan.in_situ->unit_weight.value(), plan.in_situ->surface, plan.in_situ->k0,
+                          plan.in_situ->k0_y ? fmt::format(", along y {:g}", *plan.in_situ->k0_y) : "");
+  }
   for (const ForcePlan& plan : change.force) {
     text += fmt::format("; force '{}' = {} {} on blocks", plan.name, numbers_text(plan.force),
                         plan.force.size() == 2 ? "N/m" : "N");

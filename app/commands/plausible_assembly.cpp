@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -231,6 +232,30 @@ void judge_searches_in_water(const Prepared<Dim>& prepared, std::vector<std::str
   }
 }
 
+// A stress that grows from a surface: one below all blocks presses none, one high above them is hardly meant.
+template <int Dim>
+void judge_in_situ(const Prepared<Dim>& prepared, std::vector<std::string>& warnings) {
+  constexpr double deep = 3000;  // m
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Body<Dim>& body : prepared.model.bodies)
+    for (const Polytope<Dim>& part : body.parts)
+      for (const Vector<Dim>& v : part.vertices) {
+        const double height = prepared.model.origin[Dim - 1] + body.reference[Dim - 1] + v[Dim - 1];
+        low = std::min(low, height);
+        high = std::max(high, height);
+      }
+  for (const StagePlan& stage : prepared.stages)
+    for (const BoundaryPlan& plan : stage.change.boundary) {
+      if (!plan.in_situ) continue;
+      const double surface = plan.in_situ->surface;
+      const std::string begins = fmt::format("stage.{}.boundary: in_situ.surface = {:g} m lies ", stage.name, surface);
+      if (surface <= low) warnings.push_back(begins + "below every block: there is no stress; elevations are in m");
+      if (surface > high + deep)
+        warnings.push_back(
+            begins + fmt::format("{:.3g} m above every block; elevations are in m, is it right?", surface - high));
+    }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -245,6 +270,7 @@ void judge_assembly(const Prepared<Dim>& prepared, const Model<Dim>& model, cons
   judge_places(model, state, warnings);
   judge_points(model, state, warnings);
   judge_last_block(prepared, warnings);
+  judge_in_situ(prepared, warnings);
   judge_searches_in_water(prepared, warnings);
 }
 

@@ -1,5 +1,7 @@
 #include "core/load/boundary_stress.hpp"
 
+#include <cmath>
+
 namespace voussoir {
 namespace {
 
@@ -23,7 +25,51 @@ Vector<3> face_centroid(const Polytope<3>& part, std::size_t face) {
   return area > 0 ? Vector<3>(corner + moment / area) : corner;
 }
 
+// a point of a face, and the part of its area that it is for
+template <int Dim>
+struct FacePoint {
+  Vector<Dim> place;  // m
+  double area;        // m² (2-D: m)
+};
+
+// Gauss's two points: exact to the third order
+std::vector<FacePoint<2>> face_points(const Polytope<2>& part, std::size_t face) {
+  const Vector<2>&a = part.vertices[part.loops[face][0]], &b = part.vertices[part.loops[face][1]];
+  const Vector<2> middle = 0.5 * (a + b), arm = (b - a) / std::sqrt(12.0);
+  const double half = 0.5 * (b - a).norm();
+  return {{middle - arm, half}, {middle + arm, half}};
+}
+
+// of triangles around the first corner the middles of their sides: exact to the second order
+std::vector<FacePoint<3>> face_points(const Polytope<3>& part, std::size_t face) {
+  const std::vector<int>& loop = part.loops[face];
+  const Vector<3>& corner = part.vertices[loop[0]];
+  std::vector<FacePoint<3>> points;
+  for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
+    const Vector<3>&u = part.vertices[loop[k]], &v = part.vertices[loop[k + 1]];
+    const double third = (u - corner).cross(v - corner).dot(part.faces[face].normal) / 6;
+    for (const Vector<3>& middle :
+         {Vector<3>(0.5 * (corner + u)), Vector<3>(0.5 * (u + v)), Vector<3>(0.5 * (v + corner))})
+      points.push_back({middle, third});
+  }
+  return points;
+}
+
 }  // namespace
+
+template <int Dim>
+std::vector<DeadLoad<Dim>> boundary_loads(const Polytope<Dim>& part, const DepthStress<Dim>& stress) {
+  if (stress.per_depth.isZero(0)) return boundary_loads<Dim>(part, stress.above);
+  std::vector<DeadLoad<Dim>> loads;
+  for (std::size_t f = 0; f < part.faces.size(); ++f) {
+    if (part.joints[f] != no_joint || static_cast<int>(part.loops[f].size()) < Dim) continue;
+    for (const FacePoint<Dim>& at : face_points(part, f)) {
+      const Vector<Dim> force = -at.area * (stress.at(at.place) * part.faces[f].normal);
+      if (!force.isZero(0)) loads.push_back({at.place, force});
+    }
+  }
+  return loads;
+}
 
 template <int Dim>
 std::vector<DeadLoad<Dim>> boundary_loads(const Polytope<Dim>& part, const Matrix<Dim>& stress) {
@@ -50,5 +96,7 @@ Matrix<3> stress_tensor_3d(const std::vector<double>& c) {
 
 template std::vector<DeadLoad<2>> boundary_loads(const Polytope<2>&, const Matrix<2>&);
 template std::vector<DeadLoad<3>> boundary_loads(const Polytope<3>&, const Matrix<3>&);
+template std::vector<DeadLoad<2>> boundary_loads(const Polytope<2>&, const DepthStress<2>&);
+template std::vector<DeadLoad<3>> boundary_loads(const Polytope<3>&, const DepthStress<3>&);
 
 }  // namespace voussoir

@@ -1,6 +1,7 @@
 // Stress brought in from outside: forces on the faces that no joint made.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/geometry/polytope.hpp"
@@ -12,6 +13,21 @@ namespace voussoir {
 // -stress n A at the centroid of each, n its outward normal. Faces that it does not load are left out.
 template <int Dim>
 std::vector<DeadLoad<Dim>> boundary_loads(const Polytope<Dim>& part, const Matrix<Dim>& stress);
+
+// A stress that grows with depth, Pa, compression positive, world axes.
+template <int Dim>
+struct DepthStress {
+  Matrix<Dim> above = Matrix<Dim>::Zero();      // at and above the surface
+  Matrix<Dim> per_depth = Matrix<Dim>::Zero();  // Pa/m: what each metre below it adds
+  double surface = 0;                           // m: its elevation, as the part's coordinates have it
+
+  Matrix<Dim> at(const Vector<Dim>& point) const { return above + std::max(0.0, surface - point[Dim - 1]) * per_depth; }
+};
+
+// The same of such a stress, at as many points of each face as give its force and its moment exactly where the whole
+// face lies below the surface, or above it.
+template <int Dim>
+std::vector<DeadLoad<Dim>> boundary_loads(const Polytope<Dim>& part, const DepthStress<Dim>& stress);
 
 // a symmetric tensor from its components: 2-D xx, yy, xy; 3-D xx, yy, zz, yz, zx, xy
 Matrix<2> stress_tensor_2d(const std::vector<double>& components);

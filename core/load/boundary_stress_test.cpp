@@ -116,6 +116,35 @@ TEST(BoundaryStress, IsBorneByTheJoint) {
   expect_pressed_joint<2>();
 }
 
+// The force of a stress that grows with depth on the faces of a block is that of its mean, and its moment that of the
+// growth over each face; all around, the forces are the divergence of the stress over the block.
+template <int Dim>
+void expect_growing_stress() {
+  const double size = 1;
+  const Polytope<Dim> part = outer_body<Dim>(cube<Dim>(size), false, "block").parts.front();
+  const Matrix<Dim> growth = some_stress<Dim>();
+  const DepthStress<Dim> stress{some_stress<Dim>(), growth, 5};
+  Load<Dim> sum;
+  for (const DeadLoad<Dim>& load : boundary_loads<Dim>(part, stress))
+    sum += load_of<Dim>(load, Matrix<Dim>::Identity());
+  const double volume = std::pow(2 * size, Dim);
+  // -∫ σ n dA = -∫ div σ dV, the stress falling by `growth` with each metre of height
+  const Vector<Dim> expected = volume * growth.col(Dim - 1);
+  EXPECT_LT((sum.force - expected).norm(), 1e-12 * expected.norm());
+  // about the centroid, for a symmetric stress: ∫ x × div σ dV = 0
+  EXPECT_LT(sum.moment.norm(), 1e-12 * expected.norm());
+  const DepthStress<Dim> above{some_stress<Dim>(), growth, -5};
+  Load<Dim> none;
+  for (const DeadLoad<Dim>& load : boundary_loads<Dim>(part, above))
+    none += load_of<Dim>(load, Matrix<Dim>::Identity());
+  EXPECT_LT(none.force.norm(), 1e-12 * expected.norm());
+}
+
+TEST(BoundaryStress, GrowsWithDepth) {
+  expect_growing_stress<2>();
+  expect_growing_stress<3>();
+}
+
 // One sheared face turns a block that is free in space: what the load gives is what the motion has.
 TEST(BoundaryStress, WorkOnATurningBlockIsItsKineticEnergy) {
   Model<3> model = model_of<3>({outer_body<3>(cube<3>(1), false, "block")});

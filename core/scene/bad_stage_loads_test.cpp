@@ -20,6 +20,20 @@ INSTANTIATE_TEST_SUITE_P(
     Boundary, BadLoad,
     testing::Values(BadInput{"stress_of_a_plane", "", pressing + "all = true\nstress = [1, 1, 0] #!",
                              "stage.press.boundary.1.stress = [1, 1, 0]", "must have 6 entries because dimension = 3"},
+                    BadInput{"in_situ_without_weight", "density = 2600",
+                             "[[joint_properties]]\nname = \"other\"\nnormal_stiffness = 1e9\nshear_stiffness = "
+                             "1e8\nfriction_deg = 40\n" +
+                                 pressing + "all = true\nin_situ = { surface = 2, k0 = 1 } ",
+                             "stage.press.boundary.1.in_situ.unit_weight is missing", "no density"},
+                    BadInput{"in_situ_without_k0", "", pressing + "all = true\nin_situ = { surface = 2 } ",
+                             "stage.press.boundary.1.in_situ.k0 is missing", "horizontal over vertical"},
+                    BadInput{"side_of_a_plane", "", pressing + "side = [\"left\"] #!\nstress = [1, 1, 0, 0, 0, 0]",
+                             "stage.press.boundary.1.side = [\"left\"]", "side of the model"},
+                    BadInput{
+                        "empty_box", "",
+                        "[[stage]]\nname = \"press\"\nkind = \"settle\"\n[[stage.boundary]] #!\nbox = { min = [50, "
+                        "0, 0], max = [51, 1, 1] }\nstress = [1, 1, 0, 0, 0, 0]",
+                        "stage.press.boundary.1", "chooses no block"},
                     BadInput{"no_stress", "", pressing + "all = true ", "stage.press.boundary.1.stress is missing",
                              "compression positive"},
                     BadInput{"no_block", "", pressing + "stress = [1, 1, 0, 0, 0, 0] ",

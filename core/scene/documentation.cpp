@@ -55,7 +55,8 @@ any characters but '.' and '=', and is unique in its list. Every text is one lin
 A value outside the range that a key allows is refused. One outside its usual range is reported as a warning before the run:
 most often its unit is wrong.
 
-Blocks are chosen by selectors: by name, by the side of joints or by a point inside, never by number. A block is chosen
+Blocks are chosen by selectors: by name, by the side of joints, by a point inside, by a side of the model or by a
+box, never by number. A block is chosen
 when it satisfies every condition that the table states.
 )";
 

@@ -59,8 +59,10 @@ void add_stage(Values& values, const StagePlan& stage) {
     add(values, "move", move);
     add(values, "factor", move.factor);
   }
-  for (const BoundaryPlan& boundary : stage.change.boundary)
+  for (const BoundaryPlan& boundary : stage.change.boundary) {
     add(values, "boundary", boundary);
+    if (boundary.in_situ) add(values, "in_situ", *boundary.in_situ);
+  }
   for (const ForcePlan& force : stage.change.force) {
     add(values, "force", force);
     add(values, "factor", force.factor);

@@ -137,6 +137,7 @@ std::vector<int> chosen(const Model<Dim>& model, const SelectorSpec& spec) {
   check("above", spec.selector.above, joints, "joint");
   check("below", spec.selector.below, joints, "joint");
   check("bodies", spec.selector.names, bodies, "block");
+  check("side", spec.selector.sides, side_names<Dim>(), "side of the model");
   return select<Dim>(model, spec.selector);
 }
 

@@ -141,7 +141,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   scene.initial_velocity = read_initial_velocity(top);
   scene.settings = read_settings(top);
   scene.excavations = read_excavations(top, scene.dimension);
-  scene.stages = read_stages(top, scene.dimension, scene.settings.damping);
+  const double rock_weight = scene.density && scene.gravity ? *scene.density * std::abs(scene.gravity->back()) : 0;
+  scene.stages = read_stages(top, scene.dimension, scene.settings.damping, rock_weight);
   scene.waters = read_waters(top, scene.dimension);
   read_water_changes(scene.waters, scene.stages, scene.dimension);
   scene.monitors = read_monitors(top);

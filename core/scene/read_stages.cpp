@@ -7,12 +7,25 @@
 
 #include "core/load/time_factor.hpp"
 #include "core/scene/keys.hpp"
+#include "core/scene/read_slicing.hpp"
 
 namespace voussoir {
 namespace {
 
 bool chooses(const Selector& s) {
-  return s.all || !s.names.empty() || !s.above.empty() || !s.below.empty() || s.inside.has_value();
+  return s.all || !s.names.empty() || !s.above.empty() || !s.below.empty() || s.inside.has_value() ||
+         !s.sides.empty() || !s.low.empty();
+}
+
+Selector read_choice(const Subject& table) {
+  Selector selector;
+  read_keys(*table.node, "selector", selector);
+  if (const auto item = child(table, "box")) {
+    const BoxSpec box = read_box(*item);
+    selector.low = box.min;
+    selector.high = box.max;
+  }
+  return selector;
 }
 
 void check_factor(const Subject& table, const ReducePlan& plan) {
@@ -136,15 +149,37 @@ MovePlan read_move(const Subject& table, const Selector& bodies) {
   return plan;
 }
 
-BoundaryPlan read_boundary(const Subject& table, const Selector& bodies, int dimension) {
+InSituPlan read_in_situ(const Subject& table, int dimension, double rock_weight) {
+  InSituPlan plan;
+  read_keys(*table.node, "in_situ", plan);
+  if (!plan.unit_weight) plan.unit_weight = rock_weight;
+  if (!(*plan.unit_weight > 0))
+    refuse(table, "unit_weight",
+           "is needed: the scene states no density, or no gravity; write for example 26e3 (N/m³)");
+  if (dimension == 2 && plan.k0_y)
+    refuse(table, "k0_y", "needs dimension = 3; in the plane k0 is the only one, remove it");
+  return plan;
+}
+
+BoundaryPlan read_boundary(const Subject& table, const Selector& bodies, int dimension, double rock_weight) {
   BoundaryPlan plan;
   plan.bodies = bodies;
   read_keys(*table.node, "boundary", plan);
   const std::size_t wanted = dimension == 2 ? 3 : 6;
+  const char* components = dimension == 2 ? "xx, yy, xy" : "xx, yy, zz, yz, zx, xy";
+  if (const auto item = child(table, "in_situ")) {
+    plan.in_situ = read_in_situ(*item, dimension, rock_weight);
+    if (!table.node->find("stress")) plan.stress.assign(wanted, 0);
+  } else if (!table.node->find("stress")) {
+    refuse(table, "stress",
+           std::string("is needed, or in_situ: ") + components +
+               ", compression positive, world axes; write for example stress = " +
+               (dimension == 2 ? "[50e3, 50e3, 0]" : "[50e3, 50e3, 50e3, 0, 0, 0]"));
+  }
   if (plan.stress.size() != wanted)
     refuse(table, "stress",
            "must have " + std::to_string(wanted) + " entries because dimension = " + std::to_string(dimension) + ": " +
-               (dimension == 2 ? "xx, yy, xy" : "xx, yy, zz, yz, zx, xy") + ", compression positive");
+               components + ", compression positive");
   return plan;
 }
 
@@ -188,7 +223,7 @@ LetOffPlan read_let_off(const Subject& table, const std::variant<SettlePlan, Run
   return plan;
 }
 
-StageSpec read_stage(const Subject& table, const DampingSettings& damping, int dimension) {
+StageSpec read_stage(const Subject& table, const DampingSettings& damping, int dimension, double rock_weight) {
   StageSpec stage;
   stage.subject = table;
   read_keys(*table.node, "stage", stage.plan);
@@ -220,7 +255,7 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping, int d
     read_keys(*item.node, "friction", change.friction_of.emplace_back());
   read_chosen("move", [&](const Subject& at, const Selector& bodies) { change.move.push_back(read_move(at, bodies)); });
   read_chosen("boundary", [&](const Subject& at, const Selector& bodies) {
-    change.boundary.push_back(read_boundary(at, bodies, dimension));
+    change.boundary.push_back(read_boundary(at, bodies, dimension, rock_weight));
   });
   read_chosen("force", [&](const Subject& at, const Selector& bodies) {
     change.force.push_back(read_force(at, bodies, std::get_if<RunPlan>(&stage.plan.plan)));
@@ -232,7 +267,7 @@ MonitorSpec read_monitor(const Subject& table) {
   MonitorSpec monitor;
   read_keys(*table.node, "monitors", monitor);
   monitor.body.subject = table;
-  read_keys(*table.node, "selector", monitor.body.selector);
+  monitor.body.selector = read_choice(table);
 
   // what each quantity is followed on, and the key that names it
   const auto key_of = [](const Monitored& followed) -> std::string_view {
@@ -260,7 +295,7 @@ MonitorSpec read_monitor(const Subject& table) {
         fmt::format("stands beside a choice of blocks; a monitor follows either a {} or a block, remove one", stated));
   if (stated.empty() && !chooses(monitor.body.selector))
     refuse(table, "above",
-           "the monitor must choose one block by bodies, above, below or inside; write for example "
+           "the monitor must choose one block by bodies, above, below, inside, side or box; write for example "
            "above = [\"A\"] or inside = the coordinates of a point in the block");
   return monitor;
 }
@@ -268,11 +303,11 @@ MonitorSpec read_monitor(const Subject& table) {
 }  // namespace
 
 SelectorSpec read_selector(const Subject& table) {
-  SelectorSpec spec{table, {}};
-  read_keys(*table.node, "selector", spec.selector);
+  SelectorSpec spec{table, read_choice(table)};
   if (!chooses(spec.selector))
     refuse(table, "below",
-           "no block is chosen; choose by all = true, bodies, above, below or inside, for example below = [\"A\"]");
+           "no block is chosen; choose by all = true, bodies, above, below, inside, side or box, for example below = "
+           "[\"A\"]");
   return spec;
 }
 
@@ -300,10 +335,11 @@ Settings read_settings(const Subject& scene) {
   return settings;
 }
 
-std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const DampingSettings& damping) {
+std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const DampingSettings& damping,
+                                   double rock_weight) {
   std::vector<StageSpec> stages;
   for (const Subject& item : children(scene, "stage"))
-    stages.push_back(read_stage(item, damping, dimension));
+    stages.push_back(read_stage(item, damping, dimension, rock_weight));
   chain_gravity(stages);
   free_runs(scene, damping, stages);
   if (stages.empty())

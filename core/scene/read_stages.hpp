@@ -11,7 +11,8 @@ SelectorSpec read_selector(const Subject& table);
 std::vector<SelectorSpec> read_selectors(const Subject& table, std::string_view key);
 MotionSpec read_motion(const Subject& table);
 Settings read_settings(const Subject& scene);
-std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const DampingSettings& damping);
+std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const DampingSettings& damping,
+                                   double rock_weight);
 std::vector<MonitorSpec> read_monitors(const Subject& scene);
 
 }  // namespace voussoir

@@ -156,7 +156,7 @@ release = [{ bodies = ["by planes"] }]
 remove = [{ bodies = ["by vertices"] }]
 move = [{ bodies = ["by planes"], velocity = [1, 0, 0], frequency_hz = 1 }]
 friction = [{ name = "rock", friction_deg = 35 }]
-boundary = [{ bodies = ["by vertices"], stress = [1, 1, 0, 0, 0, 0] }]
+boundary = [{ bodies = ["by vertices"], stress = [1, 1, 0, 0, 0, 0], in_situ = { surface = 0.5, k0 = 0.5, k0_y = 0.6, unit_weight = 2e4 } }]
 force = [{ name = "push", bodies = ["by planes"], force = [1, 0, 0], point = [10.5, 0, 0.5] }]
 [[stage]]
 name = "bisection"
@@ -238,6 +238,7 @@ inline std::string address(const KeyRow& row) {
                                                           {"restrain", "restrain.1"},
                                                           {"motion", "initial_velocity.1"},
                                                           {"boundary", "stage.run.boundary.1"},
+                                                          {"in_situ", "stage.run.boundary.1.in_situ"},
                                                           {"friction", "stage.run.friction.rock"},
                                                           {"force", "stage.run.force.push"},
                                                           {"move", "stage.run.move.1"},

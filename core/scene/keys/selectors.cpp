@@ -24,6 +24,10 @@ KeyTable selector_keys() {
      .meaning = "blocks whose centroid lies below all these joints"},
     {.key = "inside", .members = {in(&Selector::inside)}, .unit = "m", .range = sane, .example = "[0.5, 0.5, -1]",
      .meaning = "the block that holds this point"},
+    {.key = "side", .members = {in(&Selector::sides)}, .example = "[\"bottom\"]",
+     .meaning = "blocks of which a face that no joint made lies in one of these sides of the model, where such faces are "
+         "outermost: left, right, bottom or top; in space west, east, south, north, bottom or top"},
+    {.key = "box", .type = table, .holds = {"box"}, .meaning = "blocks whose centroid lies in this box"},
   }};
 }
 

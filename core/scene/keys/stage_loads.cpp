@@ -16,10 +16,27 @@ std::vector<KeyTable> stage_load_keys() {
   }},
   {"boundary", {
     {.key = "stress", .members = {in(&BoundaryPlan::stress, numbers)}, .unit = "Pa", .range = sane,
-     .example = "[50e3, 50e3, 0, 0, 0, 0]", .required = true,
+     .example = "[50e3, 50e3, 0, 0, 0, 0]",
      .meaning = "compression positive, world axes: xx, yy, zz, yz, zx, xy; in 2-D xx, yy, xy. The force on each face keeps "
          "size and direction while the block moves",
      .breaks = "needs blocks or fixed rock to push against"},
+    {.key = "in_situ", .type = table, .holds = {"in_situ"},
+     .meaning = "stress of the rock's own weight, which grows with depth; `stress`, where it is stated too, is added"},
+  }},
+  {"in_situ", {
+    {.key = "surface", .members = {in(&InSituPlan::surface)}, .unit = "m", .range = sane, .example = "25",
+     .required = true, .meaning = "elevation at which it begins, and above which there is none"},
+    {.key = "k0", .members = {in(&InSituPlan::k0)}, .unit = "1", .range = {0, 1e3},
+     .plausible = {.low = 0.1, .high = 10, .or_zero = true}, .example = "0.5", .required = true,
+     .meaning = "horizontal over vertical stress. A joint that dips by a slips while it is put on unless "
+         "tan φ ≥ |1 - k0| sin a cos a / (cos² a + k0 sin² a): state a friction for this stage", .mistake = "was it given in percent?"},
+    {.key = "k0_y", .members = {in(&InSituPlan::k0_y)}, .unit = "1", .range = {0, 1e3},
+     .plausible = {.low = 0.1, .high = 10, .or_zero = true}, .example = "0.8", .no_default = true,
+     .meaning = "in space the same along y, where it is another than along x", .mistake = "was it given in percent?"},
+    {.key = "unit_weight", .members = {in(&InSituPlan::unit_weight)}, .unit = "N/m³", .range = positive,
+     .plausible = {1e4, 5e4}, .example = "26e3", .no_default = true,
+     .meaning = "of the rock: the scene's density times its gravity, where it is not stated",
+     .mistake = "was it given in kN/m³, or as a density?"},
   }},
   {"force", {
     {.key = "name", .members = {in(&ForcePlan::name, name)}, .example = "\"crane\"", .required = true,
