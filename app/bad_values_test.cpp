@@ -173,6 +173,8 @@ const Harmless harmless[] = {
     {"force", "force", "times 1e3", "a force like any other"},
     {"force", "force", "times 1e6", "a force like any other"},
     {"in_situ", "surface", "any", "another surface; one far above or below all blocks is reported"},
+    {"in_situ", "k0", "0", "no horizontal stress"},
+    {"in_situ", "k0_y", "0", "none along y"},
     {"let_off", "share", "0", "all is let off"},
     {"water_surface", "level", "any", "another level; one that wets no block is reported"},
     {"water_surface", "pressure", "0", "no pressure"},
