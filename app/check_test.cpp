@@ -214,6 +214,25 @@ TEST_F(Check, JudgesASceneWithoutJointProperties) {
          "is unusual");
 }
 
+// By the formula of generation, |1 - k0| sin a cos a / (cos² a + k0 sin² a), 3 and 30 degrees ask for 30 degrees.
+TEST_F(Check, JudgesStressesInSitu) {
+  const auto pressed = [](double friction, double k0, double surface) {
+    return "dimension = 2\ngravity = [0, -10]\ndensity = 2000\ndomain = { box = { min = [-4, -4], max = [4, 4] } }\n"
+           "[[joints]]\nname = \"j\"\ndip = 30\ndip_direction = 90\npoint = [0, 0]\n" +
+           rock +
+           fmt::format(
+               "[[fix]]\nside = [\"bottom\"]\n[[stage]]\nname = \"press\"\nkind = \"settle\"\n"
+               "friction_deg = {}\nboundary = [{{ side = [\"left\", \"right\"], in_situ = {{ surface = {}, k0 "
+               "= {} }} }}]\n",
+               friction, surface, k0);
+  };
+  says(pressed(25, 3, 4), "holds from a friction of 30.0 deg on, and has 25.0");
+  silent(pressed(30.1, 3, 4), "in-situ");
+  silent(pressed(1, 1, 4), "in-situ");
+  says(pressed(40, 3, -5), "below every block");
+  says(pressed(40, 3, 4000), "above every block");
+}
+
 // The steps that check announces beside those that are taken.
 TEST_F(Check, PromisesStepsThatAreTaken) {
   const std::string scene = ground + box("stone", 0, 0) + rock +

@@ -92,6 +92,7 @@ struct Joint {
   std::string name;
   HalfSpace<Dim> plane;  // upward normal
   int properties = 0;    // index into Model::properties
+  bool holds = false;    // a construction joint: its two sides are one body
 };
 
 // a convex part of a body: contacts are between parts

@@ -256,6 +256,44 @@ void judge_in_situ(const Prepared<Dim>& prepared, std::vector<std::string>& warn
     }
 }
 
+// rad: the friction below which a joint slips under horizontal stresses of these ratios to the vertical one
+template <int Dim>
+double least_friction(const Vector<Dim>& normal, const InSituPlan& in_situ) {
+  Vector<Dim> ratios = Vector<Dim>::Constant(in_situ.k0);
+  if constexpr (Dim == 3) ratios[1] = in_situ.k0_y.value_or(in_situ.k0);
+  ratios[Dim - 1] = 1;
+  const Vector<Dim> traction = ratios.cwiseProduct(normal);
+  const double across = traction.dot(normal);
+  return std::atan2((traction - across * normal).norm(), across);
+}
+
+// Joints that slip as the stresses are put on, which then are not those that were asked for (Boon 2013, 5.4.1).
+template <int Dim>
+void judge_generation(const Prepared<Dim>& prepared, std::vector<std::string>& warnings) {
+  Model<Dim> model = prepared.model;
+  for (const StagePlan& stage : prepared.stages) {
+    model = apply(std::move(model), stage.change);
+    double needed = 0, stated = 0;
+    std::string name;
+    for (const BoundaryPlan& plan : stage.change.boundary)
+      for (const Joint<Dim>& joint : model.joints) {
+        if (!plan.in_situ || joint.holds) continue;
+        const JointProperties& properties = model.properties[joint.properties];
+        const double least = least_friction<Dim>(joint.plane.normal, *plan.in_situ);
+        if (least <= properties.friction + 1e-9 || least <= needed) continue;
+        needed = least;
+        stated = properties.friction;
+        name = joint.name;
+      }
+    if (needed > 0)
+      warnings.push_back(fmt::format(
+          "stage.{}: joint '{}' slips while in-situ stresses are put on, which it holds from a friction of "
+          "{:.1f} deg on, and has {:.1f}: state a higher friction_deg in this stage, and the true one in the "
+          "next",
+          stage.name, name, to_degrees(needed), to_degrees(stated)));
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -271,6 +309,7 @@ void judge_assembly(const Prepared<Dim>& prepared, const Model<Dim>& model, cons
   judge_points(model, state, warnings);
   judge_last_block(prepared, warnings);
   judge_in_situ(prepared, warnings);
+  judge_generation(prepared, warnings);
   judge_searches_in_water(prepared, warnings);
 }
 

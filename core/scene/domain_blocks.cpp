@@ -51,7 +51,7 @@ void add_outline(const Scene& scene, const ExcavationSpec& spec, const HalfSpace
     const std::string name = spec.name + " face " + std::to_string(f + 1);
     for (const JointSpec& joint : scene.joints)
       if (joint.name == name) refuse(joint.subject, "name", "is that of a face of an excavation; choose another name");
-    model.joints.push_back({name, cut.plane, model.default_properties});
+    model.joints.push_back({name, cut.plane, model.default_properties, true});
     cuts.push_back(std::move(cut));
   }
 }

@@ -63,7 +63,8 @@ void add_joints(const Scene& scene, Model<Dim>& model) {
     model.properties.push_back(p.properties);
   model.default_properties = std::max(0, index_of(property_names(scene), "default"));
   for (const JointSpec& joint : scene.joints)
-    model.joints.push_back({joint.name, to_half_space<Dim>(joint.plane, model.origin), properties_of(scene, joint)});
+    model.joints.push_back({joint.name, to_half_space<Dim>(joint.plane, model.origin), properties_of(scene, joint),
+                            joint.kind == JointKind::construction});
 }
 
 double density_of(const Scene& scene, const std::optional<double>& own) {
