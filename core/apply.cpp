@@ -76,10 +76,6 @@ void apply_forces(Model<Dim>& model, const std::vector<ForcePlan>& plans) {
   std::ranges::stable_sort(model.applied, {}, &AppliedForce<Dim>::body);
 }
 
-}  // namespace
-
-namespace {
-
 template <int Dim>
 DepthStress<Dim> depth_stress_of(const BoundaryPlan& plan, double origin) {
   DepthStress<Dim> stress{stress_tensor<Dim>(plan.stress), Matrix<Dim>::Zero(), 0};

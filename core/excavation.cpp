@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <span>
 #include <stdexcept>
 
-#include "core/load/water.hpp"
 #include "core/slicing/clump.hpp"
 
 namespace voussoir {
@@ -20,11 +20,6 @@ std::vector<const Excavation<Dim>*> regions_named(const Model<Dim>& model, const
     regions.push_back(&*found);
   }
   return regions;
-}
-
-template <int Dim>
-bool lies_in(const HalfSpaces<Dim>& region, const Vector<Dim>& point) {
-  return std::ranges::all_of(region, [&](const HalfSpace<Dim>& face) { return signed_distance<Dim>(face, point) < 0; });
 }
 
 // numbers of the pieces that some parts of a body make: they hang together where they share a face
@@ -89,18 +84,6 @@ Body<Dim> piece_of(const Body<Dim>& whole, const std::vector<int>& places) {
   return piece;
 }
 
-// the part that a point lies in, or nearest to
-template <int Dim>
-int part_at(const Body<Dim>& body, const Vector<Dim>& point) {
-  const auto outside = [&](const Polytope<Dim>& part) {
-    double most = -std::numeric_limits<double>::infinity();
-    for (const HalfSpace<Dim>& face : part.faces)
-      most = std::max(most, signed_distance<Dim>(face, point));
-    return most;
-  };
-  return static_cast<int>(std::ranges::min_element(body.parts, {}, outside) - body.parts.begin());
-}
-
 // Takes the pieces of a body into the model; `now` is where each of the body's parts is to be found.
 template <int Dim>
 void divide(Model<Dim>& model, int b, const std::vector<std::vector<int>>& pieces, std::span<PartId> now,
@@ -137,8 +120,10 @@ void divide(Model<Dim>& model, int b, const std::vector<std::vector<int>>& piece
   const auto forced = std::ranges::find(model.prescribed, b, &PrescribedMotion<Dim>::body);
   if (forced != model.prescribed.end()) {
     const PrescribedMotion<Dim> motion = *forced;
-    for (std::size_t k = 1; k < bodies.size(); ++k)
-      model.prescribed.push_back(motion), model.prescribed.back().body = bodies[k];
+    for (std::size_t k = 1; k < bodies.size(); ++k) {
+      model.prescribed.push_back(motion);
+      model.prescribed.back().body = bodies[k];
+    }
   }
   for (AppliedForce<Dim>& f : model.applied) {
     if (f.body != b || f.place.isZero(0)) continue;
@@ -153,6 +138,17 @@ void divide(Model<Dim>& model, int b, const std::vector<std::vector<int>>& piece
 }
 
 }  // namespace
+
+template <int Dim>
+int part_at(const Body<Dim>& body, const Vector<Dim>& point) {
+  const auto outside = [&](const Polytope<Dim>& part) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const HalfSpace<Dim>& face : part.faces)
+      most = std::max(most, signed_distance<Dim>(face, point));
+    return most;
+  };
+  return static_cast<int>(std::ranges::min_element(body.parts, {}, outside) - body.parts.begin());
+}
 
 template <int Dim>
 Excavated<Dim> excavate(Model<Dim>& model, const std::vector<std::string>& names) {
@@ -176,7 +172,7 @@ Excavated<Dim> excavate(Model<Dim>& model, const std::vector<std::string>& names
     std::vector<int> left;
     for (std::size_t k = 0; k < parts; ++k) {
       const Vector<Dim> centroid = body.reference + body.parts[k].mass.centroid;
-      if (std::ranges::none_of(regions, [&](const auto* region) { return lies_in<Dim>(region->region, centroid); }))
+      if (std::ranges::none_of(regions, [&](const auto* region) { return lies_inside<Dim>(region->region, centroid); }))
         left.push_back(static_cast<int>(k));
     }
     if (left.size() == parts) continue;
@@ -203,14 +199,12 @@ Excavated<Dim> excavate(Model<Dim>& model, const std::vector<std::string>& names
     first_part[model.parts[i].body] = static_cast<int>(i);
   for (const PartId& part : now)
     moved.part.push_back(part.body < 0 ? -1 : first_part[part.body] + part.part);
-  if (!model.waters.empty()) {
-    model.water_bounds.clear();
-    for (const Body<Dim>& body : model.bodies)
-      model.water_bounds.push_back(greatest_water_stiffness<Dim>(body.parts, body.radius));
-  }
+  bound_water_stiffness(model);
   return moved;
 }
 
+template int part_at<2>(const Body<2>&, const Vector<2>&);
+template int part_at<3>(const Body<3>&, const Vector<3>&);
 template Excavated<2> excavate<2>(Model<2>&, const std::vector<std::string>&);
 template Excavated<3> excavate<3>(Model<3>&, const std::vector<std::string>&);
 

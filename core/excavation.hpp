@@ -16,6 +16,10 @@ struct Excavated {
   std::vector<Vector<Dim>> shift;  // of each body now: how its centroid moved in its body's frame, m
 };
 
+// the part of a body that a point of its frame lies in, or nearest to
+template <int Dim>
+int part_at(const Body<Dim>& body, const Vector<Dim>& point);
+
 // Takes out the parts whose centroids lie, where the scene has them, in one of the named regions of Model::excavations.
 // A body that loses all of them, or all but parts smaller than the regions' least radius, is no longer present (a fixed
 // body keeps what is left); one that loses some keeps its id, and mass, centroid and inertia are renewed. Pieces that

@@ -135,7 +135,13 @@ void assign_waters(Model<Dim>& model, std::vector<Water> waters, std::vector<int
   model.water_of_joint = std::move(water_of_joint);
   model.water_by_volume = model.waters.size() == 1 && !model.waters.front().uniform &&
                           std::ranges::all_of(model.water_of_joint, [](int water) { return water == 0; });
+  bound_water_stiffness(model);
+}
+
+template <int Dim>
+void bound_water_stiffness(Model<Dim>& model) {
   model.water_bounds.clear();
+  if (model.waters.empty()) return;
   for (const Body<Dim>& body : model.bodies)
     model.water_bounds.push_back(greatest_water_stiffness<Dim>(body.parts, body.radius));
 }
@@ -211,6 +217,8 @@ template std::vector<std::string> side_names<2>();
 template std::vector<std::string> side_names<3>();
 template std::vector<int> select<2>(const Model<2>&, const Selector&);
 template std::vector<int> select<3>(const Model<3>&, const Selector&);
+template void bound_water_stiffness<2>(Model<2>&);
+template void bound_water_stiffness<3>(Model<3>&);
 template void assign_waters<2>(Model<2>&, std::vector<Water>, std::vector<int>);
 template void assign_waters<3>(Model<3>&, std::vector<Water>, std::vector<int>);
 template void list_parts<2>(Model<2>&);

@@ -148,6 +148,10 @@ void list_parts(Model<Dim>& model);
 template <int Dim>
 void assign_waters(Model<Dim>& model, std::vector<Water> waters, std::vector<int> water_of_joint);
 
+// Model::water_bounds, where there is water
+template <int Dim>
+void bound_water_stiffness(Model<Dim>& model);
+
 // the names of the sides of a model, by axis the lower and the upper one
 template <int Dim>
 std::vector<std::string> side_names();

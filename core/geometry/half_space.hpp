@@ -22,6 +22,14 @@ double signed_distance(const HalfSpace<Dim>& plane, const Vector<Dim>& point) {
   return plane.normal.dot(point) - plane.offset;
 }
 
+// whether a point lies inside all of them, not on a face
+template <int Dim>
+bool lies_inside(const HalfSpaces<Dim>& region, const Vector<Dim>& point) {
+  for (const HalfSpace<Dim>& face : region)
+    if (!(signed_distance<Dim>(face, point) < 0)) return false;
+  return true;
+}
+
 // the same half-space seen from an origin moved by `shift`
 template <int Dim>
 HalfSpace<Dim> moved_origin(const HalfSpace<Dim>& plane, const Vector<Dim>& shift) {

@@ -189,11 +189,7 @@ std::vector<int> bodies_of(const std::vector<Polytope<Dim>>& parts, const std::v
 
 template <int Dim>
 std::vector<Polytope<Dim>> excavated(std::vector<Polytope<Dim>> parts, const HalfSpaces<Dim>& region) {
-  std::erase_if(parts, [&](const Polytope<Dim>& part) {
-    return std::all_of(region.begin(), region.end(), [&](const HalfSpace<Dim>& plane) {
-      return signed_distance<Dim>(plane, part.mass.centroid) < 0;
-    });
-  });
+  std::erase_if(parts, [&](const Polytope<Dim>& part) { return lies_inside<Dim>(region, part.mass.centroid); });
   return parts;
 }
 
