@@ -176,6 +176,17 @@ const Harmless harmless[] = {
     {"in_situ", "k0", "0", "no horizontal stress"},
     {"in_situ", "k0_y", "0", "none along y"},
     {"let_off", "share", "0", "all is let off"},
+    {"bolts", "pretension", "0", is_default},
+    {"bolts", "dowel_stiffness", "0", is_default},
+    {"bolts", "rupture_extension", "0", "it breaks where it yields"},
+    {"bolts", "from", "any", "another bolt; one that crosses no joint or ends in the open is reported"},
+    {"bolts", "to", "any", "another bolt; one that crosses no joint or ends in the open is reported"},
+    {"fan", "centre", "any", "other bolts; those that cross no joint or end in the open are reported"},
+    {"fan", "axis", "any", "another direction"},
+    {"fan", "from_deg", "any", "other rays; those that cross no joint or end in the open are reported"},
+    {"fan", "start", "any", "other bolts; those that cross no joint or end in the open are reported"},
+    {"repeat", "step", "any", "other bolts; those that cross no joint or end in the open are reported"},
+    {"repeat", "count", "times 1e3", "a longer row; bolts that cross no joint or end in the open are reported"},
     {"water_surface", "level", "any", "another level; one that wets no block is reported"},
     {"water_surface", "pressure", "0", "no pressure"},
     {"water_surface", "pressure", "times 1e3", "a pressure like any other"},
@@ -221,6 +232,7 @@ TEST(BadValues, AreToldForEveryKeyOfTheTable) {
   int tried = 0;
   for (const KeyRow& row : key_rows()) {
     if (!is_numeric(row)) continue;
+    if (row.table == "bolts" && row.key == "spacing") continue;  // of plane scenes; this one is none
     const std::string address = every_key::address(row);
 
     // the good value: the scene's, or the table's example where the scene states none

@@ -1,6 +1,7 @@
 #include "core/history.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/monitor.hpp"
@@ -107,11 +108,42 @@ std::vector<double> history_row(const Prepared<Dim>& scene, const Model<Dim>& mo
   return values;
 }
 
+template <int Dim>
+std::vector<BoltRow> bolt_rows(const Model<Dim>& model, const State<Dim>& state, int stage) {
+  std::vector<BoltRow> rows;
+  for (const BoltSpring<Dim>& s : state.bolt_springs) {
+    const Bolt<Dim>& bolt = model.bolts[s.bolt];
+    const BoltProperties& p = model.bolt_properties[bolt.properties];
+    const auto anchor = [&](int body, const Vector<Dim>& place) {
+      const Motion<Dim>& m = state.motions[body];
+      return Vector<Dim>(model.origin + model.bodies[body].reference + m.displacement + matrix(m.rotation) * place);
+    };
+    const Vector<Dim> at = 0.5 * (anchor(s.body_a, s.place_a) + anchor(s.body_b, s.place_b));
+    BoltRow row{.stage = stage, .bolts = p.name, .bolt = bolt.number, .joint = s.number, .use = {}};
+    row.x = at[0];
+    row.y = at[1];
+    row.z = Dim == 3 ? at[Dim - 1] : 0;
+    row.body_a = s.body_a;
+    row.body_b = s.body_b;
+    row.force = p.spacing * s.force;
+    row.shear = p.spacing * s.shear.norm();
+    row.extension = s.extension;
+    row.plastic = s.plastic;
+    if (p.yield) row.use = std::abs(s.force) / *p.yield;
+    row.broken = s.broken;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
 template std::vector<int> properties_changed<2>(const Model<2>&, const Change&);
 template std::vector<int> properties_changed<3>(const Model<3>&, const Change&);
 template std::vector<std::string> history_columns<2>(const Prepared<2>&);
 template std::vector<std::string> history_columns<3>(const Prepared<3>&);
 template std::vector<double> history_row<2>(const Prepared<2>&, const Model<2>&, const State<2>&, int, int);
 template std::vector<double> history_row<3>(const Prepared<3>&, const Model<3>&, const State<3>&, int, int);
+
+template std::vector<BoltRow> bolt_rows<2>(const Model<2>&, const State<2>&, int);
+template std::vector<BoltRow> bolt_rows<3>(const Model<3>&, const State<3>&, int);
 
 }  // namespace voussoir

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/prepared.hpp"
+#include "core/results.hpp"
 
 namespace voussoir {
 
@@ -22,5 +23,9 @@ std::vector<std::string> history_columns(const Prepared<Dim>& scene);
 template <int Dim>
 std::vector<double> history_row(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state, int stage,
                                 int trial);
+
+// what every spring of a bolt carries at the end of a stage, counted from 1
+template <int Dim>
+std::vector<BoltRow> bolt_rows(const Model<Dim>& model, const State<Dim>& state, int stage);
 
 }  // namespace voussoir

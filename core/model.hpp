@@ -12,6 +12,7 @@
 #include "core/load/load.hpp"
 #include "core/optimise/solvers.hpp"
 #include "core/settings.hpp"
+#include "core/support/bolt.hpp"
 
 namespace voussoir {
 
@@ -114,11 +115,13 @@ struct Model {
   std::vector<int>
       water_of_joint;            // the water on the faces of each joint and, last, on faces that no joint made; -1: dry
   bool water_by_volume = false;  // the one water is a table on all faces: its load has a potential
-  std::vector<BodyStiffness> water_bounds;    // by body: core/load/water.hpp, greatest_water_stiffness
-  std::vector<Excavation<Dim>> excavations;   // that stages take out, in the order of the scene
-  int default_properties = 0;                 // of contacts between faces that no joint made
-  Vector<Dim> gravity = Vector<Dim>::Zero();  // m/s²
-  Solvers<Dim> solvers;                       // the two convex programs' solvers in use
+  std::vector<BodyStiffness> water_bounds;      // by body: core/load/water.hpp, greatest_water_stiffness
+  std::vector<Excavation<Dim>> excavations;     // that stages take out, in the order of the scene
+  std::vector<BoltProperties> bolt_properties;  // by name, in alphabetical order
+  std::vector<Bolt<Dim>> bolts;                 // by their properties: what stages install
+  int default_properties = 0;                   // of contacts between faces that no joint made
+  Vector<Dim> gravity = Vector<Dim>::Zero();    // m/s²
+  Solvers<Dim> solvers;                         // the two convex programs' solvers in use
 
   const Polytope<Dim>& polytope(int part) const { return bodies[parts[part].body].parts[parts[part].part]; }
 };

@@ -72,6 +72,22 @@ void append_water(std::vector<double>& values, const Monitor& monitor, const Mod
     values.push_back(numbers[Dim == 2 ? 2 * k + 1 : 0] + model.origin[Dim - 1]);
 }
 
+// of one bolt, N
+template <int Dim>
+void append_bolts(std::vector<double>& values, int properties, const Model<Dim>& model, const State<Dim>& state) {
+  const BoltProperties& p = model.bolt_properties[properties];
+  double largest = 0, sum = 0, count = 0, yielded = 0, broken = 0;
+  for (const BoltSpring<Dim>& s : state.bolt_springs) {
+    if (model.bolts[s.bolt].properties != properties) continue;
+    if (std::abs(s.force) > std::abs(largest)) largest = s.force;
+    sum += s.force;
+    count += 1;
+    yielded += s.plastic != 0;
+    broken += s.broken;
+  }
+  values.insert(values.end(), {p.spacing * largest, count > 0 ? p.spacing * sum / count : 0, yielded, broken});
+}
+
 }  // namespace
 
 std::string Column::header() const {
@@ -122,6 +138,12 @@ std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
         for (int k = 1; k <= m.points; ++k)
           columns.push_back({m.name + "_level" + (m.points > 1 ? fmt::format("_{}", k) : ""), "m"});
         break;
+      case Quantity::bolt_force:
+        columns.push_back({m.name + "_largest_force", "N"});
+        columns.push_back({m.name + "_mean_force", "N"});
+        columns.push_back({m.name + "_yielded", "1"});
+        columns.push_back({m.name + "_broken", "1"});
+        break;
     }
   }
   return columns;
@@ -157,6 +179,9 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
         break;
       case Quantity::level:
         append_water(values, m, model, state);
+        break;
+      case Quantity::bolt_force:
+        append_bolts(values, m.subject, model, state);
         break;
     }
   }

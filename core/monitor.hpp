@@ -19,8 +19,9 @@ struct Column {
 // component of the world axes, rotation as the rotation vector in degrees. Contact load of a body: the vector sum of
 // the forces that its contacts exert on it. Contact force of a joint: over its touching contacts the sums of normal and
 // of shear force and of area, their number, the largest mobilised friction angle, and the tilt of the contact that
-// carries most against the joint's own normal. All of the state's time but the velocities, which stand half a step
-// before, if the forces are those of its positions (step.hpp).
+// carries most against the joint's own normal. Bolt force: the largest and the mean axial force of the springs of all
+// bolts of a name, tension positive, of one bolt, and how many springs have yielded and broken. All of the state's time
+// but the velocities, which stand half a step before, if the forces are those of its positions (step.hpp).
 template <int Dim>
 std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors);
 template <int Dim>

@@ -11,7 +11,17 @@
 
 namespace voussoir {
 
-enum class Quantity { displacement, velocity, rotation, angular_velocity, load, contact_force, whole_bonds, level };
+enum class Quantity {
+  displacement,
+  velocity,
+  rotation,
+  angular_velocity,
+  load,
+  contact_force,
+  whole_bonds,
+  level,
+  bolt_force
+};
 
 // what a monitor may follow in history.csv
 struct Monitored {
@@ -22,7 +32,7 @@ struct Monitored {
 };
 
 // every such quantity: of a body, the loads of each source among them; of a joint the resultant over its contacts and
-// its bonds; of a water its level
+// its bonds; of a water its level; of bolts their forces
 inline std::vector<Monitored> monitored_quantities() {
   std::vector<Monitored> all{{"displacement", Quantity::displacement},
                              {"velocity", Quantity::velocity},
@@ -33,6 +43,7 @@ inline std::vector<Monitored> monitored_quantities() {
   all.push_back({"contact_force", Quantity::contact_force});
   all.push_back({"whole_bonds", Quantity::whole_bonds});
   all.push_back({"level", Quantity::level});
+  all.push_back({"bolt_force", Quantity::bolt_force});
   return all;
 }
 
@@ -40,7 +51,7 @@ inline std::vector<Monitored> monitored_quantities() {
 struct Monitor {
   std::string name;
   Monitored followed{"displacement", Quantity::displacement};
-  int subject = 0;  // body, or joint for contact_force and whole_bonds, or water for level
+  int subject = 0;  // body, or joint for contact_force and whole_bonds, or water for level, or Model::bolt_properties
   int points = 0;   // of a level: how many its table has; 0: a pressure
 };
 

@@ -39,12 +39,26 @@ struct History {
   std::vector<std::vector<double>> rows;
 };
 
+// a spring of a bolt at the end of a stage (core/output/bolts_csv.hpp)
+struct BoltRow {
+  int stage = 1;
+  std::string bolts;
+  int bolt = 1, joint = 1;
+  double x = 0, y = 0, z = 0;  // m, world coordinates
+  int body_a = 0, body_b = 0;
+  double force = 0, shear = 0;        // N, of one bolt
+  double extension = 0, plastic = 0;  // m
+  std::optional<double> use;          // of yield
+  bool broken = false;
+};
+
 struct Results {
   Outcome outcome = Outcome::done;
   std::string message;                                // one line: why it is incomplete or failed
   std::vector<std::pair<std::string, Value>> values;  // in the order found; names unique
   std::vector<StageResult> stages;
   History history;
+  std::vector<BoltRow> bolts;  // by stage, then by bolt
   Counters counters;
   std::optional<BondCount> bonds;  // where a stage makes some
   EnergyLedger energy;

@@ -10,6 +10,7 @@
 
 #include "core/accuracy.hpp"
 #include "core/history.hpp"
+#include "core/install.hpp"
 #include "core/motion/free_fall.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/state_hash.hpp"
@@ -277,6 +278,12 @@ struct Simulation {
       if (!state.schedule.strength_factor.empty()) state.schedule.strength_factor[p] = 1;
     }
     remove_bonds(model, state);
+    remove_springs(model, state);
+    for (const std::string& idle : install(model, plan().change.install, state))
+      results.warnings.push_back(fmt::format(
+          "stage {}: the bolts '{}' cross no joint between two blocks and hold nothing; lengthen or move them, or "
+          "install them before their blocks are taken out",
+          plan().name, idle));
     if (plan().change.zero_slip) zero_slip(state);
     if (plan().change.bond) make_bonds(model, settings, state);
     // candidates and time step belong to the stage
@@ -317,6 +324,8 @@ struct Simulation {
     progress.stage_under_way = false;
     const State<Dim> now = with_forces(state, results.outcome == Outcome::failed);
     finish_rows(now);
+    for (BoltRow& bolt : bolt_rows(model, now, progress.stage + 1))
+      results.bolts.push_back(std::move(bolt));
     frame(now);
     report_progress(state, r.ended, r.unbalanced, 1);
   }

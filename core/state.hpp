@@ -79,7 +79,7 @@ template <int Dim>
 struct PairStiffness {
   using Block = Eigen::Matrix<double, freedoms<Dim>, freedoms<Dim>>;
   using Wrench = Eigen::Matrix<double, freedoms<Dim>, 1>;
-  int contact = 0;  // place in State::contacts
+  int contact = 0;  // place in State::contacts; -1: a bolt
   int body_a = 0, body_b = 0;
   Block stiffness = Block::Zero();          // minus the derivative, N/m, N and N m
   Wrench wrench = Wrench::Zero();           // as it is, N and N m
@@ -109,6 +109,7 @@ struct NewtonIncrement {
   double overshoot = 0;                        // how many times the largest step the last one wanted to be
   std::vector<Motion<Dim>> base;               // by body
   std::vector<BaseHistory<Dim>> histories;     // by contact
+  std::vector<BoltSpring<Dim>> springs;        // as they were at the base
   std::vector<JointState<Dim>> sub_histories;  // as many places for each contact
   long long listed = 0;                        // Counters::neighbour_builds that they belong to
   LoadsBySource<Dim> loads_begin;              // at the base, under the loads of now
@@ -225,7 +226,8 @@ struct State {
   Relaxation<Dim> relaxation;
   NewtonIncrement<Dim> newton;
   Schedule schedule;
-  std::vector<HeldLoad<Dim>> held;  // by excavation, then by body
+  std::vector<HeldLoad<Dim>> held;            // by excavation, then by body
+  std::vector<BoltSpring<Dim>> bolt_springs;  // of the bolts installed so far, in their order
   BondTally bonds;
   double time = 0;          // s
   double time_step = 0;     // s: of the last step; 0 at the start

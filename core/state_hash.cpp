@@ -64,6 +64,22 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
   for (const std::vector<double>& water : state.schedule.water)
     for (const double number : water)
       bytes.add(number);
+  for (const BoltSpring<Dim>& s : state.bolt_springs) {
+    bytes.add(s.bolt);
+    bytes.add(s.number);
+    bytes.add(s.body_a);
+    bytes.add(s.body_b);
+    bytes.add(s.place_a);
+    bytes.add(s.place_b);
+    bytes.add(s.axis);
+    bytes.add(s.length);
+    bytes.add(s.stiffness);
+    bytes.add(s.plastic);
+    bytes.add(s.slip);
+    bytes.add(static_cast<int>(s.broken));
+    bytes.add(s.force);
+    bytes.add(s.shear);
+  }
   for (const HeldLoad<Dim>& held : state.held) {
     bytes.add(held.body);
     bytes.add(held.load.force);

@@ -1,5 +1,6 @@
 #include "core/step.hpp"
 
+#include "core/step/bolt_forces.hpp"
 #include "core/step/joint_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
@@ -16,6 +17,9 @@ void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   // who does: point, normal, overlap and area of each candidate pair, each in its own slot; and what its joint answers
   // while all of it is at hand: overlap and slip to forces, histories renewed
   find_joint_forces(model, settings, state);
+
+  // what bolts answer to where their anchors have gone
+  find_bolt_forces(model, state);
 
   // what acts on each body: joint forces in the order of the contacts, then gravity
   sum_loads(model, settings, state);

@@ -96,6 +96,22 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
   state.subs = std::move(subs);
 }
 
+// The springs of bolts whose blocks are left where their anchors lie.
+template <int Dim>
+void carry_springs(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state) {
+  if (state.bolt_springs.empty()) return;
+  const auto is_left = [&](int& body, Vector<Dim>& place) {
+    const auto first = std::ranges::find(before.parts, body, &PartId::body) - before.parts.begin();
+    const int part = moved.part[first + part_at<Dim>(before.bodies[body], place)];
+    if (part < 0) return false;
+    body = model.parts[part].body;
+    place -= moved.shift[body];
+    return true;
+  };
+  std::erase_if(state.bolt_springs,
+                [&](BoltSpring<Dim>& s) { return !is_left(s.body_a, s.place_a) || !is_left(s.body_b, s.place_b); });
+}
+
 // what is found again from motions and contacts
 template <int Dim>
 void forget_lists(State<Dim>& state) {
@@ -127,6 +143,7 @@ void take_out(const std::vector<std::string>& names, const Settings& settings, b
   const std::vector<Motion<Dim>> motions = state.motions;
   carry_motions(before, model, moved, state);
   carry_contacts(before, model, moved, motions, state);
+  carry_springs(before, model, moved, state);
   forget_lists(state);
   if (!hold) return;
 

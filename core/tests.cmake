@@ -16,7 +16,7 @@ voussoir_test(unit.joint_sets LABEL unit
   LIBS voussoir_core Boost::headers fmt::fmt)
 
 voussoir_test(unit.law_and_motion LABEL unit
-  SOURCES law/law_test.cpp law/joint_law_test.cpp motion/motion_test.cpp
+  SOURCES law/law_test.cpp law/joint_law_test.cpp motion/motion_test.cpp support/bolt_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.extremes LONG LABEL unit
@@ -31,7 +31,7 @@ voussoir_test(unit.contact LABEL unit
 voussoir_test(unit.neighbours LABEL unit SOURCES step/neighbours_test.cpp LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.scene LABEL unit
-  SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/bad_stage_loads_test.cpp scene/bad_water_test.cpp scene/bad_search_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
+  SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/bad_stage_loads_test.cpp scene/bad_bolts_test.cpp scene/bad_water_test.cpp scene/bad_search_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
     scene/permuted_input_test.cpp scene/accuracy_level_test.cpp scene/slicing_scene_test.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)
 
@@ -79,7 +79,7 @@ voussoir_test(unit.newton LONG LABEL unit
   LIBS voussoir_core cereal::cereal Boost::headers)
 
 voussoir_test(unit.step LABEL unit
-  SOURCES step_test.cpp simulate_test.cpp take_out_test.cpp testing/whole_scenes_test.cpp step/joint_forces_test.cpp step/loads_test.cpp testing/step_memory_test.cpp energy_test.cpp motion/prescribed_test.cpp
+  SOURCES step_test.cpp simulate_test.cpp take_out_test.cpp install_test.cpp testing/whole_scenes_test.cpp step/joint_forces_test.cpp step/loads_test.cpp testing/step_memory_test.cpp energy_test.cpp motion/prescribed_test.cpp
     load/boundary_stress_test.cpp load/water_test.cpp step/water_test.cpp scene/water_scene_test.cpp
     state_hash_test.cpp reduction/reduction_test.cpp motion/relaxation_test.cpp checkpoint/checkpoint_test.cpp
   LIBS voussoir_core cereal::cereal Boost::headers)

@@ -7,6 +7,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/plausibility.hpp"
 #include "app/run_scene.hpp"
+#include "core/install.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/scene/plausibility.hpp"
 #include "core/step/newton.hpp"
@@ -284,6 +285,7 @@ std::string change_text(const Change& change) {
   if (!change.release.empty()) text += "; releases blocks";
   if (!change.remove.empty()) text += "; removes blocks";
   if (!change.excavate.empty()) text += fmt::format("; excavates '{}'", fmt::join(change.excavate, "', '"));
+  if (!change.install.empty()) text += fmt::format("; installs '{}'", fmt::join(change.install, "', '"));
   if (change.friction) text += fmt::format("; friction {:g} deg", to_degrees(*change.friction));
   for (const FrictionPlan& plan : change.friction_of)
     text += fmt::format("; friction of {} {:g} deg", plan.properties, to_degrees(plan.friction));
@@ -306,6 +308,37 @@ void print_stages(const std::vector<StagePlan>& stages, const std::vector<Water>
   }
 }
 
+// the bolts, and what they would cross if they were installed in the blocks as they are cut
+template <int Dim>
+void print_bolts(const Prepared<Dim>& prepared) {
+  const Model<Dim>& model = prepared.model;
+  const char* label = "bolts";
+  for (std::size_t p = 0; p < model.bolt_properties.size(); ++p) {
+    const BoltProperties& properties = model.bolt_properties[p];
+    std::size_t count = 0, joints = 0, idle = 0, thin = 0, fewest = std::numeric_limits<std::size_t>::max(), most = 0;
+    for (std::size_t i = 0; i < model.bolts.size(); ++i) {
+      if (model.bolts[i].properties != static_cast<int>(p)) continue;
+      const std::vector<BoltSpring<Dim>> springs = springs_of(model, prepared.state, static_cast<int>(i));
+      ++count;
+      joints += springs.size();
+      idle += springs.empty();
+      fewest = std::min(fewest, springs.size());
+      most = std::max(most, springs.size());
+      for (const BoltSpring<Dim>& spring : springs)
+        thin += shortened(model, spring);
+    }
+    std::string text = fmt::format("{}: {}{}", properties.name, count,
+                                   properties.kind == BoltKind::end_anchored ? " end-anchored" : "");
+    if (properties.kind == BoltKind::springs)
+      text += fmt::format(" that cross {} joints of the blocks as they are cut, {} each", joints,
+                          fewest == most ? fmt::format("{}", most) : fmt::format("{} to {}", fewest, most));
+    if (idle > 0) text += fmt::format("; {} cross none", idle);
+    if (thin > 0) text += fmt::format("; of {} springs an anchor lies in the middle of a thin block", thin);
+    line(label, text);
+    label = "";
+  }
+}
+
 template <int Dim>
 void print_monitors(const Prepared<Dim>& prepared) {
   const char* label = "monitors";
@@ -314,7 +347,9 @@ void print_monitors(const Prepared<Dim>& prepared) {
     const bool of_joint = quantity == Quantity::contact_force || quantity == Quantity::whole_bonds;
     const std::string subject = of_joint                      ? "joint " + prepared.model.joints[monitor.subject].name
                                 : quantity == Quantity::level ? "water " + prepared.model.waters[monitor.subject].name
-                                                              : fmt::format("block {}", monitor.subject);
+                                : quantity == Quantity::bolt_force
+                                    ? "bolts " + prepared.model.bolt_properties[monitor.subject].name
+                                    : fmt::format("block {}", monitor.subject);
     line(label, fmt::format("{}: {} of {}", monitor.name, monitor.followed.word, subject));
     label = "";
   }
@@ -394,6 +429,7 @@ void print_active(const Prepared<Dim>& prepared) {
   line("solvers", solvers_text(settings.contact));
   print_stages(prepared.stages, prepared.model.waters);
   print_left_to_relaxation(prepared);
+  print_bolts(prepared);
   print_monitors(prepared);
   line("not active", inactive(prepared));
 }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "core/install.hpp"
 #include "core/reduction/reduction.hpp"
 #include "core/waters.hpp"
 #include "text/angle.hpp"
@@ -301,6 +302,35 @@ std::string name_of(const Model<Dim>& model, int body) {
   return model.bodies[body].name.empty() ? std::to_string(body) : model.bodies[body].name;
 }
 
+// Bolts that would hold nothing, or end in the open, in the blocks as they are cut.
+template <int Dim>
+void judge_bolts(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings) {
+  struct Count {
+    int all = 0, idle = 0, in_the_open = 0;
+  };
+  std::vector<Count> counts(model.bolt_properties.size());
+  for (std::size_t i = 0; i < model.bolts.size(); ++i) {
+    Count& count = counts[model.bolts[i].properties];
+    ++count.all;
+    count.idle += springs_of(model, state, static_cast<int>(i)).empty();
+    count.in_the_open += !ends_in_rock(model, state, static_cast<int>(i));
+  }
+  for (std::size_t p = 0; p < counts.size(); ++p) {
+    const Count& count = counts[p];
+    const std::string& name = model.bolt_properties[p].name;
+    if (count.idle > 0)
+      warnings.push_back(
+          fmt::format("bolts.{}: {} of {} cross no joint of the blocks as they are cut and would hold "
+                      "nothing: check where they lie, and that lengths are in m",
+                      name, count.idle, count.all));
+    if (count.in_the_open > 0)
+      warnings.push_back(
+          fmt::format("bolts.{}: {} of {} end outside of all blocks: check where they lie, and that "
+                      "lengths are in m",
+                      name, count.in_the_open, count.all));
+  }
+}
+
 template <int Dim>
 void judge_assembly(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
                     std::vector<std::string>& warnings) {
@@ -308,6 +338,7 @@ void judge_assembly(const Prepared<Dim>& prepared, const Model<Dim>& model, cons
   judge_places(model, state, warnings);
   judge_points(model, state, warnings);
   judge_last_block(prepared, warnings);
+  judge_bolts(model, state, warnings);
   judge_in_situ(prepared, warnings);
   judge_generation(prepared, warnings);
   judge_searches_in_water(prepared, warnings);

@@ -13,6 +13,7 @@
 #include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
+#include "core/output/bolts_csv.hpp"
 #include "core/output/history_csv.hpp"
 #include "core/output/paraview.hpp"
 #include "core/output/results_json.hpp"
@@ -104,6 +105,12 @@ struct WrittenSeries {
   FrameSeries frames, trials;
 };
 
+template <int Dim>
+void write_tables(const fs::path& folder, const Progress<Dim>& progress) {
+  write_history_csv(folder / "history.csv", history_so_far(progress));
+  if (!progress.results.bolts.empty()) write_bolts_csv(folder / "bolts.csv", progress.results.bolts);
+}
+
 // the run continues from where `progress` stands; false: a signal stopped it, with a checkpoint
 template <int Dim>
 bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const RunJob& job, Progress<Dim>& progress,
@@ -122,7 +129,7 @@ bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const R
     const bool stop = interruption() != 0;
     const long long steps = now.state.counters.steps;
     if (stop || clock.due(steps, now.results.seconds)) {
-      write_history_csv(job.folder / "history.csv", history_so_far(now));
+      write_tables(job.folder, now);
       save_checkpoint(job.folder, now, scene_hash);
       clock.restart(steps, now.results.seconds);
     }
@@ -140,7 +147,7 @@ WrittenSeries cut_back_to(const Progress<Dim>& progress, const fs::path& folder)
   if (!lost.empty())
     print_warnings({fmt::format("{} files of frames are gone, {} the first: the .pvd files leave them out", lost.size(),
                                 *lost.begin())});
-  write_history_csv(folder / "history.csv", history_so_far(progress));
+  write_tables(folder, progress);
   return written;
 }
 
@@ -161,7 +168,7 @@ ExitCode carry_out_prepared(const LoadedScene& scene, const Prepared<Dim>& prepa
 
   // results.json comes last: where it is, everything is
   const Results& results = progress.results;
-  write_history_csv(job.folder / "history.csv", results.history);
+  write_tables(job.folder, progress);
   write_results_json(job.folder / "results.json", results, record_of(scene, job.options));
   remove_checkpoints(job.folder);
   if (!job.quiet) {

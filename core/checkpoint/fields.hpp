@@ -147,13 +147,21 @@ void serialize(Archive& archive, EnergyLedger& e) {
 }
 
 template <class Archive, int Dim>
+void serialize(Archive& archive, BoltSpring<Dim>& s) {
+  auto& [bolt, number, body_a, body_b, place_a, place_b, axis, length, stiffness, plastic, slip, broken, extension,
+         force, shear] = s;
+  archive(bolt, number, body_a, body_b, place_a, place_b, axis, length, stiffness, plastic, slip, broken, extension,
+          force, shear);
+}
+
+template <class Archive, int Dim>
 void serialize(Archive& archive, NewtonIncrement<Dim>& n) {
   auto& [under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
-         regularisation, overshoot, base, histories, sub_histories, listed, loads_begin, energy, accepted, residual,
-         change, merits, stiffness, closed, of_water] = n;
+         regularisation, overshoot, base, histories, springs, sub_histories, listed, loads_begin, energy, accepted,
+         residual, change, merits, stiffness, closed, of_water] = n;
   archive(under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
-          regularisation, overshoot, base, histories, sub_histories, listed, loads_begin.values, energy, accepted,
-          residual, change, merits, stiffness, closed, of_water);
+          regularisation, overshoot, base, histories, springs, sub_histories, listed, loads_begin.values, energy,
+          accepted, residual, change, merits, stiffness, closed, of_water);
 }
 
 template <class Archive, int Dim>
@@ -166,10 +174,10 @@ template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
   // poses, loads by source with their stiffness, lists by body and loads of contacts are rebuilt before they are read
   auto& [motions, loads, loads_of, stiffened, contacts, subs, built, counted_at, path_bounds, left_behind, poses,
-         by_body, contact_loads, frequency, relaxation, newton, schedule, held, bonds, time, time_step, step_allowed,
-         energy, counters] = s;
+         by_body, contact_loads, frequency, relaxation, newton, schedule, held, bolt_springs, bonds, time, time_step,
+         step_allowed, energy, counters] = s;
   archive(motions, loads, contacts, subs, built, counted_at, path_bounds, left_behind, frequency, relaxation, newton,
-          schedule, held, bonds, time, time_step, step_allowed, energy, counters);
+          schedule, held, bolt_springs, bonds, time, time_step, step_allowed, energy, counters);
 }
 
 template <class Archive, int Dim>
@@ -211,9 +219,17 @@ void serialize(Archive& archive, History& h) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, BoltRow& b) {
+  auto& [stage, bolts, bolt, joint, x, y, z, body_a, body_b, force, shear, extension, plastic, use, broken] = b;
+  archive(stage, bolts, bolt, joint, x, y, z, body_a, body_b, force, shear, extension, plastic, use, broken);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Results& r) {
-  auto& [outcome, message, values, stages, history, counters, bonds, energy, state_hash, warnings, seconds] = r;
-  archive(outcome, message, values, stages, history, counters, bonds, energy, state_hash, warnings, seconds);
+  auto& [outcome, message, values, stages, history, bolts_carried, counters, bonds, energy, state_hash, warnings,
+         seconds] = r;
+  archive(outcome, message, values, stages, history, bolts_carried, counters, bonds, energy, state_hash, warnings,
+          seconds);
 }
 
 template <class Archive, int Dim>

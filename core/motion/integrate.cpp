@@ -214,6 +214,11 @@ double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& 
     all.forces += some.forces;
     all.touching += some.touching;
   }
+  for (const BoltSpring<Dim>& spring : state.bolt_springs) {
+    if (spring.broken) continue;
+    all.forces += std::abs(spring.force) + spring.shear.norm();
+    ++all.touching;
+  }
   const double mean = all.touching > 0 ? all.forces / static_cast<double>(all.touching) : mean_water_force(state);
 
   const auto raise = [&](int b, double& most) {

@@ -78,7 +78,12 @@ std::vector<std::string> names_of(const std::vector<Named>& list) {
   return names;
 }
 
-constexpr std::array kinds{"blocks", "contacts"};
+constexpr std::array kinds{"blocks", "contacts", "bolts"};
+
+// whether every scene has frames of this kind
+bool always(const std::string& kind) {
+  return kind != "bolts";
+}
 
 std::string frame_file(const std::string& series, const char* kind, std::size_t number) {
   return fmt::format("frames/{}{}_{:04}.vtp", series, kind, number);
@@ -119,9 +124,10 @@ void write_collections(const FrameSeries& series) {
   for (const char* kind : kinds) {
     std::vector<TimedFile> files;
     for (std::size_t k = 0; k < series.times.size(); ++k)
-      if (const std::string file = frame_file(series.name, kind, k); !series.lost.contains(file))
+      if (const std::string file = frame_file(series.name, kind, k);
+          !series.lost.contains(file) && (always(kind) || std::filesystem::exists(series.folder / file)))
         files.push_back({series.times[k], file});
-    write_file(series.folder / collection_file(series.name, kind), pvd(files));
+    if (always(kind) || !files.empty()) write_file(series.folder / collection_file(series.name, kind), pvd(files));
   }
 }
 
@@ -207,6 +213,49 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
   return data;
 }
 
+template <int Dim>
+PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double time) {
+  PolyData data;
+  data.kind = PolyData::Cells::lines;
+  data.time = time;
+  DataArray bolts{"bolts", 1, true, {}}, number{"bolt", 1, true, {}}, joint{"joint", 1, true, {}},
+      force{"force_N", 1, false, {}}, shear{"shear_N", 1, false, {}}, plastic{"plastic_m", 1, false, {}},
+      use{"use", 1, false, {}}, broken{"broken", 1, true, {}};
+  const auto anchor = [&](int body, const Vector<Dim>& place) {
+    const Motion<Dim>& m = state.motions[body];
+    return Vector<Dim>(model.origin + model.bodies[body].reference + m.displacement + matrix(m.rotation) * place);
+  };
+  const std::vector<BoltSpring<Dim>>& springs = state.bolt_springs;
+  const auto middle = [&](const BoltSpring<Dim>& s) {
+    return Vector<Dim>(0.5 * (anchor(s.body_a, s.place_a) + anchor(s.body_b, s.place_b)));
+  };
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const BoltSpring<Dim>& s = springs[i];
+    const auto same = [&](std::size_t k) { return k < springs.size() && springs[k].bolt == s.bolt; };
+    const Vector<Dim> begin =
+        i > 0 && same(i - 1) ? Vector<Dim>(0.5 * (middle(springs[i - 1]) + middle(s))) : anchor(s.body_a, s.place_a);
+    const Vector<Dim> end =
+        same(i + 1) ? Vector<Dim>(0.5 * (middle(s) + middle(springs[i + 1]))) : anchor(s.body_b, s.place_b);
+    const int first = static_cast<int>(data.points.size());
+    data.points.push_back(in_space(begin));
+    data.points.push_back(in_space(end));
+    data.cells.push_back({first, first + 1});
+    const Bolt<Dim>& bolt = model.bolts[s.bolt];
+    const BoltProperties& p = model.bolt_properties[bolt.properties];
+    bolts.values.push_back(bolt.properties);
+    number.values.push_back(bolt.number);
+    joint.values.push_back(s.number);
+    force.values.push_back(p.spacing * s.force);
+    shear.values.push_back(p.spacing * s.shear.norm());
+    plastic.values.push_back(s.plastic);
+    use.values.push_back(p.yield ? std::abs(s.force) / *p.yield : 0);
+    broken.values.push_back(s.broken);
+  }
+  data.cell_data = {bolts, number, joint, force, shear, plastic, use, broken};
+  data.names = {{"bolt_names", names_of(model.bolt_properties)}};
+  return data;
+}
+
 std::vector<std::filesystem::path> series_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files = files_of(folder, {}), trials = files_of(folder, trial_series);
   files.insert(files.end(), trials.begin(), trials.end());
@@ -224,7 +273,7 @@ FrameSeries cut_back(const std::filesystem::path& folder, const std::vector<doub
   prepare_folder(folder / "frames");
   for (const char* kind : kinds)
     for (std::size_t k = 0; k < times.size(); ++k)
-      if (const std::string file = frame_file(name, kind, k); !std::filesystem::exists(folder / file))
+      if (const std::string file = frame_file(name, kind, k); always(kind) && !std::filesystem::exists(folder / file))
         series.lost.insert(file);
   write_collections(series);
   return series;
@@ -236,12 +285,16 @@ void write_frame(FrameSeries& series, const Model<Dim>& model, const State<Dim>&
   const std::size_t frame = series.times.size();
   write_file(series.folder / frame_file(series.name, "blocks", frame), vtp(block_faces(model, state, time)));
   write_file(series.folder / frame_file(series.name, "contacts", frame), vtp(contact_points(model, state, time)));
+  if (!model.bolts.empty())
+    write_file(series.folder / frame_file(series.name, "bolts", frame), vtp(bolt_lines(model, state, time)));
   series.times.push_back(time);
   write_collections(series);  // last: they never name a file that is not there
 }
 
 template PolyData block_faces<2>(const Model<2>&, const State<2>&, double);
 template PolyData block_faces<3>(const Model<3>&, const State<3>&, double);
+template PolyData bolt_lines<2>(const Model<2>&, const State<2>&, double);
+template PolyData bolt_lines<3>(const Model<3>&, const State<3>&, double);
 template PolyData contact_points<2>(const Model<2>&, const State<2>&, double);
 template PolyData contact_points<3>(const Model<3>&, const State<3>&, double);
 template void write_frame<2>(FrameSeries&, const Model<2>&, const State<2>&, double);

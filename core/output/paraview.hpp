@@ -24,8 +24,15 @@ PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double ti
 template <int Dim>
 PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double time);
 
+// The springs of bolts, a line each, between the middles of the bolt's length from joint to joint, from its first
+// anchor to its last. Cell data: bolts, bolt, joint, force_N and shear_N (of one bolt, tension positive), plastic_m,
+// use (of yield; 0 where it has none), broken. Field data: bolt_names.
+template <int Dim>
+PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double time);
+
 // A growing series of frames in `folder`: frames/blocks_0000.vtp …, frames/contacts_0000.vtp …, blocks.pvd,
-// contacts.pvd; the name of the series stands before each of them.
+// contacts.pvd, where the scene has bolts also frames/bolts_0000.vtp … and bolts.pvd; the name of the series stands
+// before each of them.
 struct FrameSeries {
   std::filesystem::path folder;
   std::vector<double> times = {};   // of the frames written: s, or the numbers of trials

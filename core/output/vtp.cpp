@@ -102,8 +102,10 @@ std::string xml_escaped(const std::string& text) {
   return safe;
 }
 
+constexpr std::array kind_names{"Polys", "Verts", "Lines"};  // in the order of PolyData::Cells
+
 std::string vtp(const PolyData& data) {
-  const bool polygons = data.kind == PolyData::Cells::polygons;
+  const auto count = [&](PolyData::Cells kind) { return data.kind == kind ? data.cells.size() : 0; };
   std::string text;
   Text out(text);
   fmt::format_to(out, "<?xml version=\"1.0\"?>\n");
@@ -112,13 +114,14 @@ std::string vtp(const PolyData& data) {
   fmt::format_to(out, "  <PolyData>\n");
   append_field_data(out, data);
   fmt::format_to(out,
-                 "    <Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+                 "    <Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
                  "NumberOfPolys=\"{}\">\n",
-                 data.points.size(), polygons ? 0 : data.cells.size(), polygons ? data.cells.size() : 0);
+                 data.points.size(), count(PolyData::Cells::vertices), count(PolyData::Cells::lines),
+                 count(PolyData::Cells::polygons));
   append_arrays(out, "PointData", data.point_data);
   append_arrays(out, "CellData", data.cell_data);
   append_points(out, data.points);
-  append_cells(out, polygons ? "Polys" : "Verts", data.cells);
+  append_cells(out, kind_names[static_cast<std::size_t>(data.kind)], data.cells);
   fmt::format_to(out, "    </Piece>\n  </PolyData>\n</VTKFile>\n");
   return text;
 }

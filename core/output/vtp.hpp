@@ -19,7 +19,7 @@ struct DataArray {
 };
 
 struct PolyData {
-  enum class Cells { polygons, vertices };
+  enum class Cells { polygons, vertices, lines };
   Cells kind = Cells::polygons;
   std::vector<std::array<double, 3>> points;  // m
   std::vector<std::vector<int>> cells;        // places in `points`

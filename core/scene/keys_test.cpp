@@ -114,6 +114,13 @@ Values values_of(const Scene& s) {
     add(values, "water_surface", water.surface);
     if (water.surface.plane) add(values, "water_table", *water.surface.plane);
   }
+  for (const BoltSpec& bolt : s.bolts) {
+    add(values, "bolts", bolt);
+    add(values, "bolts", bolt.properties);
+    if (bolt.fan) add(values, "fan", *bolt.fan);
+    for (const RepeatSpec& repeat : bolt.repeat)
+      add(values, "repeat", repeat);
+  }
   for (const SelectorSpec& spec : s.fix)
     add(values, "selector", spec.selector);
   for (const RestrainSpec& spec : s.restrain)

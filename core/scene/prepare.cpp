@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/scene/bodies.hpp"
+#include "core/scene/bolts.hpp"
 #include "core/scene/domain_blocks.hpp"
 #include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/keys.hpp"
@@ -336,6 +337,15 @@ int water_of(const Scene& scene, const MonitorSpec& spec) {
   return index;
 }
 
+int bolts_of(const MonitorSpec& spec, const std::vector<BoltProperties>& all) {
+  std::vector<std::string> names;
+  for (const BoltProperties& p : all)
+    names.push_back(p.name);
+  const int index = index_of(names, spec.bolts);
+  if (index < 0) refuse(spec.body.subject, "bolts", "no bolts of this name; " + suggestion(spec.bolts, names));
+  return index;
+}
+
 // the block that a monitor follows
 template <int Dim>
 int body_of(const Scene& scene, const Model<Dim>& model, const MonitorSpec& spec) {
@@ -353,6 +363,7 @@ std::vector<Monitor> find_monitors(const Scene& scene, const Model<Dim>& model) 
   for (const MonitorSpec& spec : scene.monitors) {
     const int subject = !spec.joint.empty()   ? joint_of<Dim>(model, spec)
                         : !spec.water.empty() ? water_of(scene, spec)
+                        : !spec.bolts.empty() ? bolts_of(spec, model.bolt_properties)
                                               : body_of<Dim>(scene, model, spec);
     for (const Monitored& followed : spec.quantities)
       monitors.push_back({spec.name, followed, subject,
@@ -379,6 +390,7 @@ Prepared<Dim> prepare(const Scene& scene) {
   if (scene.gravity) model.gravity = to_vector<Dim>(*scene.gravity);
   add_joints<Dim>(scene, model);
   check_excavations(scene);
+  check_installs(scene);
   add_domain<Dim>(scene, model);
   add_blocks<Dim>(scene, model);
   check_blocks<Dim>(scene, model);
@@ -386,6 +398,7 @@ Prepared<Dim> prepare(const Scene& scene) {
 
   // what the scene says about them by selectors, and the water on them
   add_waters<Dim>(scene, model);
+  add_bolts<Dim>(scene, model);
   add_supports<Dim>(scene, model);
   prepared.state = moving_state<Dim>(scene, model);
   prepared.stages = checked_stages<Dim>(scene, model);

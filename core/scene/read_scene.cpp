@@ -6,6 +6,7 @@
 
 #include "core/scene/accuracy_level.hpp"
 #include "core/scene/base_scene.hpp"
+#include "core/scene/bolts.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/overrides.hpp"
 #include "core/scene/read_joint_sets.hpp"
@@ -145,6 +146,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   scene.stages = read_stages(top, scene.dimension, scene.settings.damping, rock_weight);
   scene.waters = read_waters(top, scene.dimension);
   read_water_changes(scene.waters, scene.stages, scene.dimension);
+  scene.bolts = read_bolts(top, scene.dimension);
   scene.monitors = read_monitors(top);
   return scene;
 }

@@ -272,27 +272,34 @@ MonitorSpec read_monitor(const Subject& table) {
   // what each quantity is followed on, and the key that names it
   const auto key_of = [](const Monitored& followed) -> std::string_view {
     const bool of_joint = followed.quantity == Quantity::contact_force || followed.quantity == Quantity::whole_bonds;
+    if (followed.quantity == Quantity::bolt_force) return "bolts";
     return of_joint ? "joint" : followed.quantity == Quantity::level ? "water" : "";
   };
-  const std::string_view stated = table.node->find("joint") ? "joint" : table.node->find("water") ? "water" : "";
-  if (stated == "joint" && table.node->find("water"))
-    refuse(table, "water", "stands beside a joint; a monitor follows one of the two, remove one");
+  std::string_view stated;
+  for (const std::string_view key : {"joint", "water", "bolts"}) {
+    if (!table.node->find(key)) continue;
+    if (!stated.empty())
+      refuse(table, key, fmt::format("stands beside {}; a monitor follows one of the two, remove one", stated));
+    stated = key;
+  }
   for (const Monitored& followed : monitor.quantities) {
     const std::string_view wanted = key_of(followed);
     if (wanted == stated) continue;
     if (!wanted.empty())
       refuse(table, wanted,
-             fmt::format("{} is followed on a {}; write for example {} = \"A\"", followed.word, wanted, wanted));
+             fmt::format("{} is followed on {}; write for example {} = \"A\"", followed.word,
+                         wanted == "bolts" ? "bolts" : fmt::format("a {}", wanted), wanted));
     refuse(
         table, "quantities",
         stated == "joint"
             ? "a monitor of a joint follows contact_force only, and whole_bonds; follow a block in a monitor of its own"
-            : "a monitor of a water follows its level only; follow a block in a monitor of its own");
+        : stated == "water" ? "a monitor of a water follows its level only; follow a block in a monitor of its own"
+                            : "a monitor of bolts follows bolt_force only; follow a block in a monitor of its own");
   }
   if (!stated.empty() && chooses(monitor.body.selector))
-    refuse(
-        table, stated,
-        fmt::format("stands beside a choice of blocks; a monitor follows either a {} or a block, remove one", stated));
+    refuse(table, stated,
+           fmt::format("stands beside a choice of blocks; a monitor follows either {} or a block, remove one",
+                       stated == "bolts" ? "bolts" : fmt::format("a {}", stated)));
   if (stated.empty() && !chooses(monitor.body.selector))
     refuse(table, "above",
            "the monitor must choose one block by bodies, above, below, inside, side or box; write for example "

@@ -162,6 +162,27 @@ struct WaterChangeSpec {
   WaterSurfaceSpec surface;
 };
 
+// bolts on rays
+struct FanSpec {
+  std::vector<double> centre, axis;      // m; 3-D: the rays stand across it
+  double from = 0, to = 0, spacing = 0;  // rad
+  double start = 0, length = 0;          // m
+};
+
+struct RepeatSpec {
+  std::vector<double> step;  // m
+  int count = 2;
+};
+
+struct BoltSpec {
+  Subject subject;
+  BoltProperties properties;     // of one bolt
+  std::vector<double> from, to;  // m; empty: a fan
+  std::optional<FanSpec> fan;
+  std::vector<RepeatSpec> repeat;
+  std::optional<double> spacing;  // m, out of the plane
+};
+
 struct SelectorSpec {
   Subject subject;
   Selector selector;  // `inside` in the file's coordinates
@@ -193,7 +214,7 @@ struct StageSpec {
 
 struct MonitorSpec {
   SelectorSpec body;  // empty for a joint or a water
-  std::string name, joint, water;
+  std::string name, joint, water, bolts;
   std::vector<Monitored> quantities;
 };
 
@@ -214,6 +235,7 @@ struct Scene {
   SlicingSpec slicing;
   std::vector<ExcavationSpec> excavations;
   std::vector<WaterSpec> waters;
+  std::vector<BoltSpec> bolts;
   std::vector<StageSpec> stages;
   std::vector<MonitorSpec> monitors;
   OutputPlan output;

@@ -2,6 +2,7 @@
 
 #include "core/load/time_factor.hpp"
 #include "core/on_threads.hpp"
+#include "core/step/bolt_forces.hpp"
 #include "core/waters.hpp"
 
 namespace voussoir {
@@ -159,6 +160,8 @@ constexpr LoadRow<Dim> load_table[] = {
     {Source::water, has_water_by_volume<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
     {Source::water_pressure, has_water_by_faces<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
     {Source::let_off, [](const Model<Dim>&, const State<Dim>& s) { return !s.held.empty(); }, held_loads<Dim>},
+    {Source::bolts, [](const Model<Dim>&, const State<Dim>& s) { return !s.bolt_springs.empty(); }, bolt_loads<Dim>,
+     add_bolt_stiffness<Dim>},
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/motion/integrate.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/optimise/block_solver.hpp"
+#include "core/step/bolt_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
 #include "core/step/newton_base.hpp"
@@ -264,6 +265,7 @@ struct Newton {
     if (forced || ++n.since_commit >= most_since_commit || fraction_in_new_contacts() > most_in_new_contacts) commit();
     const double reached = static_cast<double>(n.stiffness.size());
     find_pair_stiffness(model, settings, state);
+    add_bolt_pairs(model, state, n.stiffness);
     const bool reached_all = static_cast<double>(n.stiffness.size()) < still_reaching * reached;
     if (n.iteration >= closed_iterations && reached_all) n.closed.clear();
     find_water_stiffness(model, settings, state);

@@ -125,6 +125,24 @@ table = { point = [0, 0, 0.1], dip = 5, dip_direction = 90 }
 name = "grout"
 faces = ["polygon"]
 pressure = 1000
+[[bolts]]
+name = "roof"
+fan = { centre = [0.1, -0.5, 0], axis = [0, 1, 0], from_deg = 45, to_deg = 135, spacing_deg = 45, length = 1 }
+repeat = [{ step = [0, 0.5, 0], count = 3 }]
+stiffness = 2e8
+[[bolts]]
+name = "dowel"
+from = [0.3, 0.1, -0.9]
+to = [0.3, 0.1, 0.9]
+stiffness = 2e8
+dowel_stiffness = 1e7
+[[bolts]]
+name = "anchor"
+kind = "end_anchored"
+from = [0.1, 0.1, -0.9]
+to = [0.1, 0.1, 0.9]
+axial_stiffness = 1e8
+yield = 1e5
 [[fix]]
 below = ["A"]
 [[restrain]]
@@ -145,6 +163,7 @@ damping = {}
 fix = [{ bodies = ["by planes"] }]
 water = [{ name = "lake", level = 0.1, duration_s = 5 }]
 excavate = ["tunnel"]
+install = ["roof", "anchor", "dowel"]
 let_off = { share = 0.5, duration_s = 1 }
 [[stage]]
 name = "run"
@@ -211,6 +230,10 @@ name = "joint"
 quantities = ["contact_force"]
 joint = "A"
 [[monitors]]
+name = "bolts"
+quantities = ["bolt_force"]
+bolts = "roof"
+[[monitors]]
 name = "lake"
 quantities = ["level"]
 water = "lake"
@@ -232,6 +255,9 @@ inline std::string address(const KeyRow& row) {
                                                           {"water_surface", "water.lake"},
                                                           {"water_table", "water.seep.table"},
                                                           {"water_change", "stage.settle.water.lake"},
+                                                          {"bolts", "bolts.roof"},
+                                                          {"fan", "bolts.roof.fan"},
+                                                          {"repeat", "bolts.roof.repeat.1"},
                                                           {"label", "fix.1"},
                                                           {"let_off", "stage.settle.let_off"},
                                                           {"selector", "fix.1"},
@@ -266,6 +292,11 @@ inline std::string address(const KeyRow& row) {
   if (row.table == "blocks.planes" && row.key == "point") table = "blocks.by planes.planes.5";
   if (row.table == "monitors" && row.key == "joint") table = "monitors.joint";
   if (row.table == "monitors" && row.key == "water") table = "monitors.lake";
+  if (row.table == "monitors" && row.key == "bolts") table = "monitors.bolts";
+  if (row.table == "bolts" && (row.key == "from" || row.key == "to" || row.key == "axial_stiffness" ||
+                               row.key == "pretension" || row.key == "rupture_extension"))
+    table = "bolts.anchor";
+  if (row.table == "bolts" && row.key.starts_with("dowel_strength")) table = "bolts.dowel";
   if (row.table == "water_surface" && row.key == "table") table = "water.seep";
   if (row.table == "water_surface" && row.key == "pressure") table = "water.grout";
   if (row.table == "water_change" && row.key == "rate") table = "stage.run.water.lake";

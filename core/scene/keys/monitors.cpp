@@ -22,10 +22,12 @@ KeyTable monitor_keys() {
      .meaning = "unique among the monitors; begins its columns in history.csv"},
     {.key = "quantities", .members = {some_of(&MonitorSpec::quantities, words())},
      .example = "[\"displacement\", \"rotation\"]", .required = true,
-     .meaning = "contact_force: resultant over the contacts of a joint, which `joint` names; whole_bonds: how many of its bonds are whole; level: of the water that `water` names; the others: of one block that a "
+     .meaning = "contact_force: resultant over the contacts of a joint, which `joint` names; whole_bonds: how many of its bonds are whole; level: of the water that `water` names; bolt_force: the largest and the mean force of the springs of the bolts that `bolts` names, of one bolt, and how many have yielded and broken; the others: of one block that a "
          "selector chooses; …_load: what acts on it from one source, applied_load by stage.force, water_load by water; velocities are those of half a step before"},
     {.key = "joint", .members = {in(&MonitorSpec::joint, name)}, .example = "\"A\"",
      .meaning = "joint of contact_force and whole_bonds"},
+    {.key = "bolts", .members = {in(&MonitorSpec::bolts, name)}, .example = "\"roof\"",
+     .meaning = "bolts of bolt_force"},
     {.key = "water", .members = {in(&MonitorSpec::water, name)}, .example = "\"lake\"",
      .meaning = "water of level: its elevation, that of each point of a table, at the scene's middle of a plane; or its pressure"},
   }};

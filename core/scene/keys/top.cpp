@@ -49,6 +49,8 @@ KeyTable top_keys() {
     {.key = "water", .type = tables, .holds = {"water", "water_surface"},
      .meaning = "water in joints and around blocks: its pressure acts on their faces as total weight acts on their mass, so "
          "that contact forces are effective. It stands still: no flow, no drag, no added mass"},
+    {.key = "bolts", .type = tables, .holds = {"bolts"},
+     .meaning = "rock bolts and cables, which a stage installs"},
     {.key = "fix", .type = tables, .holds = {"label", "selector"}, .meaning = "blocks that never move"},
     {.key = "restrain", .type = tables, .holds = {"label", "restrain", "selector"},
      .meaning = "blocks that cannot move in some directions (world axes)"},

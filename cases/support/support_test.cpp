@@ -1,0 +1,129 @@
+// Bolts: what a spring carries over a joint, what a hung slab, a pretensioned column and a bolted slope need.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/case_tools.hpp"
+#include "reference/small/bolts.hpp"
+#include "text/angle.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using verification::Bound;
+using verification::CaseReport;
+using verification::Kind;
+
+// as the scenes state them
+constexpr double stiffness = 2e8, pretension = 50e3, slip_rate = 0.02, opening_rate = 0.001;
+
+TEST(Support, SpringsFollowAnOpeningAndSlippingJoint) {
+  CaseReport report("support", {"bolt force, offset anchors"});
+  const SceneRun run = cases::run("scene.toml");
+  const std::vector<double> time = column(run, "time_s");
+  struct Anchors {
+    const char *name, *column;
+    double length;  // m; 0: along the bolt alone
+  };
+  std::vector<double> slip;
+  for (const double t : time)
+    slip.push_back(slip_rate * t);
+  std::vector<std::string> names{"slip_m"};
+  std::vector<std::vector<double>> columns{slip};
+  for (const Anchors& a : {Anchors{"offset anchors", "offset", 2 * 1.2 * 0.028},
+                           Anchors{"anchors at the joint", "at_joint", 0}, Anchors{"anchors midway", "midway", 1}}) {
+    const std::vector<double> force = column(run, fmt::format("{}_largest_force_N", a.column));
+    std::vector<double> expected;
+    for (const double t : time)
+      expected.push_back(
+          a.length > 0 ? reference::bolt_over_joint(stiffness, a.length, pretension, opening_rate * t, slip_rate * t)
+                       : pretension + stiffness * opening_rate * t);
+    report.record({fmt::format("bolt force, {}", a.name),
+                   "N",
+                   Kind::exact,
+                   "K (s|d| - l0) + F0 (Boon 2013, section 5.1)",
+                   expected.back(),
+                   {0, 1e-6},
+                   "nothing but rounding of positions, and of the sum of the steps' times, moves it"},
+                  force.back(), cost(run));
+    names.push_back(fmt::format("{}_N", a.column));
+    names.push_back(fmt::format("{}_closed_form_N", a.column));
+    columns.push_back(force);
+    columns.push_back(expected);
+  }
+  write_csv("support", "slip.csv", names, columns);
+}
+
+TEST(Support, ASlabHangsFromItsBolts) {
+  CaseReport report("support");
+  const SceneRun run = cases::run("hung.toml");
+  const double share = 1.5 * 4 * 2500 * 9.81 / 3;  // N
+  double worst = share;
+  for (const BoltRow& bolt : run.results.bolts)
+    if (std::abs(bolt.force - share) > std::abs(worst - share)) worst = bolt.force;
+  report.record({"force of the bolt farthest from a third of the slab",
+                 "N",
+                 Kind::exact,
+                 "equilibrium: W/3",
+                 share,
+                 {0, 1e-6},
+                 "rest leaves 1e-9 of the mean force"},
+                worst, cost(run));
+}
+
+// Three bolts that yield at a total of a thousandth more than the weight hold it, at a thousandth less they do not.
+TEST(Support, ASlabFallsWhereItsBoltsYield) {
+  CaseReport report("support");
+  const auto ends = [](double of_weight) {
+    const double yield = of_weight * 1.5 * 4 * 2500 * 9.81 / 3;
+    return run_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "hung.toml",
+                     {fmt::format("bolts.roof.yield={}", yield)}, 1);
+  };
+  const SceneRun holds = ends(1.001), falls = ends(0.999);
+  report.record({"slabs at rest, of one that yields at 1.001 W and one at 0.999 W",
+                 "1",
+                 Kind::exact,
+                 "equilibrium: m Fy > W",
+                 1,
+                 {0, 0},
+                 "the first rests, the second does not"},
+                (holds.results.outcome == Outcome::done) + (falls.results.outcome == Outcome::done), cost(falls));
+}
+
+TEST(Support, JointsGiveWayUnderAPretension) {
+  CaseReport report("support");
+  const SceneRun run = cases::run("pretension.toml");
+  const double expected = reference::pretension_left(100e3, 2e8, 1e9, 1);
+  double worst = expected;
+  for (const BoltRow& bolt : run.results.bolts)
+    if (std::abs(bolt.force - expected) > std::abs(worst - expected)) worst = bolt.force;
+  report.record({"pretension left over ten joints, the worst",
+                 "N",
+                 Kind::exact,
+                 "F0 kn A/(kn A + K)",
+                 expected,
+                 {0, 1e-4},
+                 "rest leaves 1e-8; the overlap of 83 micrometres does not change the joints' area"},
+                worst, cost(run));
+  report.record({"joints crossed", "1", Kind::exact, "the scene", 10, {0, 0}, "a count"},
+                static_cast<double>(run.results.bolts.size()), cost(run));
+}
+
+TEST(Support, ABoltHoldsABlockOnASlope) {
+  CaseReport report("support", {"critical friction of the bolted block"});
+  const SceneRun run = cases::run("slope.toml");
+  const double expected = reference::bolted_block_friction(100e3, 40 * degree, 20e3, 30 * degree) / degree;
+  report.record({"critical friction of the bolted block",
+                 "deg",
+                 Kind::exact,
+                 "tan = (W sin 40 - Fy cos 30)/(W cos 40 + Fy sin 30)",
+                 expected,
+                 {0.02, 0},
+                 "half the bracket is 0.005; a slip of s turns the bolt by s sin 30/67 mm, 0.01 deg at 1.5 mm"},
+                value(run, "critical_friction"), cost(run));
+}
+
+}  // namespace
+}  // namespace voussoir::cases

@@ -1,0 +1,105 @@
+// Bolts that are stated wrongly, and how the scene says so.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+#include "core/scene/scene_error.hpp"
+
+namespace voussoir {
+namespace {
+
+const std::string rock = R"(
+dimension = 2
+gravity = [0, -10]
+density = 2500
+domain = { box = { min = [0, 0], max = [4, 4] } }
+joint_properties = [{ name = "bed", normal_stiffness = 1e9, shear_stiffness = 5e8, friction_deg = 40 }]
+joints = [{ name = "bed", dip = 0, point = [0, 2] }]
+fix = [{ above = ["bed"] }]
+)";
+const std::string stage = "[[stage]]\nname = \"settle\"\nkind = \"settle\"\n";
+const std::string install = stage + "install = [\"roof\"]\n";
+
+std::string bolts(const std::string& keys) {
+  return "[[bolts]]\nname = \"roof\"\n" + keys + "\n";
+}
+const std::string line = "from = [1, 1]\nto = [1, 3]\n", stiff = "stiffness = 2e8\n",
+                  fan = "from_deg = 60, to_deg = 120, spacing_deg = 30, length = 2 }\n";
+
+// the message; empty: the scene is taken
+std::string refusal(const std::string& text) {
+  try {
+    prepare<2>(parse_scene(text, "scene.toml", {}));
+    return {};
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+}
+
+TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
+  EXPECT_EQ(refusal(rock + bolts(line + stiff) + install), "");
+  EXPECT_EQ(refusal(rock + bolts("fan = { centre = [2, 0], start = 1, " + fan + stiff) + install), "");
+  struct Case {
+    std::string text, key, says;
+  };
+  const std::vector<Case> cases{
+      {bolts(line) + install, "stiffness", "is missing"},
+      {bolts(line + "stiffness = 0") + install, "stiffness", "greater than 0"},
+      {bolts(line + "stiffness = -1e8") + install, "stiffness", "greater than 0"},
+      {bolts(stiff) + install, "from", "write from and to, or fan"},
+      {bolts("from = [1, 1]\n" + stiff) + install, "to", "needs both"},
+      {bolts("to = [1, 1]\n" + stiff) + install, "from", "needs both"},
+      {bolts("from = [1, 1]\nto = [1, 1]\n" + stiff) + install, "to", "no length"},
+      {bolts("from = [1, 1, 0]\nto = [1, 2, 0]\n" + stiff) + install, "from", "2"},
+      {bolts(line + "fan = { centre = [2, 0], " + fan + stiff) + install, "fan", "either"},
+      {bolts("fan = { centre = [2, 0], axis = [0, 1], " + fan + stiff) + install, "axis", "dimension = 2"},
+      {bolts("fan = { centre = [2, 0], from_deg = 90, to_deg = 60, spacing_deg = 5, length = 1 }\n" + stiff) + install,
+       "to_deg", "swap"},
+      {bolts("fan = { centre = [2, 0], from_deg = 0, to_deg = 60, spacing_deg = 0, length = 1 }\n" + stiff) + install,
+       "spacing_deg", "greater than 0"},
+      {bolts("fan = { centre = [2, 0], from_deg = 0, to_deg = 60, spacing_deg = 1e-6, length = 1 }\n" + stiff) +
+           install,
+       "fan", "bolts, more than"},
+      {bolts("fan = { centre = [2, 0], from_deg = 0, to_deg = 60, spacing_deg = 5 }\n" + stiff) + install, "length",
+       "is missing"},
+      {bolts(line + stiff + "repeat = [{ step = [0, 0], count = 2 }]") + install, "step", "zero"},
+      {bolts(line + stiff + "repeat = [{ step = [1, 0], count = 1 }]") + install, "count", "2"},
+      {bolts(line + stiff + "anchors = \"glued\"") + install, "anchors", "midway"},
+      {bolts(line + stiff + "anchors = \"midway\"\ndiameter = 0.03") + install, "diameter", "anchors"},
+      {bolts(line + stiff + "pretension = -1") + install, "pretension", "0"},
+      {bolts(line + stiff + "pretension = 2e5\nyield = 1e5") + install, "pretension", "more than yield"},
+      {bolts(line + stiff + "rupture_extension = 0.1") + install, "rupture_extension", "yield is missing"},
+      {bolts(line + stiff + "dowel_strength = 1e5") + install, "dowel_strength", "dowel_stiffness is missing"},
+      {bolts(line + stiff + "axial_stiffness = 1e8") + install, "axial_stiffness", "end_anchored"},
+      {bolts(line + "kind = \"end_anchored\"") + install, "axial_stiffness", "is missing"},
+      {bolts(line + "kind = \"end_anchored\"\naxial_stiffness = 1e8\nstiffness = 1e8") + install, "stiffness",
+       "springs"},
+      {bolts(line + "kind = \"end_anchored\"\naxial_stiffness = 1e8\ntension_only = true") + install, "tension_only",
+       "springs"},
+      {bolts(line + stiff + "spacing = 0") + install, "spacing", "greater than 0"},
+      {bolts(line + stiff) + stage, "name", "no stage installs"},
+      {bolts(line + stiff) + stage + "install = [\"rof\"]\n", "install", "roof"},
+      {stage + "install = [\"roof\"]\n", "install", "there are no bolts"},
+      {bolts(line + stiff) + install + "[[stage]]\nname = \"again\"\nkind = \"settle\"\ninstall = [\"roof\"]\n",
+       "install", "once more"},
+      {bolts(line + stiff) + bolts(line + stiff) + install, "name", "roof"},
+      {bolts(line + stiff) + install + "[[monitors]]\nname = \"m\"\nquantities = [\"bolt_force\"]\nbolts = \"x\"\n",
+       "bolts", "no bolts of this name"},
+      {bolts(line + stiff) + install + "[[monitors]]\nname = \"m\"\nquantities = [\"bolt_force\"]\njoint = \"bed\"\n",
+       "bolts", "followed on bolts"},
+      {bolts(line + stiff) + install +
+           "[[monitors]]\nname = \"m\"\nquantities = [\"displacement\"]\nbolts = \"roof\"\n",
+       "quantities", "bolt_force only"},
+  };
+  for (const Case& c : cases) {
+    const std::string message = refusal(rock + c.text);
+    EXPECT_NE(message.find("scene.toml:"), std::string::npos) << c.text << message;
+    EXPECT_NE(message.find(c.key), std::string::npos) << c.text << message;
+    EXPECT_NE(message.find(c.says), std::string::npos) << c.text << "said: " << message;
+  }
+}
+
+}  // namespace
+}  // namespace voussoir

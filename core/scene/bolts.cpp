@@ -1,0 +1,185 @@
+#include "core/scene/bolts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/scene/bodies.hpp"
+#include "core/scene/keys.hpp"
+#include "text/plain_text.hpp"
+
+namespace voussoir {
+namespace {
+
+// more are a mistake in a spacing
+constexpr double most_bolts = 100'000;
+
+double rays_of(const FanSpec& fan) {
+  constexpr double rounding = 1e-9;  // of a spacing: the last ray lies on to_deg
+  return std::floor((fan.to - fan.from) / fan.spacing + rounding) + 1;
+}
+
+FanSpec read_fan(const Subject& subject, int dimension) {
+  FanSpec fan;
+  read_keys(*subject.node, "fan", fan);
+  if (fan.to < fan.from)
+    refuse(subject, "to_deg",
+           "must not be less than from_deg (" + value_text(*subject.node->find("from_deg")) + "); swap the two");
+  if (dimension == 2 && !fan.axis.empty())
+    refuse(subject, "axis", "rays stand across the third direction because dimension = 2; remove it");
+  const auto is_zero = [](double x) { return x == 0; };
+  if (dimension == 3 && std::ranges::all_of(fan.axis, is_zero))
+    refuse(subject, "axis", "the rays need a direction that they stand across; write for example axis = [0, 1, 0]");
+  return fan;
+}
+
+void check_law(const Subject& item, const BoltProperties& p) {
+  if (p.yield && p.pretension > *p.yield)
+    refuse(item, "pretension",
+           "is more than yield (" + value_text(*item.node->find("yield")) + "); lower it, or raise yield");
+  if (p.rupture_extension && !p.yield)
+    refuse(item, "rupture_extension", "yield is missing: without it nothing extends plastically; add yield");
+  if (p.dowel_strength && p.dowel_stiffness == 0)
+    refuse(item, "dowel_strength", "dowel_stiffness is missing: without it no force acts across the bolt; add it");
+}
+
+BoltSpec read_bolt(const Subject& item, int dimension) {
+  BoltSpec spec;
+  spec.subject = item;
+  read_keys(*item.node, "bolts", spec);
+  read_keys(*item.node, "bolts", spec.properties);
+  if (const auto fan = child(item, "fan")) spec.fan = read_fan(*fan, dimension);
+  for (const Subject& repeat : children(item, "repeat")) {
+    RepeatSpec& row = spec.repeat.emplace_back();
+    read_keys(*repeat.node, "repeat", row);
+    if (std::ranges::all_of(row.step, [](double x) { return x == 0; }))
+      refuse(repeat, "step", "is zero: all bolts would lie in one place; write for example the distance between two");
+  }
+  const bool line = !spec.from.empty() || !spec.to.empty();
+  if (line && spec.fan) refuse(item, "fan", "bolts take either a fan or from and to; remove one");
+  if (!line && !spec.fan)
+    refuse(item, "from", "where the bolts lie is not stated; write from and to, or fan = { centre = […], … }");
+  if (line && (spec.from.empty() || spec.to.empty()))
+    refuse(item, spec.from.empty() ? "from" : "to", "a bolt needs both its collar, from, and its end, to; add it");
+  if (line && spec.from == spec.to) refuse(item, "to", "is the same point as from: the bolt has no length; move it");
+  if (dimension == 3 && spec.spacing)
+    refuse(item, "spacing", "applies only where dimension = 2; in 3-D write repeat = [{ step = […], count = … }]");
+  spec.properties.tension_only |= spec.properties.kind == BoltKind::end_anchored;
+  double count = spec.fan ? rays_of(*spec.fan) : 1;
+  for (const RepeatSpec& row : spec.repeat)
+    count *= row.count;
+  if (count > most_bolts)
+    refuse(item, spec.fan ? "fan" : "repeat",
+           fmt::format("makes {:.0f} bolts, more than {:.0f}; check spacing_deg and count", count, most_bolts));
+  check_law(item, spec.properties);
+  return spec;
+}
+
+// in the plane of a fan: to the right, and up
+template <int Dim>
+std::array<Vector<Dim>, 2> axes_of(const FanSpec& fan) {
+  if constexpr (Dim == 2) {
+    return {Vector<2>(1, 0), Vector<2>(0, 1)};
+  } else {
+    const Vector<3> axis = to_vector<3>(fan.axis).normalized();
+    const Vector<3> level = Vector<3>(0, 0, 1).cross(axis);
+    if (level.norm() < 1e-9) return {Vector<3>(1, 0, 0), Vector<3>(0, 1, 0)};
+    const Vector<3> right = -level.normalized();
+    return {right, right.cross(axis)};
+  }
+}
+
+// collars and ends, world coordinates
+template <int Dim>
+std::vector<std::pair<Vector<Dim>, Vector<Dim>>> lines_of(const BoltSpec& spec) {
+  std::vector<std::pair<Vector<Dim>, Vector<Dim>>> lines;
+  if (spec.fan) {
+    const FanSpec& fan = *spec.fan;
+    const auto [right, up] = axes_of<Dim>(fan);
+    const Vector<Dim> centre = to_vector<Dim>(fan.centre);
+    for (int k = 0; k < static_cast<int>(rays_of(fan)); ++k) {
+      const double angle = fan.from + k * fan.spacing;
+      const Vector<Dim> ray = std::cos(angle) * right + std::sin(angle) * up;
+      lines.emplace_back(centre + fan.start * ray, centre + (fan.start + fan.length) * ray);
+    }
+  } else {
+    lines.emplace_back(to_vector<Dim>(spec.from), to_vector<Dim>(spec.to));
+  }
+  for (const RepeatSpec& row : spec.repeat) {
+    const std::size_t count = lines.size();
+    for (int k = 1; k < row.count; ++k)
+      for (std::size_t i = 0; i < count; ++i) {
+        const Vector<Dim> way = k * to_vector<Dim>(row.step);
+        lines.emplace_back(lines[i].first + way, lines[i].second + way);
+      }
+  }
+  return lines;
+}
+
+// of a slice of 1 m
+BoltProperties per_metre(BoltProperties p, double spacing) {
+  p.spacing = spacing;
+  for (double* value : {&p.stiffness, &p.axial_stiffness, &p.pretension, &p.dowel_stiffness})
+    *value /= spacing;
+  for (std::optional<double>* value : {&p.yield, &p.dowel_strength})
+    if (*value) **value /= spacing;
+  return p;
+}
+
+}  // namespace
+
+std::vector<BoltSpec> read_bolts(const Subject& scene, int dimension) {
+  std::vector<BoltSpec> all;
+  for (const Subject& item : children(scene, "bolts"))
+    all.push_back(read_bolt(item, dimension));
+  return all;
+}
+
+void check_installs(const Scene& scene) {
+  std::vector<std::string> names, installed;
+  for (const BoltSpec& spec : scene.bolts)
+    names.push_back(spec.properties.name);
+  const auto holds = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::ranges::find(list, name) != list.end();
+  };
+  for (const StageSpec& stage : scene.stages)
+    for (const std::string& name : stage.plan.change.install) {
+      if (!holds(names, name))
+        refuse(stage.subject, "install",
+               names.empty() ? "there are no bolts; add [[bolts]] with a name and where they lie"
+                             : "no bolts are named '" + one_line(name, 60) + "'; " + suggestion(name, names));
+      if (holds(installed, name))
+        refuse(stage.subject, "install",
+               "puts in '" + one_line(name, 60) + "' once more; name bolts in one stage, once");
+      installed.push_back(name);
+    }
+  for (const BoltSpec& spec : scene.bolts)
+    if (!holds(installed, spec.properties.name))
+      refuse(spec.subject, "name",
+             "no stage installs these bolts; write install = [\"" + one_line(spec.properties.name, 60) +
+                 "\"] in the stage before which they are put in, or remove them");
+}
+
+template <int Dim>
+void add_bolts(const Scene& scene, Model<Dim>& model) {
+  std::vector<const BoltSpec*> specs;
+  for (const BoltSpec& spec : scene.bolts)
+    specs.push_back(&spec);
+  std::ranges::sort(specs, {}, [](const BoltSpec* spec) { return spec->properties.name; });
+  for (const BoltSpec* spec : specs) {
+    int number = 0;
+    for (const auto& [collar, toe] : lines_of<Dim>(*spec))
+      model.bolts.push_back({.properties = static_cast<int>(model.bolt_properties.size()),
+                             .number = ++number,
+                             .collar = collar - model.origin,
+                             .toe = toe - model.origin});
+    model.bolt_properties.push_back(per_metre(spec->properties, spec->spacing.value_or(1)));
+  }
+}
+
+template void add_bolts<2>(const Scene&, Model<2>&);
+template void add_bolts<3>(const Scene&, Model<3>&);
+
+}  // namespace voussoir

@@ -1,0 +1,18 @@
+// [[bolts]]: read, checked, and placed.
+#pragma once
+
+#include "core/scene/scene_spec.hpp"
+
+namespace voussoir {
+
+// Throws SceneError.
+std::vector<BoltSpec> read_bolts(const Subject& scene, int dimension);
+
+// Every stage installs bolts that exist, and each is installed by one stage. Throws SceneError.
+void check_installs(const Scene& scene);
+
+// Model::bolts and their properties, whatever the order in which the scene states them; the model has its origin.
+template <int Dim>
+void add_bolts(const Scene& scene, Model<Dim>& model);
+
+}  // namespace voussoir

@@ -1,0 +1,85 @@
+// Rock bolts as springs between blocks (Boon 2013, sections 5.1 and 5.2; method.md section 7): one at every joint that
+// a bolt crossed when it was installed, or, end-anchored, one from plate to anchor. Its anchors are fixed in the two
+// blocks. With d from the first to the second, s the sign of d on the bolt's axis and l0 the length at installation
+//
+//   f = K (s|d| - l0 - plastic extension) + F0   along s d/|d|,       anchors apart
+//   f = K (a·d - plastic extension) + F0         along the axis a,    anchors both at the joint
+//   q = ks (d - (a·d) a - plastic slip)          across the axis,     a dowel
+//
+// a turns with the first block; both forces act on both blocks at the second anchor, so that they have the potential
+// f²/2K + q²/2ks, which depends on nothing but where the second anchor stands in the first block.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/geometry/types.hpp"
+
+namespace voussoir {
+
+enum class BoltKind { springs, end_anchored };
+enum class BoltAnchors { offset, at_joint, midway };
+
+// Of all bolts of one name. In the plane, stiffness and forces of a Model are per metre of thickness: a bolt's own over
+// the spacing.
+struct BoltProperties {
+  std::string name;
+  BoltKind kind = BoltKind::springs;
+  BoltAnchors anchors = BoltAnchors::offset;  // of springs
+  double diameter = 0.028;                    // m: offset anchors lie 1.2 of it from the joint
+  double stiffness = 0;                       // K, N/m, at each joint that is crossed
+  double axial_stiffness = 0;                 // EA, N, of an end-anchored bolt
+  double pretension = 0;                      // F0, N
+  std::optional<double> yield{};              // N, tension and compression
+  std::optional<double> rupture_extension{};  // m, plastic: beyond it the spring breaks
+  bool tension_only = false;                  // a cable
+  double dowel_stiffness = 0;                 // ks, N/m
+  std::optional<double> dowel_strength{};     // N
+  double spacing = 1;                         // m, out of the plane
+};
+
+// from collar to toe
+template <int Dim>
+struct Bolt {
+  int properties = 0;                                                   // Model::bolt_properties
+  int number = 1;                                                       // among those of its name
+  Vector<Dim> collar = Vector<Dim>::Zero(), toe = Vector<Dim>::Zero();  // m, model coordinates
+};
+
+template <int Dim>
+struct BoltSpring {
+  int bolt = 0;                                                              // Model::bolts
+  int number = 1;                                                            // along the bolt, from its collar
+  int body_a = 0, body_b = 0;                                                // a is nearer to the collar
+  Vector<Dim> place_a = Vector<Dim>::Zero(), place_b = Vector<Dim>::Zero();  // of the anchors, body frames, m
+  Vector<Dim> axis = Vector<Dim>::Zero();                                    // unit, towards the toe, frame of body a
+  double length = 0;                                                         // l0, m; 0: both anchors at the joint
+  double stiffness = 0;                                                      // K, N/m
+  double plastic = 0;                                                        // m, plastic extension
+  Vector<Dim> slip = Vector<Dim>::Zero();                                    // m, plastic slip of the dowel, frame of a
+  bool broken = false;
+  double extension = 0;                     // m, since installation
+  double force = 0;                         // f, N, tension positive
+  Vector<Dim> shear = Vector<Dim>::Zero();  // q, N, frame of body a
+};
+
+template <int Dim>
+struct BoltAnswer {
+  Vector<Dim> on_second = Vector<Dim>::Zero();  // N at the second anchor, frame of body a; on body a the opposite
+  double elastic = 0;                           // J, held now
+  double lost = 0;                              // J, to yield and rupture, this time
+};
+
+// What a spring answers to the place of its second anchor against the first, frame of body a, m; renews its history.
+template <int Dim>
+BoltAnswer<Dim> bolt_answer(const BoltProperties& properties, const Vector<Dim>& apart, BoltSpring<Dim>& spring);
+
+// Minus the derivative of `on_second` with `apart`, N/m, as the spring was answered there.
+template <int Dim>
+Matrix<Dim> bolt_stiffness(const BoltProperties& properties, const Vector<Dim>& apart, const BoltSpring<Dim>& spring);
+
+// at most, for the time step, N/m
+template <int Dim>
+double stiffest(const BoltProperties& properties, const BoltSpring<Dim>& spring);
+
+}  // namespace voussoir
