@@ -139,14 +139,16 @@ int entering(const ExtendedBasis<Dim>& basis, const HalfSpaces<Dim>& planes, con
   return enter;
 }
 
-// the tight plane that leaves: the first to lose its multiplier, and of several the one with the largest pivot, or
-// after many pivots the one with the least number
+// the tight plane that leaves, but for those that must not: the first to lose its multiplier, and of several the one
+// with the largest pivot, or after many pivots the one with the least number
 template <int Dim>
-int leaving(const ExtendedBasis<Dim>& basis, const HalfSpace<Dim>& enter, bool first) {
+int leaving(const ExtendedBasis<Dim>& basis, const HalfSpace<Dim>& enter, bool first,
+            const std::array<bool, Dim + 1>& stays) {
   const Row<Dim> column = column_of<Dim>(enter);
   int leave = -1;
   DoubleDouble best, largest;
   for (int k = 0; k <= Dim; ++k) {
+    if (stays[k]) continue;
     const DoubleDouble mu = product<Dim>(basis.inverse[k], column);
     if (!(mu > rounding_of<Dim>(basis.inverse[k], column))) continue;
     const DoubleDouble ratio = (basis.multiplier(k) < 0 ? DoubleDouble(0) : basis.multiplier(k)) / mu;
@@ -158,6 +160,23 @@ int leaving(const ExtendedBasis<Dim>& basis, const HalfSpace<Dim>& enter, bool f
     }
   }
   return leave;
+}
+
+// The basis with the entering plane; false: none was found. Where another one's leaving would leave the planes
+// dependent its pivot was zero but for the rounding of the inverse: it stays.
+template <int Dim>
+bool exchange(ExtendedBasis<Dim>& basis, const HalfSpaces<Dim>& planes, int enter, bool first, double far) {
+  const ExtendedBasis<Dim> before = basis;
+  std::array<bool, Dim + 1> stays{};
+  for (int tries = 0; tries <= Dim; ++tries) {
+    const int leave = leaving<Dim>(before, planes[enter], first, stays);
+    if (leave < 0) return false;  // impossible in exact arithmetic: sum(mu) = 1
+    basis.planes = before.planes;
+    basis.planes[leave] = enter;
+    if (factorise<Dim>(basis, planes, far)) return true;
+    stays[leave] = true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -180,10 +199,7 @@ FeasibilityResult<Dim> solve_feasibility_in_extended_precision(const HalfSpaces<
       result.status = FeasibilityStatus::optimal;
       break;
     }
-    const int leave = leaving<Dim>(basis, planes[enter], first);
-    if (leave < 0) break;  // impossible in exact arithmetic: sum(mu) = 1
-    basis.planes[leave] = enter;
-    if (!factorise<Dim>(basis, planes, far)) break;
+    if (!exchange<Dim>(basis, planes, enter, first, far)) break;
   }
   result.basis = basis.planes;
   for (int k = 0; k <= Dim; ++k) {

@@ -28,6 +28,29 @@ TEST(Sliver, ATurnedSlabOrNeedleKeepsItsVolume) {
     }
 }
 
+// Found by fuzzing: of its six faces four have normals in one plane, so that the linear program of the ball meets bases
+// that are dependent but for rounding.
+TEST(Sliver, ASlabBetweenFacesOfOneZoneHoldsItsBall) {
+  const HalfSpaces<3> planes{{{-1, -0, -0}, 2},
+                             {{1, 0, 0}, 2},
+                             {{-0, -1, -0}, 2},
+                             {{0, 1, 0}, 2},
+                             {{-0, -0, -1}, 2},
+                             {{0, 0, 1}, 2},
+                             {{1.726318359375, -1.7412109375, -1.72802734375}, 1.7410888671875},
+                             {{1.696533203125, -1.7412109375, -1.6964111328125}, 1.7410888671875},
+                             {{1.7410888671875, 1.7410888671875, -3.6251220703125}, 3.9998779296875},
+                             {{3.9998779296875, 3.9998779296875, 3.9742431640625}, 3.96875},
+                             {{-4, -4, -4}, -3.9981689453125},
+                             {{-3.96875, -4, -3.9998779296875}, 1.7410888671875},
+                             {{1.7410888671875, 1.7410888671875, 1.7410888671875}, 1.7410888671875}};
+  const BlockResult<3> block = make_block<3>(planes, std::vector<int>(planes.size(), no_joint));
+  ASSERT_EQ(block.status, BlockStatus::ok);
+  EXPECT_NEAR(block.part.inscribed_radius, 1.3214498959113e-4, 1e-15) << "half the distance of its parallel faces";
+  for (const HalfSpace<3>& face : block.part.faces)
+    EXPECT_LE(signed_distance(face, block.part.centre), -block.part.inscribed_radius + 1e-14);
+}
+
 TEST(Sliver, NearlyCoplanarFacesAreNotCountedTwice) {
   Random random(32);
   for (double angle = 1e-2; angle > 1e-13; angle /= 10)
