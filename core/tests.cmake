@@ -19,7 +19,7 @@ voussoir_test(unit.law_and_motion LABEL unit
   SOURCES law/law_test.cpp law/joint_law_test.cpp motion/motion_test.cpp support/bolt_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
-voussoir_test(unit.support LABEL unit SOURCES support/beam_test.cpp LIBS voussoir_core Boost::headers)
+voussoir_test(unit.support LABEL unit SOURCES support/beam_test.cpp support/grout_test.cpp LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.extremes LONG LABEL unit
   SOURCES law/law_extremes_test.cpp motion/motion_extremes_test.cpp motion/step_extremes_test.cpp

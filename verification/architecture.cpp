@@ -56,7 +56,7 @@ const std::vector<Order> orders{
       {"solvers", "glpk", "ipopt"}}},
     {"core/support", {{"bolt"}}},
     {"core/load", {{"load", "time_factor"}, {"boundary_stress", "water"}}},
-    {"core/support", {{"beam"}}},
+    {"core/support", {{"beam", "grout"}}},
     {"core/contact",
      {{"contact", "pair", "kernel_counters", "rounding"},
       {"broad_phase", "thin_directions", "separation", "pair_geometry", "overlap_region", "bracketing",
