@@ -156,7 +156,7 @@ void complete_basis(Polytope<Dim>& part) {
 template <int Dim>
 BlockStatus describe(Polytope<Dim>& part) {
   const FeasibilityResult<Dim> ball = solve_feasibility<Dim>(part.faces, {});
-  if (const BlockStatus status = judge(part.faces, ball); status != BlockStatus::ok) return status;
+  if (ball.status == FeasibilityStatus::iteration_limit) return BlockStatus::flat;
   part.inscribed_radius = -ball.value;
   part.centre = ball.point;
   part.basis = ball.basis;
