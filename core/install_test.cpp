@@ -239,5 +239,30 @@ TEST(Bolts, KeepTheLedgerOfAMotion) {
   EXPECT_LT(energy.relative_error(), 0.01);
 }
 
+// What bolts put on all blocks together is nothing, and what gravity does is their weight, or its mean.
+TEST(Monitors, SumAndAverageOverBlocks) {
+  const auto monitor = [](const std::string& name, const std::string& over, const std::string& quantity) {
+    return "[[monitors]]\nname = \"" + name + "\"\nall = true\nover = \"" + over + "\"\nquantities = [\"" + quantity +
+           "\"]\n";
+  };
+  const Progress<2> done =
+      simulated(scene_of(slab + bolts(row) + hang + monitor("bolts", "sum", "bolt_load") +
+                         monitor("weights", "sum", "gravity_load") + monitor("ways", "mean", "displacement")));
+  const auto value = [&](const char* name) { return done.results.find(name)->value; };
+  EXPECT_EQ(value("bolts_sum_bolt_load_y"), 0);
+  EXPECT_DOUBLE_EQ(value("weights_sum_gravity_load_y"), -3 * weight);
+  double sum = 0;
+  for (const Motion<2>& m : done.state.motions)
+    sum += m.displacement[1];
+  EXPECT_LT(sum, 0);
+  EXPECT_DOUBLE_EQ(value("ways_mean_displacement_y"), sum / 2);
+
+  // the roof alone is left when the slab is taken out
+  const Progress<2> dug = simulated(
+      scene_of(slab + "[[blocks]]\nname = \"crumb\"\nbox = { min = [0, 5], max = [1, 6] }\n" +
+               stage("remove = [{ below = [\"bed\"] }]\nstep_limit = 10") + monitor("weights", "sum", "gravity_load")));
+  EXPECT_DOUBLE_EQ(dug.results.find("weights_sum_gravity_load_y")->value, -2 * weight - 2500 * 10);
+}
+
 }  // namespace
 }  // namespace voussoir

@@ -62,6 +62,42 @@ long long whole_bonds_of(int joint, const State<Dim>& state) {
   return whole;
 }
 
+// of one body
+template <int Dim>
+Eigen::VectorXd value_of(const Monitored& followed, int body, const Model<Dim>& model, const State<Dim>& state) {
+  const Motion<Dim>& motion = state.motions[body];
+  switch (followed.quantity) {
+    case Quantity::displacement:
+      return motion.displacement;
+    case Quantity::velocity:
+      return motion.velocity;
+    case Quantity::rotation:
+      return rotation_vector(motion.rotation).unaryExpr(&to_degrees);
+    case Quantity::angular_velocity:
+      return angular_velocity(model.bodies[body], motion);
+    default:
+      return load_of(followed.word, body, state);
+  }
+}
+
+// of one body, or over several; those that are gone do not count
+template <int Dim>
+void append_bodies(std::vector<double>& values, const Monitor& monitor, const Model<Dim>& model,
+                   const State<Dim>& state) {
+  Eigen::VectorXd sum = value_of(monitor.followed, monitor.subject, model, state);
+  if (monitor.over != Over::one) {
+    sum.setZero();
+    double count = 0;
+    for (const int body : monitor.group) {
+      if (!model.bodies[body].present) continue;
+      sum += value_of(monitor.followed, body, model, state);
+      ++count;
+    }
+    if (monitor.over == Over::mean && count > 0) sum /= count;
+  }
+  values.insert(values.end(), sum.data(), sum.data() + sum.size());
+}
+
 // elevations of the file; of a plane that above the model's origin
 template <int Dim>
 void append_water(std::vector<double>& values, const Monitor& monitor, const Model<Dim>& model,
@@ -99,7 +135,8 @@ std::string Column::header() const {
 template <int Dim>
 std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
   std::vector<Column> columns;
-  for (const Monitor& m : monitors) {
+  for (Monitor m : monitors) {
+    if (m.over != Over::one) m.name += m.over == Over::sum ? "_sum" : "_mean";
     switch (m.followed.quantity) {
       case Quantity::displacement:
         append_vector<Dim>(columns, m.name + "_displacement", "m");
@@ -153,23 +190,14 @@ template <int Dim>
 std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const Model<Dim>& model,
                                    const State<Dim>& state) {
   std::vector<double> values;
-  const auto append = [&](const auto& v) { values.insert(values.end(), v.data(), v.data() + v.size()); };
   for (const Monitor& m : monitors) {
     switch (m.followed.quantity) {
       case Quantity::displacement:
-        append(state.motions[m.subject].displacement);
-        break;
       case Quantity::velocity:
-        append(state.motions[m.subject].velocity);
-        break;
       case Quantity::rotation:
-        append(rotation_vector(state.motions[m.subject].rotation).unaryExpr(&to_degrees).eval());
-        break;
       case Quantity::angular_velocity:
-        append(angular_velocity(model.bodies[m.subject], state.motions[m.subject]));
-        break;
       case Quantity::load:
-        append(load_of(m.followed.word, m.subject, state));
+        append_bodies(values, m, model, state);
         break;
       case Quantity::contact_force:
         append_joint(values, m.subject, model, state);

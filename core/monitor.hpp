@@ -16,7 +16,8 @@ struct Column {
 };
 
 // Columns and present values of all monitors, in order. Displacement, velocity and angular velocity (rad/s) by
-// component of the world axes, rotation as the rotation vector in degrees. Contact load of a body: the vector sum of
+// component of the world axes, rotation as the rotation vector in degrees; of one body, or the sum or mean over several
+// (<name>_sum_…, <name>_mean_…). Contact load of a body: the vector sum of
 // the forces that its contacts exert on it. Contact force of a joint: over its touching contacts the sums of normal and
 // of shear force and of area, their number, the largest mobilised friction angle, and the tilt of the contact that
 // carries most against the joint's own normal. Bolt force: the largest and the mean axial force of the springs of all

@@ -47,12 +47,17 @@ inline std::vector<Monitored> monitored_quantities() {
   return all;
 }
 
+// what a monitor of several bodies tells of them
+enum class Over { one, sum, mean };
+
 // a monitor whose subject was found
 struct Monitor {
   std::string name;
   Monitored followed{"displacement", Quantity::displacement};
   int subject = 0;  // body, or joint for contact_force and whole_bonds, or water for level, or Model::bolt_properties
   int points = 0;   // of a level: how many its table has; 0: a pressure
+  Over over{};      // of bodies
+  std::vector<int> group{};  // where it is over several: the bodies, ascending
 };
 
 template <int Dim>

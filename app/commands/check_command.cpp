@@ -345,11 +345,13 @@ void print_monitors(const Prepared<Dim>& prepared) {
   for (const Monitor& monitor : prepared.monitors) {
     const Quantity quantity = monitor.followed.quantity;
     const bool of_joint = quantity == Quantity::contact_force || quantity == Quantity::whole_bonds;
-    const std::string subject = of_joint                      ? "joint " + prepared.model.joints[monitor.subject].name
-                                : quantity == Quantity::level ? "water " + prepared.model.waters[monitor.subject].name
-                                : quantity == Quantity::bolt_force
-                                    ? "bolts " + prepared.model.bolt_properties[monitor.subject].name
-                                    : fmt::format("block {}", monitor.subject);
+    const std::string subject =
+        of_joint                           ? "joint " + prepared.model.joints[monitor.subject].name
+        : quantity == Quantity::level      ? "water " + prepared.model.waters[monitor.subject].name
+        : quantity == Quantity::bolt_force ? "bolts " + prepared.model.bolt_properties[monitor.subject].name
+        : monitor.over != Over::one
+            ? fmt::format("{} blocks, {}", monitor.group.size(), monitor.over == Over::sum ? "sum" : "mean")
+            : fmt::format("block {}", monitor.subject);
     line(label, fmt::format("{}: {} of {}", monitor.name, monitor.followed.word, subject));
     label = "";
   }

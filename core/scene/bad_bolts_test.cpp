@@ -92,6 +92,11 @@ TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
       {bolts(line + stiff) + install +
            "[[monitors]]\nname = \"m\"\nquantities = [\"displacement\"]\nbolts = \"roof\"\n",
        "quantities", "bolt_force only"},
+      {bolts(line + stiff) + install +
+           "[[monitors]]\nname = \"m\"\nquantities = [\"bolt_force\"]\nbolts = \"roof\"\n"
+           "over = \"sum\"\n",
+       "over", "follows none"},
+      {stage + "[[monitors]]\nname = \"m\"\nquantities = [\"displacement\"]\nall = true\n", "monitors", "over ="},
   };
   for (const Case& c : cases) {
     const std::string message = refusal(rock + c.text);

@@ -346,15 +346,17 @@ int bolts_of(const MonitorSpec& spec, const std::vector<BoltProperties>& all) {
   return index;
 }
 
-// the block that a monitor follows
+// the blocks that a monitor follows
 template <int Dim>
-int body_of(const Scene& scene, const Model<Dim>& model, const MonitorSpec& spec) {
+std::vector<int> bodies_of(const Scene& scene, const Model<Dim>& model, const MonitorSpec& spec) {
   const std::vector<int> bodies = chosen_some<Dim>(scene, model, spec.body);
-  if (bodies.size() != 1)
+  if (bodies.size() != 1 && spec.over == Over::one)
     refuse(*spec.body.subject.node, spec.body.subject.path,
            "chooses " + std::to_string(bodies.size()) +
-               " blocks but must choose exactly one; add sides of more joints, or a point inside");
-  return bodies.front();
+               " blocks but must choose exactly one; add sides of more joints or a point inside, or write over = "
+               "\"sum\" or "
+               "\"mean\"");
+  return bodies;
 }
 
 template <int Dim>
@@ -364,10 +366,12 @@ std::vector<Monitor> find_monitors(const Scene& scene, const Model<Dim>& model) 
     const int subject = !spec.joint.empty()   ? joint_of<Dim>(model, spec)
                         : !spec.water.empty() ? water_of(scene, spec)
                         : !spec.bolts.empty() ? bolts_of(spec, model.bolt_properties)
-                                              : body_of<Dim>(scene, model, spec);
+                                              : -1;
+    const std::vector<int> bodies = subject < 0 ? bodies_of<Dim>(scene, model, spec) : std::vector<int>();
     for (const Monitored& followed : spec.quantities)
-      monitors.push_back({spec.name, followed, subject,
-                          followed.quantity == Quantity::level ? levels_of<Dim>(model.waters[subject]) : 0});
+      monitors.push_back({spec.name, followed, subject < 0 ? bodies.front() : subject,
+                          followed.quantity == Quantity::level ? levels_of<Dim>(model.waters[subject]) : 0, spec.over,
+                          spec.over == Over::one ? std::vector<int>() : bodies});
   }
   return monitors;
 }

@@ -300,6 +300,8 @@ MonitorSpec read_monitor(const Subject& table) {
     refuse(table, stated,
            fmt::format("stands beside a choice of blocks; a monitor follows either {} or a block, remove one",
                        stated == "bolts" ? "bolts" : fmt::format("a {}", stated)));
+  if (!stated.empty() && monitor.over != Over::one)
+    refuse(table, "over", "tells of blocks, and this monitor follows none; remove it");
   if (stated.empty() && !chooses(monitor.body.selector))
     refuse(table, "above",
            "the monitor must choose one block by bodies, above, below, inside, side or box; write for example "

@@ -215,6 +215,7 @@ struct StageSpec {
 struct MonitorSpec {
   SelectorSpec body;  // empty for a joint or a water
   std::string name, joint, water, bolts;
+  Over over{};
   std::vector<Monitored> quantities;
 };
 

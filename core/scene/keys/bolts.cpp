@@ -8,7 +8,7 @@ namespace voussoir::keys {
 std::vector<KeyTable> bolt_keys() {
   return {{"bolts", {
     {.key = "name", .members = {in(&BoltProperties::name, name)}, .example = "\"roof\"", .required = true,
-     .meaning = "unique among the bolts; all bolts of the table bear it"},
+     .meaning = "unique among the bolts; all bolts of the table have it"},
     {.key = "kind", .members = {one_of(&BoltProperties::kind,
          {{"springs", BoltKind::springs}, {"end_anchored", BoltKind::end_anchored}})},
      .example = "\"end_anchored\"",

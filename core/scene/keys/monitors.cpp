@@ -24,6 +24,10 @@ KeyTable monitor_keys() {
      .example = "[\"displacement\", \"rotation\"]", .required = true,
      .meaning = "contact_force: resultant over the contacts of a joint, which `joint` names; whole_bonds: how many of its bonds are whole; level: of the water that `water` names; bolt_force: the largest and the mean force of the springs of the bolts that `bolts` names, of one bolt, and how many have yielded and broken; the others: of one block that a "
          "selector chooses; …_load: what acts on it from one source, applied_load by stage.force, water_load by water; velocities are those of half a step before"},
+    {.key = "over", .members = {one_of(&MonitorSpec::over, {{"one", Over::one}, {"sum", Over::sum}, {"mean", Over::mean}})},
+     .example = "\"mean\"",
+     .meaning = "of the blocks that the selector chooses; one: it chooses exactly one; sum, mean: over all that are not "
+         "excavated, those apart that an excavation parts from them"},
     {.key = "joint", .members = {in(&MonitorSpec::joint, name)}, .example = "\"A\"",
      .meaning = "joint of contact_force and whole_bonds"},
     {.key = "bolts", .members = {in(&MonitorSpec::bolts, name)}, .example = "\"roof\"",
