@@ -1,0 +1,125 @@
+// Rigid blocks in the plane on joint springs, with bolts and a lining, for small displacements: a linear network. The
+// same blocks as the program's, given as plain numbers, and nothing of its method: one sparse system, no steps, no
+// contact detection. x right, y up, turns counter-clockwise; forces per metre of thickness.
+//
+// Against a joint of the program that stays closed, elastic and bonded, divided into n cells a face (sub_contacts = n):
+//   the same      normal stiffness: a cell of length l answers kn l times the overlap at its middle and acts at its
+//                 centre of pressure, which is a couple kn l³/12 per radian about the middle. A spring that has
+//                 `spread` l²/12 has that couple, and the face as a whole kn L³/12 whatever n is. With spread 0 two
+//                 points a face are softer in bending, kn L³/16.
+//                 shear: ks l times the slip, and no couple, since a turn moves points of a face along its normal only.
+//   not the same  finite turns and slips, the share of a face that slips away or closes at corners with overlap,
+//                 the force that a stressed joint or a pretensioned bolt carries along as it turns: all of the order
+//                 of displacement over block size. Friction, tension cut off: none here.
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace voussoir::reference::network {
+
+using Point = std::array<double, 2>;     // m, or N where it is a force
+using Polygon = std::vector<Point>;      // convex, counter-clockwise, m
+using Freedoms = std::array<double, 3>;  // x, y, turn: m and rad, or N and N m about the centroid (at a node: there)
+
+// One rigid body of one or more convex parts. What is held takes `imposed`; the ground is a block with all three held.
+struct Block {
+  std::vector<Polygon> parts;
+  std::array<bool, 3> held{};
+  Freedoms imposed{};
+  Freedoms load{};  // N and N m about the centroid
+};
+
+Point centroid(const Block& block);
+double area(const Block& block);                                    // m²
+void add_force(Block& block, const Point& at, const Point& force);  // N
+
+// A cell of a joint. `normal` is unit, from the first block to the second.
+struct Spring {
+  int first = 0, second = 0;
+  Point at, normal;
+  double length = 0;            // m, of the face
+  double normal_stiffness = 0;  // kn, Pa/m
+  double shear_stiffness = 0;   // ks, Pa/m
+  double spread = 0;            // m²: l²/12 for a cell that answers as a whole, 0 for a point
+};
+
+// Between anchors fixed in two blocks, along `axis`, unit, from the first to the second. Across it (a dowel) both
+// blocks are pulled at the second anchor.
+struct Bolt {
+  int first = 0, second = 0;
+  Point first_anchor, second_anchor, axis;
+  double stiffness = 0;   // K, N/m
+  double across = 0;      // N/m
+  double pretension = 0;  // F0, N: f = K extension + F0
+};
+
+// A joint of the beams. Held and loaded as a block, about its place.
+struct Node {
+  Point at;
+  std::array<bool, 3> held{};
+  Freedoms imposed{};
+  Freedoms load{};
+};
+
+// A node on a block's wall, pressing where the two approach. `normal` is unit, from the block to the node. A node may
+// have several: at a corner of the outline one to each side, of half its length each.
+struct Tie {
+  int node = 0, block = 0;
+  Point normal;
+  double length = 0;            // m, tributary
+  double normal_stiffness = 0;  // Pa/m
+  double shear_stiffness = 0;   // Pa/m
+};
+
+// Euler-Bernoulli beams from node to node, counter-clockwise as seen from inside: the inside is on the left.
+struct Lining {
+  std::vector<Node> nodes;
+  bool closed = true;  // the last node joins the first
+  double axial = 0;    // EA, N
+  double bending = 0;  // EI, N m²
+  std::vector<Tie> ties;
+};
+
+struct Network {
+  std::vector<Block> blocks;
+  std::vector<Spring> springs;
+  std::vector<Bolt> bolts;
+  Lining lining;  // without nodes: none
+};
+
+struct SpringForce {
+  double normal = 0;  // N, compression positive
+  double shear = 0;   // N, on the second block along the normal turned by 90° counter-clockwise
+  double couple = 0;  // N m, on the second block, about the spring's place; of a spring with spread
+};
+
+struct BoltForce {
+  double axial = 0;   // N, tension positive, pretension included
+  double across = 0;  // N, on the second block along the axis turned by 90° counter-clockwise
+};
+
+// Thrust compression positive, moments sagging positive (tension on the inside), shear the slope of the moment along
+// the beam.
+struct BeamForce {
+  double thrust = 0, shear = 0, start_moment = 0, end_moment = 0;  // N, N, N m, N m
+};
+
+struct Solution {
+  std::vector<Freedoms> blocks;  // of the centroids
+  std::vector<Freedoms> nodes;
+  std::vector<SpringForce> springs;
+  std::vector<BoltForce> bolts;
+  std::vector<SpringForce> ties;  // normal positive where wall and lining press; "second" is the node
+  std::vector<BeamForce> beams;   // from node i to i + 1
+  double unbalanced = 0;          // largest force left on a freedom, over the largest load or spring force on any
+};
+
+// Displacement of a block's point, m.
+Point displacement(const Network& network, const Solution& solution, int block, const Point& at);
+
+// Throws std::invalid_argument, naming the block, node, spring, bolt or beam, where numbers are out of range, where a
+// block or node is loose (no springs hold it, alone or with its neighbours), or where springs leave it a mechanism.
+Solution solve(const Network& network);
+
+}  // namespace voussoir::reference::network
