@@ -26,7 +26,9 @@ void check(const BoltedRing& ring, double distance) {
           "bolt stiffness, mean joint spacing and bolt length must not be negative; use 0 for no bolts");
   require(ring.tangential_spacing > 0 && ring.longitudinal_spacing > 0,
           "bolt spacings must be positive; in a plane model the longitudinal one is 1 m");
-  require(std::isfinite(distance) && distance >= ring.radius, "distance must be at least the radius");
+  require(ring.fixed_radius > ring.radius + ring.bolt_length, "the rock must be held beyond wall and bolts");
+  require(std::isfinite(distance) && distance >= ring.radius && distance <= ring.fixed_radius,
+          "distance must lie between wall and held rock");
 }
 
 // Displacement over radius, and its slope by rho.
@@ -47,6 +49,12 @@ Displacement second_solution(double rho, double b) {
     if (x > 1e-100) h = log_less.val / (x * x);
   }
   return {h / rho, (h + 1 / (1 + x)) / (rho * rho)};
+}
+
+// Of 1/rho - rho a²/R², which plain rock takes beyond the bolts.
+Displacement beyond_bolts(const BoltedRing& ring, double rho) {
+  const double held = ring.radius / ring.fixed_radius, pull = held * held;
+  return {1 / rho - rho * pull, -1 / (rho * rho) - pull};
 }
 
 // Radial and hoop stress increments of the rock over 2G, tension positive.
@@ -70,6 +78,14 @@ BoltedRingState state_of(const BoltedRing& ring, Displacement u, double rho, boo
 
 }  // namespace
 
+double modulus_of_held_rock(double shear_modulus, double poisson_ratio, double radius, double fixed_radius) {
+  require(std::isfinite(shear_modulus) && shear_modulus > 0, "shear modulus must be positive, in Pa");
+  require(poisson_ratio >= 0 && poisson_ratio < 0.5, "Poisson's ratio must lie in 0..0.5, 0.5 excluded");
+  require(radius > 0 && fixed_radius > radius, "the rock must be held beyond a positive radius");
+  const double ratio = radius / fixed_radius, square = ratio * ratio;
+  return shear_modulus * (1 + square / (1 - 2 * poisson_ratio)) / (1 - square);
+}
+
 double bolt_relative_stiffness(const BoltedRing& ring) {
   return ring.bolt_stiffness * ring.mean_joint_spacing /
          (ring.tangential_spacing * ring.longitudinal_spacing * 2 * ring.shear_modulus);
@@ -79,7 +95,7 @@ BoltedRingState bolted_ring_at(const BoltedRing& ring, double distance) {
   check(ring, distance);
   const double nu = ring.poisson_ratio, beta = bolt_relative_stiffness(ring), b = beta * (1 - 2 * nu) / (1 - nu);
   const double end = 1 + ring.bolt_length / ring.radius;
-  const Displacement first_wall{1, 1}, first_end{end, 1}, outer_end{1 / end, -1 / (end * end)};
+  const Displacement first_wall{1, 1}, first_end{end, 1}, outer_end = beyond_bolts(ring, end);
   const Displacement second_wall = second_solution(1, b), second_end = second_solution(end, b);
 
   // rows: stress at the wall, displacement and stress at the end; columns: C1, C2, C3
@@ -92,7 +108,10 @@ BoltedRingState bolted_ring_at(const BoltedRing& ring, double distance) {
   const Eigen::Vector3d c = rows.fullPivLu().solve(right);
 
   const double rho = distance / ring.radius;
-  if (rho > end) return state_of(ring, {c(2) / rho, -c(2) / (rho * rho)}, rho, false);
+  if (rho > end) {
+    const Displacement outer = beyond_bolts(ring, rho);
+    return state_of(ring, {c(2) * outer.value, c(2) * outer.slope}, rho, false);
+  }
   const Displacement second = second_solution(rho, b);
   return state_of(ring, {c(0) * rho + c(1) * second.value, c(0) + c(1) * second.slope}, rho, true);
 }
@@ -102,15 +121,24 @@ BoltedRingState bolted_ring_at_by_ode(const BoltedRing& ring, double distance) {
   const double nu = ring.poisson_ratio, beta = bolt_relative_stiffness(ring), b = beta * (1 - 2 * nu) / (1 - nu);
   const double end = 1 + ring.bolt_length / ring.radius, rho = distance / ring.radius;
 
-  // With C3 = -1 beyond, the rock's radial increment there is 1/end^2; continuity gives the slope just inside.
-  const double value = -1 / end;
-  const double slope = (1 / (end * end) - nu * value / (end * (1 - 2 * nu))) / ((1 - nu) / (1 - 2 * nu) + beta / end);
-  const OdeRight right = [b](double x, const double* y, double* dy) {
-    dy[0] = y[1];
-    dy[1] = (y[0] - x * y[1]) / (x * (x + b));
+  const auto equation = [](double stiff) -> OdeRight {
+    return [stiff](double x, const double* y, double* dy) {
+      dy[0] = y[1];
+      dy[1] = (y[0] - x * y[1]) / (x * (x + stiff));
+    };
   };
+  // beyond the bolts, but for a factor: inwards from where the rock is held, or the decaying solution
+  const auto beyond = [&](double x) {
+    if (std::isinf(ring.fixed_radius)) return Displacement{-1 / x, 1 / (x * x)};
+    const auto y = integrate_ode(equation(0), {0, 1}, ring.fixed_radius / ring.radius, x);
+    return Displacement{y[0], y[1]};
+  };
+  // continuity of displacement and of total radial stress gives the slope just inside the end
+  const Displacement outer = beyond(end);
+  const double slope = (radial_increment(outer, end, nu) - nu * outer.value / (end * (1 - 2 * nu))) /
+                       ((1 - nu) / (1 - 2 * nu) + beta / end);
   auto inside = [&](double x) {
-    const auto y = integrate_ode(right, {value, slope}, end, x);
+    const auto y = integrate_ode(equation(b), {outer.value, slope}, end, x);
     return Displacement{y[0], y[1]};
   };
 
@@ -118,8 +146,16 @@ BoltedRingState bolted_ring_at_by_ode(const BoltedRing& ring, double distance) {
   const Displacement wall = inside(1);
   const double scale =
       ring.in_situ_pressure / (2 * ring.shear_modulus) / (radial_increment(wall, 1, nu) + beta * wall.slope);
-  const Displacement u = rho > end ? Displacement{-1 / rho, 1 / (rho * rho)} : inside(rho);
+  const Displacement u = rho > end ? beyond(rho) : inside(rho);
   return state_of(ring, {scale * u.value, scale * u.slope}, rho, rho <= end);
+}
+
+double mean_bolt_force(const BoltedRing& ring) {
+  const double end = ring.radius + ring.bolt_length;
+  require(ring.bolt_length > 0, "bolts without length have no mean force");
+  // K_a s_mean u' along the bolt
+  return ring.bolt_stiffness * ring.mean_joint_spacing / ring.bolt_length *
+         (bolted_ring_at(ring, ring.radius).convergence - bolted_ring_at(ring, end).convergence);
 }
 
 }  // namespace voussoir::reference

@@ -75,6 +75,52 @@ TEST(BoltedRing, no_bolts_is_the_plain_opening) {
   EXPECT_NEAR(bolted_ring_at(ring, 6).convergence, 662175 * 25 / (2 * 0.385e9 * 6), 1e-12);
 }
 
+// Held at R: the closed form against integration from R inwards; R to infinity; u(R) = 0; no bolts: Lamé's annulus.
+TEST(BoltedRing, held_at_a_radius) {
+  for (const double shear_modulus : {0.2e9, 1.6e9})
+    for (const double poisson_ratio : {0.0, 0.37, 0.45})
+      for (const double held : {12.5, 20.0, 35.0, 400.0})
+        for (const double distance : {5.0, 8.0, 12.0, 12.3}) {
+          BoltedRing ring = boon_ring(shear_modulus, poisson_ratio);
+          ring.fixed_radius = held;
+          const BoltedRingState closed = bolted_ring_at(ring, distance), ode = bolted_ring_at_by_ode(ring, distance);
+          EXPECT_NEAR(closed.convergence, ode.convergence, 1e-8 * closed.convergence);
+          EXPECT_NEAR(closed.bolt_force, ode.bolt_force, 1e-8 * closed.bolt_force);
+          EXPECT_NEAR(closed.radial_stress, ode.radial_stress, 1e-8 * ring.in_situ_pressure);
+          EXPECT_NEAR(closed.hoop_stress, ode.hoop_stress, 1e-8 * ring.in_situ_pressure);
+        }
+  const BoltedRing endless = boon_ring(0.385e9, 0.2);
+  BoltedRing ring = endless;
+  double error[2];
+  for (const int further : {0, 1}) {
+    ring.fixed_radius = further ? 2e4 : 1e4;
+    error[further] = bolted_ring_at(endless, 5).bolt_force - bolted_ring_at(ring, 5).bolt_force;
+    EXPECT_NEAR(bolted_ring_at(ring, ring.fixed_radius).convergence, 0, 1e-15);
+  }
+  EXPECT_NEAR(error[0] / error[1], 4, 1e-3);  // falls as (a/R)²
+  EXPECT_LT(std::abs(error[1]), 1e-6 * bolted_ring_at(endless, 5).bolt_force);
+
+  // plain rock: u = B (1/r - r/R²), its radial stress 2G ((1 - nu) u' + nu u/r)/(1 - 2 nu) takes p0 off the wall
+  ring.bolt_stiffness = 0, ring.fixed_radius = 35;
+  const double a = 5, held = 35, nu = 0.2, two_g = 2 * 0.385e9;
+  const double slope = -1 / (a * a) - 1 / (held * held), value = 1 / a - a / (held * held);
+  const double factor = 662175 / two_g * (1 - 2 * nu) / ((1 - nu) * slope + nu * value / a);
+  EXPECT_NEAR(bolted_ring_at(ring, 5).convergence, -factor * value, 1e-15);
+  EXPECT_NEAR(662175 * a / (2 * modulus_of_held_rock(0.385e9, nu, a, held)), -factor * value, 1e-15);
+  EXPECT_NEAR(modulus_of_held_rock(0.385e9, nu, a, 1e7), 0.385e9, 1);
+  EXPECT_EQ(modulus_of_held_rock(0.385e9, nu, a, endless.fixed_radius), 0.385e9);
+}
+
+TEST(BoltedRing, mean_force_is_the_integral) {
+  BoltedRing ring = boon_ring(0.385e9, 0.3);
+  ring.fixed_radius = 35;
+  double sum = 0;
+  constexpr int steps = 2000;
+  for (int i = 0; i < steps; ++i)
+    sum += bolted_ring_at(ring, 5 + 7 * (i + 0.5) / steps).bolt_force / steps;
+  EXPECT_NEAR(mean_bolt_force(ring), sum, 1e-6 * sum);  // midpoint rule, second order in 1/2000
+}
+
 TEST(BoltedRing, scales_with_length_and_pressure) {
   const BoltedRing ring = boon_ring(0.385e9, 0.2);
   const BoltedRingState base = bolted_ring_at(ring, 6);
@@ -98,6 +144,10 @@ TEST(BoltedRing, refuses_bad_input) {
   EXPECT_THROW(bolted_ring_at(ring, 5), std::invalid_argument);
   ring = boon_ring(0.385e9, 0.2);
   EXPECT_THROW(bolted_ring_at(ring, 4.9), std::invalid_argument);
+  ring.fixed_radius = 11.9;  // within the bolts
+  EXPECT_THROW(bolted_ring_at(ring, 5), std::invalid_argument);
+  ring.fixed_radius = 20;
+  EXPECT_THROW(bolted_ring_at(ring, 20.1), std::invalid_argument);
   ring.tangential_spacing = 0;
   EXPECT_THROW(bolted_ring_at_by_ode(ring, 5), std::invalid_argument);
 }

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "reference/tunnel/bolted_ring.hpp"
+
 namespace voussoir::reference {
 namespace {
 
@@ -28,7 +30,9 @@ double lining_hoop_force(const SoftLining& lining) {
   const double flexibility = lining.radius * (1 - lining.lining_poisson_ratio * lining.lining_poisson_ratio) /
                                  (lining.lining_modulus * lining.lining_thickness) +
                              1 / (lining.interface_stiffness * lining.radius);
-  return lining.in_situ_pressure * lining.radius / (1 + 2 * lining.shear_modulus * flexibility);
+  const double modulus =
+      modulus_of_held_rock(lining.shear_modulus, lining.ground_poisson_ratio, lining.radius, lining.fixed_radius);
+  return lining.in_situ_pressure * lining.radius / (1 + 2 * modulus * flexibility);
 }
 
 RingLiningForces ring_lining(const RingLining& lining, LiningContact contact) {

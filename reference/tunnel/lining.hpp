@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 // Linings of a circular opening in elastic ground, plane strain, wished in place.
 // Thrust is compression positive; moment is sagging positive (tension on the inside); the angle runs from the crown.
 namespace voussoir::reference {
@@ -13,10 +15,14 @@ struct SoftLining {
   double lining_thickness = 0;      // t, m
   double interface_stiffness = 0;   // K_L, Pa/m
   double lining_poisson_ratio = 0;  // 0 for separate beams, as in a discrete-element lining
+  double fixed_radius = std::numeric_limits<double>::infinity();  // R, m, where the ground is held
+  double ground_poisson_ratio = 0;                                // of ground that is held
 };
 
-// N = p0 a / (1 + 2 G a (1 - nu_L^2) / (E t) + 2 G / (K_L a)), N per metre of tunnel (Boon 2013, after Eq. H.6). Throws
-// std::invalid_argument unless radius, moduli, thickness and stiffness are positive.
+// N = p0 a / (1 + 2 G a (1 - nu_L^2) / (E t) + 2 G / (K_L a)), N per metre of tunnel (Boon 2013, after Eq. H.6). Ground
+// that is held at R answers the wall as one of the modulus of `modulus_of_held_rock` (bolted_ring.hpp) without end
+// does, which takes the place of G. Throws std::invalid_argument unless radius, moduli, thickness and stiffness are
+// positive.
 double lining_hoop_force(const SoftLining& lining);
 
 // Einstein & Schwartz (1979), Simplified analysis for tunnel supports, J. Geotech. Eng. Div. ASCE 105, 499-518: the

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "reference/ode.hpp"
+
 using namespace voussoir::reference;
 
 namespace {
@@ -52,6 +54,35 @@ TEST(SoftLining, limits_and_scaling) {
   EXPECT_NEAR(lining_hoop_force(large), 10 * lining_hoop_force(boon_lining(0.1e9)), 1e-6);
   l.lining_thickness = 0;
   EXPECT_THROW(lining_hoop_force(l), std::invalid_argument);
+}
+
+// Ground held at R: plain rock integrated inwards from there, and the lining's pressure from the wall's two conditions,
+// displacement = pressure times the support's flexibility, stress taken off = p0 - pressure.
+TEST(SoftLining, held_ground_by_integration) {
+  for (const double held : {7.0, 35.0})
+    for (const double interface : {1e6, 0.1e9, 1e9}) {
+      SoftLining l = boon_lining(interface);
+      l.fixed_radius = held, l.ground_poisson_ratio = 0.4;
+      const auto wall = integrate_ode(
+          [](double r, const double* u, double* slope) {
+            slope[0] = u[1];
+            slope[1] = u[0] / (r * r) - u[1] / r;
+          },
+          {0, -1}, held, l.radius);
+      const double nu = 0.4;
+      const double stress = 2 * l.shear_modulus * ((1 - nu) * wall[1] + nu * wall[0] / l.radius) / (1 - 2 * nu);
+      const double flexibility =
+          l.radius * l.radius / (l.lining_modulus * l.lining_thickness) + 1 / l.interface_stiffness;
+      // inward wall -factor u = flexibility p, factor stress = p0 - p
+      const double factor = l.in_situ_pressure / (stress - wall[0] / flexibility);
+      EXPECT_NEAR(lining_hoop_force(l) / (-factor * wall[0] / flexibility * l.radius), 1, 1e-9);
+      EXPECT_LT(lining_hoop_force(l), lining_hoop_force(boon_lining(interface)));
+      l.fixed_radius = 1e8;
+      EXPECT_NEAR(lining_hoop_force(l), lining_hoop_force(boon_lining(interface)), 1e-6);
+    }
+  SoftLining inside = boon_lining(1e6);
+  inside.fixed_radius = 4;
+  EXPECT_THROW(lining_hoop_force(inside), std::invalid_argument);
 }
 
 // --- Einstein & Schwartz
