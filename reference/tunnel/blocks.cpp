@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -355,14 +356,18 @@ void tie_to_wall(Lining& lining, const std::vector<Face>& wall, double normal_st
 double convergence_at(const Network& network, const Solution& solution, const std::vector<Face>& wall,
                       const Point& centre, double angle) {
   const Point ray{std::cos(angle), std::sin(angle)};
+  // the wall's place that is nearest to the ray: no gap of rounding between two faces lets it through
+  double least = std::numeric_limits<double>::infinity(), answer = 0;
   for (const Face& face : wall) {
     const double start = cross(ray, minus(face.start, centre)), end = cross(ray, minus(face.end, centre));
-    if ((start < 0) == (end < 0)) continue;
-    const Point at = along(face.start, face.end, start / (start - end));
-    if (dot(ray, minus(at, centre)) < 0) continue;
-    return -dot(ray, displacement(network, solution, face.first, at));
+    const Point at = along(face.start, face.end, start == end ? 0 : std::clamp(start / (start - end), 0.0, 1.0));
+    const double away = std::abs(cross(ray, minus(at, centre)));
+    if (dot(ray, minus(at, centre)) < 0 || !(away < least)) continue;
+    least = away;
+    answer = -dot(ray, displacement(network, solution, face.first, at));
   }
-  refuse("the ray at " + std::to_string(angle) + " rad does not meet the wall");
+  if (std::isinf(least)) refuse("there is no wall in the direction of " + std::to_string(angle) + " rad");
+  return answer;
 }
 
 double mean_convergence(const Network& network, const Solution& solution, const std::vector<Face>& wall,

@@ -32,6 +32,9 @@ bool is_unit(const Point& direction) {
 double cross(const Point& a, const Point& b) {
   return a[0] * b[1] - a[1] * b[0];
 }
+double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1];
+}
 Point minus(const Point& a, const Point& b) {
   return {a[0] - b[0], a[1] - b[1]};
 }
@@ -137,8 +140,9 @@ void check(const Network& network) {
     const std::string name = "bolt " + std::to_string(i);
     check_pair(network, b.first, b.second, name);
     if (!is_unit(b.axis)) refuse(name + " needs a unit axis");
-    if (!is_stiffness(b.stiffness) || !is_stiffness(b.across) || !std::isfinite(b.pretension))
-      refuse(name + " must have stiffnesses that are not negative and a finite pretension");
+    if (!is_stiffness(b.stiffness) || !is_stiffness(b.across) || !std::isfinite(b.pretension) ||
+        !std::isfinite(b.installed))
+      refuse(name + " must have stiffnesses that are not negative, and a finite pretension");
   }
 }
 
@@ -187,7 +191,7 @@ void add_joints(Assembly& a) {
   for (const Bolt& b : a.network.bolts) {
     Row axial = a.between(b.first, b.first_anchor, b.second, b.second_anchor, b.axis);
     axial.stiffness = b.stiffness;
-    axial.start = b.pretension;
+    axial.start = b.pretension - b.stiffness * b.installed;
     Row across = a.between(b.first, b.second_anchor, b.second, b.second_anchor, turned(b.axis));
     across.stiffness = b.across;
     a.rows.insert(a.rows.end(), {axial, across});
@@ -204,6 +208,7 @@ void add_ties(Assembly& a) {
       row.add(3 * (a.blocks() + tie.node), direction[0]);
       row.add(3 * (a.blocks() + tie.node) + 1, direction[1]);
       row.stiffness = (along ? tie.shear_stiffness : tie.normal_stiffness) * tie.length;
+      row.start = -row.stiffness * tie.installed[along];
       a.rows.push_back(row);
     }
 }
@@ -383,6 +388,18 @@ Point displacement(const Network& network, const Solution& solution, int block, 
   const Freedoms& moved = solution.blocks[block];
   const Point arm = minus(at, centroid(network.blocks[block]));
   return {moved[0] - moved[2] * arm[1], moved[1] + moved[2] * arm[0]};
+}
+
+void install(Network& network, const Solution& before) {
+  if (before.blocks.size() != network.blocks.size())
+    refuse("supports are installed after a solution of the same blocks");
+  for (Bolt& bolt : network.bolts)
+    bolt.installed = dot(bolt.axis, minus(displacement(network, before, bolt.second, bolt.second_anchor),
+                                          displacement(network, before, bolt.first, bolt.first_anchor)));
+  for (Tie& tie : network.lining.ties) {
+    const Point wall = displacement(network, before, tie.block, network.lining.nodes[tie.node].at);
+    tie.installed = {-dot(wall, tie.normal), -dot(wall, turned(tie.normal))};
+  }
 }
 
 Solution solve(const Network& network) {

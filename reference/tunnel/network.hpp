@@ -51,7 +51,8 @@ struct Bolt {
   Point first_anchor, second_anchor, axis;
   double stiffness = 0;   // K, N/m
   double across = 0;      // N/m
-  double pretension = 0;  // F0, N: f = K extension + F0
+  double pretension = 0;  // F0, N: f = K (extension - installed) + F0
+  double installed = 0;   // m, extension that went before
 };
 
 // A joint of the beams. Held and loaded as a block, about its place.
@@ -70,6 +71,7 @@ struct Tie {
   double length = 0;            // m, tributary
   double normal_stiffness = 0;  // Pa/m
   double shear_stiffness = 0;   // Pa/m
+  Point installed{};            // m, of node against wall, along the normal and the normal turned, that went before
 };
 
 // Euler-Bernoulli beams from node to node, counter-clockwise as seen from inside: the inside is on the left.
@@ -114,6 +116,10 @@ struct Solution {
   std::vector<BeamForce> beams;   // from node i to i + 1
   double unbalanced = 0;          // largest force left on a freedom, over the largest load or spring force on any
 };
+
+// Puts the supports in when the blocks have moved by `before`, a solution of a network with these blocks: bolts have
+// only their pretension, ties no force there. Displacements of nodes then count from where the wall had come to.
+void install(Network& network, const Solution& before);
 
 // Displacement of a block's point, m.
 Point displacement(const Network& network, const Solution& solution, int block, const Point& at);
