@@ -115,7 +115,7 @@ std::vector<std::pair<int, int>> near_pairs(const std::vector<Edge>& edges, doub
       if (dot(a.direction, b.direction) < 0) pairs.emplace_back(std::get<2>(places[i]), std::get<2>(places[k]));
     }
   std::ranges::sort(pairs);
-  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
 

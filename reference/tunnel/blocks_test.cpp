@@ -201,4 +201,30 @@ TEST(NetworkBlocks, ties_at_corners_and_joints) {
   EXPECT_THROW(tie_to_wall(lining, wall(blocks, opening, 1e-9), 1e9, 1e8, 1e-9), std::invalid_argument);
 }
 
+// Nodes on a hundred rays to an outline of twelve sides: beams cut the corners, every node rests on the side it lies
+// on.
+TEST(NetworkBlocks, ring_on_rays) {
+  Polygon outline = regular(12, 5);
+  const std::vector<Block> blocks =
+      take_out(cut(box(-9, -9, 9, 9), persistent_sets({0.2, 1.3, 2.2}, {0.1, 0.4, 0.8}, 0.7, 13), 1e-9), outline, 1e-9);
+  Lining lining{{}, true, 1e9, 1e7, {}};
+  for (int i = 0; i < 100; ++i) {
+    const double angle = 2 * pi * (i + 0.4) / 100;
+    const double from_middle = std::remainder(angle - 2 * pi * 0.8 / 12, pi / 6),
+                 r = 5 * std::cos(pi / 12) / std::cos(from_middle);
+    lining.nodes.push_back({{r * std::cos(angle), r * std::sin(angle)}});
+  }
+  tie_to_wall(lining, wall(blocks, outline, 1e-8), 1e9, 1e9, 1e-8);
+  EXPECT_EQ(lining.ties.size(), 100u);
+  double tied = 0, around = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Point &here = lining.nodes[i].at, &next = lining.nodes[(i + 1) % 100].at;
+    around += std::hypot(next[0] - here[0], next[1] - here[1]);
+    tied += lining.ties[i].length;
+    EXPECT_EQ(lining.ties[i].node, i);
+    EXPECT_LT(lining.ties[i].normal[0] * here[0] + lining.ties[i].normal[1] * here[1], -5 * std::cos(pi / 12) + 1e-9);
+  }
+  EXPECT_NEAR(tied, around, 1e-9);
+}
+
 }  // namespace

@@ -110,8 +110,8 @@ void check_block(const Block& block, int i) {
     if (part.size() < 3) refuse(name + " has a part of fewer than three corners");
     for (const Point& corner : part)
       if (!std::isfinite(corner[0]) || !std::isfinite(corner[1])) refuse(name + " has a corner that is not finite");
+    if (!(area(Block{{part}}) > 0)) refuse(name + " has a part without area; give its corners counter-clockwise");
   }
-  if (!(area(block) > 0)) refuse(name + " has no area; give its corners counter-clockwise");
   for (int k = 0; k < 3; ++k)
     if (!std::isfinite(block.load[k]) || !std::isfinite(block.imposed[k]))
       refuse(name + " has a load or displacement that is not finite");

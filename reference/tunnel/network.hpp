@@ -10,7 +10,11 @@
 //                 shear: ks l times the slip, and no couple, since a turn moves points of a face along its normal only.
 //   not the same  finite turns and slips, the share of a face that slips away or closes at corners with overlap,
 //                 the force that a stressed joint or a pretensioned bolt carries along as it turns: all of the order
-//                 of displacement over block size. Friction, tension cut off: none here.
+//                 of displacement over block size. Friction, tension cut off: none here. And the path: shear that
+//                 built up while faces came into contact stays in the program's joints, so that increments from a
+//                 settled state are what compares.
+// Three bricks, partly on each other, settled and then pushed at the top: displacements and turns of the program and of
+// this network with spread agree to 6e-5; without spread turns are a third too large.
 #pragma once
 
 #include <array>
