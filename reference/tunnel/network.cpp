@@ -140,8 +140,7 @@ void check(const Network& network) {
     const std::string name = "bolt " + std::to_string(i);
     check_pair(network, b.first, b.second, name);
     if (!is_unit(b.axis)) refuse(name + " needs a unit axis");
-    if (!is_stiffness(b.stiffness) || !is_stiffness(b.across) || !std::isfinite(b.pretension) ||
-        !std::isfinite(b.installed))
+    if (!is_stiffness(b.stiffness) || !is_stiffness(b.across) || !std::isfinite(b.pretension))
       refuse(name + " must have stiffnesses that are not negative, and a finite pretension");
   }
 }
@@ -191,9 +190,10 @@ void add_joints(Assembly& a) {
   for (const Bolt& b : a.network.bolts) {
     Row axial = a.between(b.first, b.first_anchor, b.second, b.second_anchor, b.axis);
     axial.stiffness = b.stiffness;
-    axial.start = b.pretension - b.stiffness * b.installed;
+    axial.start = b.pretension - b.stiffness * b.installed[0];
     Row across = a.between(b.first, b.second_anchor, b.second, b.second_anchor, turned(b.axis));
     across.stiffness = b.across;
+    across.start = -b.across * b.installed[1];
     a.rows.insert(a.rows.end(), {axial, across});
   }
 }
@@ -393,9 +393,12 @@ Point displacement(const Network& network, const Solution& solution, int block, 
 void install(Network& network, const Solution& before) {
   if (before.blocks.size() != network.blocks.size())
     refuse("supports are installed after a solution of the same blocks");
-  for (Bolt& bolt : network.bolts)
-    bolt.installed = dot(bolt.axis, minus(displacement(network, before, bolt.second, bolt.second_anchor),
-                                          displacement(network, before, bolt.first, bolt.first_anchor)));
+  for (Bolt& bolt : network.bolts) {
+    const Point toe = displacement(network, before, bolt.second, bolt.second_anchor);
+    const Point collar = displacement(network, before, bolt.first, bolt.first_anchor);
+    const Point beside = displacement(network, before, bolt.first, bolt.second_anchor);
+    bolt.installed = {dot(bolt.axis, minus(toe, collar)), dot(turned(bolt.axis), minus(toe, beside))};
+  }
   for (Tie& tie : network.lining.ties) {
     const Point wall = displacement(network, before, tie.block, network.lining.nodes[tie.node].at);
     tie.installed = {-dot(wall, tie.normal), -dot(wall, turned(tie.normal))};

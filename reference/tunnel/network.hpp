@@ -56,7 +56,7 @@ struct Bolt {
   double stiffness = 0;   // K, N/m
   double across = 0;      // N/m
   double pretension = 0;  // F0, N: f = K (extension - installed) + F0
-  double installed = 0;   // m, extension that went before
+  Point installed{};      // m, extension along the axis and slip across it that went before
 };
 
 // A joint of the beams. Held and loaded as a block, about its place.
@@ -122,7 +122,8 @@ struct Solution {
 };
 
 // Puts the supports in when the blocks have moved by `before`, a solution of a network with these blocks: bolts have
-// only their pretension, ties no force there. Displacements of nodes then count from where the wall had come to.
+// only their pretension, dowels and ties no force there. Displacements of nodes then count from where the wall had come
+// to.
 void install(Network& network, const Solution& before);
 
 // Displacement of a block's point, m.

@@ -159,6 +159,26 @@ TEST(Network, dowel_keeps_the_balance_of_moments) {
   EXPECT_NEAR(moment, 0, 1e-6);
 }
 
+// Put in after half of the load, bolt and dowel take half of what they take of all of it, pretension apart.
+TEST(Network, installed_under_load) {
+  Network network;
+  network.blocks = {ground(box(-1, -1, 1, 0)), {{box(-1, 0, 1, 2)}}};
+  network.springs = springs(faces(network.blocks, 1e-6), 2, 1e9, 1e8);
+  Network bare = network;
+  add_force(bare.blocks[1], {1, 1.7}, {0.5e5, 0.2e5});
+  network.bolts = {{1, 0, {0.3, 0.4}, {0.5, -0.2}, {std::sqrt(0.1), -std::sqrt(0.9)}, 1e8, 5e8}};
+  add_force(network.blocks[1], {1, 1.7}, {1e5, 0.4e5});
+  const BoltForce at_once = solve(network).bolts[0];
+  install(network, solve(bare));
+  const BoltForce late = solve(network).bolts[0];
+  ASSERT_GT(std::abs(at_once.axial), 1e3);
+  ASSERT_GT(std::abs(at_once.across), 1e3);
+  EXPECT_NEAR(late.axial, at_once.axial / 2, 1e-7);
+  EXPECT_NEAR(late.across, at_once.across / 2, 1e-7);
+  network.blocks.pop_back();
+  EXPECT_THROW(install(network, solve(bare)), std::invalid_argument);
+}
+
 // Long beam on springs, load in the middle: w = P b/(2 k), M = P/(4 b), b = (k/4EI)^(1/4) (Hetényi 1946).
 TEST(Network, beam_on_an_elastic_foundation) {
   constexpr double ei = 56.25e6, foundation = 1e9, load = 1e5;
