@@ -25,6 +25,7 @@ enum class Source {
   water_pressure,
   let_off,
   bolts,
+  lining,
   prescribed_motion,
   local_damping,
   relaxation,
@@ -33,6 +34,7 @@ enum class Source {
   dashpots,
   stiffening,
   bolt_yield,
+  lining_slip,
   gravity_ramp,
   water_change,
   stage_changes
@@ -61,6 +63,7 @@ inline constexpr std::array<SourceRow, source_count> source_table{{
     {Source::water_pressure, "water_pressure", "water_load", 1, 0, 0, 0, 1},  // others: on some faces, or several
     {Source::let_off, "let_off", "", 1, 0, 0, 0, 1},                          // what excavated rock still holds
     {Source::bolts, "bolts", "bolt_load", 1, 1, 0, 0, 0},
+    {Source::lining, "lining", "lining_load", 1, 1, 0, 0, 0},  // its beams and its interface
     {Source::prescribed_motion, "prescribed_motion", "", 1, 0, 0, 0, 1},
     {Source::local_damping, "local_damping", "", -1, 0, 0, 1, 0},
     {Source::relaxation, "relaxation", "", -1, 0, 0, 1, 0},
@@ -69,6 +72,7 @@ inline constexpr std::array<SourceRow, source_count> source_table{{
     {Source::stiffening, "stiffening", "", 0, 1, 0, 0, 0},  // lost by shear springs that grew stiffer with stress under
                                                             // their force; negative: made
     {Source::bolt_yield, "bolt_yield", "", 0, 1, 0, 0, 0},  // lost by bolts that yield, slip or break
+    {Source::lining_slip, "lining_slip", "", 0, 1, 0, 0, 0},  // lost where a lining slips on rock, or its bond breaks
     {Source::gravity_ramp, "gravity_ramp", "", 0, 0, 1, 0, 1},    // put in by gravity that grows
     {Source::water_change, "water_change", "", 0, 0, 1, 0, 1},    // put in by a table on all faces that rises
     {Source::stage_changes, "stage_changes", "", 0, 0, 0, 0, 1},  // put in by changes of the model between stages, and
@@ -92,7 +96,7 @@ enum class LedgerPhase { not_begun, model_changed, running };
 struct EnergyLedger {
   EnergyFlows flows;
   double kinetic = 0;  // ½ m v₋·v₊ and the same for spins (v₋, v₊: half a step before and after): negative at a turn
-  double elastic = 0;                             // held by the springs of the touching contacts and of bolts
+  double elastic = 0;                             // held by the springs of the touching contacts, of bolts and linings
   double kinetic_origin = 0, elastic_origin = 0;  // at the first step, moved by changes of the model
   double motion_error = 0, contact_error = 0;     // what each balance could not account for
   double worst_error = 0;                         // the largest |motion_error + contact_error| so far

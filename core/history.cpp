@@ -6,6 +6,7 @@
 
 #include "core/monitor.hpp"
 #include "core/reduction/reduction.hpp"
+#include "core/step/lining_forces.hpp"
 #include "core/waters.hpp"
 #include "text/angle.hpp"
 
@@ -136,6 +137,38 @@ std::vector<BoltRow> bolt_rows(const Model<Dim>& model, const State<Dim>& state,
   return rows;
 }
 
+template <int Dim>
+std::vector<LiningRow> lining_rows(const Model<Dim>& model, const State<Dim>& state, int stage) {
+  std::vector<LiningRow> rows;
+  if constexpr (Dim == 2)
+    for (const LiningState& lined : state.linings) {
+      const Lining& lining = model.linings[lined.lining];
+      const std::vector<SectionForces> forces = forces_at_nodes(lining, forces_of_beams(lining, state));
+      const std::vector<double> smoothed = smoothed_moments(lining, forces);
+      for (std::size_t i = 0; i < lining.nodes.size(); ++i) {
+        const LiningNode& node = lining.nodes[i];
+        const LiningContact &before = lined.contacts[2 * i], &after = lined.contacts[2 * i + 1];
+        const Vector<2>& moved = state.motions[lining.first_body + i].displacement;
+        const Vector<2> at = model.origin + node.place + moved;
+        const double length = node.half_length[0] + node.half_length[1];
+        const int rock = before.rock >= 0 ? before.rock : after.rock;
+        LiningRow row{.stage = stage, .lining = lining.properties.name, .node = static_cast<int>(i) + 1};
+        row.x = at[0];
+        row.y = at[1];
+        row.ux = moved[0];
+        row.uy = moved[1];
+        row.forces = forces[i];
+        if (!smoothed.empty()) row.smoothed_moment = smoothed[i];
+        row.pressure = (before.normal + after.normal) / length;
+        row.shear = (before.shear + after.shear) / length;
+        row.rock = rock < 0 ? -1 : lined.rock[rock].body;
+        row.use = use_of(lining.properties, forces[i]);
+        rows.push_back(row);
+      }
+    }
+  return rows;
+}
+
 template std::vector<int> properties_changed<2>(const Model<2>&, const Change&);
 template std::vector<int> properties_changed<3>(const Model<3>&, const Change&);
 template std::vector<std::string> history_columns<2>(const Prepared<2>&);
@@ -145,5 +178,7 @@ template std::vector<double> history_row<3>(const Prepared<3>&, const Model<3>&,
 
 template std::vector<BoltRow> bolt_rows<2>(const Model<2>&, const State<2>&, int);
 template std::vector<BoltRow> bolt_rows<3>(const Model<3>&, const State<3>&, int);
+template std::vector<LiningRow> lining_rows<2>(const Model<2>&, const State<2>&, int);
+template std::vector<LiningRow> lining_rows<3>(const Model<3>&, const State<3>&, int);
 
 }  // namespace voussoir

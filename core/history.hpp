@@ -28,4 +28,8 @@ std::vector<double> history_row(const Prepared<Dim>& scene, const Model<Dim>& mo
 template <int Dim>
 std::vector<BoltRow> bolt_rows(const Model<Dim>& model, const State<Dim>& state, int stage);
 
+// what every node of a lining carries at the end of a stage, counted from 1
+template <int Dim>
+std::vector<LiningRow> lining_rows(const Model<Dim>& model, const State<Dim>& state, int stage);
+
 }  // namespace voussoir

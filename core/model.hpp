@@ -13,13 +13,15 @@
 #include "core/optimise/solvers.hpp"
 #include "core/settings.hpp"
 #include "core/support/bolt.hpp"
+#include "core/support/lining.hpp"
 
 namespace voussoir {
 
 template <int Dim>
 struct Body {
   std::string name;                                      // empty when the scene gave none
-  std::vector<Polytope<Dim>> parts;                      // one or more, in the body's frame: origin at its centroid
+  std::vector<Polytope<Dim>> parts;                      // in the body's frame: origin at its centroid; none: a node of
+                                                         // a lining
   Vector<Dim> reference = Vector<Dim>::Zero();           // centroid at the start, m
   double mass = 0;                                       // kg (2-D: per metre)
   Spin<Dim> inertia = Spin<Dim>::Zero();                 // principal moments, kg m²
@@ -119,6 +121,7 @@ struct Model {
   std::vector<Excavation<Dim>> excavations;     // that stages take out, in the order of the scene
   std::vector<BoltProperties> bolt_properties;  // by name, in alphabetical order
   std::vector<Bolt<Dim>> bolts;                 // by their properties: what stages install
+  std::vector<Lining> linings;                  // likewise, by name, in alphabetical order; in the plane
   int default_properties = 0;                   // of contacts between faces that no joint made
   Vector<Dim> gravity = Vector<Dim>::Zero();    // m/s²
   Solvers<Dim> solvers;                         // the two convex programs' solvers in use
@@ -171,7 +174,7 @@ template <int Dim>
 void load_boundary(Model<Dim>& model, int body, const DepthStress<Dim>& stress);
 
 // The model of the next stage: prescribed motions ended, regions excavated (excavation.hpp), bodies fixed, released or
-// removed, friction set, outer faces stressed, forces applied, motions prescribed. Two motions of one body are a
+// removed, friction set, outer faces stressed, forces applied, linings' nodes added, motions prescribed. Two motions of one body are a
 // mistake of the caller.
 template <int Dim>
 Model<Dim> apply(Model<Dim> model, const Change& change);

@@ -20,7 +20,8 @@ enum class Quantity {
   contact_force,
   whole_bonds,
   level,
-  bolt_force
+  bolt_force,
+  lining_force
 };
 
 // what a monitor may follow in history.csv
@@ -32,7 +33,7 @@ struct Monitored {
 };
 
 // every such quantity: of a body, the loads of each source among them; of a joint the resultant over its contacts and
-// its bonds; of a water its level; of bolts their forces
+// its bonds; of a water its level; of bolts and linings their forces
 inline std::vector<Monitored> monitored_quantities() {
   std::vector<Monitored> all{{"displacement", Quantity::displacement},
                              {"velocity", Quantity::velocity},
@@ -44,6 +45,7 @@ inline std::vector<Monitored> monitored_quantities() {
   all.push_back({"whole_bonds", Quantity::whole_bonds});
   all.push_back({"level", Quantity::level});
   all.push_back({"bolt_force", Quantity::bolt_force});
+  all.push_back({"lining_force", Quantity::lining_force});
   return all;
 }
 
@@ -54,10 +56,12 @@ enum class Over { one, sum, mean };
 struct Monitor {
   std::string name;
   Monitored followed{"displacement", Quantity::displacement};
-  int subject = 0;  // body, or joint for contact_force and whole_bonds, or water for level, or Model::bolt_properties
+  int subject = 0;  // body, or joint for contact_force and whole_bonds, or water for level, or Model::bolt_properties,
+                    // or Model::linings
   int points = 0;   // of a level: how many its table has; 0: a pressure
   Over over{};      // of bodies
   std::vector<int> group{};  // where it is over several: the bodies, ascending
+  int node = -1;             // of a lining, that is followed; -1: the largest of all
 };
 
 template <int Dim>

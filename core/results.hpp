@@ -52,13 +52,28 @@ struct BoltRow {
   bool broken = false;
 };
 
+// a node of a lining at the end of a stage (core/output/lining_csv.hpp)
+struct LiningRow {
+  int stage = 1;
+  std::string lining;
+  int node = 1;
+  double x = 0, y = 0;                    // m, world coordinates, where it is
+  double ux = 0, uy = 0;                  // m, since it was installed
+  SectionForces forces;                   // means of its beams'
+  std::optional<double> smoothed_moment;  // N m
+  double pressure = 0, shear = 0;         // Pa, of the rock on the outline that it stands for
+  int rock = -1;                          // the block opposite; -1: none
+  std::optional<double> use;              // of its strength
+};
+
 struct Results {
   Outcome outcome = Outcome::done;
   std::string message;                                // one line: why it is incomplete or failed
   std::vector<std::pair<std::string, Value>> values;  // in the order found; names unique
   std::vector<StageResult> stages;
   History history;
-  std::vector<BoltRow> bolts;  // by stage, then by bolt
+  std::vector<BoltRow> bolts;      // by stage, then by bolt
+  std::vector<LiningRow> linings;  // by stage, then by lining and node
   Counters counters;
   std::optional<BondCount> bonds;  // where a stage makes some
   EnergyLedger energy;

@@ -235,7 +235,7 @@ struct Change {
   std::vector<ForcePlan> force{};
   std::optional<double> friction;           // rad: new friction angle of every joint
   std::vector<FrictionPlan> friction_of{};  // then that of some
-  std::vector<std::string> install{};       // Model::bolt_properties whose bolts are put in
+  std::vector<std::string> install{};       // Model::bolt_properties and Model::linings that are put in
   bool bond = false;                        // closed joints with tensile strength or cohesion are bonded
   bool zero_slip = false;                   // every joint's plastic slip begins again at 0
 };

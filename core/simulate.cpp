@@ -10,6 +10,7 @@
 
 #include "core/accuracy.hpp"
 #include "core/history.hpp"
+#include "core/cast_lining.hpp"
 #include "core/install.hpp"
 #include "core/motion/free_fall.hpp"
 #include "core/motion/relaxation.hpp"
@@ -279,10 +280,16 @@ struct Simulation {
     }
     remove_bonds(model, state);
     remove_springs(model, state);
+    release_linings(model, state);
     for (const std::string& idle : install(model, plan().change.install, state))
       results.warnings.push_back(fmt::format(
           "stage {}: the bolts '{}' cross no joint between two blocks and hold nothing; lengthen or move them, or "
           "install them before their blocks are taken out",
+          plan().name, idle));
+    for (const std::string& idle : cast_linings(model, plan().change.install, state))
+      results.warnings.push_back(fmt::format(
+          "stage {}: no block has a face on the outline of the lining '{}', so that nothing holds it; install it after "
+          "its excavation is taken out",
           plan().name, idle));
     if (plan().change.zero_slip) zero_slip(state);
     if (plan().change.bond) make_bonds(model, settings, state);
@@ -326,6 +333,8 @@ struct Simulation {
     finish_rows(now);
     for (BoltRow& bolt : bolt_rows(model, now, progress.stage + 1))
       results.bolts.push_back(std::move(bolt));
+    for (LiningRow& node : lining_rows(model, now, progress.stage + 1))
+      results.linings.push_back(std::move(node));
     frame(now);
     report_progress(state, r.ended, r.unbalanced, 1);
   }

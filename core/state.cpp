@@ -29,6 +29,18 @@ State<Dim> initial_state(const Model<Dim>& model) {
 }
 
 template <int Dim>
+void forget_lists(State<Dim>& state) {
+  state.built.clear();
+  state.counted_at.clear();
+  state.path_bounds.clear();
+  state.left_behind.clear();
+  state.poses.clear();
+  state.by_body = {};
+  state.contact_loads.clear();
+  state.frequency.clear();
+}
+
+template <int Dim>
 void set_strength(const Model<Dim>& model, Searched searched, const std::vector<int>& properties, double level,
                   Schedule& schedule) {
   if (searched == Searched::factor) schedule.strength_factor.resize(model.properties.size(), 1);
@@ -93,6 +105,8 @@ void list_by_body(const Model<Dim>& model, State<Dim>& state) {
   each([&](int body, int place) { places[--first[body]] = place; });
 }
 
+template void forget_lists<2>(State<2>&);
+template void forget_lists<3>(State<3>&);
 template State<2> initial_state<2>(const Model<2>&);
 template State<3> initial_state<3>(const Model<3>&);
 template void set_strength<2>(const Model<2>&, Searched, const std::vector<int>&, double, Schedule&);

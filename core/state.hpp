@@ -79,7 +79,7 @@ template <int Dim>
 struct PairStiffness {
   using Block = Eigen::Matrix<double, freedoms<Dim>, freedoms<Dim>>;
   using Wrench = Eigen::Matrix<double, freedoms<Dim>, 1>;
-  int contact = 0;  // place in State::contacts; -1: a bolt
+  int contact = 0;  // place in State::contacts; -1: of a bolt or a lining
   int body_a = 0, body_b = 0;
   Block stiffness = Block::Zero();          // minus the derivative, N/m, N and N m
   Wrench wrench = Wrench::Zero();           // as it is, N and N m
@@ -110,6 +110,7 @@ struct NewtonIncrement {
   std::vector<Motion<Dim>> base;               // by body
   std::vector<BaseHistory<Dim>> histories;     // by contact
   std::vector<BoltSpring<Dim>> springs;        // as they were at the base
+  std::vector<LiningState> linings;            // likewise
   std::vector<JointState<Dim>> sub_histories;  // as many places for each contact
   long long listed = 0;                        // Counters::neighbour_builds that they belong to
   LoadsBySource<Dim> loads_begin;              // at the base, under the loads of now
@@ -228,6 +229,7 @@ struct State {
   Schedule schedule;
   std::vector<HeldLoad<Dim>> held;            // by excavation, then by body
   std::vector<BoltSpring<Dim>> bolt_springs;  // of the bolts installed so far, in their order
+  std::vector<LiningState> linings;           // installed so far
   BondTally bonds;
   double time = 0;          // s
   double time_step = 0;     // s: of the last step; 0 at the start
@@ -259,6 +261,10 @@ std::span<const int> contacts_of(const State<Dim>& state, int body) {
   if (first.empty()) return {};  // no candidates have been listed
   return std::span(places).subspan(first[body], first[body + 1] - first[body]);
 }
+
+// Lists, poses and loads that are found again from motions and contacts.
+template <int Dim>
+void forget_lists(State<Dim>& state);
 
 // rest at the reference configuration
 template <int Dim>

@@ -80,6 +80,15 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
     bytes.add(s.force);
     bytes.add(s.shear);
   }
+  for (const LiningState& lined : state.linings) {
+    bytes.add(lined.lining);
+    for (const LiningContact& c : lined.contacts) {
+      bytes.add(c.rock);
+      for (const double x : {c.closure, c.place, c.shear, c.plastic_slip, c.normal})
+        bytes.add(x);
+      bytes.add(static_cast<int>(c.bonded));
+    }
+  }
   for (const HeldLoad<Dim>& held : state.held) {
     bytes.add(held.body);
     bytes.add(held.load.force);

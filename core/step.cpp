@@ -2,6 +2,7 @@
 
 #include "core/step/bolt_forces.hpp"
 #include "core/step/joint_forces.hpp"
+#include "core/step/lining_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
 #include "core/step/neighbours.hpp"
@@ -18,8 +19,9 @@ void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   // while all of it is at hand: overlap and slip to forces, histories renewed
   find_joint_forces(model, settings, state);
 
-  // what bolts answer to where their anchors have gone
+  // what bolts answer to where their anchors have gone, and linings to where their rock has
   find_bolt_forces(model, state);
+  find_lining_forces(model, settings, state);
 
   // what acts on each body: joint forces in the order of the contacts, then gravity
   sum_loads(model, settings, state);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/cast_lining.hpp"
 #include "core/excavation.hpp"
 #include "core/step.hpp"
 
@@ -112,19 +113,6 @@ void carry_springs(const Model<Dim>& before, const Model<Dim>& model, const Exca
                 [&](BoltSpring<Dim>& s) { return !is_left(s.body_a, s.place_a) || !is_left(s.body_b, s.place_b); });
 }
 
-// what is found again from motions and contacts
-template <int Dim>
-void forget_lists(State<Dim>& state) {
-  state.built.clear();
-  state.counted_at.clear();
-  state.path_bounds.clear();
-  state.left_behind.clear();
-  state.poses.clear();
-  state.by_body = {};
-  state.contact_loads.clear();
-  state.frequency.clear();
-}
-
 template <int Dim>
 std::vector<Load<Dim>> loads_now(const Model<Dim>& model, const Settings& settings, State<Dim> state) {
   find_forces(model, settings, state);
@@ -144,6 +132,7 @@ void take_out(const std::vector<std::string>& names, const Settings& settings, b
   carry_motions(before, model, moved, state);
   carry_contacts(before, model, moved, motions, state);
   carry_springs(before, model, moved, state);
+  carry_linings(before, model, moved, state);
   forget_lists(state);
   if (!hold) return;
 

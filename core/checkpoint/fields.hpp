@@ -154,13 +154,31 @@ void serialize(Archive& archive, BoltSpring<Dim>& s) {
           force, shear);
 }
 
+template <class Archive>
+void serialize(Archive& archive, LiningRock& r) {
+  auto& [side, body, corner, normal, from, to] = r;
+  archive(side, body, corner, normal, from, to);
+}
+
+template <class Archive>
+void serialize(Archive& archive, LiningContact& c) {
+  auto& [rock, bonded, closure, place, shear, plastic_slip, shear_stiffness, normal, dashpot] = c;
+  archive(rock, bonded, closure, place, shear, plastic_slip, shear_stiffness, normal, dashpot);
+}
+
+template <class Archive>
+void serialize(Archive& archive, LiningState& l) {
+  auto& [lining, rock, contacts] = l;
+  archive(lining, rock, contacts);
+}
+
 template <class Archive, int Dim>
 void serialize(Archive& archive, NewtonIncrement<Dim>& n) {
   auto& [under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
-         regularisation, overshoot, base, histories, springs, sub_histories, listed, loads_begin, energy, accepted,
+         regularisation, overshoot, base, histories, springs, linings, sub_histories, listed, loads_begin, energy, accepted,
          residual, change, merits, stiffness, closed, of_water] = n;
   archive(under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
-          regularisation, overshoot, base, histories, springs, sub_histories, listed, loads_begin.values, energy,
+          regularisation, overshoot, base, histories, springs, linings, sub_histories, listed, loads_begin.values, energy,
           accepted, residual, change, merits, stiffness, closed, of_water);
 }
 
@@ -174,10 +192,10 @@ template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
   // poses, loads by source with their stiffness, lists by body and loads of contacts are rebuilt before they are read
   auto& [motions, loads, loads_of, stiffened, contacts, subs, built, counted_at, path_bounds, left_behind, poses,
-         by_body, contact_loads, frequency, relaxation, newton, schedule, held, bolt_springs, bonds, time, time_step,
-         step_allowed, energy, counters] = s;
+         by_body, contact_loads, frequency, relaxation, newton, schedule, held, bolt_springs, linings, bonds, time,
+         time_step, step_allowed, energy, counters] = s;
   archive(motions, loads, contacts, subs, built, counted_at, path_bounds, left_behind, frequency, relaxation, newton,
-          schedule, held, bolt_springs, bonds, time, time_step, step_allowed, energy, counters);
+          schedule, held, bolt_springs, linings, bonds, time, time_step, step_allowed, energy, counters);
 }
 
 template <class Archive, int Dim>
@@ -225,10 +243,17 @@ void serialize(Archive& archive, BoltRow& b) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, LiningRow& l) {
+  auto& [stage, lining, node, x, y, ux, uy, forces, smoothed_moment, pressure, shear, rock, use] = l;
+  auto& [thrust, shear_force, moment] = forces;
+  archive(stage, lining, node, x, y, ux, uy, thrust, shear_force, moment, smoothed_moment, pressure, shear, rock, use);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Results& r) {
-  auto& [outcome, message, values, stages, history, bolts_carried, counters, bonds, energy, state_hash, warnings,
+  auto& [outcome, message, values, stages, history, bolts_carried, linings_carried, counters, bonds, energy, state_hash, warnings,
          seconds] = r;
-  archive(outcome, message, values, stages, history, bolts_carried, counters, bonds, energy, state_hash, warnings,
+  archive(outcome, message, values, stages, history, bolts_carried, linings_carried, counters, bonds, energy, state_hash, warnings,
           seconds);
 }
 

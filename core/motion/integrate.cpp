@@ -219,6 +219,9 @@ double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& 
     all.forces += std::abs(spring.force) + spring.shear.norm();
     ++all.touching;
   }
+  const InterfaceSum of_linings = interface_sum(state.linings);
+  all.forces += of_linings.forces;
+  all.touching += of_linings.touching;
   const double mean = all.touching > 0 ? all.forces / static_cast<double>(all.touching) : mean_water_force(state);
 
   const auto raise = [&](int b, double& most) {

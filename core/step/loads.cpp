@@ -3,6 +3,7 @@
 #include "core/load/time_factor.hpp"
 #include "core/on_threads.hpp"
 #include "core/step/bolt_forces.hpp"
+#include "core/step/lining_forces.hpp"
 #include "core/waters.hpp"
 
 namespace voussoir {
@@ -162,6 +163,8 @@ constexpr LoadRow<Dim> load_table[] = {
     {Source::let_off, [](const Model<Dim>&, const State<Dim>& s) { return !s.held.empty(); }, held_loads<Dim>},
     {Source::bolts, [](const Model<Dim>&, const State<Dim>& s) { return !s.bolt_springs.empty(); }, bolt_loads<Dim>,
      add_bolt_stiffness<Dim>},
+    {Source::lining, [](const Model<Dim>&, const State<Dim>& s) { return !s.linings.empty(); }, lining_loads<Dim>,
+     add_lining_stiffness<Dim>},
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/motion/relaxation.hpp"
 #include "core/optimise/block_solver.hpp"
 #include "core/step/bolt_forces.hpp"
+#include "core/step/lining_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
 #include "core/step/newton_base.hpp"
@@ -266,6 +267,7 @@ struct Newton {
     const double reached = static_cast<double>(n.stiffness.size());
     find_pair_stiffness(model, settings, state);
     add_bolt_pairs(model, state, n.stiffness);
+    add_lining_pairs(model, settings, state, n.stiffness);
     const bool reached_all = static_cast<double>(n.stiffness.size()) < still_reaching * reached;
     if (n.iteration >= closed_iterations && reached_all) n.closed.clear();
     find_water_stiffness(model, settings, state);

@@ -39,6 +39,17 @@ Unknowns<Dim>::Unknowns(const Model<Dim>& model) : place(model.bodies.size(), -1
       free[F * i + f] = f < Dim ? body.free_translation[f] : body.free_rotation[f - Dim];
     }
   }
+  // a node has no face: its beams and its interface
+  for (const Lining& lining : model.linings)
+    for (std::size_t k = 0; lining.first_body >= 0 && k < lining.nodes.size(); ++k) {
+      const LiningNode& node = lining.nodes[k];
+      const int i = place[lining.first_body + k];
+      const double length = node.half_length[0] + node.half_length[1];
+      const double translation = 2 * lining.properties.axial() / length +
+                                 model.properties[lining.interface_properties].normal_stiffness * length;
+      for (int f = 0; f < F; ++f)
+        scale[F * i + f] = f < Dim ? translation : translation * length * length / 12;
+    }
 }
 
 template <int Dim>
@@ -50,6 +61,7 @@ void take_base(const Model<Dim>& model, const Settings& settings, const Unknowns
   NewtonIncrement<Dim>& n = state.newton;
   n.base = state.motions;
   n.springs = state.bolt_springs;
+  n.linings = state.linings;
   n.histories.clear();
   for (const Contact<Dim>& c : state.contacts)
     n.histories.push_back({c.part_a, c.part_b, c.divided_face, c.history});
@@ -117,6 +129,7 @@ void set_trial(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const Eig
   for (std::size_t i = 0; i < n.sub_histories.size(); ++i)
     state.subs[i].history = n.sub_histories[i];
   state.bolt_springs = n.springs;
+  state.linings = n.linings;
   state.energy = n.energy;
   state.time_step = 1;
 }

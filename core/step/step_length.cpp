@@ -26,11 +26,9 @@ std::vector<double> excess_by_body(const Model<Dim>& model, const Unknowns<Dim>&
                                    const Eigen::VectorXd& dq) {
   std::vector<double> excess(unknowns.count(), 0);
   std::vector<char> alone(unknowns.count(), 1);
-  for (const Contact<Dim>& c : state.contacts) {
-    if (c.status == ContactStatus::apart) continue;
-    const int ba = model.parts[c.part_a].body, bb = model.parts[c.part_b].body;
+  const auto add_pair = [&](int ba, int bb) {
     const int a = unknowns.place[ba], b = unknowns.place[bb];
-    if (a < 0 && b < 0) continue;
+    if (a < 0 && b < 0) return;
     const double size = a < 0   ? model.bodies[bb].size
                         : b < 0 ? model.bodies[ba].size
                                 : std::min(model.bodies[ba].size, model.bodies[bb].size);
@@ -39,7 +37,13 @@ std::vector<double> excess_by_body(const Model<Dim>& model, const Unknowns<Dim>&
     if (mover >= 0) excess[mover] = std::max(excess[mover], over);
     if (a >= 0) alone[a] = 0;
     if (b >= 0) alone[b] = 0;
-  }
+  };
+  for (const Contact<Dim>& c : state.contacts)
+    if (c.status != ContactStatus::apart) add_pair(model.parts[c.part_a].body, model.parts[c.part_b].body);
+  for (const LiningState& lined : state.linings)  // a node against its rock
+    for (std::size_t i = 0; i < lined.contacts.size(); ++i)
+      if (const int rock = lined.contacts[i].rock; rock >= 0)
+        add_pair(lined.rock[rock].body, model.linings[lined.lining].first_body + static_cast<int>(i / 2));
   for (std::size_t i = 0; i < unknowns.count(); ++i) {
     const Body<Dim>& body = model.bodies[unknowns.bodies[i]];
     const double turning = body.radius * dq.segment<spin_freedoms<Dim>>(freedoms<Dim> * i + Dim).norm();

@@ -1,0 +1,234 @@
+#include "core/step/lining_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/cast_lining.hpp"
+
+namespace voussoir {
+namespace {
+
+// Of the length that half a node stands for: the tangent of its interface is found by such a motion, and where it is
+// open by no more it counts as closed, or the first loads would meet no stiffness.
+constexpr double small_motion = 1e-8, closed_within = 1e-5;
+
+// half a node at its rock, world axes
+struct AtRock {
+  Vector<2> normal;      // into the rock
+  Vector<2> along;       // t
+  Vector<2> from_block;  // m, of the node from the block's centroid
+  LiningMotion motion;
+
+  AtRock(const LiningRock& rock, int node, const State<2>& state)
+      : normal(state.poses[rock.body].axes * rock.normal),
+        along(-normal[1], normal[0]),
+        from_block(between(state.poses[rock.body], state.poses[node])) {
+    const Vector<2> at = seen_from_rock(rock, node, state);
+    motion.closure = rock.normal.dot(at);
+    motion.place = rock.normal[0] * at[1] - rock.normal[1] * at[0];
+    motion.seconds = state.time_step;
+  }
+  Vector<2> force(const LiningContact& c) const { return -c.normal * normal + c.shear * along; }  // on the node
+};
+
+LiningJoint joint_of(const Model<2>& model, const Settings& settings, const State<2>& state, const Lining& lining,
+                     double length, double inverse_mass) {
+  const int p = lining.interface_properties;
+  const JointProperties& properties = model.properties[p];
+  const double xi = settings.damping.viscous_ratio;
+  const bool damps = xi > 0 && inverse_mass > 0 && !state.relaxation.under_way;
+  return {properties, state.schedule.friction[p],
+          state.schedule.strength_factor.empty() ? 1 : state.schedule.strength_factor[p],
+          damps ? 2 * xi * std::sqrt(properties.normal_stiffness * length / inverse_mass) : 0};
+}
+
+// calls what(a, b, beam, strain) for every beam of a lining, a and b its nodes' bodies
+template <class Work>
+void each_beam(const Lining& lining, const State<2>& state, const Work& work) {
+  const auto moved = [&](int body) {
+    return BeamNode{state.motions[body].displacement, state.motions[body].rotation.angle};
+  };
+  for (int k = 0; k < lining.beams(); ++k) {
+    const int a = lining.first_body + k, b = lining.first_body + lining.next(k);
+    const Beam beam = lining.beam(k);
+    work(a, b, beam, beam_strain(beam, moved(a), moved(b)));
+  }
+}
+
+// calls what(contact, half's length, rock, body of the node) for every half node that has rock opposite
+template <class State, class Work>
+void each_at_rock(const Model<2>& model, State& state, const Work& work) {
+  for (auto& lined : state.linings) {
+    const Lining& lining = model.linings[lined.lining];
+    for (std::size_t i = 0; i < lined.contacts.size(); ++i)
+      if (auto& contact = lined.contacts[i]; contact.rock >= 0)
+        work(lining, contact, lining.nodes[i / 2].half_length[i % 2], lined.rock[contact.rock],
+             lining.first_body + static_cast<int>(i / 2));
+  }
+}
+
+// Where a node has left its block's face, the next one takes over what the interface remembers; with none opposite,
+// nothing holds it any more.
+void follow_rock(const Model<2>& model, State<2>& state) {
+  for (LiningState& lined : state.linings) {
+    const Lining& lining = model.linings[lined.lining];
+    for (std::size_t i = 0; i < lined.contacts.size(); ++i) {
+      LiningContact& contact = lined.contacts[i];
+      const int rock = rock_opposite(lining, lined, static_cast<int>(i), state);
+      if (rock == contact.rock) continue;
+      const JointProperties& p = model.properties[lining.interface_properties];
+      const double length = lining.nodes[i / 2].half_length[i % 2];
+      if (rock < 0) {
+        if (p.shear_stiffness > 0)
+          state.energy.flows[Source::lining_slip] += 0.5 * contact.shear * contact.shear / (p.shear_stiffness * length);
+        contact = {.closure = contact.closure, .place = contact.place};
+        continue;
+      }
+      const AtRock at(lined.rock[rock], lining.first_body + static_cast<int>(i / 2), state);
+      contact.rock = rock;
+      contact.closure = at.motion.closure;
+      contact.place = at.motion.place;
+    }
+  }
+}
+
+void add_pair(int body_a, int body_b, const State<2>& state, const Eigen::Matrix<double, 3, 3>& stiffness,
+              const Eigen::Matrix<double, 3, 1>& wrench, std::vector<PairStiffness<2>>& pairs) {
+  PairStiffness<2> pair;
+  pair.contact = -1;
+  pair.body_a = body_a;
+  pair.body_b = body_b;
+  pair.apart = between(state.poses[body_a], state.poses[body_b]);
+  pair.stiffness = stiffness;
+  pair.wrench = wrench;
+  pairs.push_back(pair);
+}
+
+void add_beam_pairs(const Model<2>& model, const State<2>& state, std::vector<PairStiffness<2>>& pairs) {
+  for (const LiningState& lined : state.linings)
+    each_beam(model.linings[lined.lining], state, [&](int a, int b, const Beam& beam, const BeamStrain& strain) {
+      const BeamForces forces = beam_forces(beam, strain);
+      add_pair(a, b, state, beam_tangent(beam, strain).bottomRightCorner<3, 3>(),
+               {forces.force[1][0], forces.force[1][1], forces.moment[1]}, pairs);
+    });
+}
+
+}  // namespace
+
+template <int Dim>
+void find_lining_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  if constexpr (Dim == 2) {
+    if (state.linings.empty()) return;
+    follow_rock(model, state);
+    each_at_rock(model, state,
+                 [&](const Lining& lining, LiningContact& contact, double length, const LiningRock& rock, int node) {
+                   const AtRock at(rock, node, state);
+                   const double inverse_mass = state.poses[rock.body].inverse_mass + state.poses[node].inverse_mass;
+                   const LiningJoint joint = joint_of(model, settings, state, lining, length, inverse_mass);
+                   const LiningAnswer answer = interface_answer(joint, length, at.motion, contact);
+                   state.energy.elastic += answer.elastic;
+                   state.energy.flows[Source::lining_slip] += answer.friction;
+                   state.energy.flows[Source::dashpots] += answer.dashpots;
+                 });
+    for (const LiningState& lined : state.linings)
+      each_beam(model.linings[lined.lining], state, [&](int, int, const Beam& beam, const BeamStrain& strain) {
+        state.energy.elastic += beam_forces(beam, strain).energy;
+      });
+  }
+}
+
+std::vector<BeamForces> forces_of_beams(const Lining& lining, const State<2>& state) {
+  std::vector<BeamForces> all;
+  each_beam(lining, state,
+            [&](int, int, const Beam& beam, const BeamStrain& strain) { all.push_back(beam_forces(beam, strain)); });
+  return all;
+}
+
+template <int Dim>
+void lining_loads(const Model<Dim>& model, int, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
+  if constexpr (Dim == 2) {
+    for (const LiningState& lined : state.linings)
+      each_beam(model.linings[lined.lining], state, [&](int a, int b, const Beam& beam, const BeamStrain& strain) {
+        const BeamForces forces = beam_forces(beam, strain);
+        loads[a] += {forces.force[0], Spin<2>(forces.moment[0])};
+        loads[b] += {forces.force[1], Spin<2>(forces.moment[1])};
+      });
+    each_at_rock(model, state,
+                 [&](const Lining&, const LiningContact& contact, double, const LiningRock& rock, int node) {
+                   const AtRock at(rock, node, state);
+                   const Vector<2> force = at.force(contact);
+                   loads[node] += {force, Spin<2>::Zero()};
+                   loads[rock.body] += {-force, -moment(at.from_block, force)};
+                 });
+  }
+}
+
+template <int Dim>
+void add_lining_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
+  if constexpr (Dim == 2) {
+    for (const LiningState& lined : state.linings) {
+      const Lining& lining = model.linings[lined.lining];
+      for (std::size_t n = 0; n < lining.nodes.size(); ++n)
+        stiffness[lining.first_body + n].translation += lining.nodes[n].mass * lining.nodes[n].square_frequency;
+    }
+    each_at_rock(
+        model, state, [&](const Lining& lining, const LiningContact&, double length, const LiningRock& rock, int node) {
+          const JointProperties& p = model.properties[lining.interface_properties];
+          const double k =
+              (model.bodies[rock.body].fixed ? 1 : 2) * length * std::max(p.normal_stiffness, p.shear_stiffness);
+          stiffness[node].translation += k;
+          stiffness[rock.body].translation += k;
+          stiffness[rock.body].rotation += k * between(state.poses[rock.body], state.poses[node]).squaredNorm();
+        });
+  }
+}
+
+template <int Dim>
+void add_lining_pairs(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
+                      std::vector<PairStiffness<Dim>>& pairs) {
+  if constexpr (Dim == 2) {
+    add_beam_pairs(model, state, pairs);
+    for (std::size_t l = 0; l < state.linings.size(); ++l) {
+      const LiningState &lined = state.linings[l], &base = state.newton.linings[l];
+      const Lining& lining = model.linings[lined.lining];
+      for (std::size_t i = 0; i < lined.contacts.size(); ++i) {
+        const LiningContact& contact = lined.contacts[i];
+        const double length = lining.nodes[i / 2].half_length[i % 2];
+        if (contact.rock < 0 || contact.closure < -closed_within * length) continue;
+        const LiningRock& rock = lined.rock[contact.rock];
+        const int node = lining.first_body + static_cast<int>(i / 2);
+        const AtRock at(rock, node, state);
+        const LiningJoint joint = joint_of(model, settings, state, lining, length, 0);
+        // from where the increment began; at a block it came to since, from there
+        const LiningContact begin = base.contacts[i].rock == contact.rock ? base.contacts[i] : contact;
+        const auto force_at = [&](double closer, double farther) {
+          LiningContact trial = begin;
+          LiningMotion motion = at.motion;
+          motion.closure = std::max(motion.closure, 0.0) + closer;
+          motion.place += farther;
+          interface_answer(joint, length, motion, trial);
+          return Vector<2>(at.force(trial));
+        };
+        const double h = small_motion * length;
+        const Vector<2> here = force_at(0, 0);
+        Eigen::Matrix<double, 3, 3> stiffness = Eigen::Matrix<double, 3, 3>::Zero();
+        stiffness.topLeftCorner<2, 2>() = ((here - force_at(h, 0)) / h) * at.normal.transpose() +
+                                          ((here - force_at(0, h)) / h) * at.along.transpose();
+        const Vector<2> now = at.force(contact);
+        add_pair(rock.body, node, state, stiffness, {now[0], now[1], 0}, pairs);
+      }
+    }
+  }
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
+  template void find_lining_forces<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);                     \
+  template void lining_loads<Dim>(const Model<Dim>&, int, const State<Dim>&, std::vector<Load<Dim>>&);        \
+  template void add_lining_stiffness<Dim>(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&); \
+  template void add_lining_pairs<Dim>(const Model<Dim>&, const Settings&, const State<Dim>&,                  \
+                                      std::vector<PairStiffness<Dim>>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir
