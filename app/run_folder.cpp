@@ -85,7 +85,7 @@ RunOptions read_options(const fs::path& folder) {
 }
 
 Outputs run_outputs() {
-  return {"run", {"results.json", "run.json", newest, previous, "history.csv", "bolts.csv", "scene.toml"}, true};
+  return {"run", {"results.json", "run.json", newest, previous, "history.csv", "bolts.csv", "lining.csv", "scene.toml"}, true};
 }
 
 Outputs resume_outputs() {

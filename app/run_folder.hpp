@@ -3,7 +3,7 @@
 //   .lock, .voussoir-made      app/claimed_folder.hpp
 //   scene.toml, run.json       what is run and how, written before the first step
 //   checkpoint, checkpoint.previous
-//   history.csv, frames/, blocks.pvd, contacts.pvd; with bolts also bolts.pvd and bolts.csv; of a search also
+//   history.csv, frames/, blocks.pvd, contacts.pvd; with bolts also bolts.pvd and bolts.csv, with linings linings.pvd and lining.csv; of a search also
 //   trial_blocks.pvd, trial_contacts.pvd results.json               comes last: where it is, the run is complete and
 //   the checkpoints are gone
 #pragma once

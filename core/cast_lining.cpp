@@ -42,26 +42,10 @@ LiningRock stretch_of(const Model<2>& model, const Motion<2>& motion, int b, con
                   b_end = part.vertices[part.loops[face].back()] - rock.corner;
   if (std::abs(rock.normal.dot(0.5 * (a + b_end))) > near_side * mean_length(lining)) return rock;
   const Vector<2> along = left_of(rock.normal);
-  const auto [low, high] = std::minmax(along.dot(a), along.dot(b_end));
-  rock.from = std::max(low, -near_side * mean_length(lining));
-  rock.to = std::min(high, side.length + near_side * mean_length(lining));
+  const double first = along.dot(a), last = along.dot(b_end);
+  rock.from = std::max(std::min(first, last), -near_side * mean_length(lining));
+  rock.to = std::min(std::max(first, last), side.length + near_side * mean_length(lining));
   return rock;
-}
-
-std::vector<LiningRock> rock_around(const Model<2>& model, const State<2>& state, const Lining& lining) {
-  std::vector<LiningRock> found;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (!model.bodies[b].present) continue;
-    for (const Polytope<2>& part : model.bodies[b].parts)
-      for (std::size_t face = 0; face < part.joints.size(); ++face) {
-        if (part.joints[face] == no_joint || !model.joints[part.joints[face]].holds) continue;
-        for (int k = 0; k < static_cast<int>(lining.sides.size()); ++k) {
-          const LiningRock rock = stretch_of(model, state.motions[b], static_cast<int>(b), part, face, lining, k);
-          if (rock.to - rock.from > least_face * lining.sides[k].length) found.push_back(rock);
-        }
-      }
-  }
-  return found;
 }
 
 // m by which a place lies outside of a face
@@ -106,6 +90,22 @@ void keep_rock(LiningState& lined, const IsLeft& is_left) {
 
 }  // namespace
 
+std::vector<LiningRock> rock_around(const Model<2>& model, const State<2>& state, const Lining& lining) {
+  std::vector<LiningRock> found;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (!model.bodies[b].present) continue;
+    for (const Polytope<2>& part : model.bodies[b].parts)
+      for (std::size_t face = 0; face < part.joints.size(); ++face) {
+        if (part.joints[face] == no_joint || !model.joints[part.joints[face]].holds) continue;
+        for (int k = 0; k < static_cast<int>(lining.sides.size()); ++k) {
+          const LiningRock rock = stretch_of(model, state.motions[b], static_cast<int>(b), part, face, lining, k);
+          if (rock.to - rock.from > least_face * lining.sides[k].length) found.push_back(rock);
+        }
+      }
+  }
+  return found;
+}
+
 Vector<2> seen_from_rock(const LiningRock& rock, int node_body, const State<2>& state) {
   const CachedPose<2>&block = state.poses[rock.body], &node = state.poses[node_body];
   return block.axes.transpose() * between(block, node) - rock.corner;
@@ -144,11 +144,7 @@ std::vector<std::string> cast_linings(const Model<Dim>& model, const std::vector
                                       State<Dim>& state) {
   std::vector<std::string> idle;
   if constexpr (Dim == 2) {
-    if (model.bodies.size() > state.motions.size()) {
-      state.motions.resize(model.bodies.size());
-      state.loads.resize(model.bodies.size());
-      forget_lists(state);
-    }
+    add_bodies(model, state);
     for (std::size_t i = 0; i < model.linings.size(); ++i) {
       const std::string& name = model.linings[i].properties.name;
       if (std::ranges::find(names, name) == names.end()) continue;

@@ -10,6 +10,9 @@
 
 namespace voussoir {
 
+// The faces of blocks that a lining would be cast against as they stand.
+std::vector<LiningRock> rock_around(const Model<2>& model, const State<2>& state, const Lining& lining);
+
 // Adds to the state what the linings of these names carry, without force, whose nodes are in the model; gives the names
 // of which no node has rock opposite.
 template <int Dim>

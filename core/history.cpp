@@ -6,7 +6,6 @@
 
 #include "core/monitor.hpp"
 #include "core/reduction/reduction.hpp"
-#include "core/step/lining_forces.hpp"
 #include "core/waters.hpp"
 #include "text/angle.hpp"
 
@@ -152,7 +151,10 @@ std::vector<LiningRow> lining_rows(const Model<Dim>& model, const State<Dim>& st
         const Vector<2> at = model.origin + node.place + moved;
         const double length = node.half_length[0] + node.half_length[1];
         const int rock = before.rock >= 0 ? before.rock : after.rock;
-        LiningRow row{.stage = stage, .lining = lining.properties.name, .node = static_cast<int>(i) + 1};
+        LiningRow row;
+        row.stage = stage;
+        row.lining = lining.properties.name;
+        row.node = static_cast<int>(i) + 1;
         row.x = at[0];
         row.y = at[1];
         row.ux = moved[0];

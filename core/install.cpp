@@ -140,7 +140,9 @@ bool ends_in_rock(const Model<Dim>& model, const State<Dim>& state, int bolt) {
 
 template <int Dim>
 std::vector<std::string> install(const Model<Dim>& model, const std::vector<std::string>& names, State<Dim>& state) {
-  std::vector<std::string> idle = names;
+  std::vector<std::string> idle;
+  for (const BoltProperties& p : model.bolt_properties)
+    if (std::ranges::find(names, p.name) != names.end()) idle.push_back(p.name);
   for (std::size_t i = 0; i < model.bolts.size(); ++i) {
     const std::string& name = model.bolt_properties[model.bolts[i].properties].name;
     if (std::ranges::find(names, name) == names.end()) continue;

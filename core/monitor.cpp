@@ -1,11 +1,12 @@
 #include "core/monitor.hpp"
-#include "text/angle.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <span>
+
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
@@ -124,6 +125,28 @@ void append_bolts(std::vector<double>& values, int properties, const Model<Dim>&
   values.insert(values.end(), {p.spacing * largest, count > 0 ? p.spacing * sum / count : 0, yielded, broken});
 }
 
+// at a node, or the largest of all nodes and the largest use of the strength; nothing before it is installed
+template <int Dim>
+void append_lining(std::vector<double>& values, const Monitor& monitor, const Model<Dim>& model,
+                   const State<Dim>& state) {
+  SectionForces found;
+  double use = 0;
+  if constexpr (Dim == 2)
+    if (std::ranges::count(state.linings, monitor.subject, &LiningState::lining) > 0) {
+      const Lining& lining = model.linings[monitor.subject];
+      const std::vector<SectionForces> at_nodes = forces_at_nodes(lining, forces_of_beams(lining, state));
+      if (monitor.node >= 0) found = at_nodes[monitor.node];
+      for (const SectionForces& at : at_nodes) {
+        use = std::max(use, use_of(lining.properties, at).value_or(0));
+        if (monitor.node >= 0) continue;
+        for (double SectionForces::*force : {&SectionForces::thrust, &SectionForces::shear, &SectionForces::moment})
+          if (std::abs(at.*force) > std::abs(found.*force)) found.*force = at.*force;
+      }
+    }
+  values.insert(values.end(), {found.thrust, found.shear, found.moment});
+  if (monitor.node < 0) values.push_back(use);
+}
+
 }  // namespace
 
 std::string Column::header() const {
@@ -181,6 +204,14 @@ std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
         columns.push_back({m.name + "_yielded", "1"});
         columns.push_back({m.name + "_broken", "1"});
         break;
+      case Quantity::lining_force: {
+        const std::string name = m.name + (m.node < 0 ? "_largest" : "");
+        columns.push_back({name + "_thrust", "N"});
+        columns.push_back({name + "_shear_force", "N"});
+        columns.push_back({name + "_moment", "Nm"});
+        if (m.node < 0) columns.push_back({name + "_use", "1"});
+        break;
+      }
     }
   }
   return columns;
@@ -210,6 +241,9 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
         break;
       case Quantity::bolt_force:
         append_bolts(values, m.subject, model, state);
+        break;
+      case Quantity::lining_force:
+        append_lining(values, m, model, state);
         break;
     }
   }

@@ -21,7 +21,8 @@ struct Column {
 // the forces that its contacts exert on it. Contact force of a joint: over its touching contacts the sums of normal and
 // of shear force and of area, their number, the largest mobilised friction angle, and the tilt of the contact that
 // carries most against the joint's own normal. Bolt force: the largest and the mean axial force of the springs of all
-// bolts of a name, tension positive, of one bolt, and how many springs have yielded and broken. All of the state's time
+// bolts of a name, tension positive, of one bolt, and how many springs have yielded and broken. Lining force: thrust,
+// shear force and moment of one node, or the largest of all, with their sign, and the largest use of strength. All of the state's time
 // but the velocities, which stand half a step before, if the forces are those of its positions (step.hpp).
 template <int Dim>
 std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors);

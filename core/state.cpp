@@ -29,6 +29,14 @@ State<Dim> initial_state(const Model<Dim>& model) {
 }
 
 template <int Dim>
+void add_bodies(const Model<Dim>& model, State<Dim>& state) {
+  if (model.bodies.size() == state.motions.size()) return;
+  state.motions.resize(model.bodies.size());
+  state.loads.resize(model.bodies.size());
+  forget_lists(state);
+}
+
+template <int Dim>
 void forget_lists(State<Dim>& state) {
   state.built.clear();
   state.counted_at.clear();
@@ -38,6 +46,20 @@ void forget_lists(State<Dim>& state) {
   state.by_body = {};
   state.contact_loads.clear();
   state.frequency.clear();
+}
+
+BeamNode moved_node(const State<2>& state, int body) {
+  return {state.motions[body].displacement, state.motions[body].rotation.angle};
+}
+
+std::vector<BeamForces> forces_of_beams(const Lining& lining, const State<2>& state) {
+  std::vector<BeamForces> all;
+  for (int k = 0; k < lining.beams(); ++k) {
+    const Beam beam = lining.beam(k);
+    all.push_back(beam_forces(beam, beam_strain(beam, moved_node(state, lining.first_body + k),
+                                                moved_node(state, lining.first_body + lining.next(k)))));
+  }
+  return all;
 }
 
 template <int Dim>
@@ -105,6 +127,8 @@ void list_by_body(const Model<Dim>& model, State<Dim>& state) {
   each([&](int body, int place) { places[--first[body]] = place; });
 }
 
+template void add_bodies<2>(const Model<2>&, State<2>&);
+template void add_bodies<3>(const Model<3>&, State<3>&);
 template void forget_lists<2>(State<2>&);
 template void forget_lists<3>(State<3>&);
 template State<2> initial_state<2>(const Model<2>&);

@@ -262,6 +262,10 @@ std::span<const int> contacts_of(const State<Dim>& state, int body) {
   return std::span(places).subspan(first[body], first[body + 1] - first[body]);
 }
 
+// Bodies that the model has got since follow at rest.
+template <int Dim>
+void add_bodies(const Model<Dim>& model, State<Dim>& state);
+
 // Lists, poses and loads that are found again from motions and contacts.
 template <int Dim>
 void forget_lists(State<Dim>& state);
@@ -302,6 +306,12 @@ template <int Dim>
 Vector<Dim> weight(const Model<Dim>& model, const State<Dim>& state, std::size_t body) {
   return model.bodies[body].mass * state.schedule.gravity_factor * model.gravity;
 }
+
+// a body as a node of a lining
+BeamNode moved_node(const State<2>& state, int body);
+
+// the forces of an installed lining's beams, in their order
+std::vector<BeamForces> forces_of_beams(const Lining& lining, const State<2>& state);
 
 // angular velocity in world axes, rad/s
 template <int Dim>

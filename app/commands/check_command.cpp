@@ -339,6 +339,23 @@ void print_bolts(const Prepared<Dim>& prepared) {
   }
 }
 
+// linings, and how their nodes stand against the blocks as they are cut
+template <int Dim>
+void print_linings(const Prepared<Dim>& prepared) {
+  const char* label = "linings";
+  for (const Lining& lining : prepared.model.linings) {
+    double longest = 0;
+    for (const LiningNode& node : lining.nodes)
+      longest = std::max(longest, 2 * std::max(node.half_length[0], node.half_length[1]));
+    const LiningProperties& p = lining.properties;
+    line(label,
+         fmt::format("{}: {} nodes on {} of {} sides, beams up to {:.3g} m long; EA {:.4g} N, EI {:.4g} N m² per m",
+                     p.name, lining.nodes.size(), lining.closed ? "a ring" : "an arc", lining.sides.size(), longest,
+                     p.axial(), p.bending()));
+    label = "";
+  }
+}
+
 template <int Dim>
 void print_monitors(const Prepared<Dim>& prepared) {
   const char* label = "monitors";
@@ -346,8 +363,11 @@ void print_monitors(const Prepared<Dim>& prepared) {
     const Quantity quantity = monitor.followed.quantity;
     const bool of_joint = quantity == Quantity::contact_force || quantity == Quantity::whole_bonds;
     const std::string subject =
-        of_joint                           ? "joint " + prepared.model.joints[monitor.subject].name
-        : quantity == Quantity::level      ? "water " + prepared.model.waters[monitor.subject].name
+        of_joint                      ? "joint " + prepared.model.joints[monitor.subject].name
+        : quantity == Quantity::level ? "water " + prepared.model.waters[monitor.subject].name
+        : quantity == Quantity::lining_force
+            ? "lining " + prepared.model.linings[monitor.subject].properties.name +
+                  (monitor.node < 0 ? "" : fmt::format(" at node {}", monitor.node + 1))
         : quantity == Quantity::bolt_force ? "bolts " + prepared.model.bolt_properties[monitor.subject].name
         : monitor.over != Over::one
             ? fmt::format("{} blocks, {}", monitor.group.size(), monitor.over == Over::sum ? "sum" : "mean")
@@ -432,6 +452,7 @@ void print_active(const Prepared<Dim>& prepared) {
   print_stages(prepared.stages, prepared.model.waters);
   print_left_to_relaxation(prepared);
   print_bolts(prepared);
+  print_linings(prepared);
   print_monitors(prepared);
   line("not active", inactive(prepared));
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "app/commands/plausible_assembly.hpp"
+#include "core/cast_lining.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/motion/time_step.hpp"
 #include "core/scene/plausibility.hpp"
@@ -433,8 +434,12 @@ template <int Dim>
 Plausibility assess_prepared(const Prepared<Dim>& prepared) {
   // as the first stage begins
   Model<Dim> model = prepared.model;
-  if (!prepared.stages.empty()) model = apply(std::move(model), prepared.stages.front().change);
   State<Dim> state = prepared.state;
+  if (!prepared.stages.empty()) {
+    model = apply(std::move(model), prepared.stages.front().change);
+    add_bodies(model, state);
+    cast_linings(model, prepared.stages.front().change.install, state);
+  }
   Plausibility result;
   find_neighbours(model, prepared.settings, state);
   find_contacts(model, prepared.settings, state);

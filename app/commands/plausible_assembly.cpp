@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "core/cast_lining.hpp"
 #include "core/install.hpp"
 #include "core/reduction/reduction.hpp"
 #include "core/waters.hpp"
@@ -331,6 +332,35 @@ void judge_bolts(const Model<Dim>& model, const State<Dim>& state, std::vector<s
   }
 }
 
+// Linings whose nodes stand too far apart: for their outline, or for the joints that cross it.
+template <int Dim>
+void judge_linings(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings) {
+  constexpr int least_on_side = 3, least_on_stretch = 2;
+  if constexpr (Dim == 2)
+    for (const Lining& lining : model.linings) {
+      const std::string& name = lining.properties.name;
+      double outline = 0, beams = 0;
+      for (const LiningSide& side : lining.sides)
+        outline += side.length;
+      for (const LiningNode& node : lining.nodes)
+        beams += node.half_length[0] + node.half_length[1];
+      const double spacing = beams / lining.beams();
+      if (outline < least_on_side * spacing * static_cast<double>(lining.sides.size()))
+        warnings.push_back(fmt::format(
+            "linings.{}.nodes: beams of {:.3g} m on {} sides of {:.3g} m cut the outline's corners; state at least {}",
+            name, spacing, lining.sides.size(), outline / static_cast<double>(lining.sides.size()),
+            least_on_side * lining.sides.size()));
+      const auto blocks = static_cast<double>(rock_around(model, state, lining).size());
+      const double stretch = outline / std::max(1.0, blocks);
+      if (stretch < least_on_stretch * spacing)
+        warnings.push_back(
+            fmt::format("linings.{}.nodes: beams of {:.3g} m, but the blocks as they are cut are {:.3g} m wide along "
+                        "the outline: state "
+                        "at least {:.0f} nodes, so that each block is met by two",
+                        name, spacing, stretch, least_on_stretch * beams / stretch));
+    }
+}
+
 template <int Dim>
 void judge_assembly(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
                     std::vector<std::string>& warnings) {
@@ -339,6 +369,7 @@ void judge_assembly(const Prepared<Dim>& prepared, const Model<Dim>& model, cons
   judge_points(model, state, warnings);
   judge_last_block(prepared, warnings);
   judge_bolts(model, state, warnings);
+  judge_linings(model, state, warnings);
   judge_in_situ(prepared, warnings);
   judge_generation(prepared, warnings);
   judge_searches_in_water(prepared, warnings);

@@ -14,6 +14,7 @@
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/bolts_csv.hpp"
+#include "core/output/lining_csv.hpp"
 #include "core/output/history_csv.hpp"
 #include "core/output/paraview.hpp"
 #include "core/output/results_json.hpp"
@@ -109,6 +110,7 @@ template <int Dim>
 void write_tables(const fs::path& folder, const Progress<Dim>& progress) {
   write_history_csv(folder / "history.csv", history_so_far(progress));
   if (!progress.results.bolts.empty()) write_bolts_csv(folder / "bolts.csv", progress.results.bolts);
+  if (!progress.results.linings.empty()) write_lining_csv(folder / "lining.csv", progress.results.linings);
 }
 
 // the run continues from where `progress` stands; false: a signal stopped it, with a checkpoint

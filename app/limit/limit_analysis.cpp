@@ -234,6 +234,10 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
     throw BadInput(
         "the scene has bolts: limit analysis knows blocks and joints alone; remove [[bolts]] and install for the "
         "unsupported slope, or use 'voussoir run' with a stage of kind = \"reduce\"");
+  if (!prepared->model.linings.empty())
+    throw BadInput(
+        "the scene has linings: limit analysis knows blocks and joints alone; remove [[linings]] and install for the "
+        "unsupported opening, or use 'voussoir run' with a stage of kind = \"reduce\"");
   LimitAnalysis analysis;
   analysis.title = scene.title;
   analysis.input_hash = scene.hash;

@@ -78,11 +78,11 @@ std::vector<std::string> names_of(const std::vector<Named>& list) {
   return names;
 }
 
-constexpr std::array kinds{"blocks", "contacts", "bolts"};
+constexpr std::array kinds{"blocks", "contacts", "bolts", "linings"};
 
 // whether every scene has frames of this kind
 bool always(const std::string& kind) {
-  return kind != "bolts";
+  return kind != "bolts" && kind != "linings";
 }
 
 std::string frame_file(const std::string& series, const char* kind, std::size_t number) {
@@ -256,6 +256,42 @@ PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double tim
   return data;
 }
 
+PolyData lining_lines(const Model<2>& model, const State<2>& state, double time) {
+  PolyData data;
+  data.kind = PolyData::Cells::lines;
+  data.time = time;
+  DataArray linings{"lining", 1, true, {}}, node{"node", 1, true, {}}, displacement{"displacement", 3, false, {}},
+      thrust{"thrust_N", 1, false, {}}, shear{"shear_N", 1, false, {}}, moment{"moment_Nm", 1, false, {}},
+      pressure{"pressure_Pa", 1, false, {}}, use{"use", 1, false, {}};
+  std::vector<std::string> names;
+  for (const Lining& lining : model.linings)
+    names.push_back(lining.properties.name);
+  for (const LiningState& lined : state.linings) {
+    const Lining& lining = model.linings[lined.lining];
+    const int first = static_cast<int>(data.points.size());
+    const std::vector<SectionForces> forces = forces_at_nodes(lining, forces_of_beams(lining, state));
+    for (std::size_t i = 0; i < lining.nodes.size(); ++i) {
+      const LiningNode& at = lining.nodes[i];
+      const Vector<2>& moved = state.motions[lining.first_body + i].displacement;
+      data.points.push_back(in_space(Vector<2>(model.origin + at.place + moved)));
+      append<2>(displacement, moved);
+      linings.values.push_back(lined.lining);
+      node.values.push_back(static_cast<double>(i + 1));
+      thrust.values.push_back(forces[i].thrust);
+      shear.values.push_back(forces[i].shear);
+      moment.values.push_back(forces[i].moment);
+      pressure.values.push_back((lined.contacts[2 * i].normal + lined.contacts[2 * i + 1].normal) /
+                                (at.half_length[0] + at.half_length[1]));
+      use.values.push_back(use_of(lining.properties, forces[i]).value_or(0));
+    }
+    for (int k = 0; k < lining.beams(); ++k)
+      data.cells.push_back({first + k, first + lining.next(k)});
+  }
+  data.point_data = {linings, node, displacement, thrust, shear, moment, pressure, use};
+  data.names = {{"lining_names", names}};
+  return data;
+}
+
 std::vector<std::filesystem::path> series_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files = files_of(folder, {}), trials = files_of(folder, trial_series);
   files.insert(files.end(), trials.begin(), trials.end());
@@ -287,6 +323,9 @@ void write_frame(FrameSeries& series, const Model<Dim>& model, const State<Dim>&
   write_file(series.folder / frame_file(series.name, "contacts", frame), vtp(contact_points(model, state, time)));
   if (!model.bolts.empty())
     write_file(series.folder / frame_file(series.name, "bolts", frame), vtp(bolt_lines(model, state, time)));
+  if constexpr (Dim == 2)
+    if (!model.linings.empty())
+      write_file(series.folder / frame_file(series.name, "linings", frame), vtp(lining_lines(model, state, time)));
   series.times.push_back(time);
   write_collections(series);  // last: they never name a file that is not there
 }

@@ -8,7 +8,8 @@ namespace voussoir {
 // Throws SceneError.
 std::vector<BoltSpec> read_bolts(const Subject& scene, int dimension);
 
-// Every stage installs bolts that exist, and each is installed by one stage. Throws SceneError.
+// Every stage installs bolts and linings that exist, each is installed by one stage, and a lining once its opening is
+// there. Throws SceneError.
 void check_installs(const Scene& scene);
 
 // Model::bolts and their properties, whatever the order in which the scene states them; the model has its origin.

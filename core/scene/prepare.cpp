@@ -11,6 +11,7 @@
 #include "core/scene/domain_blocks.hpp"
 #include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/keys.hpp"
+#include "core/scene/linings.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/wet_faces.hpp"
 #include "core/waters.hpp"
@@ -346,6 +347,24 @@ int bolts_of(const MonitorSpec& spec, const std::vector<BoltProperties>& all) {
   return index;
 }
 
+template <int Dim>
+int lining_of(const MonitorSpec& spec, const Model<Dim>& model) {
+  std::vector<std::string> names;
+  for (const Lining& lining : model.linings)
+    names.push_back(lining.properties.name);
+  const int index = index_of(names, spec.lining);
+  if (index < 0) refuse(spec.body.subject, "lining", "no lining of this name; " + suggestion(spec.lining, names));
+  return index;
+}
+
+// the node next to the angle that a monitor states; -1: none is stated
+template <int Dim>
+int node_of(const MonitorSpec& spec, const Model<Dim>& model, int lining) {
+  if constexpr (Dim == 2)
+    if (spec.angle) return nearest_node(model.linings[lining], *spec.angle);
+  return -1;
+}
+
 // the blocks that a monitor follows
 template <int Dim>
 std::vector<int> bodies_of(const Scene& scene, const Model<Dim>& model, const MonitorSpec& spec) {
@@ -363,15 +382,16 @@ template <int Dim>
 std::vector<Monitor> find_monitors(const Scene& scene, const Model<Dim>& model) {
   std::vector<Monitor> monitors;
   for (const MonitorSpec& spec : scene.monitors) {
-    const int subject = !spec.joint.empty()   ? joint_of<Dim>(model, spec)
-                        : !spec.water.empty() ? water_of(scene, spec)
-                        : !spec.bolts.empty() ? bolts_of(spec, model.bolt_properties)
-                                              : -1;
+    const int subject = !spec.joint.empty()    ? joint_of<Dim>(model, spec)
+                        : !spec.water.empty()  ? water_of(scene, spec)
+                        : !spec.bolts.empty()  ? bolts_of(spec, model.bolt_properties)
+                        : !spec.lining.empty() ? lining_of(spec, model)
+                                               : -1;
     const std::vector<int> bodies = subject < 0 ? bodies_of<Dim>(scene, model, spec) : std::vector<int>();
     for (const Monitored& followed : spec.quantities)
       monitors.push_back({spec.name, followed, subject < 0 ? bodies.front() : subject,
                           followed.quantity == Quantity::level ? levels_of<Dim>(model.waters[subject]) : 0, spec.over,
-                          spec.over == Over::one ? std::vector<int>() : bodies});
+                          spec.over == Over::one ? std::vector<int>() : bodies, node_of(spec, model, subject)});
   }
   return monitors;
 }
@@ -403,6 +423,7 @@ Prepared<Dim> prepare(const Scene& scene) {
   // what the scene says about them by selectors, and the water on them
   add_waters<Dim>(scene, model);
   add_bolts<Dim>(scene, model);
+  add_linings<Dim>(scene, model);
   add_supports<Dim>(scene, model);
   prepared.state = moving_state<Dim>(scene, model);
   prepared.stages = checked_stages<Dim>(scene, model);

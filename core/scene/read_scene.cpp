@@ -8,6 +8,7 @@
 #include "core/scene/base_scene.hpp"
 #include "core/scene/bolts.hpp"
 #include "core/scene/keys.hpp"
+#include "core/scene/linings.hpp"
 #include "core/scene/overrides.hpp"
 #include "core/scene/read_joint_sets.hpp"
 #include "core/scene/read_slicing.hpp"
@@ -147,6 +148,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   scene.waters = read_waters(top, scene.dimension);
   read_water_changes(scene.waters, scene.stages, scene.dimension);
   scene.bolts = read_bolts(top, scene.dimension);
+  scene.linings = read_linings(top, scene.dimension);
   scene.monitors = read_monitors(top);
   return scene;
 }

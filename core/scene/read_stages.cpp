@@ -273,10 +273,11 @@ MonitorSpec read_monitor(const Subject& table) {
   const auto key_of = [](const Monitored& followed) -> std::string_view {
     const bool of_joint = followed.quantity == Quantity::contact_force || followed.quantity == Quantity::whole_bonds;
     if (followed.quantity == Quantity::bolt_force) return "bolts";
+    if (followed.quantity == Quantity::lining_force) return "lining";
     return of_joint ? "joint" : followed.quantity == Quantity::level ? "water" : "";
   };
   std::string_view stated;
-  for (const std::string_view key : {"joint", "water", "bolts"}) {
+  for (const std::string_view key : {"joint", "water", "bolts", "lining"}) {
     if (!table.node->find(key)) continue;
     if (!stated.empty())
       refuse(table, key, fmt::format("stands beside {}; a monitor follows one of the two, remove one", stated));
@@ -293,8 +294,9 @@ MonitorSpec read_monitor(const Subject& table) {
         table, "quantities",
         stated == "joint"
             ? "a monitor of a joint follows contact_force only, and whole_bonds; follow a block in a monitor of its own"
-        : stated == "water" ? "a monitor of a water follows its level only; follow a block in a monitor of its own"
-                            : "a monitor of bolts follows bolt_force only; follow a block in a monitor of its own");
+        : stated == "water"  ? "a monitor of a water follows its level only; follow a block in a monitor of its own"
+        : stated == "lining" ? "a monitor of a lining follows lining_force only; follow a block in a monitor of its own"
+                             : "a monitor of bolts follows bolt_force only; follow a block in a monitor of its own");
   }
   if (!stated.empty() && chooses(monitor.body.selector))
     refuse(table, stated,
@@ -302,6 +304,8 @@ MonitorSpec read_monitor(const Subject& table) {
                        stated == "bolts" ? "bolts" : fmt::format("a {}", stated)));
   if (!stated.empty() && monitor.over != Over::one)
     refuse(table, "over", "tells of blocks, and this monitor follows none; remove it");
+  if (monitor.angle && stated != "lining")
+    refuse(table, "angle_deg", "tells where on a lining, and this monitor follows none; remove it, or name the lining");
   if (stated.empty() && !chooses(monitor.body.selector))
     refuse(table, "above",
            "the monitor must choose one block by bodies, above, below, inside, side or box; write for example "

@@ -183,6 +183,14 @@ struct BoltSpec {
   std::optional<double> spacing;  // m, out of the plane
 };
 
+struct LiningSpec {
+  Subject subject;
+  LiningProperties properties;
+  std::string excavation, interface_properties;
+  int nodes = 0;
+  std::optional<double> from, to;  // rad; without `to` a ring
+};
+
 struct SelectorSpec {
   Subject subject;
   Selector selector;  // `inside` in the file's coordinates
@@ -214,7 +222,8 @@ struct StageSpec {
 
 struct MonitorSpec {
   SelectorSpec body;  // empty for a joint or a water
-  std::string name, joint, water, bolts;
+  std::string name, joint, water, bolts, lining;
+  std::optional<double> angle;  // rad, of a node of the lining
   Over over{};
   std::vector<Monitored> quantities;
 };
@@ -237,6 +246,7 @@ struct Scene {
   std::vector<ExcavationSpec> excavations;
   std::vector<WaterSpec> waters;
   std::vector<BoltSpec> bolts;
+  std::vector<LiningSpec> linings;
   std::vector<StageSpec> stages;
   std::vector<MonitorSpec> monitors;
   OutputPlan output;

@@ -45,13 +45,10 @@ LiningJoint joint_of(const Model<2>& model, const Settings& settings, const Stat
 // calls what(a, b, beam, strain) for every beam of a lining, a and b its nodes' bodies
 template <class Work>
 void each_beam(const Lining& lining, const State<2>& state, const Work& work) {
-  const auto moved = [&](int body) {
-    return BeamNode{state.motions[body].displacement, state.motions[body].rotation.angle};
-  };
   for (int k = 0; k < lining.beams(); ++k) {
     const int a = lining.first_body + k, b = lining.first_body + lining.next(k);
     const Beam beam = lining.beam(k);
-    work(a, b, beam, beam_strain(beam, moved(a), moved(b)));
+    work(a, b, beam, beam_strain(beam, moved_node(state, a), moved_node(state, b)));
   }
 }
 
@@ -135,13 +132,6 @@ void find_lining_forces(const Model<Dim>& model, const Settings& settings, State
         state.energy.elastic += beam_forces(beam, strain).energy;
       });
   }
-}
-
-std::vector<BeamForces> forces_of_beams(const Lining& lining, const State<2>& state) {
-  std::vector<BeamForces> all;
-  each_beam(lining, state,
-            [&](int, int, const Beam& beam, const BeamStrain& strain) { all.push_back(beam_forces(beam, strain)); });
-  return all;
 }
 
 template <int Dim>

@@ -27,7 +27,4 @@ template <int Dim>
 void add_lining_pairs(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
                       std::vector<PairStiffness<Dim>>& pairs);
 
-// the beams' forces at the motions of now
-std::vector<BeamForces> forces_of_beams(const Lining& lining, const State<2>& state);
-
 }  // namespace voussoir

@@ -17,6 +17,14 @@ namespace {
 // of a side's length: a node this near to a corner lies in it
 constexpr double at_corner = 1e-9;
 
+// of their corners
+Vector<2> middle_of(const std::vector<LiningSide>& sides) {
+  Vector<2> middle = Vector<2>::Zero();
+  for (const LiningSide& side : sides)
+    middle += side.corner / static_cast<double>(sides.size());
+  return middle;
+}
+
 struct OnOutline {
   Vector<2> place;
   std::array<int, 2> side;  // before it, after it
@@ -97,6 +105,12 @@ Lining make_lining(const LiningProperties& properties, std::vector<LiningSide> s
   }
   weigh_nodes(lining);
   return lining;
+}
+
+int nearest_node(const Lining& lining, double turn) {
+  const Vector<2> centre = middle_of(lining.sides), ray(std::cos(turn), std::sin(turn));
+  const auto along = [&](const LiningNode& node) { return (node.place - centre).normalized().dot(ray); };
+  return static_cast<int>(std::ranges::max_element(lining.nodes, {}, along) - lining.nodes.begin());
 }
 
 LiningAnswer interface_answer(const LiningJoint& joint, double length, const LiningMotion& motion,
@@ -180,15 +194,13 @@ std::vector<double> smoothed_moments(const Lining& lining, const std::vector<Sec
   const std::size_t sides = lining.sides.size();
   if (!lining.closed || sides < 5) return {};
   std::vector<std::vector<Vector<2>>> on_side(sides);  // place along it, moment
-  Vector<2> centre = Vector<2>::Zero();
   for (std::size_t i = 0; i < at_nodes.size(); ++i) {
     const auto& [before, after] = lining.nodes[i].side;
     for (const int side : before == after ? std::vector{after} : std::vector{before, after})
       on_side[side].emplace_back(lining.sides[side].along().dot(lining.nodes[i].place - lining.sides[side].corner),
                                  at_nodes[i].moment);
   }
-  for (const LiningSide& side : lining.sides)
-    centre += side.corner / static_cast<double>(sides);
+  const Vector<2> centre = middle_of(lining.sides);
   double radius = 0;
   for (const LiningSide& side : lining.sides)
     radius += side.normal.dot(side.corner - centre) / static_cast<double>(sides);

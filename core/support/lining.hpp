@@ -28,7 +28,7 @@ struct LiningProperties {
   std::string name;
   double thickness = 0;                          // m
   double young_modulus = 0;                      // Pa, E/(1-ν²) where plane strain is meant
-  double density = 0;                            // kg/m³
+  double density = 2500;                         // kg/m³
   std::optional<double> bending_stiffness{};     // N m² per m; without it E t³/12
   std::optional<double> compressive_strength{};  // Pa, and
   std::optional<double> tensile_strength{};      // Pa: of an elastic section
@@ -73,6 +73,9 @@ struct Lining {
 // to the caller. Throws std::invalid_argument where two nodes fall in one place.
 Lining make_lining(const LiningProperties& properties, std::vector<LiningSide> sides, const Vector<2>& centre,
                    const std::vector<double>& turns, bool closed);
+
+// the node next to a direction from the middle of the outline's corners, rad
+int nearest_node(const Lining& lining, double turn);
 
 // A face of rock that a lining was cast against.
 struct LiningRock {

@@ -20,7 +20,7 @@ KeyTable stage_change_keys() {
          "then their blocks are whole. A block that loses a part keeps moving and keeps the forces of its other joints; what "
          "is left of it in smaller pieces than slicing.smallest_inscribed_radius goes, too"},
     {.key = "install", .members = {in(&Change::install)}, .example = "[\"roof\"]",
-     .meaning = "names of [[bolts]] that are put into the blocks as they stand before the stage begins, after what it takes out"},
+     .meaning = "names of [[bolts]] and [[linings]] that are put in as the blocks stand before the stage begins, after what it takes out"},
     {.key = "move", .type = tables, .when = {"kind", "run"},
      .holds = {"label", "motion", "move", "factor", "selector"},
      .meaning = "blocks whose motion is prescribed while the stage lasts, whatever the load on them; their other "

@@ -46,6 +46,7 @@ KeyTable move_keys();
 std::vector<KeyTable> stage_load_keys();
 std::vector<KeyTable> water_keys();
 std::vector<KeyTable> bolt_keys();
+KeyTable lining_keys();
 KeyTable monitor_keys();
 KeyTable output_keys();
 KeyTable joint_set_keys();

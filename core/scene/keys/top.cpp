@@ -51,6 +51,8 @@ KeyTable top_keys() {
          "that contact forces are effective. It stands still: no flow, no drag, no added mass"},
     {.key = "bolts", .type = tables, .holds = {"bolts"},
      .meaning = "rock bolts and cables, which a stage installs"},
+    {.key = "linings", .type = tables, .holds = {"linings"},
+     .meaning = "linings of openings, in the plane: beams between nodes on an excavation's outline, which a stage installs"},
     {.key = "fix", .type = tables, .holds = {"label", "selector"}, .meaning = "blocks that never move"},
     {.key = "restrain", .type = tables, .holds = {"label", "restrain", "selector"},
      .meaning = "blocks that cannot move in some directions (world axes)"},
