@@ -81,7 +81,7 @@ TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
       {bolts(line + stiff + "spacing = 0") + install, "spacing", "greater than 0"},
       {bolts(line + stiff) + stage, "name", "no stage installs"},
       {bolts(line + stiff) + stage + "install = [\"rof\"]\n", "install", "roof"},
-      {stage + "install = [\"roof\"]\n", "install", "there are no bolts"},
+      {stage + "install = [\"roof\"]\n", "install", "there is nothing to install"},
       {bolts(line + stiff) + install + "[[stage]]\nname = \"again\"\nkind = \"settle\"\ninstall = [\"roof\"]\n",
        "install", "once more"},
       {bolts(line + stiff) + bolts(line + stiff) + install, "name", "roof"},

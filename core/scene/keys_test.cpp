@@ -14,6 +14,7 @@ namespace {
 
 using every_key::address;
 using every_key::everything;
+using every_key::scene_of;
 
 Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return parse_scene(text, "scene.toml", overrides);
@@ -121,6 +122,10 @@ Values values_of(const Scene& s) {
     for (const RepeatSpec& repeat : bolt.repeat)
       add(values, "repeat", repeat);
   }
+  for (const LiningSpec& lining : s.linings) {
+    add(values, "linings", lining);
+    add(values, "linings", lining.properties);
+  }
   for (const SelectorSpec& spec : s.fix)
     add(values, "selector", spec.selector);
   for (const RestrainSpec& spec : s.restrain)
@@ -154,29 +159,29 @@ TEST(Prepare, TakesBlocksByVerticesPlanesAndBox) {
 }
 
 TEST(Keys, HaveTheDefaultsThatTheyShow) {
-  const Values plain = values_of(parse(everything));
   for (const KeyRow& row : key_rows()) {
+    const Values plain = values_of(parse(scene_of(row)));
     for (const KeyMember& member : row.members)
       EXPECT_EQ(member.default_value, row.members.front().default_value) << row.key;
     // stated in the scene, for without it the tunnel takes out no block
     if (row.default_value.empty() || (row.table == "excavations" && row.key == "outline")) continue;
     const std::string text = address(row) + "=" + row.default_value;
-    EXPECT_EQ(values_of(parse(everything, {text})), plain) << text;
+    EXPECT_EQ(values_of(parse(scene_of(row), {text})), plain) << text;
   }
 }
 
 // A stated value reaches its member and no other. Of some keys the example needs others beside it, and is refused.
 TEST(Keys, AreReadIntoTheirMembers) {
-  const Scene plain = parse(everything);
-  const Values before = values_of(plain);
   int read = 0;
   for (const KeyRow& row : key_rows()) {
+    const Scene plain = parse(scene_of(row));
+    const Values before = values_of(plain);
     if (row.members.empty() || row.type == KeyType::table || row.example == row.default_value) continue;
     const std::string key = key_path(std::string(row.table), row.key);
     const std::string text = address(row) + "=" + std::string(row.example);
     ASSERT_TRUE(before.contains(key)) << text;
     try {
-      const Scene scene = parse(everything, {text});
+      const Scene scene = parse(scene_of(row), {text});
       ++read;
       if (canonical_text(scene) == canonical_text(plain)) {  // the scene states just that
         EXPECT_NE(before.at(key).find(row.example), std::string::npos) << text << "\n" << before.at(key);
@@ -199,7 +204,7 @@ TEST(Keys, HaveExamplesThatAreAccepted) {
     const std::string text = address(row) + "=" + std::string(row.example);
     // what else must fit together is judged after types and ranges, with its own words
     try {
-      parse(everything, {text});
+      parse(scene_of(row), {text});
     } catch (const SceneError& error) {
       const std::string message = error.what();
       EXPECT_TRUE(message.find("must exceed min") != std::string::npos || message.find("beside") != std::string::npos ||

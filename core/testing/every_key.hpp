@@ -240,7 +240,61 @@ water = "lake"
 [output]
 )";
 
-// where in `everything` a row's key can be set
+// what can stand in the plane only
+inline const std::string in_the_plane = R"(dimension = 2
+density = 2000
+domain = { box = { min = [-9, -9], max = [9, 9] } }
+[[joint_properties]]
+name = "rock"
+normal_stiffness = 1e9
+shear_stiffness = 1e8
+friction_deg = 35
+[[excavations]]
+name = "tunnel"
+outline = true
+cylinder = { from = [0, 0], radius = 3, sides = 12 }
+[[joints]]
+name = "A"
+dip = 30
+dip_direction = 90
+point = [0, 0]
+[[joints]]
+name = "B"
+dip = 60
+dip_direction = 270
+point = [0, 0]
+[[linings]]
+name = "shell"
+excavation = "tunnel"
+joint_properties = "rock"
+nodes = 60
+from_deg = 0
+to_deg = 300
+thickness = 0.3
+young_modulus = 20e9
+compressive_strength = 30e6
+tensile_strength = 3e6
+[[fix]]
+side = ["left"]
+[[stage]]
+name = "settle"
+kind = "settle"
+excavate = ["tunnel"]
+install = ["shell"]
+[[monitors]]
+name = "crown"
+quantities = ["lining_force"]
+lining = "shell"
+angle_deg = 90
+)";
+
+// the scene in which a row's key can be set
+inline const std::string& scene_of(const KeyRow& row) {
+  const bool of_lining = row.table == "monitors" && (row.key == "lining" || row.key == "angle_deg");
+  return row.table == "linings" || of_lining ? in_the_plane : everything;
+}
+
+// where in its scene a row's key can be set
 inline std::string address(const KeyRow& row) {
   const std::map<std::string_view, std::string> tables = {{"box", "domain.box"},
                                                           {"domain.planes", "domain.planes.1"},
@@ -258,6 +312,7 @@ inline std::string address(const KeyRow& row) {
                                                           {"bolts", "bolts.roof"},
                                                           {"fan", "bolts.roof.fan"},
                                                           {"repeat", "bolts.roof.repeat.1"},
+                                                          {"linings", "linings.shell"},
                                                           {"label", "fix.1"},
                                                           {"let_off", "stage.settle.let_off"},
                                                           {"selector", "fix.1"},
@@ -292,6 +347,7 @@ inline std::string address(const KeyRow& row) {
   if (row.table == "blocks.planes" && row.key == "point") table = "blocks.by planes.planes.5";
   if (row.table == "monitors" && row.key == "joint") table = "monitors.joint";
   if (row.table == "monitors" && row.key == "water") table = "monitors.lake";
+  if (&scene_of(row) == &in_the_plane && row.table == "monitors") table = "monitors.crown";
   if (row.table == "monitors" && row.key == "bolts") table = "monitors.bolts";
   if (row.table == "bolts" && (row.key == "from" || row.key == "to" || row.key == "axial_stiffness" ||
                                row.key == "pretension" || row.key == "rupture_extension"))

@@ -4,13 +4,15 @@
 #include "core/motion/relaxation.hpp"
 #include "core/step.hpp"
 #include "core/testing/counted_allocations.hpp"
+#include "core/testing/lined_opening.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir {
 namespace {
 
 // 200 steps, the neighbours staying as they are
-void expect_no_memory_asked(const Model<3>& model, const Settings& settings, State<3>& state) {
+template <int Dim>
+void expect_no_memory_asked(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const long long builds = state.counters.neighbour_builds, made = allocations;
   for (int i = 0; i < 200; ++i)
     step(model, settings, state);
@@ -48,6 +50,13 @@ TEST(Step, ARelaxingPileAsksForNoMemory) {
   for (int i = 0; i < 200; ++i)  // the kernel's lists have found their size
     step(model, settings, state);
   expect_no_memory_asked(model, settings, state);
+}
+
+TEST(Step, ALiningAsksForNoMemory) {
+  lined_opening::Cast cast;
+  for (int i = 0; i < 300; ++i)
+    step(cast.model, cast.scene.settings, cast.state);
+  expect_no_memory_asked(cast.model, cast.scene.settings, cast.state);
 }
 
 }  // namespace
