@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "core/excavation.hpp"
+#include "core/install.hpp"
 #include "core/step.hpp"
 
 namespace voussoir {
@@ -96,7 +97,7 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
   state.subs = std::move(subs);
 }
 
-// The springs of bolts whose blocks are left where their anchors lie.
+// what is left of bolts: what is fixed in parts that are left
 template <int Dim>
 void carry_springs(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state) {
   if (state.bolt_springs.empty()) return;
@@ -108,8 +109,7 @@ void carry_springs(const Model<Dim>& before, const Model<Dim>& model, const Exca
     place -= moved.shift[body];
     return true;
   };
-  std::erase_if(state.bolt_springs,
-                [&](BoltSpring<Dim>& s) { return !is_left(s.body_a, s.place_a) || !is_left(s.body_b, s.place_b); });
+  cut_bolts<Dim>(is_left, state);
 }
 
 // what is found again from motions and contacts
