@@ -321,7 +321,7 @@ void judge_bolts(const Model<Dim>& model, const State<Dim>& state, std::vector<s
     // with nodes so far apart a bar is an eighth of its square, 3 %, too soft over a joint
     constexpr double coarse = 0.5;
     const BoltProperties& properties = model.bolt_properties[p];
-    if (properties.node_spacing.value_or(0) > coarse * transfer_length(properties))
+    if (properties.node_spacing && *properties.node_spacing > coarse * transfer_length(properties))
       warnings.push_back(fmt::format(
           "bolts.{}: node_spacing, {:g} m, is more than half of the {:.2g} m over which the bar takes up its "
           "force: what its bond gives shows too little; lower it, or leave it out",

@@ -152,6 +152,13 @@ axial_stiffness = 1e8
 bond_stiffness = 5e8
 plate = "spring"
 plate_stiffness = 1e8
+[[bolts]]
+name = "plain bar"
+kind = "grouted"
+from = [0.2, 0.3, -0.9]
+to = [0.2, 0.3, 0.9]
+axial_stiffness = 1e8
+bond_stiffness = 5e8
 [[fix]]
 below = ["A"]
 [[restrain]]
@@ -172,7 +179,7 @@ damping = {}
 fix = [{ bodies = ["by planes"] }]
 water = [{ name = "lake", level = 0.1, duration_s = 5 }]
 excavate = ["tunnel"]
-install = ["roof", "anchor", "dowel", "bar"]
+install = ["roof", "anchor", "dowel", "bar", "plain bar"]
 let_off = { share = 0.5, duration_s = 1 }
 [[stage]]
 name = "run"
@@ -307,6 +314,7 @@ inline std::string address(const KeyRow& row) {
     table = "bolts.anchor";
   if (row.table == "bolts" && row.key.starts_with("dowel_strength")) table = "bolts.dowel";
   if (row.table == "bolts" && (row.when.value == "grouted" || row.key == "plate_stiffness")) table = "bolts.bar";
+  if (row.table == "bolts" && row.key == "plate") table = "bolts.plain bar";
   if (row.table == "water_surface" && row.key == "table") table = "water.seep";
   if (row.table == "water_surface" && row.key == "pressure") table = "water.grout";
   if (row.table == "water_change" && row.key == "rate") table = "stage.run.water.lake";
