@@ -183,8 +183,8 @@ TEST(Support, JointsGiveWayUnderAPretension) {
 }
 
 TEST(Support, ABoltHoldsABlockOnASlope) {
-  CaseReport report("support", {"critical friction of the bolted block"});
-  const SceneRun run = cases::run("slope.toml");
+  CaseReport report("support", {"critical friction of the bolted block", "critical friction under a grouted bar"});
+  const SceneRun run = cases::run("slope.toml"), grouted = cases::run("grouted_slope.toml");
   const double expected = reference::bolted_block_friction(100e3, 40 * degree, 20e3, 30 * degree) / degree;
   report.record({"critical friction of the bolted block",
                  "deg",
@@ -194,6 +194,14 @@ TEST(Support, ABoltHoldsABlockOnASlope) {
                  {0.02, 0},
                  "half the bracket is 0.005; a slip of s turns the bolt by s sin 30/67 mm, 0.01 deg at 1.5 mm"},
                 value(run, "critical_friction"), cost(run));
+  report.record({"critical friction under a grouted bar",
+                 "deg",
+                 Kind::exact,
+                 "tan = (W sin 40 - Fy cos 30)/(W cos 40 + Fy sin 30)",
+                 expected,
+                 {0.02, 0},
+                 "as of the bolted block: the bar, too, bends over 67 mm"},
+                value(grouted, "critical_friction"), cost(grouted));
 }
 
 }  // namespace
