@@ -142,12 +142,13 @@ std::vector<BoltRow> bolt_rows(const Model<Dim>& model, const State<Dim>& state,
     row.z = Dim == 3 ? at[Dim - 1] : 0;
     return row;
   };
-  auto bar = state.grouted.begin();  // the last one that begins before the spring
+  auto bar = state.grouted.begin();  // that the spring is a joint of, where it is one
   for (std::size_t i = 0; i < state.bolt_springs.size(); ++i) {
     const BoltSpring<Dim>& s = state.bolt_springs[i];
     const BoltProperties& p = model.bolt_properties[model.bolts[s.bolt].properties];
     if (p.kind == BoltKind::grouted) {
-      if (bar->first_spring + bar->joints() == static_cast<int>(i)) ++bar;
+      while (bar->first_spring + bar->joints() <= static_cast<int>(i))
+        ++bar;
       if (bar->first_spring == static_cast<int>(i) && bar->bar.plate != Plate::none) {
         BoltRow row = row_at(s.bolt, 0, anchor(bar->body[0], bar->place[0]));
         row.body_a = row.body_b = bar->body[0];

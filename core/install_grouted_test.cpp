@@ -348,6 +348,18 @@ void expect_same_bits(const std::string& statics) {
   ASSERT_EQ(whole.state.grouted.size(), 4u);
   const auto slipped = [](double slip) { return slip != 0; };
   EXPECT_TRUE(std::ranges::any_of(whole.state.grouted[1].state.slip, slipped));
+  // bars on both sides of a bolt of springs have their own slip in their rows
+  double most = 0;
+  for (const BoltRow& r : whole.results.bolts) {
+    EXPECT_EQ(r.slip.has_value(), r.bolts != "plain" && r.joint > 0);
+    if (r.bolts == "inclined" && r.slip) EXPECT_EQ(*r.slip, 0) << "its bond has no strength to lose";
+    if (r.bolts == "roof" && r.stage == 3) most = std::max(most, std::abs(*r.slip));
+  }
+  double of_bars = 0;
+  for (std::size_t k = 1; k < 4; ++k)
+    for (const double slip : whole.state.grouted[k].state.slip)
+      of_bars = std::max(of_bars, std::abs(slip));
+  EXPECT_NEAR(most, of_bars, 1e-6 * of_bars) << "rows are of the positions that the last step led to";
   EXPECT_EQ(simulated(scene_of(beds + lowest + springs + other + one + stages, {statics})).results.state_hash,
             whole.results.state_hash);
   const double steps = static_cast<double>(whole.state.counters.steps);
