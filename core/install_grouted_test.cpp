@@ -319,6 +319,28 @@ TEST(GroutedBolts, StayInWhatIsLeftOfTheirBlocks) {
   }
 }
 
+// What the rock that goes held by bolts is held by its let-off, and nothing moves as long as none is let off.
+TEST(GroutedBolts, AreLetOffWithTheRockThatGoes) {
+  const std::string hold = "let_off = { share = 1, duration_s = 0.1 }";
+  const std::string plain = "[[bolts]]\nname = \"roof\"\nstiffness = 1e8\n" + through;
+  for (const std::string& roof : {plain, bolts(through)}) {
+    const Progress<2> done =
+        simulated(scene_of(beds + lowest + roof + hang + stage("excavate = [\"dug\"]\n" + hold, "dig") +
+                           stage("let_off = { share = 0, duration_s = 1 }", "off")));
+    ASSERT_EQ(done.results.outcome, Outcome::done) << done.results.message;
+    std::vector<double> opened[3];  // of the joints that are left
+    for (const BoltRow& r : done.results.bolts)
+      if (r.joint > 1) opened[r.stage - 1].push_back(r.extension);
+    ASSERT_EQ(opened[0].size(), 6u);
+    ASSERT_EQ(opened[1].size(), 6u);
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_NEAR(opened[1][i], opened[0][i], 1e-5 * opened[0][i]);
+      EXPECT_LT(opened[2][i], 0.8 * opened[0][i]);
+    }
+    EXPECT_NEAR(done.state.bolt_springs[1].force, 2 * weight / 3, 1e-5 * weight);
+  }
+}
+
 // A bar whose middle goes is two bars, each of which must cross a joint yet.
 TEST(GroutedBolts, AreCutWhereTheirRockGoes) {
   Bars<2> bars;

@@ -104,7 +104,7 @@ void carry_springs(const Model<Dim>& before, const Model<Dim>& model, const Exca
   const auto is_left = [&](int& body, Vector<Dim>& place) {
     const auto first = std::ranges::find(before.parts, body, &PartId::body) - before.parts.begin();
     const int part = moved.part[first + part_at<Dim>(before.bodies[body], place)];
-    if (part < 0) return false;
+    if (part < 0 || !model.bodies[model.parts[part].body].present) return false;
     body = model.parts[part].body;
     place -= moved.shift[body];
     return true;
