@@ -178,6 +178,7 @@ const Harmless harmless[] = {
     {"let_off", "share", "0", "all is let off"},
     {"bolts", "pretension", "0", is_default},
     {"bolts", "dowel_stiffness", "0", is_default},
+    {"bolts", "free_length", "0", is_default},
     {"bolts", "rupture_extension", "0", "it breaks where it yields"},
     {"bolts", "from", "any", "another bolt; one that crosses no joint or ends in the open is reported"},
     {"bolts", "to", "any", "another bolt; one that crosses no joint or ends in the open is reported"},

@@ -108,21 +108,57 @@ std::vector<double> history_row(const Prepared<Dim>& scene, const Model<Dim>& mo
   return values;
 }
 
+namespace {
+
+// of a bar's bond in the two blocks at a joint, m: the farthest, with its sign
+template <int Dim>
+double most_slip(const GroutedBolt<Dim>& grouted, int joint) {
+  double most = 0;
+  for (std::size_t i = 0; i < grouted.stretch.size(); ++i) {
+    const bool beside = grouted.stretch[i] == joint || grouted.stretch[i] == joint + 1;
+    if (beside && std::abs(grouted.state.slip[i]) > std::abs(most)) most = grouted.state.slip[i];
+  }
+  return most;
+}
+
+}  // namespace
+
 template <int Dim>
 std::vector<BoltRow> bolt_rows(const Model<Dim>& model, const State<Dim>& state, int stage) {
   std::vector<BoltRow> rows;
-  for (const BoltSpring<Dim>& s : state.bolt_springs) {
-    const Bolt<Dim>& bolt = model.bolts[s.bolt];
-    const BoltProperties& p = model.bolt_properties[bolt.properties];
-    const auto anchor = [&](int body, const Vector<Dim>& place) {
-      const Motion<Dim>& m = state.motions[body];
-      return Vector<Dim>(model.origin + model.bodies[body].reference + m.displacement + matrix(m.rotation) * place);
-    };
-    const Vector<Dim> at = 0.5 * (anchor(s.body_a, s.place_a) + anchor(s.body_b, s.place_b));
-    BoltRow row{.stage = stage, .bolts = p.name, .bolt = bolt.number, .joint = s.number, .use = {}};
+  const auto anchor = [&](int body, const Vector<Dim>& place) {
+    const Motion<Dim>& m = state.motions[body];
+    return Vector<Dim>(model.origin + model.bodies[body].reference + m.displacement + matrix(m.rotation) * place);
+  };
+  const auto row_at = [&](int of, int joint, const Vector<Dim>& at) {
+    const Bolt<Dim>& bolt = model.bolts[of];
+    BoltRow row{.stage = stage,
+                .bolts = model.bolt_properties[bolt.properties].name,
+                .bolt = bolt.number,
+                .joint = joint,
+                .use = {}};
     row.x = at[0];
     row.y = at[1];
     row.z = Dim == 3 ? at[Dim - 1] : 0;
+    return row;
+  };
+  auto bar = state.grouted.begin();  // that the spring is a joint of, where it is one
+  for (std::size_t i = 0; i < state.bolt_springs.size(); ++i) {
+    const BoltSpring<Dim>& s = state.bolt_springs[i];
+    const BoltProperties& p = model.bolt_properties[model.bolts[s.bolt].properties];
+    if (p.kind == BoltKind::grouted) {
+      while (bar->first_spring + bar->joints() <= static_cast<int>(i))
+        ++bar;
+      if (bar->first_spring == static_cast<int>(i) && bar->bar.plate != Plate::none) {
+        BoltRow row = row_at(s.bolt, 0, anchor(bar->body[0], bar->place[0]));
+        row.body_a = row.body_b = bar->body[0];
+        row.force = p.spacing * bar->state.plate_force;
+        row.plastic = bar->state.plastic_stretch[0];
+        if (p.yield) row.use = bar->state.plate_force / *p.yield;
+        rows.push_back(row);
+      }
+    }
+    BoltRow row = row_at(s.bolt, s.number, 0.5 * (anchor(s.body_a, s.place_a) + anchor(s.body_b, s.place_b)));
     row.body_a = s.body_a;
     row.body_b = s.body_b;
     row.force = p.spacing * s.force;
@@ -131,6 +167,7 @@ std::vector<BoltRow> bolt_rows(const Model<Dim>& model, const State<Dim>& state,
     row.plastic = s.plastic;
     if (p.yield) row.use = std::abs(s.force) / *p.yield;
     row.broken = s.broken;
+    if (p.kind == BoltKind::grouted) row.slip = most_slip(*bar, static_cast<int>(i) - bar->first_spring);
     rows.push_back(row);
   }
   return rows;

@@ -39,7 +39,7 @@ struct History {
   std::vector<std::vector<double>> rows;
 };
 
-// a spring of a bolt at the end of a stage (core/output/bolts_csv.hpp)
+// a spring of a bolt at the end of a stage, or the plate of a grouted one (core/output/bolts_csv.hpp)
 struct BoltRow {
   int stage = 1;
   std::string bolts;
@@ -50,6 +50,7 @@ struct BoltRow {
   double extension = 0, plastic = 0;  // m
   std::optional<double> use;          // of yield
   bool broken = false;
+  std::optional<double> slip{};  // m, of a grouted bolt's bond
 };
 
 // a node of a lining at the end of a stage (core/output/lining_csv.hpp)

@@ -154,7 +154,7 @@ std::string first_unanswered(const Model<Dim>& model, const State<Dim>& state) {
     if (c.unanswered())
       return fmt::format("contact of {} and {} at {}: {}", label_of(model, model.parts[c.part_a].body),
                          label_of(model, model.parts[c.part_b].body), moment_of(state), name(c.status));
-  return {};
+  return "bar of a grouted bolt at " + moment_of(state) + ": no equilibrium";
 }
 
 // Stops what is not to move. The forces have been found: until then velocities are those that led here, by which the

@@ -251,6 +251,7 @@ struct Simulation {
 
   // A stage that cannot be done ends here: what was done before it is kept.
   std::optional<Executed> execute_stage() {
+    if (results.outcome != Outcome::done) return Executed{"bolts that cannot be installed"};
     if (!anything_moves(model)) {
       fail(Outcome::incomplete,
            "no block is free to move: this stage, or one before it, fixed or removed the last; leave one free, or "
@@ -273,6 +274,27 @@ struct Simulation {
     model = apply(std::move(model), plan().change);
   }
 
+  void install_bolts() {
+    try {
+      for (const std::string& idle : install(model, plan().change.install, state))
+        results.warnings.push_back(fmt::format(
+            "stage {}: the bolts '{}' cross no joint between two blocks and hold nothing; lengthen or move them, or "
+            "install them before their blocks are taken out",
+            plan().name, idle));
+    } catch (const std::invalid_argument& error) {  // grout that does not hold what they are tightened to
+      fail(Outcome::failed, error.what());
+    }
+  }
+
+  void install_linings() {
+    release_linings(model, state);
+    for (const std::string& idle : cast_linings(model, plan().change.install, state))
+      results.warnings.push_back(fmt::format(
+          "stage {}: no block has a face on the outline of the lining '{}', so that nothing holds it; install it after "
+          "its excavation is taken out",
+          plan().name, idle));
+  }
+
   void begin_stage() {
     for (const int p : properties_changed(model, plan().change)) {
       state.schedule.friction[p] = model.properties[p].friction;
@@ -280,17 +302,8 @@ struct Simulation {
     }
     remove_bonds(model, state);
     remove_springs(model, state);
-    release_linings(model, state);
-    for (const std::string& idle : install(model, plan().change.install, state))
-      results.warnings.push_back(fmt::format(
-          "stage {}: the bolts '{}' cross no joint between two blocks and hold nothing; lengthen or move them, or "
-          "install them before their blocks are taken out",
-          plan().name, idle));
-    for (const std::string& idle : cast_linings(model, plan().change.install, state))
-      results.warnings.push_back(fmt::format(
-          "stage {}: no block has a face on the outline of the lining '{}', so that nothing holds it; install it after "
-          "its excavation is taken out",
-          plan().name, idle));
+    install_bolts();
+    install_linings();
     if (plan().change.zero_slip) zero_slip(state);
     if (plan().change.bond) make_bonds(model, settings, state);
     // candidates and time step belong to the stage

@@ -15,6 +15,7 @@
 #include "core/geometry/types.hpp"
 #include "core/load/water.hpp"
 #include "core/model.hpp"
+#include "core/support/grouted_bolt.hpp"
 
 namespace voussoir {
 
@@ -110,6 +111,7 @@ struct NewtonIncrement {
   std::vector<Motion<Dim>> base;               // by body
   std::vector<BaseHistory<Dim>> histories;     // by contact
   std::vector<BoltSpring<Dim>> springs;        // as they were at the base
+  std::vector<GroutedBolt<Dim>> grouted;       // the same
   std::vector<LiningState> linings;            // likewise
   std::vector<JointState<Dim>> sub_histories;  // as many places for each contact
   long long listed = 0;                        // Counters::neighbour_builds that they belong to
@@ -229,6 +231,7 @@ struct State {
   Schedule schedule;
   std::vector<HeldLoad<Dim>> held;            // by excavation, then by body
   std::vector<BoltSpring<Dim>> bolt_springs;  // of the bolts installed so far, in their order
+  std::vector<GroutedBolt<Dim>> grouted;      // bars of those that are grouted, in the order of their springs
   std::vector<LiningState> linings;           // installed so far
   BondTally bonds;
   double time = 0;          // s

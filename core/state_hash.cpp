@@ -80,6 +80,22 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
     bytes.add(s.force);
     bytes.add(s.shear);
   }
+  for (const GroutedBolt<Dim>& g : state.grouted) {
+    bytes.add(g.bolt);
+    bytes.add(g.first_spring);
+    for (const int body : g.body)
+      bytes.add(body);
+    for (const Vector<Dim>& place : g.place)
+      bytes.add(place);
+    const GroutedBarState& s = g.state;
+    for (const std::vector<double>* list :
+         {&g.bar.position, &g.bar.bond_length, &s.displacement, &s.rock, &s.bond_force, &s.bond_strength, &s.slip,
+          &s.bar_force, &s.bar_strength, &s.plastic_stretch})
+      for (const double x : *list)
+        bytes.add(x);
+    bytes.add(s.plate_force);
+    bytes.add(s.plate_closure);
+  }
   for (const LiningState& lined : state.linings) {
     bytes.add(lined.lining);
     for (const LiningContact& c : lined.contacts) {

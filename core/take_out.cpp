@@ -5,6 +5,7 @@
 
 #include "core/cast_lining.hpp"
 #include "core/excavation.hpp"
+#include "core/install.hpp"
 #include "core/step.hpp"
 
 namespace voussoir {
@@ -97,20 +98,19 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
   state.subs = std::move(subs);
 }
 
-// The springs of bolts whose blocks are left where their anchors lie.
+// what is left of bolts: what is fixed in parts that are left
 template <int Dim>
 void carry_springs(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state) {
   if (state.bolt_springs.empty()) return;
   const auto is_left = [&](int& body, Vector<Dim>& place) {
     const auto first = std::ranges::find(before.parts, body, &PartId::body) - before.parts.begin();
     const int part = moved.part[first + part_at<Dim>(before.bodies[body], place)];
-    if (part < 0) return false;
+    if (part < 0 || !model.bodies[model.parts[part].body].present) return false;
     body = model.parts[part].body;
     place -= moved.shift[body];
     return true;
   };
-  std::erase_if(state.bolt_springs,
-                [&](BoltSpring<Dim>& s) { return !is_left(s.body_a, s.place_a) || !is_left(s.body_b, s.place_b); });
+  cut_bolts<Dim>(is_left, state);
 }
 
 template <int Dim>

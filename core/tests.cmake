@@ -81,7 +81,7 @@ voussoir_test(unit.newton LONG LABEL unit
   LIBS voussoir_core cereal::cereal Boost::headers)
 
 voussoir_test(unit.step LABEL unit
-  SOURCES step_test.cpp simulate_test.cpp take_out_test.cpp install_test.cpp cast_lining_test.cpp testing/whole_scenes_test.cpp step/joint_forces_test.cpp step/loads_test.cpp testing/step_memory_test.cpp energy_test.cpp motion/prescribed_test.cpp
+  SOURCES step_test.cpp simulate_test.cpp take_out_test.cpp install_test.cpp install_grouted_test.cpp cast_lining_test.cpp testing/whole_scenes_test.cpp step/joint_forces_test.cpp step/loads_test.cpp testing/step_memory_test.cpp energy_test.cpp motion/prescribed_test.cpp
     load/boundary_stress_test.cpp load/water_test.cpp step/water_test.cpp scene/water_scene_test.cpp
     state_hash_test.cpp reduction/reduction_test.cpp motion/relaxation_test.cpp checkpoint/checkpoint_test.cpp
   LIBS voussoir_core cereal::cereal Boost::headers)

@@ -54,7 +54,7 @@ const std::vector<Order> orders{
       {"extended_precision_feasibility", "analytic_centre", "central_path", "block_factors"},
       {"feasibility", "block_solver"},
       {"solvers", "glpk", "ipopt"}}},
-    {"core/support", {{"beam", "bolt", "grout"}, {"lining"}}},
+    {"core/support", {{"beam", "grout"}, {"bolt", "lining"}, {"grouted_bolt"}}},
     {"core/load", {{"load", "time_factor"}, {"boundary_stress", "water"}}},
     {"core/contact",
      {{"contact", "pair", "kernel_counters", "rounding"},

@@ -315,12 +315,16 @@ void print_bolts(const Prepared<Dim>& prepared) {
   const char* label = "bolts";
   for (std::size_t p = 0; p < model.bolt_properties.size(); ++p) {
     const BoltProperties& properties = model.bolt_properties[p];
+    double longest_nodes = 0;  // m
     std::size_t count = 0, joints = 0, idle = 0, thin = 0, fewest = std::numeric_limits<std::size_t>::max(), most = 0;
     for (std::size_t i = 0; i < model.bolts.size(); ++i) {
       if (model.bolts[i].properties != static_cast<int>(p)) continue;
       const std::vector<BoltSpring<Dim>> springs = springs_of(model, prepared.state, static_cast<int>(i));
       ++count;
       joints += springs.size();
+      if (properties.kind == BoltKind::grouted)
+        longest_nodes =
+            std::max(longest_nodes, node_spacing(properties, (model.bolts[i].toe - model.bolts[i].collar).norm()));
       idle += springs.empty();
       fewest = std::min(fewest, springs.size());
       most = std::max(most, springs.size());
@@ -328,10 +332,15 @@ void print_bolts(const Prepared<Dim>& prepared) {
         thin += shortened(model, spring);
     }
     std::string text = fmt::format("{}: {}{}", properties.name, count,
-                                   properties.kind == BoltKind::end_anchored ? " end-anchored" : "");
-    if (properties.kind == BoltKind::springs)
+                                   properties.kind == BoltKind::end_anchored ? " end-anchored"
+                                   : properties.kind == BoltKind::grouted    ? " grouted"
+                                                                             : "");
+    if (properties.kind != BoltKind::end_anchored)
       text += fmt::format(" that cross {} joints of the blocks as they are cut, {} each", joints,
                           fewest == most ? fmt::format("{}", most) : fmt::format("{} to {}", fewest, most));
+    if (properties.kind == BoltKind::grouted)
+      text += fmt::format("; nodes {:.3g} m apart at most, {:.2g} of the length over which the bar takes up its force",
+                          longest_nodes, longest_nodes / transfer_length(properties));
     if (idle > 0) text += fmt::format("; {} cross none", idle);
     if (thin > 0) text += fmt::format("; of {} springs an anchor lies in the middle of a thin block", thin);
     line(label, text);

@@ -56,6 +56,77 @@ TEST(Support, SpringsFollowAnOpeningAndSlippingJoint) {
   write_csv("support", "slip.csv", names, columns);
 }
 
+// as the scene of grouted bars states them
+constexpr double axial_stiffness = 98e6, bond_stiffness = 200e6, free_length = 0.5, stiff_bond = 100e9,
+                 bond_strength = 400e3, bar_spacing = 0.1, opened = 0.001;
+
+TEST(Support, GroutedBarsFollowAnOpeningJoint) {
+  CaseReport report("support", {"bar with a bond that slips"});
+  const SceneRun run = cases::run("grouted.toml");
+  const auto last = [&](const char* bolts) { return column(run, fmt::format("{}_largest_force_N", bolts)).back(); };
+  const double pull_out = reference::pull_out_stiffness(axial_stiffness, bond_stiffness, 3);
+  report.record({"bar bonded on both sides of the joint",
+                 "N",
+                 Kind::exact,
+                 "half of sqrt(EA k) tanh(l sqrt(k/EA)), times the opening",
+                 0.5 * pull_out * opened,
+                 {0, 0.01},
+                 "nodes h apart make a bar h2 k/8EA too soft: 0.26 %"},
+                last("bonded"), cost(run));
+  report.record({"bar pulled out of the rock by its plate",
+                 "N",
+                 Kind::exact,
+                 "sqrt(EA k) tanh(l sqrt(k/EA)) and EA over the free length, one behind the other",
+                 opened / (1 / pull_out + free_length / axial_stiffness),
+                 {0, 0.01},
+                 "nodes h apart make what is bonded h2 k/8EA too soft: 0.26 %, of the whole 0.15 %"},
+                last("pulled"), cost(run));
+  report.record({"bar with a bond that slips",
+                 "N",
+                 Kind::exact,
+                 "sqrt(EA S (w - S/k))",
+                 reference::bar_over_opening(axial_stiffness, stiff_bond, bond_strength, opened),
+                 {0, 0.01},
+                 "a node of 20 mm slips as one: of the 0.5 m that slip on a side, at most half a node too many or too "
+                 "few, 2 %, move the force by the square of that"},
+                last("slipping"), cost(run));
+  report.record({"bar with a bond that slips, against a rigid bond",
+                 "N",
+                 Kind::exact,
+                 "sqrt(EA S w)",
+                 std::sqrt(axial_stiffness * bond_strength * opened),
+                 {0, 0.01},
+                 "S/kw = 0.4 % of the opening is elastic, half of it of the force"},
+                last("slipping"), cost(run));
+
+  std::vector<double> opening, closed;
+  for (const double t : column(run, "time_s")) {
+    opening.push_back(opening_rate * t);
+    closed.push_back(reference::bar_over_opening(axial_stiffness, stiff_bond, bond_strength, opening.back()));
+  }
+  write_csv("support", "grouted.csv", {"opening_m", "slipping_N", "slipping_closed_form_N"},
+            {opening, column(run, "slipping_largest_force_N"), closed});
+}
+
+// Halving the spacing of nodes quarters the error.
+TEST(Support, GroutedBarsAreOfSecondOrder) {
+  CaseReport report("support");
+  const double expected = 0.5 * reference::pull_out_stiffness(axial_stiffness, bond_stiffness, 3) * opened;
+  const auto error = [&](double spacing) {
+    const SceneRun run = cases::run("grouted.toml", {fmt::format("bolts.bonded.node_spacing={}", spacing)});
+    return std::abs(column(run, "bonded_largest_force_N").back() / expected - 1);
+  };
+  const double coarse = error(2 * bar_spacing), fine = error(bar_spacing);
+  report.record({"order of a bar's error in the spacing of its nodes",
+                 "1",
+                 Kind::exact,
+                 "log2 of two errors, nodes 0.2 and 0.1 m apart",
+                 2,
+                 {0.05, 0},
+                 "a half-infinite row of rods and bonds, 1/sqrt(1 + h2 k/4EA) of the bar, has 1.983"},
+                std::log2(coarse / fine), {});
+}
+
 TEST(Support, ASlabHangsFromItsBolts) {
   CaseReport report("support");
   const SceneRun run = cases::run("hung.toml");
@@ -112,8 +183,8 @@ TEST(Support, JointsGiveWayUnderAPretension) {
 }
 
 TEST(Support, ABoltHoldsABlockOnASlope) {
-  CaseReport report("support", {"critical friction of the bolted block"});
-  const SceneRun run = cases::run("slope.toml");
+  CaseReport report("support", {"critical friction of the bolted block", "critical friction under a grouted bar"});
+  const SceneRun run = cases::run("slope.toml"), grouted = cases::run("grouted_slope.toml");
   const double expected = reference::bolted_block_friction(100e3, 40 * degree, 20e3, 30 * degree) / degree;
   report.record({"critical friction of the bolted block",
                  "deg",
@@ -123,6 +194,14 @@ TEST(Support, ABoltHoldsABlockOnASlope) {
                  {0.02, 0},
                  "half the bracket is 0.005; a slip of s turns the bolt by s sin 30/67 mm, 0.01 deg at 1.5 mm"},
                 value(run, "critical_friction"), cost(run));
+  report.record({"critical friction under a grouted bar",
+                 "deg",
+                 Kind::exact,
+                 "tan = (W sin 40 - Fy cos 30)/(W cos 40 + Fy sin 30)",
+                 expected,
+                 {0.02, 0},
+                 "as of the bolted block: the bar, too, bends over 67 mm"},
+                value(grouted, "critical_friction"), cost(grouted));
 }
 
 }  // namespace

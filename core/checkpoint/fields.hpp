@@ -155,6 +155,27 @@ void serialize(Archive& archive, BoltSpring<Dim>& s) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, GroutedBar& b) {
+  auto& [axial_stiffness, yield_force, bond_stiffness, bond_strength, plate, plate_stiffness, position, bond_length] =
+      b;
+  archive(axial_stiffness, yield_force, bond_stiffness, bond_strength, plate, plate_stiffness, position, bond_length);
+}
+
+template <class Archive>
+void serialize(Archive& archive, GroutedBarState& s) {
+  auto& [displacement, rock, bond_force, bond_strength, slip, bar_force, bar_strength, plastic_stretch, plate_force,
+         plate_closure] = s;
+  archive(displacement, rock, bond_force, bond_strength, slip, bar_force, bar_strength, plastic_stretch, plate_force,
+          plate_closure);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, GroutedBolt<Dim>& g) {
+  auto& [bolt, first_spring, bar, state, body, place, stretch, stiffness] = g;
+  archive(bolt, first_spring, bar, state, body, place, stretch, stiffness);
+}
+
+template <class Archive>
 void serialize(Archive& archive, LiningRock& r) {
   auto& [side, body, corner, normal, from, to] = r;
   archive(side, body, corner, normal, from, to);
@@ -175,11 +196,11 @@ void serialize(Archive& archive, LiningState& l) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, NewtonIncrement<Dim>& n) {
   auto& [under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
-         regularisation, overshoot, base, histories, springs, linings, sub_histories, listed, loads_begin, energy, accepted,
-         residual, change, merits, stiffness, closed, of_water] = n;
+         regularisation, overshoot, base, histories, springs, grouted, linings, sub_histories, listed, loads_begin, energy,
+         accepted, residual, change, merits, stiffness, closed, of_water] = n;
   archive(under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
-          regularisation, overshoot, base, histories, springs, linings, sub_histories, listed, loads_begin.values, energy,
-          accepted, residual, change, merits, stiffness, closed, of_water);
+          regularisation, overshoot, base, histories, springs, grouted, linings, sub_histories, listed, loads_begin.values,
+          energy, accepted, residual, change, merits, stiffness, closed, of_water);
 }
 
 template <class Archive, int Dim>
@@ -192,10 +213,10 @@ template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
   // poses, loads by source with their stiffness, lists by body and loads of contacts are rebuilt before they are read
   auto& [motions, loads, loads_of, stiffened, contacts, subs, built, counted_at, path_bounds, left_behind, poses,
-         by_body, contact_loads, frequency, relaxation, newton, schedule, held, bolt_springs, linings, bonds, time,
+         by_body, contact_loads, frequency, relaxation, newton, schedule, held, bolt_springs, grouted, linings, bonds, time,
          time_step, step_allowed, energy, counters] = s;
   archive(motions, loads, contacts, subs, built, counted_at, path_bounds, left_behind, frequency, relaxation, newton,
-          schedule, held, bolt_springs, linings, bonds, time, time_step, step_allowed, energy, counters);
+          schedule, held, bolt_springs, grouted, linings, bonds, time, time_step, step_allowed, energy, counters);
 }
 
 template <class Archive, int Dim>
@@ -238,8 +259,8 @@ void serialize(Archive& archive, History& h) {
 
 template <class Archive>
 void serialize(Archive& archive, BoltRow& b) {
-  auto& [stage, bolts, bolt, joint, x, y, z, body_a, body_b, force, shear, extension, plastic, use, broken] = b;
-  archive(stage, bolts, bolt, joint, x, y, z, body_a, body_b, force, shear, extension, plastic, use, broken);
+  auto& [stage, bolts, bolt, joint, x, y, z, body_a, body_b, force, shear, extension, plastic, use, broken, slip] = b;
+  archive(stage, bolts, bolt, joint, x, y, z, body_a, body_b, force, shear, extension, plastic, use, broken, slip);
 }
 
 template <class Archive>

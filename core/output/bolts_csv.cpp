@@ -9,7 +9,7 @@ namespace voussoir {
 
 std::string bolts_csv(const std::vector<BoltRow>& rows) {
   std::string text = csv_line({"stage", "bolts", "bolt", "joint", "x_m", "y_m", "z_m", "body_a", "body_b", "force_N",
-                               "shear_N", "extension_m", "plastic_m", "use", "broken"}) +
+                               "shear_N", "extension_m", "plastic_m", "use", "broken", "slip_m"}) +
                      "\n";
   for (const BoltRow& r : rows) {
     std::vector<std::string> cells{std::to_string(r.stage), r.bolts, std::to_string(r.bolt), std::to_string(r.joint)};
@@ -21,6 +21,7 @@ std::string bolts_csv(const std::vector<BoltRow>& rows) {
       cells.push_back(csv_cell(x));
     cells.push_back(r.use ? csv_cell(*r.use) : "");
     cells.push_back(r.broken ? "1" : "0");
+    cells.push_back(r.slip ? csv_cell(*r.slip) : "");
     text += csv_line(cells) + "\n";
   }
   return text;

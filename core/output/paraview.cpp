@@ -229,28 +229,42 @@ PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double tim
   const auto middle = [&](const BoltSpring<Dim>& s) {
     return Vector<Dim>(0.5 * (anchor(s.body_a, s.place_a) + anchor(s.body_b, s.place_b)));
   };
+  const auto add = [&](const Vector<Dim>& begin, const Vector<Dim>& end, int of, int at_joint, double f,
+                       double plastic_f) {
+    const int first = static_cast<int>(data.points.size());
+    data.points.push_back(in_space(begin));
+    data.points.push_back(in_space(end));
+    data.cells.push_back({first, first + 1});
+    const Bolt<Dim>& bolt = model.bolts[of];
+    const BoltProperties& p = model.bolt_properties[bolt.properties];
+    bolts.values.push_back(bolt.properties);
+    number.values.push_back(bolt.number);
+    joint.values.push_back(at_joint);
+    force.values.push_back(p.spacing * f);
+    plastic.values.push_back(plastic_f);
+    use.values.push_back(p.yield ? std::abs(f) / *p.yield : 0);
+  };
   for (std::size_t i = 0; i < springs.size(); ++i) {
     const BoltSpring<Dim>& s = springs[i];
+    const BoltProperties& p = model.bolt_properties[model.bolts[s.bolt].properties];
+    if (p.kind == BoltKind::grouted) continue;
     const auto same = [&](std::size_t k) { return k < springs.size() && springs[k].bolt == s.bolt; };
     const Vector<Dim> begin =
         i > 0 && same(i - 1) ? Vector<Dim>(0.5 * (middle(springs[i - 1]) + middle(s))) : anchor(s.body_a, s.place_a);
     const Vector<Dim> end =
         same(i + 1) ? Vector<Dim>(0.5 * (middle(s) + middle(springs[i + 1]))) : anchor(s.body_b, s.place_b);
-    const int first = static_cast<int>(data.points.size());
-    data.points.push_back(in_space(begin));
-    data.points.push_back(in_space(end));
-    data.cells.push_back({first, first + 1});
-    const Bolt<Dim>& bolt = model.bolts[s.bolt];
-    const BoltProperties& p = model.bolt_properties[bolt.properties];
-    bolts.values.push_back(bolt.properties);
-    number.values.push_back(bolt.number);
-    joint.values.push_back(s.number);
-    force.values.push_back(p.spacing * s.force);
+    add(begin, end, s.bolt, s.number, s.force, s.plastic);
     shear.values.push_back(p.spacing * s.shear.norm());
-    plastic.values.push_back(s.plastic);
-    use.values.push_back(p.yield ? std::abs(s.force) / *p.yield : 0);
     broken.values.push_back(s.broken);
   }
+  for (const GroutedBolt<Dim>& g : state.grouted)
+    for (std::size_t i = 0; i + 1 < g.body.size(); ++i) {
+      const int next = std::min(g.stretch[i], g.joints() - 1);
+      add(anchor(g.body[i], g.place[i]), anchor(g.body[i + 1], g.place[i + 1]), g.bolt,
+          springs[g.first_spring + next].number, g.state.bar_force[i], g.state.plastic_stretch[i]);
+      shear.values.push_back(0);
+      broken.values.push_back(0);
+    }
   data.cell_data = {bolts, number, joint, force, shear, plastic, use, broken};
   data.names = {{"bolt_names", names_of(model.bolt_properties)}};
   return data;

@@ -25,6 +25,7 @@ const std::string install = stage + "install = [\"roof\"]\n";
 std::string bolts(const std::string& keys) {
   return "[[bolts]]\nname = \"roof\"\n" + keys + "\n";
 }
+const std::string grouted = "kind = \"grouted\"\naxial_stiffness = 1e8\nbond_stiffness = 5e8\n";
 const std::string line = "from = [1, 1]\nto = [1, 3]\n", stiff = "stiffness = 2e8\n",
                   fan = "from_deg = 60, to_deg = 120, spacing_deg = 30, length = 2 }\n";
 
@@ -41,6 +42,10 @@ std::string refusal(const std::string& text) {
 TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
   EXPECT_EQ(refusal(rock + bolts(line + stiff) + install), "");
   EXPECT_EQ(refusal(rock + bolts("fan = { centre = [2, 0], start = 1, " + fan + stiff) + install), "");
+  EXPECT_EQ(refusal(rock + bolts(line + grouted) + install), "");
+  EXPECT_EQ(
+      refusal(rock + bolts(line + grouted + "plate = \"spring\"\nplate_stiffness = 1e8\npretension = 1e5\n") + install),
+      "");
   struct Case {
     std::string text, key, says;
   };
@@ -78,6 +83,31 @@ TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
        "springs"},
       {bolts(line + "kind = \"end_anchored\"\naxial_stiffness = 1e8\ntension_only = true") + install, "tension_only",
        "springs"},
+      {bolts(line + "kind = \"grouted\"\nbond_stiffness = 5e8") + install, "axial_stiffness", "is missing"},
+      {bolts(line + "kind = \"grouted\"\naxial_stiffness = 1e8") + install, "bond_stiffness", "is missing"},
+      {bolts(line + "kind = \"grouted\"\naxial_stiffness = 1e8\nbond_stiffness = 0") + install, "bond_stiffness",
+       "greater than 0"},
+      {bolts(line + "kind = \"grout\"") + install, "kind", "grouted"},
+      {bolts(line + stiff + "bond_stiffness = 5e8") + install, "bond_stiffness", "grouted"},
+      {bolts(line + grouted + "stiffness = 1e8") + install, "stiffness", "springs"},
+      {bolts(line + grouted + "anchors = \"midway\"\ndiameter = 0.03") + install, "diameter", "anchors"},
+      {bolts(line + grouted + "tension_only = true") + install, "tension_only", "springs"},
+      {bolts(line + grouted + "dowel_stiffness = 1e7") + install, "dowel_stiffness", "end_anchored"},
+      {bolts(line + grouted + "yield = 1e5\nrupture_extension = 0.1") + install, "rupture_extension", "end_anchored"},
+      {bolts(line + grouted + "bond_strength = 0") + install, "bond_strength", "greater than 0"},
+      {bolts(line + grouted + "plate = \"steel\"") + install, "plate", "tied"},
+      {bolts(line + grouted + "plate = \"spring\"") + install, "plate_stiffness", "is missing"},
+      {bolts(line + grouted + "plate = \"tied\"\nplate_stiffness = 1e8") + install, "plate_stiffness", "spring"},
+      {bolts(line + grouted + "pretension = 1e4") + install, "pretension", "needs a plate"},
+      {bolts(line + grouted + "plate = \"tied\"\npretension = 1e5\nbond_strength = 4e4") + install, "pretension",
+       "what the grout holds"},
+      {bolts(line + grouted + "plate = \"tied\"\npretension = 2e5\nyield = 1e5") + install, "pretension",
+       "more than yield"},
+      {bolts(line + grouted + "free_length = 2") + install, "free_length", "leaves no grout"},
+      {bolts(line + grouted + "free_length = -1") + install, "free_length", "0"},
+      {bolts(line + grouted + "node_spacing = 3") + install, "node_spacing", "2 m long"},
+      {bolts(line + grouted + "node_spacing = 1e-4") + install, "node_spacing", "nodes, more than"},
+      {bolts(line + grouted + "node_spacing = 0") + install, "node_spacing", "greater than 0"},
       {bolts(line + stiff + "spacing = 0") + install, "spacing", "greater than 0"},
       {bolts(line + stiff) + stage, "name", "no stage installs"},
       {bolts(line + stiff) + stage + "install = [\"rof\"]\n", "install", "roof"},

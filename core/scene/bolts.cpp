@@ -35,6 +35,15 @@ FanSpec read_fan(const Subject& subject, int dimension) {
   return fan;
 }
 
+// m
+double length_of(const BoltSpec& spec) {
+  if (spec.fan) return spec.fan->length;
+  double sum = 0;
+  for (std::size_t i = 0; i < spec.from.size(); ++i)
+    sum += (spec.to[i] - spec.from[i]) * (spec.to[i] - spec.from[i]);
+  return std::sqrt(sum);
+}
+
 void check_law(const Subject& item, const BoltProperties& p) {
   if (p.yield && p.pretension > *p.yield)
     refuse(item, "pretension",
@@ -43,6 +52,28 @@ void check_law(const Subject& item, const BoltProperties& p) {
     refuse(item, "rupture_extension", "yield is missing: without it nothing extends plastically; add yield");
   if (p.dowel_strength && p.dowel_stiffness == 0)
     refuse(item, "dowel_strength", "dowel_stiffness is missing: without it no force acts across the bolt; add it");
+}
+
+// more nodes of a bar are a mistake in their spacing
+constexpr double most_nodes = 10'000;
+
+void check_grouted(const Subject& item, const BoltProperties& p, double length) {
+  const std::string long_text = fmt::format("the bolt is {:g} m long", length);
+  if (p.free_length >= length)
+    refuse(item, "free_length", "leaves no grout, " + long_text + "; lower it, or write kind = \"end_anchored\"");
+  if (p.node_spacing && *p.node_spacing > length)
+    refuse(item, "node_spacing", "holds no node, " + long_text + "; lower it, or leave it out");
+  if (length > most_nodes * node_spacing(p, length))
+    refuse(item, "node_spacing",
+           fmt::format("makes {:.0f} nodes, more than {:.0f}, {}; raise it, or leave it out",
+                       length / node_spacing(p, length), most_nodes, long_text));
+  if (p.pretension > 0 && p.plate == Plate::none)
+    refuse(item, "pretension", "needs a plate to be tightened; write plate = \"tied\" or \"spring\", or remove it");
+  if (p.bond_strength && p.pretension >= *p.bond_strength * (length - p.free_length))
+    refuse(
+        item, "pretension",
+        fmt::format("is no less than what the grout holds, bond_strength times {:g} m; lower it, or lengthen the bolt",
+                    length - p.free_length));
 }
 
 BoltSpec read_bolt(const Subject& item, int dimension) {
@@ -74,6 +105,7 @@ BoltSpec read_bolt(const Subject& item, int dimension) {
     refuse(item, spec.fan ? "fan" : "repeat",
            fmt::format("makes {:.0f} bolts, more than {:.0f}; check spacing_deg and count", count, most_bolts));
   check_law(item, spec.properties);
+  if (spec.properties.kind == BoltKind::grouted) check_grouted(item, spec.properties, length_of(spec));
   return spec;
 }
 
@@ -121,9 +153,10 @@ std::vector<std::pair<Vector<Dim>, Vector<Dim>>> lines_of(const BoltSpec& spec) 
 // of a slice of 1 m
 BoltProperties per_metre(BoltProperties p, double spacing) {
   p.spacing = spacing;
-  for (double* value : {&p.stiffness, &p.axial_stiffness, &p.pretension, &p.dowel_stiffness})
+  for (double* value :
+       {&p.stiffness, &p.axial_stiffness, &p.pretension, &p.dowel_stiffness, &p.bond_stiffness, &p.plate_stiffness})
     *value /= spacing;
-  for (std::optional<double>* value : {&p.yield, &p.dowel_strength})
+  for (std::optional<double>* value : {&p.yield, &p.dowel_strength, &p.bond_strength})
     if (*value) **value /= spacing;
   return p;
 }

@@ -1,6 +1,9 @@
 #include "core/step/bolt_forces.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace voussoir {
 namespace {
@@ -24,15 +27,67 @@ struct Stretched {
   }
 };
 
+// whether the spring is a joint of a grouted bar
+template <int Dim>
+bool is_grouted(const Model<Dim>& model, const BoltSpring<Dim>& spring) {
+  return properties_of(model, spring).kind == BoltKind::grouted;
+}
+
+// of the joints of a bar
+template <int Dim>
+std::span<const BoltSpring<Dim>> joints_of(const State<Dim>& state, const GroutedBolt<Dim>& grouted) {
+  return std::span(state.bolt_springs).subspan(grouted.first_spring, grouted.joints());
+}
+
+// the block of a stretch
+template <int Dim>
+int body_of(std::span<const BoltSpring<Dim>> joints, std::size_t stretch) {
+  return stretch == 0 ? joints[0].body_a : joints[stretch - 1].body_b;
+}
+
+// in which a spring pulls on its first body, unit, world axes
+template <int Dim>
+Vector<Dim> direction_of(const State<Dim>& state, const BoltSpring<Dim>& spring, const Stretched<Dim>& at) {
+  const Vector<Dim> axis = state.poses[spring.body_a].axes * spring.axis;
+  const double distance = at.apart.norm();
+  if (spring.length == 0 || !(distance > 0)) return axis;
+  return (axis.dot(at.apart) < 0 ? -1 / distance : 1 / distance) * at.apart;
+}
+
+// moves the rock along the bar by as far as its joints have opened
+template <int Dim>
+void find_bar_force(GroutedBolt<Dim>& grouted, State<Dim>& state) {
+  static thread_local GroutWorkspace workspace;
+  static thread_local std::vector<double> rock;
+  const std::size_t nodes = grouted.stretch.size();
+  rock.resize(nodes);
+  double opened = 0;
+  for (std::size_t i = 0; i < nodes; ++i) {
+    if (i > 0 && grouted.stretch[i] != grouted.stretch[i - 1]) {
+      BoltSpring<Dim>& joint = state.bolt_springs[grouted.first_spring + grouted.stretch[i - 1]];
+      const Stretched<Dim> at(state, joint);
+      joint.extension = direction_of(state, joint, at).dot(at.apart) - joint.length;
+      opened += joint.extension;
+    }
+    rock[i] = opened;
+  }
+  const GroutStep step = move_rock(grouted.bar, rock, grouted.state, workspace);
+  if (!step.converged) ++state.counters.unconverged;
+  state.energy.elastic += step.stored;
+  state.energy.flows[Source::bolt_yield] += step.dissipated;
+  for (std::size_t i = 1; i < nodes; ++i) {
+    if (grouted.stretch[i] == grouted.stretch[i - 1]) continue;
+    BoltSpring<Dim>& joint = state.bolt_springs[grouted.first_spring + grouted.stretch[i - 1]];
+    joint.force = grouted.state.bar_force[i - 1];
+    joint.plastic = grouted.state.plastic_stretch[i - 1];
+  }
+}
+
 // on the second body, world axes
 template <int Dim>
 Vector<Dim> force_of(const State<Dim>& state, const BoltSpring<Dim>& spring, const Stretched<Dim>& at) {
   if (spring.broken) return Vector<Dim>::Zero();
-  const Matrix<Dim>& axes = state.poses[spring.body_a].axes;
-  Vector<Dim> direction = axes * spring.axis;
-  if (const double distance = at.apart.norm(); spring.length > 0 && distance > 0)
-    direction = (direction.dot(at.apart) < 0 ? -1 / distance : 1 / distance) * at.apart;
-  return -(spring.force * direction + axes * spring.shear);
+  return -(spring.force * direction_of(state, spring, at) + state.poses[spring.body_a].axes * spring.shear);
 }
 
 }  // namespace
@@ -40,12 +95,15 @@ Vector<Dim> force_of(const State<Dim>& state, const BoltSpring<Dim>& spring, con
 template <int Dim>
 void find_bolt_forces(const Model<Dim>& model, State<Dim>& state) {
   for (BoltSpring<Dim>& spring : state.bolt_springs) {
+    if (is_grouted(model, spring)) continue;
     const Stretched<Dim> at(state, spring);
     const Vector<Dim> apart = state.poses[spring.body_a].axes.transpose() * at.apart;
     const BoltAnswer<Dim> answer = bolt_answer<Dim>(properties_of(model, spring), apart, spring);
     state.energy.elastic += answer.elastic;
     state.energy.flows[Source::bolt_yield] += answer.lost;
   }
+  for (GroutedBolt<Dim>& grouted : state.grouted)
+    find_bar_force(grouted, state);
 }
 
 template <int Dim>
@@ -61,6 +119,7 @@ void bolt_loads(const Model<Dim>&, int, const State<Dim>& state, std::vector<Loa
 template <int Dim>
 void add_bolt_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
   for (const BoltSpring<Dim>& spring : state.bolt_springs) {
+    if (is_grouted(model, spring)) continue;
     const Stretched<Dim> at(state, spring);
     const bool one_is_fixed = model.bodies[spring.body_a].fixed || model.bodies[spring.body_b].fixed;
     const double k = (one_is_fixed ? 1 : 2) * stiffest<Dim>(properties_of(model, spring), spring);
@@ -69,37 +128,98 @@ void add_bolt_stiffness(const Model<Dim>& model, const State<Dim>& state, std::v
     stiffness[spring.body_b].translation += k;
     stiffness[spring.body_b].rotation += k * at.arm_b.squaredNorm();
   }
+  for (const GroutedBolt<Dim>& grouted : state.grouted) {
+    const auto joints = joints_of(state, grouted);
+    std::size_t free = 0;
+    for (std::size_t s = 0; s <= joints.size(); ++s)
+      free += !model.bodies[body_of(joints, s)].fixed;
+    for (std::size_t s = 0; s <= joints.size(); ++s) {
+      // the force acts at its joints, where it also turns
+      double arm2 = 0, of_bar = grouted.stiffness[s];
+      const auto add_joint = [&](const BoltSpring<Dim>& joint, double arm) {
+        arm2 = std::max(arm2, arm);
+        if (joint.length > 0) of_bar += std::abs(joint.force) / joint.length;
+      };
+      if (s > 0) add_joint(joints[s - 1], Stretched<Dim>(state, joints[s - 1]).arm_b.squaredNorm());
+      if (s < joints.size()) add_joint(joints[s], Stretched<Dim>(state, joints[s]).arm_a.squaredNorm());
+      // what a row sums to, all signs positive; alone, the diagonal
+      const double k = (free > 1 ? 2 : 1) * of_bar;
+      BodyStiffness& of_body = stiffness[body_of(joints, s)];
+      of_body.translation += k;
+      of_body.rotation += k * arm2;
+    }
+  }
+}
+
+namespace {
+
+// how a force on the second body at the spring's second anchor, world axes, changes
+template <int Dim>
+PairStiffness<Dim> pair_of(const State<Dim>& state, int body_a, int body_b, const Vector<Dim>& arm_b,
+                           const Matrix<Dim>& k, const Vector<Dim>& force) {
+  constexpr int S = spin_freedoms<Dim>;
+  PairStiffness<Dim> pair;
+  pair.contact = -1;
+  pair.body_a = body_a;
+  pair.body_b = body_b;
+  pair.apart = between(state.poses[body_a], state.poses[body_b]);
+  pair.wrench.template head<Dim>() = force;
+  pair.wrench.template tail<S>() = moment(arm_b, force);
+  for (int f = 0; f < freedoms<Dim>; ++f) {
+    // the second anchor as the second body moves along this freedom
+    const Vector<Dim> way =
+        f < Dim ? Vector<Dim>(Vector<Dim>::Unit(f % Dim)) : cross(Spin<Dim>(Spin<Dim>::Unit((f + S - Dim) % S)), arm_b);
+    const Vector<Dim> lost = k * way;
+    pair.stiffness.template block<Dim, 1>(0, f) = lost;
+    pair.stiffness.template block<S, 1>(Dim, f) = moment(arm_b, lost);
+    if (f >= Dim) pair.stiffness.template block<S, 1>(Dim, f) -= moment(way, force);
+  }
+  return pair;
 }
 
 template <int Dim>
+void add_bar_pairs(const Model<Dim>& model, const State<Dim>& state, const GroutedBolt<Dim>& grouted,
+                   std::vector<PairStiffness<Dim>>& pairs) {
+  GroutWorkspace workspace;
+  std::vector<double> stiffness;
+  const auto joints = joints_of(state, grouted);
+  const std::size_t stretches = joints.size() + 1;
+  condensed_stiffness(grouted.bar, grouted.state, grouted.stretch, static_cast<int>(stretches), workspace, stiffness);
+  for (std::size_t p = 0; p < stretches; ++p)
+    for (std::size_t q = p + 1; q < stretches; ++q) {
+      const int a = body_of(joints, p), b = body_of(joints, q);
+      const double k = -stiffness[p * stretches + q];
+      if (a == b || (model.bodies[a].fixed && model.bodies[b].fixed) || (q > p + 1 && !(k > 0))) continue;
+      const BoltSpring<Dim>& joint = joints[q - 1];
+      const Stretched<Dim> at(state, joint);
+      const Vector<Dim> way = direction_of(state, joint, at);
+      const Matrix<Dim> along = way * way.transpose();
+      Vector<Dim> force = Vector<Dim>::Zero();
+      Matrix<Dim> stiffness_here = std::max(k, 0.0) * along;
+      if (q == p + 1) {
+        force = force_of(state, joint, at);
+        if (joint.length > 0) stiffness_here += joint.force / way.dot(at.apart) * (Matrix<Dim>::Identity() - along);
+      }
+      pairs.push_back(pair_of<Dim>(state, a, b, at.arm_b, stiffness_here, force));
+    }
+}
+
+}  // namespace
+
+template <int Dim>
 void add_bolt_pairs(const Model<Dim>& model, const State<Dim>& state, std::vector<PairStiffness<Dim>>& pairs) {
-  constexpr int S = spin_freedoms<Dim>;
   for (const BoltSpring<Dim>& spring : state.bolt_springs) {
+    if (is_grouted(model, spring)) continue;
     if (spring.broken || (model.bodies[spring.body_a].fixed && model.bodies[spring.body_b].fixed)) continue;
     const Stretched<Dim> at(state, spring);
     const CachedPose<Dim>& a = state.poses[spring.body_a];
     const Matrix<Dim> own =
         bolt_stiffness<Dim>(properties_of(model, spring), Vector<Dim>(a.axes.transpose() * at.apart), spring);
     const Matrix<Dim> k = a.axes * own * a.axes.transpose();
-    const Vector<Dim> force = force_of(state, spring, at);
-    PairStiffness<Dim> pair;
-    pair.contact = -1;
-    pair.body_a = spring.body_a;
-    pair.body_b = spring.body_b;
-    pair.apart = between(a, state.poses[spring.body_b]);
-    pair.wrench.template head<Dim>() = force;
-    pair.wrench.template tail<S>() = moment(at.arm_b, force);
-    for (int f = 0; f < freedoms<Dim>; ++f) {
-      // the second anchor as the second body moves along this freedom
-      const Vector<Dim> way = f < Dim ? Vector<Dim>(Vector<Dim>::Unit(f % Dim))
-                                      : cross(Spin<Dim>(Spin<Dim>::Unit((f + S - Dim) % S)), at.arm_b);
-      const Vector<Dim> lost = k * way;
-      pair.stiffness.template block<Dim, 1>(0, f) = lost;
-      pair.stiffness.template block<S, 1>(Dim, f) = moment(at.arm_b, lost);
-      if (f >= Dim) pair.stiffness.template block<S, 1>(Dim, f) -= moment(way, force);
-    }
-    pairs.push_back(pair);
+    pairs.push_back(pair_of<Dim>(state, spring.body_a, spring.body_b, at.arm_b, k, force_of(state, spring, at)));
   }
+  for (const GroutedBolt<Dim>& grouted : state.grouted)
+    add_bar_pairs(model, state, grouted, pairs);
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                           \

@@ -1,4 +1,4 @@
-// What bolts do to their blocks (core/support/bolt.hpp).
+// What bolts do to their blocks (core/support/bolt.hpp, core/support/grouted_bolt.hpp).
 #pragma once
 
 #include "core/model.hpp"
@@ -6,8 +6,9 @@
 
 namespace voussoir {
 
-// Answers every spring at the poses of now, which must be cached; the ledger gets the energy that they hold, which it
-// must already have of the contacts, and what yield took.
+// Answers every spring and every grouted bar at the poses of now, which must be cached; the ledger gets the energy that
+// they hold, which it must already have of the contacts, and what yield took. A bar without equilibrium counts as
+// unconverged.
 template <int Dim>
 void find_bolt_forces(const Model<Dim>& model, State<Dim>& state);
 
@@ -19,7 +20,8 @@ void bolt_loads(const Model<Dim>& model, int threads, const State<Dim>& state, s
 template <int Dim>
 void add_bolt_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness);
 
-// adds a pair for each unbroken spring with a free body, with no contact (-1)
+// Adds a pair for each unbroken spring with a free body, with no contact (-1), and of a grouted bar one for any two of
+// its stretches: between neighbours with the force at their joint, between others as if the bar were straight.
 template <int Dim>
 void add_bolt_pairs(const Model<Dim>& model, const State<Dim>& state, std::vector<PairStiffness<Dim>>& pairs);
 

@@ -81,10 +81,18 @@ void follow_rock(const Model<2>& model, State<2>& state) {
         contact = {.closure = contact.closure, .place = contact.place};
         continue;
       }
-      const AtRock at(lined.rock[rock], lining.first_body + static_cast<int>(i / 2), state);
+      const int node = lining.first_body + static_cast<int>(i / 2);
+      const LiningMotion now = AtRock(lined.rock[rock], node, state).motion;
+      // what it has moved since the last step, as the block it comes from sees it
+      double closed = 0, slipped = 0;
+      if (contact.rock >= 0) {
+        const LiningMotion last = AtRock(lined.rock[contact.rock], node, state).motion;
+        closed = last.closure - contact.closure;
+        slipped = last.place - contact.place;
+      }
       contact.rock = rock;
-      contact.closure = at.motion.closure;
-      contact.place = at.motion.place;
+      contact.closure = now.closure - closed;
+      contact.place = now.place - slipped;
     }
   }
 }

@@ -61,6 +61,7 @@ void take_base(const Model<Dim>& model, const Settings& settings, const Unknowns
   NewtonIncrement<Dim>& n = state.newton;
   n.base = state.motions;
   n.springs = state.bolt_springs;
+  n.grouted = state.grouted;
   n.linings = state.linings;
   n.histories.clear();
   for (const Contact<Dim>& c : state.contacts)
@@ -129,6 +130,7 @@ void set_trial(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const Eig
   for (std::size_t i = 0; i < n.sub_histories.size(); ++i)
     state.subs[i].history = n.sub_histories[i];
   state.bolt_springs = n.springs;
+  state.grouted = n.grouted;
   state.linings = n.linings;
   state.energy = n.energy;
   state.time_step = 1;

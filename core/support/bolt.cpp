@@ -26,6 +26,15 @@ bool yields(const BoltProperties& p, const BoltSpring<Dim>& spring) {
 
 }  // namespace
 
+double transfer_length(const BoltProperties& p) {
+  return std::sqrt(p.axial_stiffness / p.bond_stiffness);
+}
+
+double node_spacing(const BoltProperties& p, double length) {
+  constexpr double of_transfer_length = 0.2, of_length = 1.0 / 200;
+  return p.node_spacing.value_or(std::max(of_transfer_length * transfer_length(p), of_length * length));
+}
+
 template <int Dim>
 BoltAnswer<Dim> bolt_answer(const BoltProperties& p, const Vector<Dim>& apart, BoltSpring<Dim>& spring) {
   BoltAnswer<Dim> answer;

@@ -7,17 +7,19 @@
 //   q = ks (d - (a·d) a - plastic slip)          across the axis,     a dowel
 //
 // a turns with the first block; both forces act on both blocks at the second anchor, so that they have the potential
-// f²/2K + q²/2ks, which depends on nothing but where the second anchor stands in the first block.
+// f²/2K + q²/2ks, which depends on nothing but where the second anchor stands in the first block. At a joint
+// that a grouted bar crosses f is the bar's (grouted_bolt.hpp).
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "core/geometry/types.hpp"
+#include "core/support/grout.hpp"
 
 namespace voussoir {
 
-enum class BoltKind { springs, end_anchored };
+enum class BoltKind { springs, end_anchored, grouted };
 enum class BoltAnchors { offset, at_joint, midway };
 
 // Of all bolts of one name. In the plane, stiffness and forces of a Model are per metre of thickness: a bolt's own over
@@ -25,10 +27,10 @@ enum class BoltAnchors { offset, at_joint, midway };
 struct BoltProperties {
   std::string name;
   BoltKind kind = BoltKind::springs;
-  BoltAnchors anchors = BoltAnchors::offset;  // of springs
+  BoltAnchors anchors = BoltAnchors::offset;  // not of end-anchored bolts
   double diameter = 0.028;                    // m: offset anchors lie 1.2 of it from the joint
   double stiffness = 0;                       // K, N/m, at each joint that is crossed
-  double axial_stiffness = 0;                 // EA, N, of an end-anchored bolt
+  double axial_stiffness = 0;                 // EA, N, of an end-anchored or grouted bolt
   double pretension = 0;                      // F0, N
   std::optional<double> yield{};              // N, tension and compression
   std::optional<double> rupture_extension{};  // m, plastic: beyond it the spring breaks
@@ -36,7 +38,21 @@ struct BoltProperties {
   double dowel_stiffness = 0;                 // ks, N/m
   std::optional<double> dowel_strength{};     // N
   double spacing = 1;                         // m, out of the plane
+  // of grouted bolts
+  double bond_stiffness = 0;              // k, N/m²
+  std::optional<double> bond_strength{};  // S, N/m
+  Plate plate = Plate::none;
+  double plate_stiffness = 0;            // N/m
+  double free_length = 0;                // m, from the plate, without grout
+  std::optional<double> node_spacing{};  // m, at most
 };
+
+// λ = √(EA/k), m, over which the bar of a grouted bolt takes up its force
+double transfer_length(const BoltProperties& properties);
+
+// m, of the nodes of a grouted bolt of this length: as stated, or λ/5, by which its stiffness over a joint is 0.5 % low
+// (h²/8λ²), but no less than a 200th of the bolt.
+double node_spacing(const BoltProperties& properties, double length);
 
 // from collar to toe
 template <int Dim>

@@ -226,6 +226,58 @@ GroutStep equilibrate(const GroutedBar& bar, Collar collar, GroutedBarState& sta
   return result;
 }
 
+// the same with the bar's own plate, which takes part
+GroutStep follow(const GroutedBar& bar, GroutedBarState& state, GroutWorkspace& w) {
+  const std::size_t n = bar.position.size();
+  GroutStep result = equilibrate(bar, {bar.plate, 0}, state, w);
+  if (!result.converged) return result;
+
+  const double old = state.plate_force;
+  if (bar.plate == Plate::tied) {
+    state.plate_force = (n > 1 ? state.bar_force[0] : 0) - state.bond_force[0];
+  } else if (bar.plate == Plate::spring) {
+    state.plate_closure += w.move[0] - w.rock_move[0];
+    state.plate_force = bar.plate_stiffness * std::max(state.plate_closure, 0.0);
+  }
+  result.work -= 0.5 * (old + state.plate_force) * w.rock_move[0];
+  result.stored = stored(bar, state);
+  return result;
+}
+
+// what a bar's springs answer to small motion: where nothing slips, or, with a state, as it stands
+struct Tangent {
+  const GroutedBar& bar;
+  const GroutedBarState* state = nullptr;
+
+  static double left_of(double stiffness, double force, double strength) {
+    return std::abs(force) < strength ? stiffness : residual_stiffness * stiffness;
+  }
+  double bond(int i) const {
+    return state ? left_of(bond_of(bar, i), state->bond_force[i], state->bond_strength[i]) : bond_of(bar, i);
+  }
+  double rod(int i) const {
+    return state ? left_of(rod_of(bar, i), state->bar_force[i], state->bar_strength[i]) : rod_of(bar, i);
+  }
+  double plate() const {
+    return bar.plate == Plate::spring && !(state && !(state->plate_closure > 0)) ? bar.plate_stiffness : 0;
+  }
+};
+
+// w.step: how far the nodes go as the rock at those of which `moves` says so goes by 1
+template <class Moves>
+void respond(const Tangent& tangent, Moves moves, GroutWorkspace& w) {
+  const int n = static_cast<int>(tangent.bar.position.size()), begin = tangent.bar.plate == Plate::tied ? 1 : 0;
+  const auto rock = [&](int i) { return moves(i) ? 1.0 : 0.0; };
+  for (int i = 0; i < n; ++i) {
+    w.held[i] = tangent.bond(i) + (i == 0 ? tangent.plate() : 0);
+    w.rod[i] = i + 1 < n ? tangent.rod(i) : 0;
+    w.residual[i] = -w.held[i] * rock(i);
+  }
+  if (begin == 1) w.residual[1] -= w.rod[0] * rock(0);
+  solve(begin, w);
+  if (begin == 1) w.step[0] = rock(0);
+}
+
 }  // namespace
 
 void lay_nodes(double length, std::span<const double> joints, double spacing, GroutedBar& bar) {
@@ -246,11 +298,15 @@ void lay_nodes(double length, std::span<const double> joints, double spacing, Gr
   }
 }
 
+bool is_held(const GroutedBar& bar) {
+  const bool bonded = bar.bond_stiffness > 0 && *std::max_element(bar.bond_length.begin(), bar.bond_length.end()) > 0;
+  return bonded || bar.plate == Plate::tied;
+}
+
 GroutedBarState installed(const GroutedBar& bar, std::span<const double> rock) {
   const std::size_t n = bar.position.size();
   assert(n > 0 && rock.size() == n && bar.bond_length.size() == n);
-  const bool bonded = bar.bond_stiffness > 0 && *std::max_element(bar.bond_length.begin(), bar.bond_length.end()) > 0;
-  if (!bonded && bar.plate != Plate::tied)
+  if (!is_held(bar))
     throw std::invalid_argument("nothing holds a bar without bond: its grout has neither stiffness nor length");
   GroutedBarState state;
   state.displacement.assign(rock.begin(), rock.end());
@@ -278,20 +334,15 @@ GroutStep move_rock(const GroutedBar& bar, std::span<const double> rock, Grouted
     result.stored = stored(bar, state);
     return result;
   }
-  result = equilibrate(bar, {bar.plate, 0}, state, w);
-  if (!result.converged) return result;
-  std::copy(rock.begin(), rock.end(), state.rock.begin());
-
-  const double old = state.plate_force;
-  if (bar.plate == Plate::tied) {
-    state.plate_force = (n > 1 ? state.bar_force[0] : 0) - state.bond_force[0];
-  } else if (bar.plate == Plate::spring) {
-    state.plate_closure += w.move[0] - w.rock_move[0];
-    state.plate_force = bar.plate_stiffness * std::max(state.plate_closure, 0.0);
-  }
-  result.work -= 0.5 * (old + state.plate_force) * w.rock_move[0];
-  result.stored = stored(bar, state);
+  result = follow(bar, state, w);
+  if (result.converged) std::copy(rock.begin(), rock.end(), state.rock.begin());
   return result;
+}
+
+GroutStep settle(const GroutedBar& bar, GroutedBarState& state, GroutWorkspace& w) {
+  size(bar.position.size(), w);
+  std::fill(w.rock_move.begin(), w.rock_move.end(), 0.0);
+  return follow(bar, state, w);
 }
 
 GroutStep tighten(const GroutedBar& bar, double force, GroutedBarState& state, GroutWorkspace& w) {
@@ -316,24 +367,57 @@ GroutStep tighten(const GroutedBar& bar, double force, GroutedBarState& state, G
 double elastic_stiffness(const GroutedBar& bar, int first, int last, GroutWorkspace& w) {
   const int n = static_cast<int>(bar.position.size());
   size(n, w);
-  const auto rock = [&](int i) { return i >= first && i < last ? 1.0 : 0.0; };
-  const double plate = bar.plate == Plate::spring ? bar.plate_stiffness : 0;
-  const int begin = bar.plate == Plate::tied ? 1 : 0;
-  for (int i = 0; i < n; ++i) {
-    w.held[i] = bond_of(bar, i) + (i == 0 ? plate : 0);
-    w.rod[i] = i + 1 < n ? rod_of(bar, i) : 0;
-    w.residual[i] = -w.held[i] * rock(i);
-  }
-  if (begin == 1) w.residual[1] -= w.rod[0] * rock(0);
-  solve(begin, w);
-  if (begin == 1) w.step[0] = rock(0);
+  const auto moves = [&](int i) { return i >= first && i < last; };
+  const auto rock = [&](int i) { return moves(i) ? 1.0 : 0.0; };
+  const Tangent elastic{bar};
+  respond(elastic, moves, w);
   // twice the energy of a unit displacement
-  double sum = plate * (w.step[0] - rock(0)) * (w.step[0] - rock(0));
+  double sum = elastic.plate() * (w.step[0] - rock(0)) * (w.step[0] - rock(0));
   for (int i = 0; i < n; ++i) {
     sum += bond_of(bar, i) * (w.step[i] - rock(i)) * (w.step[i] - rock(i));
     if (i + 1 < n) sum += rod_of(bar, i) * (w.step[i + 1] - w.step[i]) * (w.step[i + 1] - w.step[i]);
   }
   return sum;
+}
+
+void condensed_stiffness(const GroutedBar& bar, const GroutedBarState& state, std::span<const int> stretch,
+                         int stretches, GroutWorkspace& w, std::vector<double>& stiffness) {
+  const int n = static_cast<int>(bar.position.size());
+  assert(std::ssize(stretch) == n);
+  size(n, w);
+  stiffness.assign(static_cast<std::size_t>(stretches) * stretches, 0);
+  const Tangent tangent{bar, &state};
+  for (int c = 0; c < stretches; ++c) {
+    const auto moves = [&](int i) { return stretch[i] == c; };
+    respond(tangent, moves, w);
+    double* row = &stiffness[static_cast<std::size_t>(c) * stretches];
+    for (int i = 0; i < n; ++i)
+      row[stretch[i]] -= tangent.bond(i) * (w.step[i] - (moves(i) ? 1 : 0));
+    row[stretch[0]] -= tangent.plate() * (w.step[0] - (moves(0) ? 1 : 0));
+    if (bar.plate == Plate::tied) row[stretch[0]] -= tangent.rod(0) * (w.step[1] - w.step[0]);
+  }
+}
+
+void keep_nodes(int first, int last, GroutedBar& bar, GroutedBarState& state) {
+  assert(first < last);
+  const auto keep = [&](std::vector<double>& list, int count) {
+    list.erase(list.begin() + first + count, list.end());
+    list.erase(list.begin(), list.begin() + first);
+  };
+  const int count = last - first;
+  for (std::vector<double>* list : {&bar.position, &bar.bond_length, &state.displacement, &state.rock,
+                                    &state.bond_force, &state.bond_strength, &state.slip})
+    keep(*list, count);
+  for (std::vector<double>* list : {&state.bar_force, &state.bar_strength, &state.plastic_stretch})
+    keep(*list, count - 1);
+  const double origin = state.rock.front();
+  for (int i = 0; i < count; ++i) {
+    state.rock[i] -= origin;
+    state.displacement[i] -= origin;
+  }
+  if (first == 0) return;
+  bar.plate = Plate::none;
+  state.plate_force = state.plate_closure = 0;
 }
 
 }  // namespace voussoir

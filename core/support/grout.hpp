@@ -83,6 +83,9 @@ struct GroutWorkspace {
   std::vector<double> move, step, trial, residual, held, rod, kinks, rock_move;
 };
 
+// whether bond or plate holds the bar along its axis
+bool is_held(const GroutedBar& bar);
+
 // Moves the rock to `rock`, m, by node, and the bar into equilibrium. Plasticity is integrated implicitly. Where the
 // rock has not moved, nothing changes, to the last bit.
 GroutStep move_rock(const GroutedBar& bar, std::span<const double> rock, GroutedBarState& state,
@@ -95,5 +98,19 @@ GroutStep tighten(const GroutedBar& bar, double force, GroutedBarState& state, G
 // Stiffness, N/m, along the bar, against a displacement of the rock at the nodes first … last - 1 (one block's) while
 // all other rock is held, where nothing slips: the most that the bar adds to that block, for its time step.
 double elastic_stiffness(const GroutedBar& bar, int first, int last, GroutWorkspace& workspace);
+
+// How the forces on the rock change with the rock's displacements, N/m, as bonds, rods and plate answer now. The rock
+// is rigid from stretch to stretch: node i lies in stretch[i], 0 … stretches - 1. `stiffness` becomes a symmetric
+// matrix, row by row, minus the derivatives; rows sum to nothing, for moving all rock alike costs nothing, and off its
+// diagonal nothing is above 0: stretches act as if springs of -stiffness tied each to each.
+void condensed_stiffness(const GroutedBar& bar, const GroutedBarState& state, std::span<const int> stretch,
+                         int stretches, GroutWorkspace& workspace, std::vector<double>& stiffness);
+
+// Leaves nodes first … last - 1 with what ties them to each other and to the rock, and the plate where it was theirs;
+// displacements are then measured from the first one's rock. The ends are free: `settle` finds the equilibrium.
+void keep_nodes(int first, int last, GroutedBar& bar, GroutedBarState& state);
+
+// Equilibrium with the rock where it stands, after parts of the bar have gone.
+GroutStep settle(const GroutedBar& bar, GroutedBarState& state, GroutWorkspace& workspace);
 
 }  // namespace voussoir

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -401,6 +402,74 @@ TEST(Grout, StepAllocatesNothing) {
   elastic_stiffness(bar, 0, 3, test.workspace);
   EXPECT_EQ(allocations, before);
   EXPECT_GT(step.iterations, 1);
+}
+
+// ---- blocks along a bar ---------------------------------------------------------------------------------------------
+
+// Stretches of rock act on each other as springs do: what moving one asks of it is what moving it gives to all others.
+TEST(Grout, CondensesToSpringsBetweenStretches) {
+  const double joints[] = {0.7, 1.5, 2.6};
+  for (const Plate plate : {Plate::none, Plate::spring, Plate::tied}) {
+    GroutedBar bar = steel_bar(0.1, joints);
+    bar.plate = plate;
+    bar.plate_stiffness = 1e8;
+    bar.bond_strength = 2e4;
+    LoadedBar test(bar);
+    if (plate != Plate::none) test.add(tighten(bar, 1e3, test.state, test.workspace));
+    std::vector<int> stretch;
+    for (const double s : bar.position)
+      stretch.push_back(static_cast<int>(std::count_if(joints, joints + 3, [&](double joint) { return joint < s; })));
+
+    std::vector<double> k;
+    condensed_stiffness(bar, test.state, stretch, 4, test.workspace, k);
+    for (int a = 0; a < 4; ++a) {
+      const auto [first, last] = std::ranges::equal_range(stretch, a);
+      const double alone = elastic_stiffness(bar, static_cast<int>(first - stretch.begin()),
+                                             static_cast<int>(last - stretch.begin()), test.workspace);
+      EXPECT_NEAR(k[5 * a], alone, 1e-12 * alone) << "nothing slips yet";
+      double sum = 0;
+      for (int b = 0; b < 4; ++b) {
+        sum += k[4 * a + b];
+        EXPECT_NEAR(k[4 * a + b], k[4 * b + a], 1e-12 * alone);
+        if (a != b) EXPECT_LT(k[4 * a + b], 0);
+      }
+      EXPECT_NEAR(sum, 0, 1e-12 * alone);
+    }
+
+    // where all of the last stretch's bond slips, it is all but let go
+    test.open(2.6, 0.1);
+    condensed_stiffness(bar, test.state, stretch, 4, test.workspace, k);
+    EXPECT_LT(k[15], 1e-9 * bar.axial_stiffness);
+  }
+}
+
+TEST(Grout, EndsWithoutForceWhereItIsCut) {
+  const double joints[] = {1, 2};
+  GroutedBar bar = steel_bar(0.1, joints);
+  bar.plate = Plate::tied;
+  LoadedBar test(bar);
+  test.add(tighten(bar, 5e4, test.state, test.workspace));
+  test.open(2, 1e-3);
+  const int at = rod_across(bar, 1) + 1;
+  GroutedBarState left = test.state;
+  keep_nodes(at, static_cast<int>(bar.position.size()), bar, left);
+  EXPECT_EQ(bar.plate, Plate::none);
+  EXPECT_EQ(left.rock.front(), 0);
+  ASSERT_TRUE(settle(bar, left, test.workspace).converged);
+  double sum = 0;
+  for (const double force : left.bond_force)
+    sum += force;
+  EXPECT_NEAR(sum, 0, 1e-9 * 5e4) << "nothing but the bond holds it";
+  // as if the bar had been so short when the joint opened
+  const double shorter[] = {1};
+  GroutedBar short_bar;
+  short_bar.axial_stiffness = bar.axial_stiffness;
+  short_bar.bond_stiffness = bar.bond_stiffness;
+  lay_nodes(2, shorter, 0.1, short_bar);
+  LoadedBar once(short_bar);
+  once.open(1, 1e-3);
+  const double expected = once.state.bar_force[rod_across(short_bar, 1)];
+  EXPECT_NEAR(left.bar_force[rod_across(bar, 2)], expected, 1e-9 * expected);
 }
 
 }  // namespace

@@ -143,6 +143,22 @@ from = [0.1, 0.1, -0.9]
 to = [0.1, 0.1, 0.9]
 axial_stiffness = 1e8
 yield = 1e5
+[[bolts]]
+name = "bar"
+kind = "grouted"
+from = [0.2, 0.2, -0.9]
+to = [0.2, 0.2, 0.9]
+axial_stiffness = 1e8
+bond_stiffness = 5e8
+plate = "spring"
+plate_stiffness = 1e8
+[[bolts]]
+name = "plain bar"
+kind = "grouted"
+from = [0.2, 0.3, -0.9]
+to = [0.2, 0.3, 0.9]
+axial_stiffness = 1e8
+bond_stiffness = 5e8
 [[fix]]
 below = ["A"]
 [[restrain]]
@@ -163,7 +179,7 @@ damping = {}
 fix = [{ bodies = ["by planes"] }]
 water = [{ name = "lake", level = 0.1, duration_s = 5 }]
 excavate = ["tunnel"]
-install = ["roof", "anchor", "dowel"]
+install = ["roof", "anchor", "dowel", "bar", "plain bar"]
 let_off = { share = 0.5, duration_s = 1 }
 [[stage]]
 name = "run"
@@ -353,6 +369,8 @@ inline std::string address(const KeyRow& row) {
                                row.key == "pretension" || row.key == "rupture_extension"))
     table = "bolts.anchor";
   if (row.table == "bolts" && row.key.starts_with("dowel_strength")) table = "bolts.dowel";
+  if (row.table == "bolts" && (row.when.value == "grouted" || row.key == "plate_stiffness")) table = "bolts.bar";
+  if (row.table == "bolts" && row.key == "plate") table = "bolts.plain bar";
   if (row.table == "water_surface" && row.key == "table") table = "water.seep";
   if (row.table == "water_surface" && row.key == "pressure") table = "water.grout";
   if (row.table == "water_change" && row.key == "rate") table = "stage.run.water.lake";

@@ -1,7 +1,9 @@
 // A step that keeps its neighbours asks for no memory, even while blocks move, meet and part.
 #include <gtest/gtest.h>
 
+#include "core/install.hpp"
 #include "core/motion/relaxation.hpp"
+#include "core/scene/scene.hpp"
 #include "core/step.hpp"
 #include "core/testing/counted_allocations.hpp"
 #include "core/testing/lined_opening.hpp"
@@ -50,6 +52,41 @@ TEST(Step, ARelaxingPileAsksForNoMemory) {
   for (int i = 0; i < 200; ++i)  // the kernel's lists have found their size
     step(model, settings, state);
   expect_no_memory_asked(model, settings, state);
+}
+
+// bars whose bond slips under a slab that hangs from them
+TEST(Step, GroutedBoltsAskForNoMemory) {
+  const Prepared<3> scene = prepare<3>(parse_scene(R"(
+dimension = 3
+gravity = [0, 0, -10]
+density = 2500
+domain = { box = { min = [0, 0, 0], max = [4, 2, 3] } }
+joint_properties = [{ name = "bed", normal_stiffness = 1e9, shear_stiffness = 5e8, friction_deg = 40 }]
+joints = [{ name = "bed", dip = 0, point = [0, 0, 1] }]
+fix = [{ above = ["bed"] }]
+[[bolts]]
+name = "roof"
+kind = "grouted"
+axial_stiffness = 1e8
+bond_stiffness = 1e9
+bond_strength = 1e4
+from = [1, 0.5, 0]
+to = [1, 0.5, 2]
+repeat = [{ step = [2, 0, 0], count = 2 }, { step = [0, 1, 0], count = 2 }]
+[[stage]]
+name = "fall"
+kind = "run"
+duration_s = 1
+install = ["roof"]
+)",
+                                                   "scene.toml", {}));
+  State<3> state = scene.state;
+  install<3>(scene.model, {"roof"}, state);
+  for (int i = 0; i < 100; ++i)
+    step(scene.model, scene.settings, state);
+  const double slip = state.grouted[0].state.slip.back();
+  expect_no_memory_asked(scene.model, scene.settings, state);
+  EXPECT_NE(state.grouted[0].state.slip.back(), slip) << "the bond slips";
 }
 
 TEST(Step, ALiningAsksForNoMemory) {

@@ -18,4 +18,13 @@ double bolted_block_friction(double weight, double dip, double force, double ang
                    (weight * std::cos(dip) + force * std::sin(angle)));
 }
 
+double pull_out_stiffness(double axial_stiffness, double bond_stiffness, double length) {
+  return std::sqrt(axial_stiffness * bond_stiffness) * std::tanh(length * std::sqrt(bond_stiffness / axial_stiffness));
+}
+
+double bar_over_opening(double axial_stiffness, double bond_stiffness, double bond_strength, double opening) {
+  if (opening < 2 * bond_strength / bond_stiffness) return 0.5 * std::sqrt(axial_stiffness * bond_stiffness) * opening;
+  return std::sqrt(axial_stiffness * bond_strength * (opening - bond_strength / bond_stiffness));
+}
+
 }  // namespace voussoir::reference
