@@ -1,6 +1,8 @@
 // A scene made ready to run: blocks cut, properties assigned, selectors resolved.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +22,8 @@ enum class Quantity {
   contact_force,
   whole_bonds,
   level,
-  bolt_force
+  bolt_force,
+  convergence
 };
 
 // what a monitor may follow in history.csv
@@ -32,7 +35,7 @@ struct Monitored {
 };
 
 // every such quantity: of a body, the loads of each source among them; of a joint the resultant over its contacts and
-// its bonds; of a water its level; of bolts their forces
+// its bonds; of a water its level; of bolts their forces; of an opening how far its wall has moved inwards
 inline std::vector<Monitored> monitored_quantities() {
   std::vector<Monitored> all{{"displacement", Quantity::displacement},
                              {"velocity", Quantity::velocity},
@@ -44,11 +47,24 @@ inline std::vector<Monitored> monitored_quantities() {
   all.push_back({"whole_bonds", Quantity::whole_bonds});
   all.push_back({"level", Quantity::level});
   all.push_back({"bolt_force", Quantity::bolt_force});
+  all.push_back({"convergence", Quantity::convergence});
   return all;
 }
 
 // what a monitor of several bodies tells of them
 enum class Over { one, sum, mean };
+
+// those that can be counted from the end of a stage
+inline bool counts_from_stage(Quantity quantity) {
+  return quantity == Quantity::displacement || quantity == Quantity::rotation || quantity == Quantity::convergence;
+}
+
+// a point of an opening's wall, in model coordinates of the reference configuration, m; in the plane
+struct WallPoint {
+  std::array<double, 2> point{};
+  std::array<double, 2> inwards{};  // unit, towards the opening's centre
+  std::array<double, 2> rock{};     // a point inside the part of a body whose face the wall is: it tells the body
+};
 
 // a monitor whose subject was found
 struct Monitor {
@@ -57,7 +73,9 @@ struct Monitor {
   int subject = 0;  // body, or joint for contact_force and whole_bonds, or water for level, or Model::bolt_properties
   int points = 0;   // of a level: how many its table has; 0: a pressure
   Over over{};      // of bodies
-  std::vector<int> group{};  // where it is over several: the bodies, ascending
+  std::vector<int> group{};       // where it is over several: the bodies, ascending
+  int since = -1;                 // the stage, from 0, from whose end motion is counted; -1: from the start
+  std::vector<WallPoint> wall{};  // of convergence
 };
 
 template <int Dim>
@@ -68,6 +86,7 @@ struct Prepared {
   State<Dim> state;  // initial velocities set
   Settings settings;
   std::vector<StagePlan> stages;
+  std::optional<int> last_stage{};  // place of the last one that is to be done; none: all are
   std::vector<Monitor> monitors;
   OutputPlan output;
 };

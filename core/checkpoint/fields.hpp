@@ -233,11 +233,17 @@ void serialize(Archive& archive, Results& r) {
 }
 
 template <class Archive, int Dim>
+void serialize(Archive& archive, StageEnd<Dim>& e) {
+  auto& [stage, bodies] = e;
+  archive(stage, bodies);
+}
+
+template <class Archive, int Dim>
 void serialize(Archive& archive, Progress<Dim>& p) {
   auto& [state, stage, stage_under_way, stage_began, steps_before, run, reduction, record, next_frame, frames,
-         trial_frames, results] = p;
+         trial_frames, ends, results] = p;
   archive(state, stage, stage_under_way, stage_began, steps_before, run, reduction, record, next_frame, frames,
-          trial_frames, results);
+          trial_frames, ends, results);
 }
 
 // every bit of it: two objects are the same when these are equal

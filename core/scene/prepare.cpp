@@ -12,6 +12,7 @@
 #include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/wall_points.hpp"
 #include "core/scene/wet_faces.hpp"
 #include "core/waters.hpp"
 
@@ -359,10 +360,30 @@ std::vector<int> bodies_of(const Scene& scene, const Model<Dim>& model, const Mo
   return bodies;
 }
 
+// the stage from whose end a monitor counts; -1: from the start
+int since_of(const Scene& scene, const MonitorSpec& spec) {
+  if (spec.since.empty()) return -1;
+  std::vector<std::string> names;
+  for (const StageSpec& stage : scene.stages)
+    names.push_back(stage.plan.name);
+  const int index = index_of(names, spec.since);
+  if (index < 0) refuse(spec.body.subject, "since", "no stage of this name; " + suggestion(spec.since, names));
+  if (index + 1 == static_cast<int>(names.size()))
+    refuse(spec.body.subject, "since", "is the last stage, after which nothing moves; name one before it");
+  return index;
+}
+
 template <int Dim>
-std::vector<Monitor> find_monitors(const Scene& scene, const Model<Dim>& model) {
+std::vector<Monitor> find_monitors(const Scene& scene, const Prepared<Dim>& prepared) {
+  const Model<Dim>& model = prepared.model;
   std::vector<Monitor> monitors;
   for (const MonitorSpec& spec : scene.monitors) {
+    const int since = since_of(scene, spec);
+    if (!spec.excavation.empty()) {
+      monitors.push_back(
+          {spec.name, spec.quantities.front(), 0, 0, spec.over, {}, since, wall_points<Dim>(scene, prepared, spec)});
+      continue;
+    }
     const int subject = !spec.joint.empty()   ? joint_of<Dim>(model, spec)
                         : !spec.water.empty() ? water_of(scene, spec)
                         : !spec.bolts.empty() ? bolts_of(spec, model.bolt_properties)
@@ -371,7 +392,7 @@ std::vector<Monitor> find_monitors(const Scene& scene, const Model<Dim>& model) 
     for (const Monitored& followed : spec.quantities)
       monitors.push_back({spec.name, followed, subject < 0 ? bodies.front() : subject,
                           followed.quantity == Quantity::level ? levels_of<Dim>(model.waters[subject]) : 0, spec.over,
-                          spec.over == Over::one ? std::vector<int>() : bodies});
+                          spec.over == Over::one ? std::vector<int>() : bodies, since});
   }
   return monitors;
 }
@@ -406,7 +427,7 @@ Prepared<Dim> prepare(const Scene& scene) {
   add_supports<Dim>(scene, model);
   prepared.state = moving_state<Dim>(scene, model);
   prepared.stages = checked_stages<Dim>(scene, model);
-  prepared.monitors = find_monitors<Dim>(scene, model);
+  prepared.monitors = find_monitors<Dim>(scene, prepared);
   return prepared;
 }
 

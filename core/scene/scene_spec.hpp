@@ -215,6 +215,9 @@ struct StageSpec {
 struct MonitorSpec {
   SelectorSpec body;  // empty for a joint or a water
   std::string name, joint, water, bolts;
+  std::string excavation;      // of convergence
+  std::vector<double> angles;  // deg
+  std::string since;           // a stage; empty: from the start
   Over over{};
   std::vector<Monitored> quantities;
 };

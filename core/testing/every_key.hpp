@@ -237,6 +237,12 @@ bolts = "roof"
 name = "lake"
 quantities = ["level"]
 water = "lake"
+[[monitors]]
+name = "wall"
+quantities = ["convergence"]
+excavation = "tunnel"
+angles_deg = [90]
+since = "settle"
 [output]
 )";
 
@@ -291,6 +297,8 @@ inline std::string address(const KeyRow& row) {
   if (row.table == "blocks" && row.key == "vertices") table = "blocks.by vertices";
   if (row.table == "blocks.planes" && row.key == "point") table = "blocks.by planes.planes.5";
   if (row.table == "monitors" && row.key == "joint") table = "monitors.joint";
+  if (row.table == "monitors" && (row.key == "excavation" || row.key == "angles_deg" || row.key == "since"))
+    table = "monitors.wall";
   if (row.table == "monitors" && row.key == "water") table = "monitors.lake";
   if (row.table == "monitors" && row.key == "bolts") table = "monitors.bolts";
   if (row.table == "bolts" && (row.key == "from" || row.key == "to" || row.key == "axial_stiffness" ||
