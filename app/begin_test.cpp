@@ -112,7 +112,7 @@ TEST_F(Begin, AKilledRunContinuesWithoutTheFolderItBeganWith) {
   run_well("run " + finer + "--out generation --until stress");
   const Launch launch{.arguments = {"run", (program::scenes / "tunnel.toml").string(), "--set",
                                     "equilibrium.unbalanced=1e-8", "--out", (folder_ / "begun").string(), "--begin",
-                                    (folder_ / "generation").string(), "--checkpoint-steps", "3"}};
+                                    (folder_ / "generation").string(), "--checkpoint-steps", "20"}};
   Process process(VOUSSOIR_PROGRAM, launch, folder_ / "killed");
   ASSERT_TRUE(wait_until([&] { return fs::exists(folder_ / "begun/run.json"); }));
   process.send(SIGKILL);
@@ -125,7 +125,7 @@ TEST_F(Begin, AKilledRunContinuesWithoutTheFolderItBeganWith) {
 TEST_F(Begin, AGenerationThatWasKilledKeepsItsEndToo) {
   run_well("run " + tunnel_ + "--out whole");
   const Launch launch{.arguments = {"run", (program::scenes / "tunnel.toml").string(), "--out",
-                                    (folder_ / "generation").string(), "--until", "dig", "--checkpoint-steps", "3"}};
+                                    (folder_ / "generation").string(), "--until", "dig", "--checkpoint-steps", "20"}};
   Process process(VOUSSOIR_PROGRAM, launch, folder_ / "killed");
   ASSERT_TRUE(wait_until([&] { return fs::exists(folder_ / "generation/checkpoint"); }));
   process.send(SIGKILL);

@@ -130,21 +130,26 @@ void append_bodies(std::vector<double>& values, const Monitor& monitor, const Mo
 }
 
 // m: how far a point of a wall has moved inwards with its block; not a number where its block is gone
-double convergence(const WallPoint& wall, int since, const Model<2>& model, const State<2>& state,
-                   const std::vector<StageEnd<2>>& ends) {
-  const int b = body_around<2>(model, {wall.rock[0], wall.rock[1]});
+template <int Dim>
+double convergence(const WallPoint& wall, int since, const Model<Dim>& model, const State<Dim>& state,
+                   const std::vector<StageEnd<Dim>>& ends) {
+  const auto vector = [](const std::array<double, 3>& x) {
+    return Vector<Dim>(Eigen::Map<const Vector<Dim>>(x.data()));
+  };
+  const int b = body_around<Dim>(model, vector(wall.rock));
   if (b < 0) return std::numeric_limits<double>::quiet_NaN();
-  const Vector<2> place = Vector<2>(wall.point[0], wall.point[1]) - model.bodies[b].reference;
-  const Placement<2> then = counted_from(since, b, state, ends);
-  const Motion<2>& now = state.motions[b];
-  const Vector<2> moved =
+  const Vector<Dim> place = vector(wall.point) - model.bodies[b].reference;
+  const Placement<Dim> then = counted_from(since, b, state, ends);
+  const Motion<Dim>& now = state.motions[b];
+  const Vector<Dim> moved =
       (now.displacement - then.displacement) + (matrix(now.rotation) - matrix(then.rotation)) * place;
-  return moved.dot(Vector<2>(wall.inwards[0], wall.inwards[1]));
+  return moved.dot(vector(wall.inwards));
 }
 
 // of each point, or their sum or mean
-void append_convergence(std::vector<double>& values, const Monitor& monitor, const Model<2>& model,
-                        const State<2>& state, const std::vector<StageEnd<2>>& ends) {
+template <int Dim>
+void append_convergence(std::vector<double>& values, const Monitor& monitor, const Model<Dim>& model,
+                        const State<Dim>& state, const std::vector<StageEnd<Dim>>& ends) {
   double sum = 0;
   for (const WallPoint& wall : monitor.wall) {
     const double value = convergence(wall, monitor.since, model, state, ends);
@@ -259,7 +264,7 @@ std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
         columns.push_back({m.name + "_broken", "1"});
         break;
       case Quantity::convergence:
-        if (m.wall.size() == 1 || m.over != Over::one) columns.push_back({m.name + "_convergence", "m"});
+        if (m.wall.size() < 2 || m.over != Over::one) columns.push_back({m.name + "_convergence", "m"});
         for (std::size_t k = 1; m.over == Over::one && m.wall.size() > 1 && k <= m.wall.size(); ++k)
           columns.push_back({fmt::format("{}_convergence_{}", m.name, k), "m"});
         break;
@@ -294,7 +299,7 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
         append_bolts(values, m.subject, model, state);
         break;
       case Quantity::convergence:
-        if constexpr (Dim == 2) append_convergence(values, m, model, state, ends);
+        append_convergence(values, m, model, state, ends);
         break;
     }
   }

@@ -96,6 +96,47 @@ TEST(Convergence, IsTheMotionOfThePointOfTheWallTowardsTheCentre) {
   EXPECT_NEAR(values[3], -(-s + x + c - 1 + y) / std::sqrt(2.0), rounding);
 }
 
+// A tunnel of 8 m along y: the wall is seen from its middle, angles turn from x to z.
+TEST(Convergence, InSpaceIsSeenAcrossTheMiddleOfTheAxis) {
+  const Prepared<3> scene = prepare<3>(parse_scene(R"(
+dimension = 3
+density = 2500
+domain = { box = { min = [-4, 0, -4], max = [4, 10, 4] } }
+joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 5e8, friction_deg = 40 }]
+joints = [{ name = "across", dip = 90, dip_direction = 0, point = [0, 5, 0] }]
+excavations = [{ name = "tunnel", cylinder = { from = [0, 0, 0], to = [0, 8, 0], radius = 1, sides = 4 }, outline = true }]
+[[stage]]
+name = "dig"
+kind = "settle"
+excavate = ["tunnel"]
+[[monitors]]
+name = "wall"
+quantities = ["convergence"]
+excavation = "tunnel"
+angles_deg = [0, 90]
+)",
+                                                   "scene.toml", {}));
+  const WallPoint &right = scene.monitors.at(0).wall[0], &up = scene.monitors[0].wall[1];
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(right.inwards[k], k == 0 ? -1 : 0, rounding);
+    EXPECT_NEAR(up.inwards[k], k == 2 ? -1 : 0, rounding);
+    EXPECT_NEAR(up.point[k] + scene.model.origin[k],
+                k == 1   ? 4
+                : k == 2 ? right.point[0] + scene.model.origin[0]
+                         : 0,
+                rounding);
+  }
+  Model<3> model = scene.model;
+  State<3> state = scene.state;
+  take_out({"tunnel"}, scene.settings, false, model, state);
+  const int body = body_around<3>(model, Vector<3>(0, 2, 3) - model.origin);
+  ASSERT_GE(body, 0);
+  state.motions[body].displacement = {-0.02, 0.5, -0.03};
+  const std::vector<double> values = monitor_values<3>(scene.monitors, model, state);
+  EXPECT_NEAR(values[0], 0.02, rounding);
+  EXPECT_NEAR(values[1], 0.03, rounding);
+}
+
 TEST(Convergence, SumAndMeanAreOfAllPoints) {
   const std::vector<double> moved{0.01, -0.03};
   for (const auto& [over, expected] : {std::pair{"sum", 0.0}, std::pair{"mean", 0.0}}) {

@@ -59,11 +59,12 @@ inline bool counts_from_stage(Quantity quantity) {
   return quantity == Quantity::displacement || quantity == Quantity::rotation || quantity == Quantity::convergence;
 }
 
-// a point of an opening's wall, in model coordinates of the reference configuration, m; in the plane
+// a point of an opening's wall, in model coordinates of the reference configuration, m; as many
+// coordinates as the scene has dimensions
 struct WallPoint {
-  std::array<double, 2> point{};
-  std::array<double, 2> inwards{};  // unit, towards the opening's centre
-  std::array<double, 2> rock{};     // a point inside the part of a body whose face the wall is: it tells the body
+  std::array<double, 3> point{};
+  std::array<double, 3> inwards{};  // unit, towards the opening's centre
+  std::array<double, 3> rock{};     // a point inside the part of a body whose face the wall is: it tells the body
 };
 
 // a monitor whose subject was found

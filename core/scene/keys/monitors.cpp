@@ -35,11 +35,11 @@ KeyTable monitor_keys() {
     {.key = "water", .members = {in(&MonitorSpec::water, name)}, .example = "\"lake\"",
      .meaning = "water of level: its elevation, that of each point of a table, at the scene's middle of a plane; or its pressure"},
     {.key = "excavation", .members = {in(&MonitorSpec::excavation, name)}, .example = "\"tunnel\"",
-     .meaning = "opening of convergence, in the plane: one of excavations"},
+     .meaning = "opening of convergence, by name: a cylinder, in the plane also a box"},
     {.key = "angles_deg", .members = {in(&MonitorSpec::angles, numbers)}, .unit = "deg", .range = {-360, 360},
      .example = "[0, 180]",
      .meaning = "of convergence: the points where rays from the opening's centre meet the rock, counter-clockwise from the "
-         "x axis. A point moves with its block, which is told when the opening has been taken out; with over = \"sum\" two "
+         "x axis; in space across the middle of the axis, as a fan's. A point moves with its block, which is told when the opening has been taken out; with over = \"sum\" two "
          "opposite points give the closure, with \"one\" each point has a column"},
     {.key = "since", .members = {in(&MonitorSpec::since, name)}, .example = "\"stress\"",
      .meaning = "displacement, rotation and convergence are counted from the end of this stage, and are 0 until then; "
