@@ -30,7 +30,7 @@ struct Watcher {
   std::function<bool(const Progress<Dim>&)> pause;
   // once, when the last stage has ended, before the results of the end are added: from here on another scene of the
   // same stages can go on (begin.hpp)
-  std::function<void(const Progress<Dim>&)> ended;
+  std::function<void(const Progress<Dim>&)> ended = {};
 };
 
 // before the first step
