@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -224,6 +225,26 @@ TEST(Since, InSpaceTurnsAreThoseSinceThen) {
   EXPECT_NEAR(values[0], 0, 1e-13);
   EXPECT_NEAR(values[1], 0, 1e-13);
   EXPECT_NEAR(values[2], 0.2 * 180 / M_PI, 1e-13);
+}
+
+// A block that has tilted loses rock on one side: its centroid is another from then on, and it has not moved yet.
+TEST(Since, ASimulationTakesItsCountThroughAnExcavation) {
+  std::string text = rock;
+  text.replace(text.find("gravity = [0, -10]"), 18, "gravity = [3, -10]");
+  text.replace(text.find("friction_deg = 40"), 17, "friction_deg = 40, sub_contacts = 2");
+  text.replace(text.find("min = [4, 4]"), 12, "min = [2, 4]");
+  const Prepared<2> scene = scene_of(text +
+                                     "[[monitors]]\nname = \"block\"\nquantities = [\"displacement\"]\ninside = "
+                                     "[8, 5]\nsince = \"stress\"\n");
+  Progress<2> whole = initial_progress(scene);
+  ASSERT_TRUE(simulate<2>(scene, whole, {}));
+  ASSERT_EQ(whole.results.outcome, Outcome::done) << whole.results.message;
+  const auto first = std::ranges::find_if(whole.results.history.rows, [](const auto& row) { return row[1] == 2; });
+  ASSERT_NE(first, whole.results.history.rows.end());
+  EXPECT_NEAR((*first)[2], 0, rounding);
+  EXPECT_NEAR((*first)[3], 0, rounding);
+  const int block = body_at(scene.model, 8, 5);
+  EXPECT_GT(std::abs(whole.state.motions[block].rotation.angle), 1e-6) << "else there was nothing to carry";
 }
 
 // The rows of a simulation: nothing until the stage has ended, the same bits after a pause at any step.
