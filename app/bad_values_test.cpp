@@ -189,9 +189,9 @@ const Harmless harmless[] = {
     {"repeat", "step", "any", "other bolts; those that cross no joint or end in the open are reported"},
     {"repeat", "count", "times 1e3", "a longer row; bolts that cross no joint or end in the open are reported"},
     {"linings", "nodes", "times 1e3", "a finer lining; it costs memory and time, and nothing else"},
-    {"linings", "from_deg", "any", "another end of the arc, or another first node; ends in the wrong order are refused"},
+    {"linings", "from_deg", "any",
+     "another end of the arc, or another first node; ends in the wrong order are refused"},
     {"linings", "to_deg", "any", "another end of the arc; ends in the wrong order are refused"},
-    {"monitors", "angle_deg", "any", "another node, which check names"},
     {"water_surface", "level", "any", "another level; one that wets no block is reported"},
     {"water_surface", "pressure", "0", "no pressure"},
     {"water_surface", "pressure", "times 1e3", "a pressure like any other"},
@@ -248,9 +248,9 @@ TEST(BadValues, AreToldForEveryKeyOfTheTable) {
     if (stated)
       good = numbers_of(*stated);
     else
-      good = numbers_of(
-          *find(parse_scene(every_key::scene_of(row), "scene.toml", {address + "=" + std::string(row.example)}).tree.get(),
-                address));
+      good = numbers_of(*find(
+          parse_scene(every_key::scene_of(row), "scene.toml", {address + "=" + std::string(row.example)}).tree.get(),
+          address));
     std::vector<std::string> texts;
     for (const double x : good)
       texts.push_back(digits(x));

@@ -232,6 +232,19 @@ FolderLock::~FolderLock() {
   ::close(file_);
 }
 
+ReadingLock::ReadingLock(const fs::path& folder)
+    : file_(::open((folder / lock_file).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)) {
+  if (file_ < 0 || ::flock(file_, LOCK_SH | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  const std::string holder = holder_of(file_);
+  ::close(file_);
+  throw FolderInUse(fmt::format("'{}' is being written by {}: wait for it before you begin at its end", folder.string(),
+                                holder.empty() ? "another process" : holder));
+}
+
+ReadingLock::~ReadingLock() {
+  if (file_ >= 0) ::close(file_);
+}
+
 void refuse_inputs(const fs::path& folder, const Outputs& outputs, const std::vector<fs::path>& inputs) {
   for (const fs::path& name : standing(folder, outputs))
     if (is_input(folder / name, inputs))

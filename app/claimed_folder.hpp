@@ -32,6 +32,19 @@ class FolderLock {
   int file_;
 };
 
+// Held while a command reads the folder of another one, which must not write there meanwhile; any number may read at
+// once. Throws FolderInUse. A folder without a lock is read as it is.
+class ReadingLock {
+ public:
+  explicit ReadingLock(const std::filesystem::path& folder);
+  ~ReadingLock();
+  ReadingLock(const ReadingLock&) = delete;
+  ReadingLock& operator=(const ReadingLock&) = delete;
+
+ private:
+  int file_;
+};
+
 // what a command writes into its folder
 struct Outputs {
   std::string command;                    // run, slice, limit, joint-test, study

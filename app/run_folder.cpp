@@ -19,6 +19,7 @@ constexpr int options_version = 1;
 constexpr int most_threads = 1024;  // as on the command line
 const char* const newest = "checkpoint";
 const char* const previous = "checkpoint.previous";
+const char* const end_state = "end_state";
 
 bool is_there(const fs::path& path) {
   std::error_code error;
@@ -49,6 +50,12 @@ std::string checkpoint_content(const fs::path& path) {
   return content_of(path, std::numeric_limits<std::uintmax_t>::max());
 }
 
+void remark_build(const fs::path& path, const std::string& bytes, std::vector<std::string>& remarks) {
+  if (const std::string build = checkpoint_record(bytes).build; build != build_name())
+    remarks.push_back(fmt::format("'{}' was written by {}, this is {}: the last bits may differ", path.string(), build,
+                                  build_name()));
+}
+
 }  // namespace
 
 void write_options(const fs::path& folder, const RunOptions& options) {
@@ -59,6 +66,8 @@ void write_options(const fs::path& folder, const RunOptions& options) {
                                        {"threads", options.threads},
                                        {"checkpoint_steps", options.checkpoint_steps},
                                        {"checkpoint_seconds", options.checkpoint_seconds},
+                                       {"until", options.until},
+                                       {"keep", options.keep},
                                        {"warnings", options.warnings}};
   write_file(folder / "run.json", json.dump(2) + "\n");
 }
@@ -69,8 +78,9 @@ RunOptions read_options(const fs::path& folder) {
     const nlohmann::json json = nlohmann::json::parse(content_of(path, largest_options));
     if (json.at("schema") != "voussoir.run" || json.at("schema_version") != options_version)
       throw BadInput(fmt::format("'{}' was written by another version of this program", path.string()));
-    const RunOptions options{json.at("scene_hash"), json.at("threads"), json.at("checkpoint_steps"),
-                             json.at("checkpoint_seconds"), json.at("warnings")};
+    const RunOptions options{
+        json.at("scene_hash"),   json.at("threads"),        json.at("checkpoint_steps"), json.at("checkpoint_seconds"),
+        json.value("until", ""), json.value("keep", false), json.at("warnings")};
     if (options.threads < 1 || options.threads > most_threads || options.checkpoint_steps < 0 ||
         !(options.checkpoint_seconds >= 0))
       throw BadInput(
@@ -85,7 +95,10 @@ RunOptions read_options(const fs::path& folder) {
 }
 
 Outputs run_outputs() {
-  return {"run", {"results.json", "run.json", newest, previous, "history.csv", "bolts.csv", "lining.csv", "scene.toml"}, true};
+  return {
+      "run",
+      {"results.json", "run.json", newest, previous, end_state, "history.csv", "bolts.csv", "lining.csv", "scene.toml"},
+      true};
 }
 
 Outputs resume_outputs() {
@@ -118,6 +131,29 @@ void save_checkpoint(const fs::path& folder, const Progress<Dim>& progress, cons
 }
 
 template <int Dim>
+void save_end_state(const fs::path& folder, const Progress<Dim>& progress, const std::string& scene_hash) {
+  write_file(folder / end_state, checkpoint_bytes(progress, scene_hash));
+}
+
+bool holds_end_state(const fs::path& folder) {
+  return is_there(folder / end_state);
+}
+
+template <int Dim>
+Progress<Dim> read_end_state(const fs::path& folder, const std::string& scene_hash, std::vector<std::string>& remarks) {
+  const fs::path path = folder / end_state;
+  try {
+    const std::string bytes = checkpoint_content(path);
+    Progress<Dim> progress = read_checkpoint<Dim>(bytes, scene_hash);
+    remark_build(path, bytes, remarks);
+    return progress;
+  } catch (const CheckpointError& error) {
+    throw BadInput(
+        fmt::format("'{}' {}; make it again with 'voussoir run --until … --overwrite'", path.string(), error.what()));
+  }
+}
+
+template <int Dim>
 Progress<Dim> last_progress(const fs::path& folder, const Prepared<Dim>& scene, const std::string& scene_hash,
                             std::vector<std::string>& remarks) {
   std::vector<std::string> refusals;
@@ -127,9 +163,7 @@ Progress<Dim> last_progress(const fs::path& folder, const Prepared<Dim>& scene, 
     try {
       const std::string bytes = checkpoint_content(path);
       Progress<Dim> progress = read_checkpoint<Dim>(bytes, scene_hash);
-      if (const std::string build = checkpoint_record(bytes).build; build != build_name())
-        remarks.push_back(fmt::format("'{}' was written by {}, this is {}: the last bits may differ", path.string(),
-                                      build, build_name()));
+      remark_build(path, bytes, remarks);
       // what cannot be used must not displace what can when the next checkpoint is written
       if (!refusals.empty()) {
         move_file(path, folder / newest);
@@ -152,6 +186,10 @@ Progress<Dim> last_progress(const fs::path& folder, const Prepared<Dim>& scene, 
 
 template void save_checkpoint<2>(const fs::path&, const Progress<2>&, const std::string&);
 template void save_checkpoint<3>(const fs::path&, const Progress<3>&, const std::string&);
+template void save_end_state<2>(const fs::path&, const Progress<2>&, const std::string&);
+template void save_end_state<3>(const fs::path&, const Progress<3>&, const std::string&);
+template Progress<2> read_end_state<2>(const fs::path&, const std::string&, std::vector<std::string>&);
+template Progress<3> read_end_state<3>(const fs::path&, const std::string&, std::vector<std::string>&);
 template Progress<2> last_progress<2>(const fs::path&, const Prepared<2>&, const std::string&,
                                       std::vector<std::string>&);
 template Progress<3> last_progress<3>(const fs::path&, const Prepared<3>&, const std::string&,

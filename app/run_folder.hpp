@@ -3,7 +3,9 @@
 //   .lock, .voussoir-made      app/claimed_folder.hpp
 //   scene.toml, run.json       what is run and how, written before the first step
 //   checkpoint, checkpoint.previous
-//   history.csv, frames/, blocks.pvd, contacts.pvd; with bolts also bolts.pvd and bolts.csv, with linings linings.pvd and lining.csv; of a search also
+//   end_state                  of a run that is asked for it: where another run can begin (app/begin_run.hpp)
+//   history.csv, frames/, blocks.pvd, contacts.pvd; with bolts also bolts.pvd and bolts.csv, with
+//   linings linings.pvd and lining.csv; of a search also
 //   trial_blocks.pvd, trial_contacts.pvd results.json               comes last: where it is, the run is complete and
 //   the checkpoints are gone
 #pragma once
@@ -24,6 +26,8 @@ struct RunOptions {
   int threads = 1;
   long long checkpoint_steps = 0;     // between checkpoints; 0: steps do not matter
   double checkpoint_seconds = 300;    // wall clock between checkpoints; 0: time does not matter
+  std::string until;                  // the stage after which the run ends; empty: the last
+  bool keep = false;                  // the state at the end
   std::vector<std::string> warnings;  // what looked implausible in the scene as it was given, with its lines
 };
 
@@ -45,6 +49,15 @@ void remove_checkpoints(const std::filesystem::path& folder);
 // keeps the one before
 template <int Dim>
 void save_checkpoint(const std::filesystem::path& folder, const Progress<Dim>& progress, const std::string& scene_hash);
+
+// the state where the last stage ended, for other runs to begin with
+template <int Dim>
+void save_end_state(const std::filesystem::path& folder, const Progress<Dim>& progress, const std::string& scene_hash);
+bool holds_end_state(const std::filesystem::path& folder);
+// throws BadInput with the file's name where it cannot be used
+template <int Dim>
+Progress<Dim> read_end_state(const std::filesystem::path& folder, const std::string& scene_hash,
+                             std::vector<std::string>& remarks);
 
 // What the newest good checkpoint holds, or the begin of the scene where there is none. `remarks` gains a line for each
 // checkpoint that was passed over, and then replaced by the one before it, or that another program wrote. Throws

@@ -68,7 +68,7 @@ Results simulate_prepared(const Prepared<Dim>& prepared, const ProgressHook& hoo
 }  // namespace
 
 LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides, int threads) {
-  const Scene scene = read_scene(path, overrides);
+  Scene scene = read_scene(path, overrides);
   LoadedScene loaded;
   loaded.dimension = scene.dimension;
   loaded.text = toml_text(*scene.tree);
@@ -80,6 +80,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std:
   else
     load_prepared<3>(scene, threads, loaded);
   loaded.title = std::visit([](const auto& prepared) { return prepared.title; }, loaded.prepared);
+  loaded.stated = std::make_shared<const Scene>(std::move(scene));
   return loaded;
 }
 

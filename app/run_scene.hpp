@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -12,6 +13,8 @@
 #include "core/simulate.hpp"
 
 namespace voussoir {
+
+struct Scene;
 
 using AnyPrepared = std::variant<Prepared<2>, Prepared<3>>;
 
@@ -23,6 +26,7 @@ struct LoadedScene {
   std::vector<std::filesystem::path> files;  // that were read
   std::vector<std::string> from_level;       // what accuracy.level set: "key = value"
   std::vector<std::string> warnings;         // stated values that look like mistakes, one line each
+  std::shared_ptr<const Scene> stated;       // what the file says
   AnyPrepared prepared;
 };
 

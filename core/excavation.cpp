@@ -151,6 +151,18 @@ int part_at(const Body<Dim>& body, const Vector<Dim>& point) {
 }
 
 template <int Dim>
+int body_around(const Model<Dim>& model, const Vector<Dim>& point) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body<Dim>& body = model.bodies[b];
+    const Vector<Dim> place = point - body.reference;
+    if (!body.present || place.norm() > body.radius) continue;
+    if (std::ranges::any_of(body.parts, [&](const Polytope<Dim>& part) { return lies_inside<Dim>(part.faces, place); }))
+      return static_cast<int>(b);
+  }
+  return -1;
+}
+
+template <int Dim>
 Excavated<Dim> excavate(Model<Dim>& model, const std::vector<std::string>& names) {
   const std::vector<const Excavation<Dim>*> regions = regions_named(model, names);
   double least_radius = 0;
@@ -207,5 +219,8 @@ template int part_at<2>(const Body<2>&, const Vector<2>&);
 template int part_at<3>(const Body<3>&, const Vector<3>&);
 template Excavated<2> excavate<2>(Model<2>&, const std::vector<std::string>&);
 template Excavated<3> excavate<3>(Model<3>&, const std::vector<std::string>&);
+
+template int body_around<2>(const Model<2>&, const Vector<2>&);
+template int body_around<3>(const Model<3>&, const Vector<3>&);
 
 }  // namespace voussoir

@@ -20,6 +20,10 @@ struct Excavated {
 template <int Dim>
 int part_at(const Body<Dim>& body, const Vector<Dim>& point);
 
+// the body that has a part around a point of the reference configuration, model coordinates; -1: none
+template <int Dim>
+int body_around(const Model<Dim>& model, const Vector<Dim>& point);
+
 // Takes out the parts whose centroids lie, where the scene has them, in one of the named regions of Model::excavations.
 // A body that loses all of them, or all but parts smaller than the regions' least radius, is no longer present (a fixed
 // body keeps what is left); one that loses some keeps its id, and mass, centroid and inertia are renewed. Pieces that

@@ -93,13 +93,13 @@ std::vector<std::string> history_columns(const Prepared<Dim>& scene) {
 
 template <int Dim>
 std::vector<double> history_row(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state, int stage,
-                                int trial) {
+                                int trial, const std::vector<StageEnd<Dim>>& ends) {
   std::vector<double> values{state.time, static_cast<double>(stage)};
   if (has_trials(scene)) values.push_back(trial);
   for (const int p : properties_followed(scene))
     values.push_back(to_degrees(state.schedule.friction[p]));
   const auto append = [&](const std::vector<Monitor>& monitors) {
-    const std::vector<double> monitored = monitor_values<Dim>(monitors, model, state);
+    const std::vector<double> monitored = monitor_values<Dim>(monitors, model, state, ends);
     values.insert(values.end(), monitored.begin(), monitored.end());
   };
   append(waters_followed(scene));
@@ -212,8 +212,10 @@ template std::vector<int> properties_changed<2>(const Model<2>&, const Change&);
 template std::vector<int> properties_changed<3>(const Model<3>&, const Change&);
 template std::vector<std::string> history_columns<2>(const Prepared<2>&);
 template std::vector<std::string> history_columns<3>(const Prepared<3>&);
-template std::vector<double> history_row<2>(const Prepared<2>&, const Model<2>&, const State<2>&, int, int);
-template std::vector<double> history_row<3>(const Prepared<3>&, const Model<3>&, const State<3>&, int, int);
+template std::vector<double> history_row<2>(const Prepared<2>&, const Model<2>&, const State<2>&, int, int,
+                                            const std::vector<StageEnd<2>>&);
+template std::vector<double> history_row<3>(const Prepared<3>&, const Model<3>&, const State<3>&, int, int,
+                                            const std::vector<StageEnd<3>>&);
 
 template std::vector<BoltRow> bolt_rows<2>(const Model<2>&, const State<2>&, int);
 template std::vector<BoltRow> bolt_rows<3>(const Model<3>&, const State<3>&, int);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/monitor.hpp"
 #include "core/prepared.hpp"
 #include "core/results.hpp"
 
@@ -19,10 +20,10 @@ std::vector<int> properties_changed(const Model<Dim>& model, const Change& chang
 template <int Dim>
 std::vector<std::string> history_columns(const Prepared<Dim>& scene);
 
-// Their values; `stage` from 1, trial 0: the path to the answer.
+// Their values; `stage` from 1, trial 0: the path to the answer. `ends`: from which monitors count (monitor.hpp).
 template <int Dim>
 std::vector<double> history_row(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state, int stage,
-                                int trial);
+                                int trial, const std::vector<StageEnd<Dim>>& ends = {});
 
 // what every spring of a bolt carries at the end of a stage, counted from 1
 template <int Dim>

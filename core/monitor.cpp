@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "text/angle.hpp"
@@ -63,17 +64,47 @@ long long whole_bonds_of(int joint, const State<Dim>& state) {
   return whole;
 }
 
+Rotation<2> back(const Rotation<2>& rotation) {
+  return {-rotation.angle};
+}
+Rotation<3> back(const Rotation<3>& rotation) {
+  return {rotation.quaternion.conjugate()};
+}
+Rotation<2> after(const Rotation<2>& second, const Rotation<2>& first) {
+  return {second.angle + first.angle};
+}
+Rotation<3> after(const Rotation<3>& second, const Rotation<3>& first) {
+  return {second.quaternion * first.quaternion};
+}
+
+// where the body stood when its motion began to count; a body that is put in later counts from its own start
+template <int Dim>
+Placement<Dim> counted_from(int since, int body, const State<Dim>& state, const std::vector<StageEnd<Dim>>& ends) {
+  const Motion<Dim>& now = state.motions[body];
+  const Placement<Dim> start{Vector<Dim>::Zero(), {}};
+  if (since < 0) return start;
+  const auto end = std::ranges::find(ends, since, &StageEnd<Dim>::stage);
+  if (end == ends.end()) return {now.displacement, now.rotation};
+  return static_cast<std::size_t>(body) < end->bodies.size() ? end->bodies[body] : start;
+}
+
 // of one body
 template <int Dim>
-Eigen::VectorXd value_of(const Monitored& followed, int body, const Model<Dim>& model, const State<Dim>& state) {
+Eigen::VectorXd value_of(const Monitor& monitor, int body, const Model<Dim>& model, const State<Dim>& state,
+                         const std::vector<StageEnd<Dim>>& ends) {
+  const Monitored& followed = monitor.followed;
   const Motion<Dim>& motion = state.motions[body];
   switch (followed.quantity) {
     case Quantity::displacement:
-      return motion.displacement;
+      if (monitor.since < 0) return motion.displacement;
+      return motion.displacement - counted_from(monitor.since, body, state, ends).displacement;
     case Quantity::velocity:
       return motion.velocity;
-    case Quantity::rotation:
-      return rotation_vector(motion.rotation).unaryExpr(&to_degrees);
+    case Quantity::rotation: {
+      Rotation<Dim> turn = motion.rotation;
+      if (monitor.since >= 0) turn = after(turn, back(counted_from(monitor.since, body, state, ends).rotation));
+      return rotation_vector(turn).unaryExpr(&to_degrees);
+    }
     case Quantity::angular_velocity:
       return angular_velocity(model.bodies[body], motion);
     default:
@@ -84,19 +115,50 @@ Eigen::VectorXd value_of(const Monitored& followed, int body, const Model<Dim>& 
 // of one body, or over several; those that are gone do not count
 template <int Dim>
 void append_bodies(std::vector<double>& values, const Monitor& monitor, const Model<Dim>& model,
-                   const State<Dim>& state) {
-  Eigen::VectorXd sum = value_of(monitor.followed, monitor.subject, model, state);
+                   const State<Dim>& state, const std::vector<StageEnd<Dim>>& ends) {
+  Eigen::VectorXd sum = value_of(monitor, monitor.subject, model, state, ends);
   if (monitor.over != Over::one) {
     sum.setZero();
     double count = 0;
     for (const int body : monitor.group) {
       if (!model.bodies[body].present) continue;
-      sum += value_of(monitor.followed, body, model, state);
+      sum += value_of(monitor, body, model, state, ends);
       ++count;
     }
     if (monitor.over == Over::mean && count > 0) sum /= count;
   }
   values.insert(values.end(), sum.data(), sum.data() + sum.size());
+}
+
+// m: how far a point of a wall has moved inwards with its block; not a number where its block is gone
+template <int Dim>
+double convergence(const WallPoint& wall, int since, const Model<Dim>& model, const State<Dim>& state,
+                   const std::vector<StageEnd<Dim>>& ends) {
+  const auto vector = [](const std::array<double, 3>& x) {
+    return Vector<Dim>(Eigen::Map<const Vector<Dim>>(x.data()));
+  };
+  const int b = body_around<Dim>(model, vector(wall.rock));
+  if (b < 0) return std::numeric_limits<double>::quiet_NaN();
+  const Vector<Dim> place = vector(wall.point) - model.bodies[b].reference;
+  const Placement<Dim> then = counted_from(since, b, state, ends);
+  const Motion<Dim>& now = state.motions[b];
+  const Vector<Dim> moved =
+      (now.displacement - then.displacement) + (matrix(now.rotation) - matrix(then.rotation)) * place;
+  return moved.dot(vector(wall.inwards));
+}
+
+// of each point, or their sum or mean
+template <int Dim>
+void append_convergence(std::vector<double>& values, const Monitor& monitor, const Model<Dim>& model,
+                        const State<Dim>& state, const std::vector<StageEnd<Dim>>& ends) {
+  double sum = 0;
+  for (const WallPoint& wall : monitor.wall) {
+    const double value = convergence(wall, monitor.since, model, state, ends);
+    if (monitor.over == Over::one) values.push_back(value);
+    sum += value;
+  }
+  if (monitor.over == Over::one) return;
+  values.push_back(monitor.over == Over::mean ? sum / static_cast<double>(monitor.wall.size()) : sum);
 }
 
 // elevations of the file; of a plane that above the model's origin
@@ -148,6 +210,26 @@ void append_lining(std::vector<double>& values, const Monitor& monitor, const Mo
 }
 
 }  // namespace
+
+template <int Dim>
+StageEnd<Dim> stage_end(int stage, const State<Dim>& state) {
+  StageEnd<Dim> end{stage, {}};
+  for (const Motion<Dim>& m : state.motions)
+    end.bodies.push_back({m.displacement, m.rotation});
+  return end;
+}
+
+template <int Dim>
+void carry(const Excavated<Dim>& moved, StageEnd<Dim>& end) {
+  std::vector<Placement<Dim>> bodies;
+  for (std::size_t b = 0; b < moved.origin.size(); ++b) {
+    const bool stood = static_cast<std::size_t>(moved.origin[b]) < end.bodies.size();
+    Placement<Dim> place = stood ? end.bodies[moved.origin[b]] : Placement<Dim>{Vector<Dim>::Zero(), {}};
+    place.displacement += matrix(place.rotation) * moved.shift[b] - moved.shift[b];
+    bodies.push_back(place);
+  }
+  end.bodies = std::move(bodies);
+}
 
 std::string Column::header() const {
   if (unit == "1") return name;
@@ -204,6 +286,11 @@ std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
         columns.push_back({m.name + "_yielded", "1"});
         columns.push_back({m.name + "_broken", "1"});
         break;
+      case Quantity::convergence:
+        if (m.wall.size() < 2 || m.over != Over::one) columns.push_back({m.name + "_convergence", "m"});
+        for (std::size_t k = 1; m.over == Over::one && m.wall.size() > 1 && k <= m.wall.size(); ++k)
+          columns.push_back({fmt::format("{}_convergence_{}", m.name, k), "m"});
+        break;
       case Quantity::lining_force: {
         const std::string name = m.name + (m.node < 0 ? "_largest" : "");
         columns.push_back({name + "_thrust", "N"});
@@ -219,7 +306,7 @@ std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
 
 template <int Dim>
 std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const Model<Dim>& model,
-                                   const State<Dim>& state) {
+                                   const State<Dim>& state, const std::vector<StageEnd<Dim>>& ends) {
   std::vector<double> values;
   for (const Monitor& m : monitors) {
     switch (m.followed.quantity) {
@@ -228,7 +315,7 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
       case Quantity::rotation:
       case Quantity::angular_velocity:
       case Quantity::load:
-        append_bodies(values, m, model, state);
+        append_bodies(values, m, model, state, ends);
         break;
       case Quantity::contact_force:
         append_joint(values, m.subject, model, state);
@@ -241,6 +328,9 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
         break;
       case Quantity::bolt_force:
         append_bolts(values, m.subject, model, state);
+        break;
+      case Quantity::convergence:
+        append_convergence(values, m, model, state, ends);
         break;
       case Quantity::lining_force:
         append_lining(values, m, model, state);
@@ -270,7 +360,14 @@ void StageRecord::add(std::vector<double> row) {
 
 template std::vector<Column> monitor_columns<2>(const std::vector<Monitor>&);
 template std::vector<Column> monitor_columns<3>(const std::vector<Monitor>&);
-template std::vector<double> monitor_values<2>(const std::vector<Monitor>&, const Model<2>&, const State<2>&);
-template std::vector<double> monitor_values<3>(const std::vector<Monitor>&, const Model<3>&, const State<3>&);
+template std::vector<double> monitor_values<2>(const std::vector<Monitor>&, const Model<2>&, const State<2>&,
+                                               const std::vector<StageEnd<2>>&);
+template std::vector<double> monitor_values<3>(const std::vector<Monitor>&, const Model<3>&, const State<3>&,
+                                               const std::vector<StageEnd<3>>&);
+
+template StageEnd<2> stage_end<2>(int, const State<2>&);
+template StageEnd<3> stage_end<3>(int, const State<3>&);
+template void carry<2>(const Excavated<2>&, StageEnd<2>&);
+template void carry<3>(const Excavated<3>&, StageEnd<3>&);
 
 }  // namespace voussoir

@@ -1,6 +1,8 @@
 // A scene made ready to run: blocks cut, properties assigned, selectors resolved.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +23,7 @@ enum class Quantity {
   whole_bonds,
   level,
   bolt_force,
+  convergence,
   lining_force
 };
 
@@ -33,7 +36,7 @@ struct Monitored {
 };
 
 // every such quantity: of a body, the loads of each source among them; of a joint the resultant over its contacts and
-// its bonds; of a water its level; of bolts and linings their forces
+// its bonds; of a water its level; of bolts and linings their forces; of an opening how far its wall has moved inwards
 inline std::vector<Monitored> monitored_quantities() {
   std::vector<Monitored> all{{"displacement", Quantity::displacement},
                              {"velocity", Quantity::velocity},
@@ -45,12 +48,26 @@ inline std::vector<Monitored> monitored_quantities() {
   all.push_back({"whole_bonds", Quantity::whole_bonds});
   all.push_back({"level", Quantity::level});
   all.push_back({"bolt_force", Quantity::bolt_force});
+  all.push_back({"convergence", Quantity::convergence});
   all.push_back({"lining_force", Quantity::lining_force});
   return all;
 }
 
 // what a monitor of several bodies tells of them
 enum class Over { one, sum, mean };
+
+// those that can be counted from the end of a stage
+inline bool counts_from_stage(Quantity quantity) {
+  return quantity == Quantity::displacement || quantity == Quantity::rotation || quantity == Quantity::convergence;
+}
+
+// a point of an opening's wall, in model coordinates of the reference configuration, m; as many
+// coordinates as the scene has dimensions
+struct WallPoint {
+  std::array<double, 3> point{};
+  std::array<double, 3> inwards{};  // unit, towards the opening's centre
+  std::array<double, 3> rock{};     // a point inside the part of a body whose face the wall is: it tells the body
+};
 
 // a monitor whose subject was found
 struct Monitor {
@@ -60,8 +77,10 @@ struct Monitor {
                     // or Model::linings
   int points = 0;   // of a level: how many its table has; 0: a pressure
   Over over{};      // of bodies
-  std::vector<int> group{};  // where it is over several: the bodies, ascending
-  int node = -1;             // of a lining, that is followed; -1: the largest of all
+  std::vector<int> group{};       // where it is over several: the bodies, ascending
+  int since = -1;                 // the stage, from 0, from whose end motion is counted; -1: from the start
+  std::vector<WallPoint> wall{};  // of convergence
+  int node = -1;                  // of a lining, that is followed; -1: the largest of all
 };
 
 template <int Dim>
@@ -72,6 +91,7 @@ struct Prepared {
   State<Dim> state;  // initial velocities set
   Settings settings;
   std::vector<StagePlan> stages;
+  std::optional<int> last_stage{};  // place of the last one that is to be done; none: all are
   std::vector<Monitor> monitors;
   OutputPlan output;
 };

@@ -22,6 +22,7 @@ struct Progress {
   double next_frame = 0;             // s
   std::vector<double> frames;        // s: of the frames written
   std::vector<double> trial_frames;  // of those of trials that were taken back: the trials, counted from 1
+  std::vector<StageEnd<Dim>> ends;   // of those that have ended and from which monitors count
   Results results;                   // of what has ended
 };
 

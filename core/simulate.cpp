@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "core/accuracy.hpp"
-#include "core/history.hpp"
 #include "core/cast_lining.hpp"
+#include "core/history.hpp"
 #include "core/install.hpp"
 #include "core/motion/free_fall.hpp"
 #include "core/motion/relaxation.hpp"
@@ -81,7 +81,7 @@ struct Simulation {
 
   // of the history; trial 0: the path to the answer
   std::vector<double> row(const State<Dim>& now, int trial = 0) const {
-    return history_row(scene, model, now, progress.stage + 1, trial);
+    return history_row(scene, model, now, progress.stage + 1, trial, progress.ends);
   }
 
   void frame(const State<Dim>& now) {
@@ -269,8 +269,11 @@ struct Simulation {
   // model and settings of the stage, whether it begins or continues
   void enter_stage() {
     settings = settings_of(plan(), scene.settings);
-    if (!progress.stage_under_way && !plan().change.excavate.empty())
-      take_out(plan().change.excavate, settings, plan().let_off.has_value(), model, state);
+    if (!progress.stage_under_way && !plan().change.excavate.empty()) {
+      const Excavated<Dim> moved = take_out(plan().change.excavate, settings, plan().let_off.has_value(), model, state);
+      for (StageEnd<Dim>& end : progress.ends)
+        carry(moved, end);
+    }
     model = apply(std::move(model), plan().change);
   }
 
@@ -293,6 +296,12 @@ struct Simulation {
           "stage {}: no block has a face on the outline of the lining '{}', so that nothing holds it; install it after "
           "its excavation is taken out",
           plan().name, idle));
+  }
+
+  // where all bodies stand, for the monitors that count from the end of this stage
+  void remember_end() {
+    const auto counts = [&](const Monitor& m) { return m.since == progress.stage; };
+    if (std::ranges::any_of(scene.monitors, counts)) progress.ends.push_back(stage_end(progress.stage, state));
   }
 
   void begin_stage() {
@@ -342,6 +351,7 @@ struct Simulation {
                       label_of(model, body), state.motions[body].displacement.norm()));
     progress.steps_before = state.counters.steps;
     progress.stage_under_way = false;
+    remember_end();
     const State<Dim> now = with_forces(state, results.outcome == Outcome::failed);
     finish_rows(now);
     for (BoltRow& bolt : bolt_rows(model, now, progress.stage + 1))
@@ -407,8 +417,8 @@ struct Simulation {
   void add_final_results() {
     judge_level();
     const std::vector<Column> columns = monitor_columns<Dim>(scene.monitors);
-    const std::vector<double> values =
-        monitor_values<Dim>(scene.monitors, model, with_forces(state, results.outcome == Outcome::failed));
+    const std::vector<double> values = monitor_values<Dim>(
+        scene.monitors, model, with_forces(state, results.outcome == Outcome::failed), progress.ends);
     for (std::size_t k = 0; k < columns.size(); ++k)
       results.values.push_back({columns[k].name, {values[k], columns[k].unit, {}, "at the end"}});
     results.counters = state.counters;
@@ -426,7 +436,8 @@ struct Simulation {
   bool execute_all() {
     for (int s = 0; s < progress.stage; ++s)
       model = apply(std::move(model), scene.stages[s].change);
-    while (progress.stage < static_cast<int>(scene.stages.size())) {
+    const int last = scene.last_stage.value_or(static_cast<int>(scene.stages.size()) - 1);
+    while (progress.stage <= last) {
       enter_stage();
       if (!progress.stage_under_way) begin_stage();
       const std::optional<Executed> done = execute_stage();
@@ -435,6 +446,7 @@ struct Simulation {
       if (results.outcome != Outcome::done) break;
       ++progress.stage;
     }
+    if (watcher.ended) watcher.ended(progress);
     add_final_results();
     return true;
   }

@@ -28,6 +28,9 @@ struct Watcher {
   std::function<void(const Model<Dim>&, const State<Dim>&, int trial)> trial_frame;
   // before every step, with all that a later `simulate` needs to continue; true stops here
   std::function<bool(const Progress<Dim>&)> pause;
+  // once, when the last stage has ended, before the results of the end are added: from here on another scene of the
+  // same stages can go on (begin.hpp)
+  std::function<void(const Progress<Dim>&)> ended = {};
 };
 
 // before the first step

@@ -122,8 +122,8 @@ std::vector<Load<Dim>> loads_now(const Model<Dim>& model, const Settings& settin
 }  // namespace
 
 template <int Dim>
-void take_out(const std::vector<std::string>& names, const Settings& settings, bool hold, Model<Dim>& model,
-              State<Dim>& state) {
+Excavated<Dim> take_out(const std::vector<std::string>& names, const Settings& settings, bool hold, Model<Dim>& model,
+                        State<Dim>& state) {
   const Model<Dim> before = model;
   std::vector<Load<Dim>> then;
   if (hold) then = loads_now(model, settings, state);
@@ -134,7 +134,7 @@ void take_out(const std::vector<std::string>& names, const Settings& settings, b
   carry_springs(before, model, moved, state);
   carry_linings(before, model, moved, state);
   forget_lists(state);
-  if (!hold) return;
+  if (!hold) return moved;
 
   const std::vector<Load<Dim>> now = loads_now(model, settings, state);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -149,9 +149,10 @@ void take_out(const std::vector<std::string>& names, const Settings& settings, b
     held.load.moment = share * (whole.moment - moment(arm, whole.force)) - now[b].moment;
     if (!held.load.force.isZero(0) || !held.load.moment.isZero(0)) state.held.push_back(held);
   }
+  return moved;
 }
 
-template void take_out<2>(const std::vector<std::string>&, const Settings&, bool, Model<2>&, State<2>&);
-template void take_out<3>(const std::vector<std::string>&, const Settings&, bool, Model<3>&, State<3>&);
+template Excavated<2> take_out<2>(const std::vector<std::string>&, const Settings&, bool, Model<2>&, State<2>&);
+template Excavated<3> take_out<3>(const std::vector<std::string>&, const Settings&, bool, Model<3>&, State<3>&);
 
 }  // namespace voussoir

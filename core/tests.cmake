@@ -37,6 +37,9 @@ voussoir_test(unit.scene LABEL unit
     scene/permuted_input_test.cpp scene/accuracy_level_test.cpp scene/slicing_scene_test.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)
 
+voussoir_test(unit.monitors LABEL unit SOURCES monitor_test.cpp scene/bad_monitors_test.cpp begin_test.cpp
+  LIBS voussoir_core cereal::cereal)
+
 voussoir_test(unit.output LABEL unit SOURCES output/output_test.cpp
   LIBS voussoir_core fmt::fmt nlohmann_json::nlohmann_json)
 

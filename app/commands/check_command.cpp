@@ -372,12 +372,13 @@ void print_monitors(const Prepared<Dim>& prepared) {
     const Quantity quantity = monitor.followed.quantity;
     const bool of_joint = quantity == Quantity::contact_force || quantity == Quantity::whole_bonds;
     const std::string subject =
-        of_joint                      ? "joint " + prepared.model.joints[monitor.subject].name
-        : quantity == Quantity::level ? "water " + prepared.model.waters[monitor.subject].name
+        of_joint                           ? "joint " + prepared.model.joints[monitor.subject].name
+        : quantity == Quantity::level      ? "water " + prepared.model.waters[monitor.subject].name
+        : quantity == Quantity::bolt_force ? "bolts " + prepared.model.bolt_properties[monitor.subject].name
         : quantity == Quantity::lining_force
             ? "lining " + prepared.model.linings[monitor.subject].properties.name +
                   (monitor.node < 0 ? "" : fmt::format(" at node {}", monitor.node + 1))
-        : quantity == Quantity::bolt_force ? "bolts " + prepared.model.bolt_properties[monitor.subject].name
+        : quantity == Quantity::convergence ? fmt::format("{} points of a wall", monitor.wall.size())
         : monitor.over != Over::one
             ? fmt::format("{} blocks, {}", monitor.group.size(), monitor.over == Over::sum ? "sum" : "mean")
             : fmt::format("block {}", monitor.subject);

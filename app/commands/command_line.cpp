@@ -118,6 +118,17 @@ void add_run(CLI::App& program, RunArguments& arguments, Action& action) {
       ->add_option("--checkpoint-seconds", arguments.checkpoint_seconds,
                    "wall clock between checkpoints; 0: none (default: 300)")
       ->check(finite(0, largest));
+  command
+      ->add_option("--until", arguments.until,
+                   "end with this stage and keep its last state, so that other runs can begin there")
+      ->check(plain_text());
+  command->add_flag("--keep", arguments.keep, "keep the state at the end, so that other runs can begin there");
+  command
+      ->add_option(
+          "--begin", arguments.begin,
+          "folder of a run of the same blocks and first stages that kept its end: begin there, with the results "
+          "of the whole run")
+      ->check(plain_text());
   add_overwrite(command, arguments.overwrite);
   command->add_flag("--quiet", arguments.quiet, "no progress and no summary");
   command->callback([&] { action = [&] { return run_command(arguments); }; });

@@ -37,6 +37,9 @@ struct RunArguments {
   int threads = 1;
   std::optional<long long> checkpoint_steps;  // of RunOptions where they are stated
   std::optional<double> checkpoint_seconds;
+  std::filesystem::path begin;  // folder of another run, at whose end this one begins; empty: at the start
+  std::string until;            // the stage after which it ends, its state kept; empty: the last
+  bool keep = false;            // the state at the end
   bool overwrite = false;
   bool quiet = false;
 };

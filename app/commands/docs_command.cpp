@@ -44,6 +44,12 @@ constexpr Meaning quantity_meanings[] = {
      "elevation of the water: of a table in the plane a column for each of its points, m_level_1_m and so on, of a "
      "plane "
      "at the middle of the scene; of a constant pressure m_pressure_Pa instead"},
+    {"bolt_force",
+     "of one bolt: the largest axial force of the springs of all bolts of the name and the mean, tension positive; how "
+     "many springs have yielded and broken"},
+    {"convergence",
+     "how far the point of the wall has moved towards the opening's centre with its block; of several points a column "
+     "each, m_convergence_1_m and so on, or their sum or mean"},
     {"", "sum of the forces of this source on the block"},
 };
 

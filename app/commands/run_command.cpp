@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/bad_input.hpp"
+#include "app/begin_run.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/plausibility.hpp"
 #include "app/commands/progress_line.hpp"
@@ -14,11 +15,12 @@
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/bolts_csv.hpp"
-#include "core/output/lining_csv.hpp"
 #include "core/output/history_csv.hpp"
+#include "core/output/lining_csv.hpp"
 #include "core/output/paraview.hpp"
 #include "core/output/results_json.hpp"
 #include "core/scene/toml_text.hpp"
+#include "text/plain_text.hpp"
 
 namespace voussoir {
 namespace {
@@ -127,6 +129,9 @@ bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const R
   watcher.trial_frame = [&](const Model<Dim>& model, const State<Dim>& state, int trial) {
     write_frame(written.trials, model, state, trial);
   };
+  watcher.ended = [&](const Progress<Dim>& now) {
+    if (job.options.keep) save_end_state(job.folder, now, scene_hash);
+  };
   watcher.pause = [&](const Progress<Dim>& now) {
     const bool stop = interruption() != 0;
     const long long steps = now.state.counters.steps;
@@ -186,6 +191,39 @@ ExitCode carry_out(const LoadedScene& scene, const RunJob& job) {
   return std::visit([&](const auto& prepared) { return carry_out_prepared(scene, prepared, job); }, scene.prepared);
 }
 
+// the place of the stage after which the run ends
+void end_with(const std::string& stage, LoadedScene& scene) {
+  if (stage.empty()) return;
+  std::visit(
+      [&](auto& prepared) {
+        std::vector<std::string> names;
+        for (const StagePlan& plan : prepared.stages)
+          names.push_back(plan.name);
+        const auto found = std::ranges::find(names, stage);
+        if (found == names.end())
+          throw BadInput(fmt::format("--until {}: no stage of the scene has this name; {}", one_line(stage, 60),
+                                     suggestion(stage, names)));
+        prepared.last_stage = static_cast<int>(found - names.begin());
+      },
+      scene.prepared);
+}
+
+// where a run begins that does not begin at the start; `inputs` gains what is read for that
+std::optional<AnyProgress> begun_at(const fs::path& other, const LoadedScene& scene, std::vector<fs::path>& inputs) {
+  if (other.empty()) return std::nullopt;
+  std::vector<std::string> remarks;
+  AnyProgress begun = progress_at_end(other, scene, remarks);
+  print_warnings(remarks);
+  for (const fs::path& file : files_begun_with(other))
+    inputs.push_back(file);
+  return begun;
+}
+
+// The first checkpoint of a run that begins at another's end: from here on it needs that folder no more.
+void begin_in(const fs::path& folder, const std::string& scene_hash, const AnyProgress& begun) {
+  std::visit([&](const auto& progress) { save_checkpoint(folder, progress, scene_hash); }, begun);
+}
+
 ExitCode already_complete(const ResumeArguments& arguments) {
   if (!arguments.quiet) fmt::print("'{}' is complete: nothing to do\n", arguments.folder.string());
   return ExitCode::done;
@@ -211,15 +249,24 @@ ExitCode run_command(const RunArguments& arguments) {
   options.threads = arguments.threads;
   if (arguments.checkpoint_steps) options.checkpoint_steps = *arguments.checkpoint_steps;
   if (arguments.checkpoint_seconds) options.checkpoint_seconds = *arguments.checkpoint_seconds;
-  const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides, options.threads);
+  options.until = arguments.until;
+  options.keep = arguments.keep || !arguments.until.empty();
+  LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides, options.threads);
+  end_with(options.until, scene);
   require_sane_size(scene.text, arguments.scene.scene.string() + " with all that it names");  // for it is read again
   options.scene_hash = scene.hash;
   options.warnings = assess(scene).warnings;
   if (!arguments.quiet) print_warnings(options.warnings);
 
+  std::vector<fs::path> inputs = scene.files;
+  std::optional<AnyProgress> begun = begun_at(arguments.begin, scene, inputs);
+  scene.stated.reset();
+
   // the folder is ours alone, and says what is run before the first step
   const fs::path folder = results_folder(arguments);
-  const ClaimedFolder claim(folder, run_outputs(), scene.files, arguments.overwrite);
+  const ClaimedFolder claim(folder, run_outputs(), inputs, arguments.overwrite);
+  if (begun) begin_in(folder, scene.hash, *begun);
+  begun.reset();
   write_file(folder / "scene.toml", scene.text);
   write_options(folder, options);
   return carry_out(scene, {folder, options, arguments.quiet});
@@ -242,7 +289,8 @@ ExitCode resume_command(const ResumeArguments& arguments) {
   }
   RunOptions options = read_options(folder);
   if (arguments.threads) options.threads = *arguments.threads;
-  const LoadedScene scene = load_scene(folder / "scene.toml", {}, options.threads);
+  LoadedScene scene = load_scene(folder / "scene.toml", {}, options.threads);
+  end_with(options.until, scene);
   if (scene.hash != options.scene_hash)
     throw BadInput(
         fmt::format("'{}' is not the scene that this run began with: put it back, or start again with "

@@ -5,6 +5,7 @@
 #include <set>
 #include <thread>
 
+#include "app/bad_input.hpp"
 #include "app/child_process.hpp"
 #include "app/claimed_folder.hpp"
 #include "app/commands/commands.hpp"
@@ -13,10 +14,14 @@
 #include "app/commands/study_runs.hpp"
 #include "app/interruption.hpp"
 #include "app/message.hpp"
+#include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/fingerprint.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/shared_stages.hpp"
 #include "text/csv_table.hpp"
+#include "text/plain_text.hpp"
 
 namespace voussoir {
 namespace {
@@ -48,6 +53,27 @@ std::string shown(const std::string& value) {
   return value.starts_with('"') ? value.substr(1, value.size() - 2) : value;
 }
 
+std::string folder_name(const std::string& what) {
+  std::string name = fingerprint(what);
+  std::replace(name.begin(), name.end(), ':', '-');
+  return name;
+}
+
+// what a run shares with all that are the same up to the end of a stage, what they record included
+std::string shared_text(const StudyPlan& plan, const Sweep& sweep, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const StageSpec& stage : scene.stages)
+    names.push_back(stage.plan.name);
+  const auto found = std::find(names.begin(), names.end(), plan.begin);
+  if (found == names.end())
+    throw BadInput(fmt::format("begin = \"{}\": no stage of '{}' has this name; {}", one_line(plan.begin, 60),
+                               sweep.scene.string(), suggestion(plan.begin, names)));
+  std::string text = canonical_text(shared_part(scene, static_cast<int>(found - names.begin()) + 1));
+  for (const char* key : {"monitors", "output"})
+    if (const Node* part = scene.tree->find(key)) text += canonical_text(*part);
+  return text;
+}
+
 // Every setting of every sweep, in order. Reading them all first: a mistake in the last should not show after an hour.
 std::vector<StudyRun> runs_of(const StudyPlan& plan) {
   const std::string program = fingerprint(program_bytes());
@@ -61,11 +87,50 @@ std::vector<StudyRun> runs_of(const StudyPlan& plan) {
       for (const std::string& option : run.limit.value_or(std::vector<std::string>()))
         what += " " + option;
       if (run.limit) what += " limit";
-      run.name = fingerprint(what);
-      std::replace(run.name.begin(), run.name.end(), ':', '-');
+      run.name = folder_name(what);
+      if (!plan.begin.empty() && !run.limit)
+        run.begin = folder_name("until " + shared_text(plan, sweep, *scene.stated) + program);
       runs.push_back(std::move(run));
     }
   return runs;
+}
+
+// The runs that make what others begin with: of each the first that needs it, up to the stage. What is there is kept;
+// where all that need it are done it is not made again.
+std::vector<StudyRun> generations_of(const StudyPlan& plan, const std::vector<StudyRun>& runs) {
+  std::vector<StudyRun> generations;
+  std::set<fs::path> listed;
+  for (const StudyRun& run : runs)
+    if (!run.begin.empty() && listed.insert(run.begin).second)
+      generations.push_back({run.scene, run.overrides, {}, run.files, run.begin.string(), plan.begin});
+  return generations;
+}
+
+std::vector<StudyRun> needed(const std::vector<StudyRun>& generations, const std::vector<StudyRun>& runs,
+                             const fs::path& folder) {
+  std::vector<StudyRun> needed;
+  for (const StudyRun& generation : generations)
+    if (std::any_of(runs.begin(), runs.end(), [&](const StudyRun& run) {
+          return run.begin == fs::path(generation.name) && !holds_results(folder / run.name);
+        }))
+      needed.push_back(generation);
+  return needed;
+}
+
+std::vector<StudyRun> in_folder(std::vector<StudyRun> runs, const fs::path& folder) {
+  for (StudyRun& run : runs)
+    if (!run.begin.empty()) run.begin = folder / run.begin;
+  return runs;
+}
+
+// a run that had nothing to begin with says why that is
+void tell_generations(const std::vector<StudyRun>& generations, const RunsEnded& generated,
+                      const std::vector<StudyRun>& runs, RunsEnded& ended) {
+  for (std::size_t g = 0; g < generations.size(); ++g)
+    for (std::size_t k = 0; k < runs.size(); ++k)
+      if (!generated.failures[g].empty() && !ended.failures[k].empty() && runs[k].begin == generations[g].name)
+        ended.failures[k] = fmt::format("the run up to stage '{}' failed: {}", one_line(generations[g].until, 60),
+                                        generated.failures[g]);
 }
 
 // a folder for each different run, by its name
@@ -178,20 +243,26 @@ ExitCode tell_end(const std::vector<StudyRow>& rows, const RunsEnded& ended, con
 ExitCode study_command(const StudyArguments& arguments) {
   const StudyPlan plan = read_study_plan(arguments.plan);
   const std::vector<StudyRun> runs = runs_of(plan);
-  const ClaimedFolder claim(arguments.out, outputs_of(runs), inputs_of(arguments.plan, runs), arguments.overwrite);
+  const std::vector<StudyRun> generations = generations_of(plan, runs);
+  std::vector<StudyRun> all = generations;
+  all.insert(all.end(), runs.begin(), runs.end());
+  const ClaimedFolder claim(arguments.out, outputs_of(all), inputs_of(arguments.plan, runs), arguments.overwrite);
 
   RunsOptions options{arguments.out / "runs", arguments.jobs, arguments.threads, arguments.time_limit, arguments.quiet};
+  if (options.jobs == 0) options.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const std::vector<StudyRun> made = needed(generations, runs, options.folder);
+  const RunsEnded generated = carry_out_runs(made, options);
   options.doubt = [&](const fs::path& folder) {
     std::optional<std::string> missing = missing_quantity(folder, plan);
     if (missing && !missing->empty()) missing = arguments.plan.string() + ": " + *missing;
     return missing;
   };
-  if (options.jobs == 0) options.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const RunsEnded ended = carry_out_runs(runs, options);
+  RunsEnded ended = generated.interrupted ? generated : carry_out_runs(in_folder(runs, options.folder), options);
   if (ended.interrupted) {
     tell("voussoir: interrupted: the same command continues with what is done in '{}'\n", arguments.out.string());
     return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + interruption());
   }
+  tell_generations(made, generated, runs, ended);
   const std::vector<StudyRow> rows = rows_of(plan, runs, ended, options.folder);
   const fs::path file = arguments.out / "study.csv";
   write_file(file, study_csv(plan, rows));

@@ -28,6 +28,10 @@ constexpr StudyKey study_keys[] = {
     {"", "set", "list of texts", "`\"key=value\"` as after --set, for every run"},
     {"", "limit", "table",
      "runs by `voussoir limit` instead of `voussoir run`; `{}` for the critical friction under gravity"},
+    {"", "begin", "text",
+     "a stage of the scene: runs that are the same up to its end share one run up to there, which the study makes "
+     "first, "
+     "and begin where it ended"},
     {"", "sweep", "list of tables, required", "one setting that is changed, `[[sweep]]`, as many as are wanted"},
     {"history", "column", "text, required", "a column of history.csv, by its whole name"},
     {"history", "take", "one of `\"largest\"` `\"smallest\"` `\"last\"`, required", "which of its numbers"},
@@ -272,6 +276,7 @@ StudyPlan read_study_plan(const fs::path& path) {
   StudyPlan plan;
   plan.quantity = text_of(top, "quantity", "must name a value of results.json, e.g. \"critical_friction\"");
   plan.history = read_history(top);
+  if (top.node->find("begin")) plan.begin = text_of(top, "begin", "must name a stage of the scene, e.g. \"stress\"");
 
   const Node* sweeps = tree.find("sweep");
   if (!sweeps || sweeps->kind != Node::Kind::list || sweeps->items.empty())

@@ -105,6 +105,8 @@ class Runs {
         arguments.insert(arguments.end(), {"--set", text});
       if (run.limit) arguments.insert(arguments.end(), run.limit->begin(), run.limit->end());
     }
+    if (!resume && !run.until.empty()) arguments.insert(arguments.end(), {"--until", run.until});
+    if (!resume && !run.begin.empty()) arguments.insert(arguments.end(), {"--begin", run.begin.string()});
     if (!run.limit) arguments.insert(arguments.end(), {"--quiet", "--threads", std::to_string(options_.threads)});
     active_.push_back({&run, std::make_unique<ChildProcess>(arguments, messages_of(run)), resume, false, {}});
   }

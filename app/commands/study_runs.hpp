@@ -14,7 +14,9 @@ struct StudyRun {
   std::vector<std::string> overrides;
   std::optional<std::vector<std::string>> limit;  // by `voussoir limit` with these options, not `voussoir run`
   std::vector<std::filesystem::path> files;       // that the scene reads
-  std::string name;  // of its folder: tells scene and program apart from all others; equal runs share one
+  std::string name;        // of its folder: tells scene and program apart from all others; equal runs share one
+  std::string until = {};  // the stage that it ends with, its end kept; empty: the last
+  std::filesystem::path begin = {};  // the folder of the run at whose end it begins; empty: at the start
 };
 
 struct RunsOptions {

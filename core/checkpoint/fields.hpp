@@ -196,11 +196,11 @@ void serialize(Archive& archive, LiningState& l) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, NewtonIncrement<Dim>& n) {
   auto& [under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
-         regularisation, overshoot, base, histories, springs, grouted, linings, sub_histories, listed, loads_begin, energy,
-         accepted, residual, change, merits, stiffness, closed, of_water] = n;
+         regularisation, overshoot, base, histories, springs, grouted, linings, sub_histories, listed, loads_begin,
+         energy, accepted, residual, change, merits, stiffness, closed, of_water] = n;
   archive(under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
-          regularisation, overshoot, base, histories, springs, grouted, linings, sub_histories, listed, loads_begin.values,
-          energy, accepted, residual, change, merits, stiffness, closed, of_water);
+          regularisation, overshoot, base, histories, springs, grouted, linings, sub_histories, listed,
+          loads_begin.values, energy, accepted, residual, change, merits, stiffness, closed, of_water);
 }
 
 template <class Archive, int Dim>
@@ -213,8 +213,8 @@ template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
   // poses, loads by source with their stiffness, lists by body and loads of contacts are rebuilt before they are read
   auto& [motions, loads, loads_of, stiffened, contacts, subs, built, counted_at, path_bounds, left_behind, poses,
-         by_body, contact_loads, frequency, relaxation, newton, schedule, held, bolt_springs, grouted, linings, bonds, time,
-         time_step, step_allowed, energy, counters] = s;
+         by_body, contact_loads, frequency, relaxation, newton, schedule, held, bolt_springs, grouted, linings, bonds,
+         time, time_step, step_allowed, energy, counters] = s;
   archive(motions, loads, contacts, subs, built, counted_at, path_bounds, left_behind, frequency, relaxation, newton,
           schedule, held, bolt_springs, grouted, linings, bonds, time, time_step, step_allowed, energy, counters);
 }
@@ -272,18 +272,24 @@ void serialize(Archive& archive, LiningRow& l) {
 
 template <class Archive>
 void serialize(Archive& archive, Results& r) {
-  auto& [outcome, message, values, stages, history, bolts_carried, linings_carried, counters, bonds, energy, state_hash, warnings,
-         seconds] = r;
-  archive(outcome, message, values, stages, history, bolts_carried, linings_carried, counters, bonds, energy, state_hash, warnings,
-          seconds);
+  auto& [outcome, message, values, stages, history, bolts_carried, linings_carried, counters, bonds, energy, state_hash,
+         warnings, seconds] = r;
+  archive(outcome, message, values, stages, history, bolts_carried, linings_carried, counters, bonds, energy,
+          state_hash, warnings, seconds);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, StageEnd<Dim>& e) {
+  auto& [stage, bodies] = e;
+  archive(stage, bodies);
 }
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, Progress<Dim>& p) {
   auto& [state, stage, stage_under_way, stage_began, steps_before, run, reduction, record, next_frame, frames,
-         trial_frames, results] = p;
+         trial_frames, ends, results] = p;
   archive(state, stage, stage_under_way, stage_began, steps_before, run, reduction, record, next_frame, frames,
-          trial_frames, results);
+          trial_frames, ends, results);
 }
 
 // every bit of it: two objects are the same when these are equal

@@ -219,6 +219,13 @@ void check_installs(const Scene& scene) {
 }
 
 template <int Dim>
+std::array<Vector<Dim>, 2> ray_axes(const std::vector<double>& axis) {
+  FanSpec fan;
+  fan.axis = axis;
+  return axes_of<Dim>(fan);
+}
+
+template <int Dim>
 void add_bolts(const Scene& scene, Model<Dim>& model) {
   std::vector<const BoltSpec*> specs;
   for (const BoltSpec& spec : scene.bolts)
@@ -235,6 +242,8 @@ void add_bolts(const Scene& scene, Model<Dim>& model) {
   }
 }
 
+template std::array<Vector<2>, 2> ray_axes<2>(const std::vector<double>&);
+template std::array<Vector<3>, 2> ray_axes<3>(const std::vector<double>&);
 template void add_bolts<2>(const Scene&, Model<2>&);
 template void add_bolts<3>(const Scene&, Model<3>&);
 

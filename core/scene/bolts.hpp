@@ -1,6 +1,9 @@
 // [[bolts]]: read, checked, and placed.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "core/scene/scene_spec.hpp"
 
 namespace voussoir {
@@ -11,6 +14,10 @@ std::vector<BoltSpec> read_bolts(const Subject& scene, int dimension);
 // Every stage installs bolts and linings that exist, each is installed by one stage, and a lining once its opening is
 // there. Throws SceneError.
 void check_installs(const Scene& scene);
+
+// What angles of rays across an axis count from and turn to: right and up; in the plane the x and the y axis.
+template <int Dim>
+std::array<Vector<Dim>, 2> ray_axes(const std::vector<double>& axis);
 
 // Model::bolts and their properties, whatever the order in which the scene states them; the model has its origin.
 template <int Dim>

@@ -45,10 +45,14 @@ void write(const Node& node, std::string& text) {
 
 }  // namespace
 
-std::string canonical_text(const Scene& scene) {
+std::string canonical_text(const Node& part) {
   std::string text;
-  write(*scene.tree, text);
+  write(part, text);
   return text;
+}
+
+std::string canonical_text(const Scene& scene) {
+  return canonical_text(*scene.tree);
 }
 
 }  // namespace voussoir

@@ -13,8 +13,10 @@
 #include "core/scene/keys.hpp"
 #include "core/scene/linings.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/wall_points.hpp"
 #include "core/scene/wet_faces.hpp"
 #include "core/waters.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
@@ -357,12 +359,16 @@ int lining_of(const MonitorSpec& spec, const Model<Dim>& model) {
   return index;
 }
 
-// the node next to the angle that a monitor states; -1: none is stated
+// of the nodes next to the angles that are stated, or of all
 template <int Dim>
-int node_of(const MonitorSpec& spec, const Model<Dim>& model, int lining) {
-  if constexpr (Dim == 2)
-    if (spec.angle) return nearest_node(model.linings[lining], *spec.angle);
-  return -1;
+void add_lining_monitors(const MonitorSpec& spec, const Model<Dim>& model, std::vector<Monitor>& monitors) {
+  Monitor monitor{spec.name, spec.quantities.front(), lining_of(spec, model)};
+  if (spec.angles.empty()) monitors.push_back(monitor);
+  for (std::size_t k = 0; k < spec.angles.size(); ++k) {
+    if (spec.angles.size() > 1) monitor.name = fmt::format("{}_{}", spec.name, k + 1);
+    monitor.node = nearest_node(model.linings[monitor.subject], to_radians(spec.angles[k]));
+    monitors.push_back(monitor);
+  }
 }
 
 // the blocks that a monitor follows
@@ -378,20 +384,43 @@ std::vector<int> bodies_of(const Scene& scene, const Model<Dim>& model, const Mo
   return bodies;
 }
 
+// the stage from whose end a monitor counts; -1: from the start
+int since_of(const Scene& scene, const MonitorSpec& spec) {
+  if (spec.since.empty()) return -1;
+  std::vector<std::string> names;
+  for (const StageSpec& stage : scene.stages)
+    names.push_back(stage.plan.name);
+  const int index = index_of(names, spec.since);
+  if (index < 0) refuse(spec.body.subject, "since", "no stage of this name; " + suggestion(spec.since, names));
+  if (index + 1 == static_cast<int>(names.size()))
+    refuse(spec.body.subject, "since", "is the last stage, after which nothing moves; name one before it");
+  return index;
+}
+
 template <int Dim>
-std::vector<Monitor> find_monitors(const Scene& scene, const Model<Dim>& model) {
+std::vector<Monitor> find_monitors(const Scene& scene, const Prepared<Dim>& prepared) {
+  const Model<Dim>& model = prepared.model;
   std::vector<Monitor> monitors;
   for (const MonitorSpec& spec : scene.monitors) {
-    const int subject = !spec.joint.empty()    ? joint_of<Dim>(model, spec)
-                        : !spec.water.empty()  ? water_of(scene, spec)
-                        : !spec.bolts.empty()  ? bolts_of(spec, model.bolt_properties)
-                        : !spec.lining.empty() ? lining_of(spec, model)
-                                               : -1;
+    const int since = since_of(scene, spec);
+    if (!spec.excavation.empty()) {
+      monitors.push_back(
+          {spec.name, spec.quantities.front(), 0, 0, spec.over, {}, since, wall_points<Dim>(scene, prepared, spec)});
+      continue;
+    }
+    const int subject = !spec.joint.empty()   ? joint_of<Dim>(model, spec)
+                        : !spec.water.empty() ? water_of(scene, spec)
+                        : !spec.bolts.empty() ? bolts_of(spec, model.bolt_properties)
+                                              : -1;
+    if (!spec.lining.empty()) {
+      add_lining_monitors(spec, model, monitors);
+      continue;
+    }
     const std::vector<int> bodies = subject < 0 ? bodies_of<Dim>(scene, model, spec) : std::vector<int>();
     for (const Monitored& followed : spec.quantities)
       monitors.push_back({spec.name, followed, subject < 0 ? bodies.front() : subject,
                           followed.quantity == Quantity::level ? levels_of<Dim>(model.waters[subject]) : 0, spec.over,
-                          spec.over == Over::one ? std::vector<int>() : bodies, node_of(spec, model, subject)});
+                          spec.over == Over::one ? std::vector<int>() : bodies, since});
   }
   return monitors;
 }
@@ -427,7 +456,7 @@ Prepared<Dim> prepare(const Scene& scene) {
   add_supports<Dim>(scene, model);
   prepared.state = moving_state<Dim>(scene, model);
   prepared.stages = checked_stages<Dim>(scene, model);
-  prepared.monitors = find_monitors<Dim>(scene, model);
+  prepared.monitors = find_monitors<Dim>(scene, prepared);
   return prepared;
 }
 

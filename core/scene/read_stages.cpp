@@ -263,6 +263,21 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping, int d
   return stage;
 }
 
+void check_angles_and_since(const Subject& table, const MonitorSpec& monitor) {
+  const bool angles = table.node->find("angles_deg") != nullptr;
+  if (!monitor.excavation.empty() && monitor.angles.empty())
+    refuse(table, "angles_deg", "says where the wall is followed; write for example angles_deg = [90] for the crown");
+  if (monitor.excavation.empty() && monitor.lining.empty() && angles)
+    refuse(table, "angles_deg",
+           "tells points of an opening's wall, or of a lining; write excavation or lining = its name, or remove it");
+  for (const Monitored& followed : monitor.quantities)
+    if (!monitor.since.empty() && !counts_from_stage(followed.quantity))
+      refuse(table, "since",
+             fmt::format("{} is no motion that could be counted from a stage on; follow it in a monitor of its own, "
+                         "or remove since",
+                         followed.word));
+}
+
 MonitorSpec read_monitor(const Subject& table) {
   MonitorSpec monitor;
   read_keys(*table.node, "monitors", monitor);
@@ -274,10 +289,11 @@ MonitorSpec read_monitor(const Subject& table) {
     const bool of_joint = followed.quantity == Quantity::contact_force || followed.quantity == Quantity::whole_bonds;
     if (followed.quantity == Quantity::bolt_force) return "bolts";
     if (followed.quantity == Quantity::lining_force) return "lining";
+    if (followed.quantity == Quantity::convergence) return "excavation";
     return of_joint ? "joint" : followed.quantity == Quantity::level ? "water" : "";
   };
   std::string_view stated;
-  for (const std::string_view key : {"joint", "water", "bolts", "lining"}) {
+  for (const std::string_view key : {"joint", "water", "bolts", "lining", "excavation"}) {
     if (!table.node->find(key)) continue;
     if (!stated.empty())
       refuse(table, key, fmt::format("stands beside {}; a monitor follows one of the two, remove one", stated));
@@ -289,23 +305,29 @@ MonitorSpec read_monitor(const Subject& table) {
     if (!wanted.empty())
       refuse(table, wanted,
              fmt::format("{} is followed on {}; write for example {} = \"A\"", followed.word,
-                         wanted == "bolts" ? "bolts" : fmt::format("a {}", wanted), wanted));
+                         wanted == "bolts"        ? "bolts"
+                         : wanted == "excavation" ? "an excavation"
+                                                  : fmt::format("a {}", wanted),
+                         wanted));
     refuse(
         table, "quantities",
         stated == "joint"
             ? "a monitor of a joint follows contact_force only, and whole_bonds; follow a block in a monitor of its own"
         : stated == "water"  ? "a monitor of a water follows its level only; follow a block in a monitor of its own"
         : stated == "lining" ? "a monitor of a lining follows lining_force only; follow a block in a monitor of its own"
-                             : "a monitor of bolts follows bolt_force only; follow a block in a monitor of its own");
+        : stated == "bolts"  ? "a monitor of bolts follows bolt_force only; follow a block in a monitor of its own"
+                            : "a monitor of an excavation follows its convergence only; follow a block in a monitor of "
+                              "its own");
   }
   if (!stated.empty() && chooses(monitor.body.selector))
     refuse(table, stated,
            fmt::format("stands beside a choice of blocks; a monitor follows either {} or a block, remove one",
-                       stated == "bolts" ? "bolts" : fmt::format("a {}", stated)));
-  if (!stated.empty() && monitor.over != Over::one)
+                       stated == "bolts"        ? "bolts"
+                       : stated == "excavation" ? "an excavation"
+                                                : fmt::format("a {}", stated)));
+  check_angles_and_since(table, monitor);
+  if (!stated.empty() && stated != "excavation" && monitor.over != Over::one)
     refuse(table, "over", "tells of blocks, and this monitor follows none; remove it");
-  if (monitor.angle && stated != "lining")
-    refuse(table, "angle_deg", "tells where on a lining, and this monitor follows none; remove it, or name the lining");
   if (stated.empty() && !chooses(monitor.body.selector))
     refuse(table, "above",
            "the monitor must choose one block by bodies, above, below, inside, side or box; write for example "

@@ -26,6 +26,7 @@ Prepared<Dim> prepare(const Scene& scene);
 // The effective scene as canonical text, to be hashed: independent of comments, layout, the order of keys, how numbers
 // are written, and of whether a value came from the file or an override. Defaults that are not stated do not appear.
 std::string canonical_text(const Scene& scene);
+std::string canonical_text(const Node& part);
 
 // every key, its meaning, unit, range and default, in markdown, from the table the reader checks with
 std::string scene_documentation();

@@ -223,7 +223,9 @@ struct StageSpec {
 struct MonitorSpec {
   SelectorSpec body;  // empty for a joint or a water
   std::string name, joint, water, bolts, lining;
-  std::optional<double> angle;  // rad, of a node of the lining
+  std::string excavation;      // of convergence
+  std::vector<double> angles;  // deg, of convergence and lining_force
+  std::string since;           // a stage; empty: from the start
   Over over{};
   std::vector<Monitored> quantities;
 };

@@ -253,6 +253,12 @@ bolts = "roof"
 name = "lake"
 quantities = ["level"]
 water = "lake"
+[[monitors]]
+name = "wall"
+quantities = ["convergence"]
+excavation = "tunnel"
+angles_deg = [90]
+since = "settle"
 [output]
 )";
 
@@ -301,12 +307,11 @@ install = ["shell"]
 name = "crown"
 quantities = ["lining_force"]
 lining = "shell"
-angle_deg = 90
 )";
 
 // the scene in which a row's key can be set
 inline const std::string& scene_of(const KeyRow& row) {
-  const bool of_lining = row.table == "monitors" && (row.key == "lining" || row.key == "angle_deg");
+  const bool of_lining = row.table == "monitors" && row.key == "lining";
   return row.table == "linings" || of_lining ? in_the_plane : everything;
 }
 
@@ -362,6 +367,8 @@ inline std::string address(const KeyRow& row) {
   if (row.table == "blocks" && row.key == "vertices") table = "blocks.by vertices";
   if (row.table == "blocks.planes" && row.key == "point") table = "blocks.by planes.planes.5";
   if (row.table == "monitors" && row.key == "joint") table = "monitors.joint";
+  if (row.table == "monitors" && (row.key == "excavation" || row.key == "angles_deg" || row.key == "since"))
+    table = "monitors.wall";
   if (row.table == "monitors" && row.key == "water") table = "monitors.lake";
   if (&scene_of(row) == &in_the_plane && row.table == "monitors") table = "monitors.crown";
   if (row.table == "monitors" && row.key == "bolts") table = "monitors.bolts";
