@@ -78,7 +78,9 @@ TEST(GroutedBolts, ShareTheWeightThatHangsFromThem) {
         ASSERT_TRUE(bolt.slip);
         EXPECT_EQ(*bolt.slip, 0);
       }
-      if (done.results.counters.static_iterations > 0) EXPECT_EQ(done.results.counters.static_fallbacks, 0);
+      if (done.results.counters.static_iterations > 0) {
+        EXPECT_EQ(done.results.counters.static_fallbacks, 0);
+      }
       EXPECT_LT(done.results.energy.relative_error(), 0.01);
     }
 }
@@ -374,7 +376,9 @@ void expect_same_bits(const std::string& statics) {
   double most = 0;
   for (const BoltRow& r : whole.results.bolts) {
     EXPECT_EQ(r.slip.has_value(), r.bolts != "plain" && r.joint > 0);
-    if (r.bolts == "inclined" && r.slip) EXPECT_EQ(*r.slip, 0) << "its bond has no strength to lose";
+    if (r.bolts == "inclined" && r.slip) {
+      EXPECT_EQ(*r.slip, 0) << "its bond has no strength to lose";
+    }
     if (r.bolts == "roof" && r.stage == 3) most = std::max(most, std::abs(*r.slip));
   }
   double of_bars = 0;

@@ -366,7 +366,7 @@ void add_lining_monitors(const MonitorSpec& spec, const Model<Dim>& model, std::
   if (spec.angles.empty()) monitors.push_back(monitor);
   for (std::size_t k = 0; k < spec.angles.size(); ++k) {
     if (spec.angles.size() > 1) monitor.name = fmt::format("{}_{}", spec.name, k + 1);
-    monitor.node = nearest_node(model.linings[monitor.subject], to_radians(spec.angles[k]));
+    monitor.node = nearest_node(model.linings[monitor.subject], spec.angles[k] * degree);
     monitors.push_back(monitor);
   }
 }

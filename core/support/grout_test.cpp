@@ -431,7 +431,9 @@ TEST(Grout, CondensesToSpringsBetweenStretches) {
       for (int b = 0; b < 4; ++b) {
         sum += k[4 * a + b];
         EXPECT_NEAR(k[4 * a + b], k[4 * b + a], 1e-12 * alone);
-        if (a != b) EXPECT_LT(k[4 * a + b], 0);
+        if (a != b) {
+          EXPECT_LT(k[4 * a + b], 0);
+        }
       }
       EXPECT_NEAR(sum, 0, 1e-12 * alone);
     }
