@@ -37,7 +37,7 @@ enum class Kind { none, fall, slide, wedge, topple };
 // what the rule counts as what
 struct MechanismRule {
   double moved = 0.25;              // m: a block that has gone farther is lost; half of the smallest block of 0.5 m
-  double least_area = 1.0;          // m2: less than that, a block or two, is no mechanism of a wall
+  double least_area = 0.1;          // m2: less than that, a splinter or two, is no mechanism
   double roof_half_angle = 0.7854;  // of the quarter above the centre, from the vertical
   double along = 0.2618;            // 15 degrees: a motion this close to a trace goes along it
   double flank_share = 0.25;        // of the length that bounds what moved, for a joint set to be one of its flanks

@@ -56,9 +56,9 @@ TEST(Mechanism, NothingMoves) {
 
 TEST(Mechanism, ASplinterIsNoMechanism) {
   Made made(0, 6, 0, -1);
-  made.blocks[0].area = 0.5;
+  made.blocks[0].area = 0.05;
   EXPECT_EQ(made.at(Place::roof).kind, Kind::none);
-  EXPECT_EQ(made.at(Place::roof).area, 0.5);
+  EXPECT_EQ(made.at(Place::roof).area, 0.05);
 }
 
 TEST(Mechanism, ABlockThatNothingHoldsFalls) {

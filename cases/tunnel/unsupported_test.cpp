@@ -1,0 +1,99 @@
+// Openings without support: what falls, slides and topples, named by a rule, beside Boon (2013), table 5.1.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "cases/tunnel/openings.hpp"
+#include "verification/case_report.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using reference::Place;
+using verification::Bound;
+using verification::CaseReport;
+using verification::Cost;
+
+const std::string thesis = "Boon (2013), section 5.2";
+
+Cost cost(const Opening& opening) {
+  return {opening.evaluations, opening.seconds};
+}
+
+const OpeningRow& row(int number) {
+  return opening_rows()[number - 1];
+}
+
+void check_lower_friction(CaseReport& report, const Opening& lower, const Opening& higher) {
+  report.record({fmt::format("rock lost at {}° over that at {}°, openings {} and {}", lower.row.friction,
+                             higher.row.friction, lower.row.number, higher.row.number),
+                 "1",
+                 verification::Kind::limit,
+                 "the same blocks: less friction holds no more",
+                 1,
+                 {0.05, 0, Bound::at_least},
+                 "a block of the mean size of 2.3 m2 of some fifty may be held by another way of falling"},
+                lower.lost_area() / higher.lost_area(), cost(lower));
+}
+
+TEST(Unsupported, TheRoofLosesBlocksAndMoreAtLessFriction) {
+  CaseReport report("tunnel", {"openings whose roof loses blocks, of two"});
+  std::vector<Opening> openings;
+  for (const int number : {11, 12})
+    openings.push_back(dig(row(number), 0, 0.4, fmt::format("opening_{}", number)));
+  int roofs = 0, floors = 0;
+  for (const Opening& opening : openings) {
+    roofs += opening.at(Place::roof).kind != reference::Kind::none;
+    floors += opening.at(Place::floor).kind != reference::Kind::none;
+    report.report(fmt::format("rock lost in 0.4 s, opening {}", opening.row.number), "m2", opening.lost_area(),
+                  "roof: " + words(opening, Place::roof), cost(opening));
+  }
+  report.record(
+      {"openings whose roof loses blocks, of two", "1", verification::Kind::published, thesis, 2, {0, 0}, "a count"},
+      roofs);
+  report.record(
+      {"openings that fail all round, of two", "1", verification::Kind::published, thesis, 0, {0, 0}, "a count"},
+      floors);
+  check_lower_friction(report, openings[0], openings[1]);
+}
+
+TEST(UnsupportedLong, TwentyFourOpenings) {
+  CaseReport report("tunnel", {"openings whose roof loses blocks"});
+  std::ofstream table(verification::case_output("tunnel") / "openings.csv");
+  table << "number,friction_deg,roof,roof_m2,left_wall,left_m2,right_wall,right_m2,floor,floor_m2,thesis,roof_kind,"
+           "second_place,second_kind,farthest_m\n";
+  std::vector<Opening> openings;
+  int roofs = 0, round = 0, roof_kinds = 0, places = 0, kinds = 0;
+  for (const OpeningRow& r : opening_rows()) {
+    openings.push_back(dig(r, 0, 0.8, fmt::format("opening_{}", r.number)));
+    const Opening& opening = openings.back();
+    const Agreement agrees = agreement(opening);
+    table << fmt::format("{},{}", r.number, r.friction);
+    bool all = true;
+    for (const Place place : {Place::roof, Place::left_wall, Place::right_wall, Place::floor}) {
+      table << fmt::format(",{},{:.1f}", words(opening, place), opening.at(place).area);
+      all = all && opening.at(place).kind != reference::Kind::none;
+    }
+    table << fmt::format(",{}{},{},{},{},{:.2f}", r.first, r.second, agrees.roof_kind, agrees.second_place,
+                         agrees.second_kind, opening.farthest)
+          << std::endl;
+    roofs += opening.at(Place::roof).kind != reference::Kind::none;
+    round += all;
+    roof_kinds += agrees.roof_kind;
+    places += agrees.second_place;
+    kinds += agrees.second_kind;
+  }
+  report.record({"openings whose roof loses blocks", "1", verification::Kind::published, thesis, 24, {0, 0}, "a count"},
+                roofs);
+  report.record({"openings that fail all round", "1", verification::Kind::published, thesis, 0, {0, 0}, "a count"},
+                round);
+  report.report("kinds in the roof as in table 5.1, of 24", "1", roof_kinds, "one draw");
+  report.report("places of the second mechanism as in table 5.1, of 24", "1", places, "one draw");
+  report.report("kinds of the second mechanism as in table 5.1, of 24", "1", kinds, "one draw");
+  for (const auto& [lower, higher] : {std::pair(11, 12), {13, 14}, {15, 16}})
+    check_lower_friction(report, openings[lower - 1], openings[higher - 1]);
+}
+
+}  // namespace
+}  // namespace voussoir::cases
