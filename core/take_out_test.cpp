@@ -103,6 +103,12 @@ TEST(TakeOut, SmallPiecesGo) {
   const Model<2> dug = apply(scene.model, scene.stages.back().change);
   EXPECT_FALSE(dug.bodies[2].present) << "half a metre high";
   EXPECT_TRUE(dug.bodies[1].present);
+  // pieces have a limit of their own, for what a stage takes out and for what is gone at the start
+  const std::vector<std::string> smaller{"slicing.smallest_inscribed_radius=0.3", "excavations.top.smallest_piece=0.2"};
+  const Prepared<2> staged = scene_of(wall + top + settle + dig("top", "settle", ""), smaller);
+  EXPECT_TRUE(apply(staged.model, staged.stages.back().change).bodies[2].present);
+  EXPECT_EQ(scene_of(wall + top + settle, smaller).model.bodies.size(), 3u);
+  EXPECT_EQ(scene_of(wall + top + settle, {"slicing.smallest_inscribed_radius=0.3"}).model.bodies.size(), 2u);
 }
 
 // A splinter that an outline cuts off and a body holds is no measure of the steps of Newton's method.

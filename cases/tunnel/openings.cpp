@@ -87,8 +87,23 @@ std::vector<JointStretch> stretches(const Dug& dug) {
   return joints;
 }
 
+// what of a polygon lies in the picture, m from the centre: gnuplot fills badly what leaves it
+std::vector<Vector<2>> in_picture(std::vector<Vector<2>> ring) {
+  const HalfSpaces<2> sides{{{1, 0}, 14}, {{-1, 0}, 14}, {{0, 1}, 15}, {{0, -1}, 11}};
+  for (const HalfSpace<2>& side : sides) {
+    std::vector<Vector<2>> kept;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vector<2>&a = ring[k], &b = ring[(k + 1) % ring.size()];
+      const double from = signed_distance<2>(side, a), to = signed_distance<2>(side, b);
+      if (from <= 0) kept.push_back(a);
+      if ((from < 0) != (to < 0) && from != to) kept.push_back(a + from / (from - to) * (b - a));
+    }
+    ring = std::move(kept);
+  }
+  return ring;
+}
+
 void draw(const Dug& dug, const std::vector<BlockMotion>& blocks, const std::string& file) {
-  constexpr double shown = 16;          // m from the centre
   constexpr double still = 0.02;        // m
   const reference::MechanismRule rule;  // what it counts as lost
   const Model<2>& model = *dug.after_model;
@@ -100,15 +115,18 @@ void draw(const Dug& dug, const std::vector<BlockMotion>& blocks, const std::str
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<2>& body = model.bodies[b];
-    if (!body.present || std::hypot(blocks[b].x, blocks[b].y) > shown) continue;
+    if (!body.present) continue;
     const double way = std::hypot(blocks[b].dx, blocks[b].dy);
     std::ofstream& csv = out[way > rule.moved ? 2 : way > still ? 1 : 0];
     for (const Polytope<2>& part : body.parts) {
-      for (const int corner : closed_ring(part)) {
-        const Vector<2> at = model.origin + body.reference + dug.after->motions[b].displacement +
-                             matrix(dug.after->motions[b].rotation) * part.vertices[corner];
-        csv << fmt::format("{:.4f},{:.4f}\n", at[0], at[1]);
-      }
+      std::vector<Vector<2>> ring;
+      for (const int corner : boundary_ring(part))
+        ring.push_back(model.origin + body.reference + dug.after->motions[b].displacement +
+                       matrix(dug.after->motions[b].rotation) * part.vertices[corner]);
+      ring = in_picture(std::move(ring));
+      if (ring.empty()) continue;
+      for (std::size_t k = 0; k <= ring.size(); ++k)
+        csv << fmt::format("{:.4f},{:.4f}\n", ring[k % ring.size()][0], ring[k % ring.size()][1]);
       csv << '\n';
     }
   }
@@ -183,8 +201,11 @@ Opening dig(const OpeningRow& row, int seed, double seconds, const std::string& 
   const Dug dug = simulated(scene, results);
   const std::vector<BlockMotion> blocks = motions(dug);
   opening.found = reference::mechanisms(blocks, stretches(dug), opening.sets);
-  for (const BlockMotion& block : blocks)
-    opening.farthest = std::max(opening.farthest, std::hypot(block.dx, block.dy));
+  for (const BlockMotion& block : blocks) {
+    const double way = std::hypot(block.dx, block.dy);
+    opening.farthest = std::max(opening.farthest, way);
+    if (way > reference::MechanismRule{}.moved && block.y > 0) opening.above_springline += block.area;
+  }
   opening.evaluations = results.counters.contact_evaluations;
   opening.seconds = results.seconds;
   if (!file.empty()) draw(dug, blocks, file);

@@ -24,6 +24,7 @@ struct Opening {
   OpeningRow row;
   std::vector<reference::JointSet> sets;
   std::vector<reference::Mechanism> found;  // by place
+  double above_springline = 0;              // m2 lost there
   double farthest = 0;                      // m
   long long evaluations = 0;
   double seconds = 0;

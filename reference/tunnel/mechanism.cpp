@@ -67,7 +67,7 @@ bool narrows_upwards(const JointSet& left, const JointSet& right) {
 
 void name_kind(Mechanism& found, const Bounds& bounds, double turned_area, const std::vector<JointSet>& sets,
                const MechanismRule& rule) {
-  if (turned_area >= rule.turned_share * found.area) {
+  if (found.place != Place::roof && turned_area >= rule.turned_share * found.area) {
     found.kind = Kind::topple;
     return;
   }

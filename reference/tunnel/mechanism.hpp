@@ -55,7 +55,9 @@ struct Mechanism {
 
 // The four places in the order of `Place`, each block by the place of its centroid; kinds, the first that fits:
 //   none    less than `least_area` moved
-//   topple  blocks with |turn| sqrt(area) > |displacement|/2 make up `turned_share` of what moved
+//   topple  blocks with |turn| sqrt(area) > |displacement|/2 make up `turned_share` of what moved; not in the roof,
+//   where
+//           a block may turn as it falls
 //   wedge   two different sets bound it, one to the left and one to the right, each over `flank_share` of the length
 //   that
 //           bounds it towards rock that did not move, and the two narrow upwards

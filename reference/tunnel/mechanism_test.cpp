@@ -123,6 +123,7 @@ TEST(Mechanism, ABlockThatTurnsTopples) {
   const auto [x, y] = down(sets[1]);
   EXPECT_EQ(Made(7, 0, x, y, 0.5).bounded(1, false).at(Place::right_wall).kind, Kind::topple);
   EXPECT_EQ(Made(7, 0, x, y, 0.3).bounded(1, false).at(Place::right_wall).kind, Kind::slide);
+  EXPECT_EQ(Made(0, 7, 0, -1, 0.5).at(Place::roof).kind, Kind::fall);
 }
 
 TEST(Mechanism, EachPlaceForItself) {
