@@ -104,20 +104,18 @@ std::vector<Vector<2>> in_picture(std::vector<Vector<2>> ring) {
 }
 
 void draw(const Dug& dug, const std::vector<BlockMotion>& blocks, const std::string& file) {
-  constexpr double still = 0.02;        // m
   const reference::MechanismRule rule;  // what it counts as lost
   const Model<2>& model = *dug.after_model;
-  std::array<std::ofstream, 3> out;
+  std::array<std::ofstream, 2> out;
   for (std::size_t k = 0; k < out.size(); ++k) {
-    const char* names[] = {"still", "moved", "lost"};
+    const char* names[] = {"left", "lost"};
     out[k].open(verification::case_output("tunnel") / fmt::format("{}_{}.csv", file, names[k]));
     out[k] << "x_m,y_m\n";
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<2>& body = model.bodies[b];
     if (!body.present) continue;
-    const double way = std::hypot(blocks[b].dx, blocks[b].dy);
-    std::ofstream& csv = out[way > rule.moved ? 2 : way > still ? 1 : 0];
+    std::ofstream& csv = out[std::hypot(blocks[b].dx, blocks[b].dy) > rule.moved];
     for (const Polytope<2>& part : body.parts) {
       std::vector<Vector<2>> ring;
       for (const int corner : boundary_ring(part))

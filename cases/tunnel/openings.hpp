@@ -34,7 +34,7 @@ struct Opening {
 };
 
 // Digs the opening of a row in `seed`'s draw of its joints and watches it for `seconds`. Where `file` is not empty its
-// blocks are left for a figure, in <file>_still.csv, <file>_moved.csv and <file>_lost.csv.
+// blocks are left for a figure, in <file>_left.csv and <file>_lost.csv.
 Opening dig(const OpeningRow& row, int seed, double seconds, const std::string& file = "",
             const std::vector<std::string>& more = {});
 
