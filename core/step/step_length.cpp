@@ -14,7 +14,7 @@ constexpr double longest_step = 0.02;
 // it: splinters of millimetres would hold back the steps of all.
 template <int Dim>
 double size_of(const Body<Dim>& body) {
-  double largest = 0;
+  double largest = body.size;  // all that there is of a body without parts
   for (const Polytope<Dim>& part : body.parts)
     largest = std::max(largest, part.inscribed_radius);
   return largest;
