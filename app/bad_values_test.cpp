@@ -208,6 +208,7 @@ const Harmless harmless[] = {
     {"output", "frame_interval_s", "0", is_default},
     {"output", "history_interval_s", "0", is_default},
     {"slicing", "smallest_inscribed_radius", "0", is_default},
+    {"excavations", "smallest_piece", "0", "every piece stays, as without a least block size"},
     {"slicing", "largest_aspect_ratio", "0", is_default},
     {"slicing", "largest_aspect_ratio", "times 1e-6", kept_whole},
     {"slicing", "largest_aspect_ratio", "times 1e-9", kept_whole},

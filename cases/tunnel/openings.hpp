@@ -1,0 +1,50 @@
+// The 24 unsupported openings of Boon (2013), table 5.1: run, named, drawn.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "app/run_scene.hpp"
+#include "reference/tunnel/mechanism.hpp"
+
+namespace voussoir::cases {
+
+// a row of the table; its mechanisms as the issue of the table abbreviates them (README)
+struct OpeningRow {
+  int number = 0;
+  std::array<int, 3> dips{};  // deg, to the right; negative: to the left
+  int friction = 0;           // deg
+  char first = 0, second = 0;
+};
+
+const std::vector<OpeningRow>& opening_rows();
+
+struct Opening {
+  OpeningRow row;
+  std::vector<reference::JointSet> sets;
+  std::vector<reference::Mechanism> found;  // by place
+  double above_springline = 0;              // m2 lost there
+  double farthest = 0;                      // m
+  long long evaluations = 0;
+  double seconds = 0;
+
+  const reference::Mechanism& at(reference::Place place) const { return found[static_cast<int>(place)]; }
+  double lost_area() const;  // m2
+};
+
+// Digs the opening of a row in `seed`'s draw of its joints and watches it for `seconds`. Where `file` is not empty its
+// blocks are left for a figure, in <file>_left.csv and <file>_lost.csv.
+Opening dig(const OpeningRow& row, int seed, double seconds, const std::string& file = "",
+            const std::vector<std::string>& more = {});
+
+// "wedge 85E/65W", "slide 25W", ...
+std::string words(const Opening& opening, reference::Place place);
+
+// Whether what was found is what the thesis has: in the roof, and besides. By place, and by kind of what moved there.
+struct Agreement {
+  bool roof_kind = false, second_place = false, second_kind = false;
+};
+Agreement agreement(const Opening& opening);
+
+}  // namespace voussoir::cases
