@@ -62,7 +62,8 @@ TEST(Linings, HangInTheRockWithTheirWeight) {
 // From one and the same state, in rock that does not slip, with a light lining: its own weight, put on at once, would
 // leave shear in the interface that depends on the path.
 TEST(Linings, RestTheSameByNewtonsMethod) {
-  const std::vector<std::string> stick = {"joint_properties.bed.friction_deg=89", "joint_properties.contact.friction_deg=89", "linings.shell.density=1"};
+  const std::vector<std::string> stick = {"joint_properties.bed.friction_deg=89",
+                                          "joint_properties.contact.friction_deg=89", "linings.shell.density=1"};
   std::vector<std::string> by_newton = stick;
   by_newton.push_back("stage.line.damping={ statics = \"newton\" }");
   const Progress<2> relaxed = simulated(scene_of(rock + held + shell + dig, stick));

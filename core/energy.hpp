@@ -72,9 +72,9 @@ inline constexpr std::array<SourceRow, source_count> source_table{{
     {Source::stiffening, "stiffening", "", 0, 1, 0, 0, 0},  // lost by shear springs that grew stiffer with stress under
                                                             // their force; negative: made
     {Source::bolt_yield, "bolt_yield", "", 0, 1, 0, 0, 0},  // lost by bolts that yield, slip or break
-    {Source::lining_slip, "lining_slip", "", 0, 1, 0, 0, 0},  // lost where a lining slips on rock, or its bond breaks
-    {Source::gravity_ramp, "gravity_ramp", "", 0, 0, 1, 0, 1},    // put in by gravity that grows
-    {Source::water_change, "water_change", "", 0, 0, 1, 0, 1},    // put in by a table on all faces that rises
+    {Source::lining_slip, "lining_slip", "", 0, 1, 0, 0, 0},    // lost where a lining slips on rock, or its bond breaks
+    {Source::gravity_ramp, "gravity_ramp", "", 0, 0, 1, 0, 1},  // put in by gravity that grows
+    {Source::water_change, "water_change", "", 0, 0, 1, 0, 1},  // put in by a table on all faces that rises
     {Source::stage_changes, "stage_changes", "", 0, 0, 0, 0, 1},  // put in by changes of the model between stages, and
                                                                   // where a motion is stopped to relax
 }};

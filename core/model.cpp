@@ -125,7 +125,8 @@ std::vector<int> select(const Model<Dim>& model, const Selector& selector) {
   const bool any = selector.all || !selector.names.empty() || !selector.above.empty() || !selector.below.empty() ||
                    selector.inside.has_value() || !selector.sides.empty() || !selector.low.empty();
   for (std::size_t b = 0; any && b < model.bodies.size(); ++b)
-    if (!model.bodies[b].parts.empty() && chosen(model, model.bodies[b], selector, sides)) bodies.push_back(static_cast<int>(b));
+    if (!model.bodies[b].parts.empty() && chosen(model, model.bodies[b], selector, sides))
+      bodies.push_back(static_cast<int>(b));
   return bodies;
 }
 

@@ -174,8 +174,8 @@ template <int Dim>
 void load_boundary(Model<Dim>& model, int body, const DepthStress<Dim>& stress);
 
 // The model of the next stage: prescribed motions ended, regions excavated (excavation.hpp), bodies fixed, released or
-// removed, friction set, outer faces stressed, forces applied, linings' nodes added, motions prescribed. Two motions of one body are a
-// mistake of the caller.
+// removed, friction set, outer faces stressed, forces applied, linings' nodes added, motions prescribed. Two motions of
+// one body are a mistake of the caller.
 template <int Dim>
 Model<Dim> apply(Model<Dim> model, const Change& change);
 

@@ -32,13 +32,13 @@ template <int Dim>
 PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double time);
 
 // The beams of linings, a line each. Point data: lining, node, displacement (m, since it was installed), thrust_N
-// (compression positive), shear_N, moment_Nm (sagging positive), pressure_Pa of the rock, use (of strength; 0 where none
-// is stated). Field data: lining_names.
+// (compression positive), shear_N, moment_Nm (sagging positive), pressure_Pa of the rock, use (of strength; 0 where
+// none is stated). Field data: lining_names.
 PolyData lining_lines(const Model<2>& model, const State<2>& state, double time);
 
 // A growing series of frames in `folder`: frames/blocks_0000.vtp …, frames/contacts_0000.vtp …, blocks.pvd,
-// contacts.pvd, where the scene has bolts also frames/bolts_0000.vtp … and bolts.pvd, with linings linings_… likewise; the name of the series stands
-// before each of them.
+// contacts.pvd, where the scene has bolts also frames/bolts_0000.vtp … and bolts.pvd, with linings linings_… likewise;
+// the name of the series stands before each of them.
 struct FrameSeries {
   std::filesystem::path folder;
   std::vector<double> times = {};   // of the frames written: s, or the numbers of trials

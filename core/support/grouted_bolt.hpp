@@ -6,7 +6,8 @@
 //
 // d_j, s, l_j and a_j those of a spring at joint j (bolt.hpp), its anchors fixed in the block before and the one behind
 // where the bar lay when it was installed. That spring pulls on both blocks with the tension N_j of the rod across the
-// joint, along s d_j/|d_j| or a_j, both forces at its second anchor. These are the derivatives with the blocks' motion of
+// joint, along s d_j/|d_j| or a_j, both forces at its second anchor. These are the derivatives with the blocks' motion
+// of
 //
 //   sum of f_i dg_i = sum over j of dw_j (sum of the forces f_i on the rock behind j) = - sum over j of N_j dw_j
 //

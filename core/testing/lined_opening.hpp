@@ -44,7 +44,8 @@ nodes = 48
 thickness = 0.2
 young_modulus = 20e9
 )";
-inline const std::string held = "[[fix]]\nside = [\"left\"]\n[[fix]]\nside = [\"right\"]\n[[fix]]\nside = [\"bottom\"]\n";
+inline const std::string held =
+    "[[fix]]\nside = [\"left\"]\n[[fix]]\nside = [\"right\"]\n[[fix]]\nside = [\"bottom\"]\n";
 
 inline std::string stage(const std::string& name, const std::string& more) {
   return "[[stage]]\nname = \"" + name + "\"\nkind = \"settle\"\n" + more + "\n";
