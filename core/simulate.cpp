@@ -309,6 +309,7 @@ struct Simulation {
       state.schedule.friction[p] = model.properties[p].friction;
       if (!state.schedule.strength_factor.empty()) state.schedule.strength_factor[p] = 1;
     }
+    add_bodies(model, state);  // bolts ask where all bodies are
     remove_bonds(model, state);
     remove_springs(model, state);
     install_bolts();

@@ -1,0 +1,154 @@
+// Linings: a ring that is pressed, and a plate that hangs from its interface.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cases/case_tools.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using verification::CaseReport;
+using verification::Kind;
+
+// Beam on an elastic foundation that is pressed by 1 mm, twelve sides that give with each other's thrust: the closed
+// form of reference/tunnel/network_test.cpp, twelve_sides_pressed_inwards.
+struct PressedRing {
+  const char *scene, *interface;
+  double thrust, vertex, middle;  // N, N m, N m
+};
+
+const char* const foundation = "EI w'''' + K w = K d on each side, w(h) tan²(π/12) EA/h = K ∫(d - w)";
+
+void check_ring(CaseReport& report, const PressedRing& ring) {
+  const SceneRun run = cases::run(ring.scene);
+  for (const auto& [place, moment] : {std::pair("corner", ring.vertex), std::pair("middle", ring.middle)}) {
+    report.record(
+        {fmt::format("thrust of the pressed ring, {}, K_L {}", place, ring.interface),
+         "N",
+         Kind::exact,
+         foundation,
+         ring.thrust,
+         {0, 1e-3},
+         "the form is one of small displacements: a millimetre is 2e-4 of the radius, and the thrust is 2e-3 of "
+         "what would buckle the sides on their foundation, which adds to their deflections by that"},
+        value(run, fmt::format("{}_thrust", place)), cost(run));
+    report.record(
+        {fmt::format("moment of the pressed ring, {}, K_L {}", place, ring.interface),
+         "N m",
+         Kind::exact,
+         foundation,
+         moment,
+         {0, 1e-2},
+         "pressure lumped at nodes leaves out the fixed-end moment q l²/12 of beams of l = 134 mm: 1.5 N m of 298, "
+         "290 of 32,401 where the interface is stiff; the thrust adds 2e-3"},
+        value(run, fmt::format("{}_moment", place)), cost(run));
+  }
+}
+
+// at a tenth of the millimetre, where the thrust adds a tenth to the deflections
+void check_order(CaseReport& report, const PressedRing& ring) {
+  const std::string less = "stage.press.duration_s=0.0004";
+  const SceneRun fine = cases::run(ring.scene, {less}),
+                 coarse = cases::run(ring.scene, {less, "linings.ring.nodes=120"});
+  for (const auto& [place, moment] : {std::pair("corner", ring.vertex), std::pair("middle", ring.middle)}) {
+    const std::string column = fmt::format("{}_moment", place);
+    report.record(
+        {fmt::format("moment of the ring pressed by 0.1 mm from 10 and 20 beams a side, {}, K_L {}", place,
+                     ring.interface),
+         "N m",
+         Kind::exact,
+         foundation,
+         moment / 10,
+         {0, 1e-3},
+         "second order: (4 M20 - M10)/3; what is left is of the fourth, (l/λ)⁴ = 1.4e-3 where the interface is stiff "
+         "(λ = 0.69 m) times the 0.15 that the second order shows, and 2e-4 by the thrust"},
+        (4 * value(fine, column) - value(coarse, column)) / 3, cost(fine));
+  }
+}
+
+TEST(Lining, RigidSidesPressARing) {
+  CaseReport report("support", {"thrust of the pressed ring, corner, K_L 1 GPa/m"});
+  for (const PressedRing& ring : {PressedRing{"ring.toml", "1 GPa/m", 967499, -89017.7, 32401.4},
+                                  PressedRing{"ring_soft.toml", "1 MPa/m", 4977.08, -595.35, 297.57}}) {
+    check_ring(report, ring);
+    check_order(report, ring);
+  }
+}
+
+// An even pressure on a polygon bends it, on a ring it does not: what the smoothing takes away.
+TEST(Lining, SmoothingTakesTheRippleOfThePolygon) {
+  CaseReport report("support");
+  const SceneRun run = cases::run("ring_soft.toml");
+  double smoothed = 0, raw = 0;
+  for (const LiningRow& node : run.results.linings) {
+    if (node.stage != 2) continue;
+    smoothed = std::max(smoothed, std::abs(node.smoothed_moment.value()));
+    raw = std::max(raw, std::abs(node.forces.moment));
+  }
+  report.record(
+      {"smoothed moment of a ring of twelve sides under even pressure, of the largest before",
+       "1",
+       Kind::exact,
+       "a ring under even pressure is not bent",
+       0,
+       {1e-6, 0},
+       "by symmetry all sides have one pressure but for what Newton's method leaves, 1e-8 of the forces, times "
+       "N a over M, 40"},
+      smoothed / raw, cost(run));
+}
+
+TEST(Lining, APlateHangsFromItsInterface) {
+  CaseReport report("support");
+  const double weight = 2400 * 9.81 * 0.3;  // Pa
+  const SceneRun run = cases::run("hung_lining.toml");
+  double pull = weight, bending = 0, length = 0;
+  for (const LiningRow& node : run.results.linings) {
+    if (std::abs(node.pressure + weight) > std::abs(pull - weight)) pull = -node.pressure;
+    bending = std::max(bending, std::abs(node.forces.moment));
+    length = std::max(length, std::abs(node.x));
+  }
+  report.record(
+      {"pull between a hanging lining and its roof, the node farthest from it",
+       "Pa",
+       Kind::exact,
+       "equilibrium: ρ g t",
+       weight,
+       {0, 1e-6},
+       "rest leaves 1e-9 of the mean force; a node's mass and the length that it stands for come from the same "
+       "beams, whatever joint lies in the roof"},
+      pull, cost(run));
+  report.record({"bending of the hanging lining, of its weight times its half length",
+                 "1",
+                 Kind::exact,
+                 "a load held where it is bends nothing",
+                 0,
+                 {1e-6, 0},
+                 "the same"},
+                bending / (weight * length * length), cost(run));
+}
+
+TEST(Lining, APlateFallsWhereItsInterfaceIsTooWeak) {
+  CaseReport report("support");
+  const auto ends = [](double of_weight) {
+    return run_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "hung_lining.toml",
+                     {fmt::format("joint_properties.rock_to_lining.tension={}", of_weight * 2400 * 9.81 * 0.3),
+                      "stage.hang.step_limit=100000"},
+                     1);
+  };
+  const SceneRun holds = ends(1.001), falls = ends(0.999);
+  report.record({"linings at rest, of one whose interface holds 1.001 of its weight and one 0.999",
+                 "1",
+                 Kind::exact,
+                 "equilibrium: tension > ρ g t",
+                 1,
+                 {0, 0},
+                 "the first rests, the second does not"},
+                (holds.results.outcome == Outcome::done) + (falls.results.outcome == Outcome::done), cost(falls));
+}
+
+}  // namespace
+}  // namespace voussoir::cases
