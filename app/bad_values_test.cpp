@@ -42,7 +42,9 @@ class SceneFile {
   const fs::path& path() const { return path_; }
 
  private:
-  fs::path path_ = fs::temp_directory_path() / ("voussoir_bad_values_" + std::to_string(::getpid()) + ".toml");
+  static inline int made_ = 0;
+  fs::path path_ = fs::temp_directory_path() /
+                   ("voussoir_bad_values_" + std::to_string(::getpid()) + "_" + std::to_string(made_++) + ".toml");
 };
 
 struct BadValue {

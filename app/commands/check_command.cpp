@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "app/commands/check_support.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/plausibility.hpp"
 #include "app/run_scene.hpp"
-#include "core/install.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/scene/plausibility.hpp"
 #include "core/step/newton.hpp"
@@ -16,11 +16,6 @@
 
 namespace voussoir {
 namespace {
-
-// one labelled line; the label only where the block of lines begins
-void line(const char* label, const std::string& text) {
-  fmt::print("  {:<12}{}\n", label, text);
-}
 
 // of blocks and of joints: tables and joint sets make thousands
 constexpr std::size_t most_shown = 30;
@@ -60,17 +55,18 @@ void print_blocks(const Model<Dim>& model) {
     if (!body.fixed) mass += body.mass;
   }
   const int count = static_cast<int>(model.bodies.size());
-  line("blocks", fmt::format("{}: {} free{}, {} fixed", count, count - fixed,
-                             restrained ? fmt::format(" ({} of them restrained)", restrained) : "", fixed));
-  if (parts != count) line("", fmt::format("of {} convex parts", parts));
-  line("", fmt::format("inscribed radius {:.4g} to {:.4g} m; {} {:.6g} {}; free mass {:.6g} {}", smallest, largest,
-                       Dim == 3 ? "volume" : "area", whole, Dim == 3 ? "m³" : "m²", mass, Dim == 3 ? "kg" : "kg/m"));
+  print_line("blocks", fmt::format("{}: {} free{}, {} fixed", count, count - fixed,
+                                   restrained ? fmt::format(" ({} of them restrained)", restrained) : "", fixed));
+  if (parts != count) print_line("", fmt::format("of {} convex parts", parts));
+  print_line("",
+             fmt::format("inscribed radius {:.4g} to {:.4g} m; {} {:.6g} {}; free mass {:.6g} {}", smallest, largest,
+                         Dim == 3 ? "volume" : "area", whole, Dim == 3 ? "m³" : "m²", mass, Dim == 3 ? "kg" : "kg/m"));
   std::string names;
   std::size_t named = 0;
   for (const Body<Dim>& body : model.bodies)
     if (!body.name.empty() && named++ < most_shown) names += (names.empty() ? "" : ", ") + body.name;
   if (named > most_shown) names += fmt::format(" and {} more", named - most_shown);
-  if (!names.empty()) line("", "named: " + names);
+  if (!names.empty()) print_line("", "named: " + names);
 }
 
 template <int Dim>
@@ -82,11 +78,11 @@ void print_joints(const Model<Dim>& model) {
       for (const Polytope<Dim>& part : body.parts)
         faces += static_cast<int>(std::count(part.joints.begin(), part.joints.end(), static_cast<int>(j)));
     const Joint<Dim>& joint = model.joints[j];
-    line(label, fmt::format("{}: {}, {} faces, properties {}", joint.name, orientation(joint.plane.normal), faces,
-                            model.properties[joint.properties].name));
+    print_line(label, fmt::format("{}: {}, {} faces, properties {}", joint.name, orientation(joint.plane.normal), faces,
+                                  model.properties[joint.properties].name));
     label = "";
   }
-  if (model.joints.size() > most_shown) line("", fmt::format("and {} more", model.joints.size() - most_shown));
+  if (model.joints.size() > most_shown) print_line("", fmt::format("and {} more", model.joints.size() - most_shown));
 }
 
 // what of the blocks lies in water, and how much of their weight it carries, where the scene has them
@@ -103,7 +99,7 @@ void print_water(const Prepared<Dim>& prepared) {
                                ? "on all faces"
                                : fmt::format("on the faces of {} joints{}", joints, outside ? " and outside" : "");
     if (water.uniform) {
-      line(label, fmt::format("{}: {:g} Pa {}", water.name, water.values.front(), on));
+      print_line(label, fmt::format("{}: {:g} Pa {}", water.name, water.values.front(), on));
     } else {
       std::vector<WaterStretch<Dim>> surface;
       list_stretches<Dim>(water.values, surface);
@@ -113,9 +109,9 @@ void print_water(const Prepared<Dim>& prepared) {
         below += submerged<Dim>(body.parts, body.radius, {.centroid = body.reference}, surface).volume;
         whole += volume(body);
       }
-      line(label,
-           fmt::format("{}: {:g} N/m³ {}; {:.6g} {} of the free blocks lie below it, {:.4g} %", water.name,
-                       water.unit_weight, on, below, Dim == 3 ? "m³" : "m²", whole > 0 ? 100 * below / whole : 0));
+      print_line(label, fmt::format("{}: {:g} N/m³ {}; {:.6g} {} of the free blocks lie below it, {:.4g} %", water.name,
+                                    water.unit_weight, on, below, Dim == 3 ? "m³" : "m²",
+                                    whole > 0 ? 100 * below / whole : 0));
     }
     label = "";
   }
@@ -127,9 +123,10 @@ void print_water(const Prepared<Dim>& prepared) {
     weight -= model.bodies[b].mass * model.gravity[Dim - 1];
   }
   if (weight > 0)
-    line("", fmt::format("before the first stage it lifts the free blocks by {:.6g} N{}, {:.4g} % of their weight",
-                         lift, Dim == 2 ? "/m" : "", 100 * lift / weight));
-  line("", "it stands still (no flow, drag or added mass); contact forces are effective");
+    print_line(
+        "", fmt::format("before the first stage it lifts the free blocks by {:.6g} N{}, {:.4g} % of their weight", lift,
+                        Dim == 2 ? "/m" : "", 100 * lift / weight));
+  print_line("", "it stands still (no flow, drag or added mass); contact forces are effective");
 }
 
 // the laws that a plain joint has not, one after the other
@@ -161,16 +158,16 @@ void print_properties(const Model<Dim>& model) {
   const std::vector<bool> used = properties_of_faces(model);
   for (std::size_t k = 0; k < model.properties.size(); ++k) {
     const JointProperties& p = model.properties[k];
-    line(k == 0 ? "properties" : "",
-         fmt::format("{}: normal {:g}, shear {:g} {}, friction {:g} deg{}", p.name, p.normal_stiffness,
-                     p.shear_stiffness, p.constant_stiffness ? "N/m" : "Pa/m", to_degrees(p.friction),
-                     used[k] ? "" : "; of no face that may meet another"));
+    print_line(k == 0 ? "properties" : "",
+               fmt::format("{}: normal {:g}, shear {:g} {}, friction {:g} deg{}", p.name, p.normal_stiffness,
+                           p.shear_stiffness, p.constant_stiffness ? "N/m" : "Pa/m", to_degrees(p.friction),
+                           used[k] ? "" : "; of no face that may meet another"));
     for (const std::string& law : laws_text(p))
-      line("", "  " + law);
-    line("", p.sub_contacts == 1
-                 ? "  one point a face"
-                 : fmt::format("  {} points a face", Dim == 2 ? fmt::format("{}", p.sub_contacts)
-                                                              : fmt::format("{0} x {0}", p.sub_contacts)));
+      print_line("", "  " + law);
+    print_line("", p.sub_contacts == 1
+                       ? "  one point a face"
+                       : fmt::format("  {} points a face", Dim == 2 ? fmt::format("{}", p.sub_contacts)
+                                                                    : fmt::format("{0} x {0}", p.sub_contacts)));
   }
 }
 
@@ -304,64 +301,7 @@ void print_stages(const std::vector<StagePlan>& stages, const std::vector<Water>
       text += fmt::format("; lets off to a share of {:g} within {:g} s", stage.let_off->share, stage.let_off->duration);
     const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
     if (stage.damping) text += "; damping " + damping_text(*stage.damping, seeks_rest);
-    line(k == 0 ? "stages" : "", text);
-  }
-}
-
-// the bolts, and what they would cross if they were installed in the blocks as they are cut
-template <int Dim>
-void print_bolts(const Prepared<Dim>& prepared) {
-  const Model<Dim>& model = prepared.model;
-  const char* label = "bolts";
-  for (std::size_t p = 0; p < model.bolt_properties.size(); ++p) {
-    const BoltProperties& properties = model.bolt_properties[p];
-    double longest_nodes = 0;  // m
-    std::size_t count = 0, joints = 0, idle = 0, thin = 0, fewest = std::numeric_limits<std::size_t>::max(), most = 0;
-    for (std::size_t i = 0; i < model.bolts.size(); ++i) {
-      if (model.bolts[i].properties != static_cast<int>(p)) continue;
-      const std::vector<BoltSpring<Dim>> springs = springs_of(model, prepared.state, static_cast<int>(i));
-      ++count;
-      joints += springs.size();
-      if (properties.kind == BoltKind::grouted)
-        longest_nodes =
-            std::max(longest_nodes, node_spacing(properties, (model.bolts[i].toe - model.bolts[i].collar).norm()));
-      idle += springs.empty();
-      fewest = std::min(fewest, springs.size());
-      most = std::max(most, springs.size());
-      for (const BoltSpring<Dim>& spring : springs)
-        thin += shortened(model, spring);
-    }
-    std::string text = fmt::format("{}: {}{}", properties.name, count,
-                                   properties.kind == BoltKind::end_anchored ? " end-anchored"
-                                   : properties.kind == BoltKind::grouted    ? " grouted"
-                                                                             : "");
-    if (properties.kind != BoltKind::end_anchored)
-      text += fmt::format(" that cross {} joints of the blocks as they are cut, {} each", joints,
-                          fewest == most ? fmt::format("{}", most) : fmt::format("{} to {}", fewest, most));
-    if (properties.kind == BoltKind::grouted)
-      text += fmt::format("; nodes {:.3g} m apart at most, {:.2g} of the length over which the bar takes up its force",
-                          longest_nodes, longest_nodes / transfer_length(properties));
-    if (idle > 0) text += fmt::format("; {} cross none", idle);
-    if (thin > 0) text += fmt::format("; of {} springs an anchor lies in the middle of a thin block", thin);
-    line(label, text);
-    label = "";
-  }
-}
-
-// linings, and how their nodes stand against the blocks as they are cut
-template <int Dim>
-void print_linings(const Prepared<Dim>& prepared) {
-  const char* label = "linings";
-  for (const Lining& lining : prepared.model.linings) {
-    double longest = 0;
-    for (const LiningNode& node : lining.nodes)
-      longest = std::max(longest, 2 * std::max(node.half_length[0], node.half_length[1]));
-    const LiningProperties& p = lining.properties;
-    line(label,
-         fmt::format("{}: {} nodes on {} of {} sides, beams up to {:.3g} m long; EA {:.4g} N, EI {:.4g} N m² per m",
-                     p.name, lining.nodes.size(), lining.closed ? "a ring" : "an arc", lining.sides.size(), longest,
-                     p.axial(), p.bending()));
-    label = "";
+    print_line(k == 0 ? "stages" : "", text);
   }
 }
 
@@ -382,7 +322,7 @@ void print_monitors(const Prepared<Dim>& prepared) {
         : monitor.over != Over::one
             ? fmt::format("{} blocks, {}", monitor.group.size(), monitor.over == Over::sum ? "sum" : "mean")
             : fmt::format("block {}", monitor.subject);
-    line(label, fmt::format("{}: {} of {}", monitor.name, monitor.followed.word, subject));
+    print_line(label, fmt::format("{}: {} of {}", monitor.name, monitor.followed.word, subject));
     label = "";
   }
 }
@@ -445,8 +385,8 @@ void print_left_to_relaxation(const Prepared<Dim>& prepared) {
   for (const JointProperties& p : prepared.model.properties)
     if (!newton_follows(p)) names.push_back(p.name);
   if (!names.empty())
-    line("", fmt::format("Newton's method leaves all to relaxation: {} loses strength (bonds or softening)",
-                         fmt::join(names, ", ")));
+    print_line("", fmt::format("Newton's method leaves all to relaxation: {} loses strength (bonds or softening)",
+                               fmt::join(names, ", ")));
 }
 
 template <int Dim>
@@ -455,40 +395,39 @@ void print_active(const Prepared<Dim>& prepared) {
   print_blocks(prepared.model);
   print_joints(prepared.model);
   print_properties(prepared.model);
-  line("gravity", vector_text<Dim>(prepared.model.gravity) + " m/s²");
+  print_line("gravity", vector_text<Dim>(prepared.model.gravity) + " m/s²");
   print_water(prepared);
-  line("damping", damping_text(settings.damping));
-  line("solvers", solvers_text(settings.contact));
+  print_line("damping", damping_text(settings.damping));
+  print_line("solvers", solvers_text(settings.contact));
   print_stages(prepared.stages, prepared.model.waters);
   print_left_to_relaxation(prepared);
-  print_bolts(prepared);
-  print_linings(prepared);
+  print_support(prepared);
   print_monitors(prepared);
-  line("not active", inactive(prepared));
+  print_line("not active", inactive(prepared));
 }
 
 void print_derived(const Plausibility& plausibility) {
   fmt::print("derived\n");
-  line("contacts",
-       fmt::format("{} pairs near each other, {} of them touch", plausibility.candidates, plausibility.touching));
+  print_line("contacts",
+             fmt::format("{} pairs near each other, {} of them touch", plausibility.candidates, plausibility.touching));
   if (plausibility.candidates > 0)
-    line("", fmt::format("most, {}, of block {}; {:.0f} pairs in all are allowed; a run takes about {:.0f} MB",
-                         plausibility.most_candidates, plausibility.crowded, plausibility.candidates_allowed,
-                         1e-6 * plausibility.memory));
+    print_line("", fmt::format("most, {}, of block {}; {:.0f} pairs in all are allowed; a run takes about {:.0f} MB",
+                               plausibility.most_candidates, plausibility.crowded, plausibility.candidates_allowed,
+                               1e-6 * plausibility.memory));
   if (const auto& bonds = plausibility.bonds)
-    line("bonds", fmt::format("at the start {} closed joints press and can be bonded, {} when they first press",
-                              bonds->made, bonds->due));
+    print_line("bonds", fmt::format("at the start {} closed joints press and can be bonded, {} when they first press",
+                                    bonds->made, bonds->due));
   if (plausibility.overlap > 0)
-    line("overlap", fmt::format("about {:.2g} m under a block's own weight, {:.1g} of its inscribed radius",
-                                plausibility.overlap, plausibility.overlap_fraction));
+    print_line("overlap", fmt::format("about {:.2g} m under a block's own weight, {:.1g} of its inscribed radius",
+                                      plausibility.overlap, plausibility.overlap_fraction));
   if (std::isfinite(plausibility.step_limit))
-    line("time step", fmt::format("stable below {:.3g} s", plausibility.step_limit));
+    print_line("time step", fmt::format("stable below {:.3g} s", plausibility.step_limit));
   for (const StageForecast& stage : plausibility.stages) {
     const std::string step = stage.time_step > 0 ? fmt::format("steps of {:.3g} s", stage.time_step)
                                                  : "no contact and no time.step_s: no time step yet";
     const std::string count =
         stage.steps > 0 ? fmt::format(", {} {:.1g} of them", text_of(stage.reckoning), stage.steps) : "";
-    line("", fmt::format("{}: {}{}", stage.name, step, count));
+    print_line("", fmt::format("{}: {}{}", stage.name, step, count));
   }
 }
 
@@ -499,7 +438,7 @@ ExitCode check_command(const SceneArguments& arguments) {
   fmt::print("{} ({}-D)\n", scene.title.empty() ? arguments.scene.filename().string() : scene.title, scene.dimension);
   std::visit([](const auto& prepared) { print_active(prepared); }, scene.prepared);
   for (std::size_t k = 0; k < scene.from_level.size(); ++k)
-    line(k == 0 ? "by level" : "", scene.from_level[k]);
+    print_line(k == 0 ? "by level" : "", scene.from_level[k]);
   const Plausibility plausibility = assess(scene);
   print_derived(plausibility);
   for (const std::string& warning : plausibility.warnings)

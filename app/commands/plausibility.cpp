@@ -39,7 +39,7 @@ constexpr double wide_size_ratio = 100;   // largest over smallest inscribed rad
 
 template <int Dim>
 bool moves(const Body<Dim>& body) {
-  return body.present && !body.fixed;
+  return body.present && !body.fixed && !body.parts.empty();
 }
 
 // Overlap at which the joints under a body carry its weight: u such that sum k A (n·g)² u = W over its faces that look
@@ -210,23 +210,6 @@ void find_crowd(const Prepared<Dim>& prepared, const Model<Dim>& model, const St
   result.most_candidates = static_cast<int>(most);
 }
 
-// blocks that were stated into each other fly apart
-template <int Dim>
-void judge_first_contacts(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
-                          Plausibility& result) {
-  for (const Contact<Dim>& contact : state.contacts) {
-    if (!contact.touching()) continue;
-    const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
-    const double size = std::min(model.bodies[a].size, model.bodies[b].size);
-    if (contact.geometry.overlap <= prepared.settings.contact.potential_radius * size) continue;
-    result.warnings.push_back(
-        fmt::format("blocks {} and {} overlap by {:.2g} m at the start, {:.2g} of the smaller inscribed radius: check "
-                    "their vertices, planes or box",
-                    name_of(model, a), name_of(model, b), contact.geometry.overlap, contact.geometry.overlap / size));
-    return;  // one tells
-  }
-}
-
 template <int Dim>
 void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
                   Plausibility& result) {
@@ -240,7 +223,7 @@ void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const 
     if (!moves(body)) continue;
     smallest = std::min(smallest, thickest_part(body));
     largest = std::max(largest, thickest_part(body));
-    const Motion<Dim>& motion = prepared.state.motions[b];
+    const Motion<Dim>& motion = state.motions[b];
     anything_moves |= motion.velocity.norm() > 0 || motion.angular_momentum.norm() > 0;
   }
   if (!anything_moves && state.contacts.empty())
@@ -466,7 +449,6 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
     judge_stage(stage, settings_of(stage, prepared.settings), result.overlap, smallest_size(model), result);
   judge_velocities(prepared, model, result);
   judge_overlaps(prepared, result);
-  judge_first_contacts(prepared, model, state, result);
   judge_multipliers(prepared.settings.contact, model, result);
   judge_stated_step(prepared.settings.time, result);
   const double g = model.gravity.norm();

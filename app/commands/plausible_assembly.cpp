@@ -344,6 +344,7 @@ void judge_bolts(const Model<Dim>& model, const State<Dim>& state, std::vector<s
 template <int Dim>
 void judge_linings(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings) {
   constexpr int least_on_side = 3, least_on_stretch = 2;
+  constexpr double unusual_section = 20;  // times, or a fraction, of a rectangle's
   if constexpr (Dim == 2)
     for (const Lining& lining : model.linings) {
       const std::string& name = lining.properties.name;
@@ -353,6 +354,14 @@ void judge_linings(const Model<Dim>& model, const State<Dim>& state, std::vector
       for (const LiningNode& node : lining.nodes)
         beams += node.half_length[0] + node.half_length[1];
       const double spacing = beams / lining.beams();
+      LiningProperties rectangle = lining.properties;
+      rectangle.bending_stiffness.reset();
+      const double of_rectangle = lining.properties.bending() / rectangle.bending();
+      if (of_rectangle > unusual_section || of_rectangle * unusual_section < 1)
+        warnings.push_back(
+            fmt::format("linings.{}.bending_stiffness = {:.3g} N m²/m is {:.2g} times young_modulus thickness³ / 12 = "
+                        "{:.3g}: was it given in MN m²/m?",
+                        name, lining.properties.bending(), of_rectangle, rectangle.bending()));
       if (outline < least_on_side * spacing * static_cast<double>(lining.sides.size()))
         warnings.push_back(fmt::format(
             "linings.{}.nodes: beams of {:.3g} m on {} sides of {:.3g} m cut the outline's corners; state at least {}",
@@ -369,10 +378,28 @@ void judge_linings(const Model<Dim>& model, const State<Dim>& state, std::vector
     }
 }
 
+// blocks that were stated into each other fly apart
+template <int Dim>
+void judge_first_contacts(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
+                          std::vector<std::string>& warnings) {
+  for (const Contact<Dim>& contact : state.contacts) {
+    if (!contact.touching()) continue;
+    const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
+    const double size = std::min(model.bodies[a].size, model.bodies[b].size);
+    if (contact.geometry.overlap <= prepared.settings.contact.potential_radius * size) continue;
+    warnings.push_back(
+        fmt::format("blocks {} and {} overlap by {:.2g} m at the start, {:.2g} of the smaller inscribed radius: check "
+                    "their vertices, planes or box",
+                    name_of(model, a), name_of(model, b), contact.geometry.overlap, contact.geometry.overlap / size));
+    return;  // one tells
+  }
+}
+
 template <int Dim>
 void judge_assembly(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
                     std::vector<std::string>& warnings) {
   judge_ties(model, state, warnings);
+  judge_first_contacts(prepared, model, state, warnings);
   judge_places(model, state, warnings);
   judge_points(model, state, warnings);
   judge_last_block(prepared, warnings);

@@ -1,0 +1,16 @@
+// What `voussoir check` tells of bolts and linings.
+#pragma once
+
+#include <string>
+
+#include "core/prepared.hpp"
+
+namespace voussoir {
+
+// one labelled line; the label only where the block of lines begins
+void print_line(const char* label, const std::string& text);
+
+template <int Dim>
+void print_support(const Prepared<Dim>& prepared);
+
+}  // namespace voussoir
