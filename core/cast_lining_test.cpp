@@ -108,6 +108,21 @@ TEST(Linings, AreCastWithoutForce) {
   }
 }
 
+// Bodies that follow count their paths from 0 again: what a pair may skip until some path is forgotten, too.
+TEST(Linings, LetNoPairBeSkippedForAnOldPath) {
+  const Progress<2> before = simulated(scene_of(rock + held + stage("weight", "gravity_ramp_s = 1")));
+  Cast cast;
+  State<2> state = before.state;
+  for (Contact<2>& contact : state.contacts)
+    contact.near_until = contact.free_until = 5;
+  add_bodies(cast.model, state);
+  EXPECT_EQ(state.motions.size(), cast.model.bodies.size());
+  for (const Contact<2>& contact : state.contacts) {
+    EXPECT_EQ(contact.near_until, 0);
+    EXPECT_EQ(contact.free_until, 0);
+  }
+}
+
 // A node is pressed against the rock and drawn along a side past the joint that crosses it there.
 TEST(Linings, FeelNoFlushJoint) {
   Cast cast;

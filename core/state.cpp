@@ -46,6 +46,8 @@ void forget_lists(State<Dim>& state) {
   state.by_body = {};
   state.contact_loads.clear();
   state.frequency.clear();
+  for (Contact<Dim>& c : state.contacts)
+    c.near_until = c.free_until = 0;  // paths are counted from 0 again
 }
 
 BeamNode moved_node(const State<2>& state, int body) {

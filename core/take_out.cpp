@@ -90,7 +90,6 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
       s.history.point -= shift;
     }
     if (turned || !shift.isZero(0)) c.proof = {};  // it is in that body's frame
-    c.near_until = c.free_until = 0;
     c.area_rated = -1;
     contacts.push_back(c);
   }
