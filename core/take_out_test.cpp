@@ -98,9 +98,23 @@ TEST(TakeOut, UntilThenTheRockIsWhole) {
 TEST(TakeOut, SmallPiecesGo) {
   const Prepared<2> scene =
       scene_of(wall + top + settle + dig("top", "settle", ""), {"slicing.smallest_inscribed_radius=0.3"});
+  ASSERT_EQ(scene.model.bodies.size(), 3u) << "whole until then";
+  EXPECT_NEAR(scene.model.bodies[2].mass, 2000 * 6, 1e-9);
   const Model<2> dug = apply(scene.model, scene.stages.back().change);
   EXPECT_FALSE(dug.bodies[2].present) << "half a metre high";
   EXPECT_TRUE(dug.bodies[1].present);
+}
+
+// A splinter that an outline cuts off and a body holds is no measure of the steps of Newton's method.
+TEST(TakeOut, SplintersThatAreHeldDoNotHoldBackNewton) {
+  const std::vector<std::string> newton{"damping.statics=newton"};
+  const Progress<2> plain = simulated(scene_of(wall + settle, newton));
+  const Progress<2> outlined = simulated(
+      scene_of(wall + top + settle + dig("top", "settle", ""),
+               {"damping.statics=newton", "excavations.top.box.min=[-1, 2.9999]", "stage.dig.excavate=[\"top\"]"}));
+  EXPECT_GT(plain.state.counters.static_iterations, 0);
+  // as many once more after the splinter is gone
+  EXPECT_LE(outlined.state.counters.static_iterations, 2 * plain.state.counters.static_iterations + 2);
 }
 
 // Half of the upper block goes: what is left of it has its id, its mass and inertia, and all rise by the stress that is

@@ -65,6 +65,29 @@ SlicingLimits limits_of(const Scene& scene) {
   return limits;
 }
 
+// Which body each part is of while nothing is excavated, and which of these bodies have lost a part since.
+struct Origins {
+  std::vector<int> body;       // by part that is left
+  std::vector<char> has_lost;  // by body
+};
+
+template <int Dim>
+Origins origins_of(const std::vector<Polytope<Dim>>& parts, const std::vector<Cut<Dim>>& cuts, bool heal) {
+  return {bodies_of<Dim>(parts, cuts, heal), std::vector<char>(parts.size(), false)};
+}
+
+// follows what `excavated` takes out of these parts
+template <int Dim>
+void take_out(const std::vector<Polytope<Dim>>& parts, const HalfSpaces<Dim>& region, Origins& origins) {
+  std::vector<int> left;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    if (lies_inside<Dim>(region, parts[p].mass.centroid))
+      origins.has_lost[origins.body[p]] = true;
+    else
+      left.push_back(origins.body[p]);
+  origins.body = std::move(left);
+}
+
 bool excavated_by_stage(const Scene& scene, const std::string& name) {
   return std::ranges::any_of(
       scene.stages, [&](const StageSpec& stage) { return std::ranges::count(stage.plan.change.excavate, name) > 0; });
@@ -90,11 +113,18 @@ std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
            "cut the domain into more than " + std::to_string(limits.most_blocks) +
                " blocks; state fewer joints, a smaller domain, slicing.smallest_inscribed_radius or a larger "
                "slicing.most_blocks");
+  const bool heal = scene.slicing.ends == JointEnds::healed;
+  Origins origins{std::vector<int>(parts.size(), 0), {false}};
+  if (std::ranges::any_of(scene.excavations, [&](const auto& spec) { return !excavated_by_stage(scene, spec.name); }))
+    origins = origins_of<Dim>(parts, cuts, heal);
   for (std::size_t e = 0; e < regions.size(); ++e) {
     const std::size_t before = parts.size();
     const ExcavationSpec& spec = scene.excavations[e];
     const bool in_a_stage = excavated_by_stage(scene, spec.name);
-    if (in_a_stage) model.excavations.push_back({spec.name, regions[e], limits.smallest_inscribed_radius});
+    if (in_a_stage)
+      model.excavations.push_back({spec.name, regions[e], limits.smallest_inscribed_radius});
+    else
+      take_out<Dim>(parts, regions[e], origins);
     std::vector<Polytope<Dim>> left = excavated<Dim>(in_a_stage ? parts : std::move(parts), regions[e]);
     const Subject& subject = spec.region.subject;
     if (left.size() == before)
@@ -108,20 +138,23 @@ std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
   }
 
   // what is held together is one body
-  const std::vector<int> body = bodies_of<Dim>(parts, cuts, scene.slicing.ends == JointEnds::healed);
+  const std::vector<int> body = bodies_of<Dim>(parts, cuts, heal);
   const std::vector<int> whole = boundary_parts<Dim>(parts, cuts);
   std::vector<DomainBody<Dim>> bodies(parts.empty() ? 0 : *std::max_element(body.begin(), body.end()) + 1);
   for (const int part : whole)
     bodies[body[part]].fixed = true;
+  // pieces that an outline left of blocks go, too; a block that lost nothing is whole, however small its parts
+  std::vector<char> stays(bodies.size(), false);
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    if (bodies[body[p]].fixed || !origins.has_lost[origins.body[p]] ||
+        parts[p].inscribed_radius >= limits.smallest_inscribed_radius)
+      stays[body[p]] = true;
   for (std::size_t p = 0; p < parts.size(); ++p)
     bodies[body[p]].parts.push_back(std::move(parts[p]));
-  // pieces that an outline left of blocks
-  std::erase_if(bodies, [&](const DomainBody<Dim>& b) {
-    return !b.fixed && std::ranges::all_of(b.parts, [&](const Polytope<Dim>& part) {
-      return part.inscribed_radius < limits.smallest_inscribed_radius;
-    });
-  });
-  return bodies;
+  std::vector<DomainBody<Dim>> left;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (stays[b]) left.push_back(std::move(bodies[b]));
+  return left;
 }
 
 template std::vector<DomainBody<2>> cut_domain<2>(const Scene&, Model<2>&);

@@ -10,6 +10,16 @@ namespace {
 // another geometry.
 constexpr double longest_step = 0.02;
 
+// m: the inscribed radius of a body's largest part. What an outline cuts off its corners, and holds, is no measure of
+// it: splinters of millimetres would hold back the steps of all.
+template <int Dim>
+double size_of(const Body<Dim>& body) {
+  double largest = body.parts.empty() ? body.size : 0;  // of a node of a lining the length that it stands for
+  for (const Polytope<Dim>& part : body.parts)
+    largest = std::max(largest, part.inscribed_radius);
+  return largest;
+}
+
 // more than so many free bodies: a few loose ones do not hold back the others
 constexpr std::size_t many = 100;
 constexpr std::ptrdiff_t one_loose_of = 50;
@@ -29,9 +39,9 @@ std::vector<double> excess_by_body(const Model<Dim>& model, const Unknowns<Dim>&
   const auto add_pair = [&](int ba, int bb) {
     const int a = unknowns.place[ba], b = unknowns.place[bb];
     if (a < 0 && b < 0) return;
-    const double size = a < 0   ? model.bodies[bb].size
-                        : b < 0 ? model.bodies[ba].size
-                                : std::min(model.bodies[ba].size, model.bodies[bb].size);
+    const double size = a < 0   ? size_of(model.bodies[bb])
+                        : b < 0 ? size_of(model.bodies[ba])
+                                : std::min(size_of(model.bodies[ba]), size_of(model.bodies[bb]));
     const double over = (way_of<Dim>(dq, b) - way_of<Dim>(dq, a)).norm() / (longest_step * size);
     const int mover = way_of<Dim>(dq, a).norm() > way_of<Dim>(dq, b).norm() ? a : b;
     if (mover >= 0) excess[mover] = std::max(excess[mover], over);
@@ -48,7 +58,7 @@ std::vector<double> excess_by_body(const Model<Dim>& model, const Unknowns<Dim>&
     const Body<Dim>& body = model.bodies[unknowns.bodies[i]];
     const double turning = body.radius * dq.segment<spin_freedoms<Dim>>(freedoms<Dim> * i + Dim).norm();
     const double own = turning + (alone[i] ? way_of<Dim>(dq, static_cast<int>(i)).norm() : 0);
-    excess[i] = std::max(excess[i], own / (longest_step * body.size));
+    excess[i] = std::max(excess[i], own / (longest_step * size_of(body)));
   }
   return excess;
 }
