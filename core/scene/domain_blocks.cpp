@@ -65,24 +65,24 @@ SlicingLimits limits_of(const Scene& scene) {
   return limits;
 }
 
-// Which body each part is of while nothing is excavated, and which of these bodies have lost a part since.
+// Which body each part is of while nothing is excavated, and below which size pieces of it go that are left of it.
 struct Origins {
-  std::vector<int> body;       // by part that is left
-  std::vector<char> has_lost;  // by body
+  std::vector<int> body;      // by part that is left
+  std::vector<double> least;  // by body, m: inscribed radius; 0 where it has lost nothing
 };
 
 template <int Dim>
 Origins origins_of(const std::vector<Polytope<Dim>>& parts, const std::vector<Cut<Dim>>& cuts, bool heal) {
-  return {bodies_of<Dim>(parts, cuts, heal), std::vector<char>(parts.size(), false)};
+  return {bodies_of<Dim>(parts, cuts, heal), std::vector<double>(parts.size(), 0)};
 }
 
 // follows what `excavated` takes out of these parts
 template <int Dim>
-void take_out(const std::vector<Polytope<Dim>>& parts, const HalfSpaces<Dim>& region, Origins& origins) {
+void take_out(const std::vector<Polytope<Dim>>& parts, const HalfSpaces<Dim>& region, double least, Origins& origins) {
   std::vector<int> left;
   for (std::size_t p = 0; p < parts.size(); ++p)
     if (lies_inside<Dim>(region, parts[p].mass.centroid))
-      origins.has_lost[origins.body[p]] = true;
+      origins.least[origins.body[p]] = std::max(origins.least[origins.body[p]], least);
     else
       left.push_back(origins.body[p]);
   origins.body = std::move(left);
@@ -114,17 +114,18 @@ std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
                " blocks; state fewer joints, a smaller domain, slicing.smallest_inscribed_radius or a larger "
                "slicing.most_blocks");
   const bool heal = scene.slicing.ends == JointEnds::healed;
-  Origins origins{std::vector<int>(parts.size(), 0), {false}};
+  Origins origins{std::vector<int>(parts.size(), 0), {0}};
   if (std::ranges::any_of(scene.excavations, [&](const auto& spec) { return !excavated_by_stage(scene, spec.name); }))
     origins = origins_of<Dim>(parts, cuts, heal);
   for (std::size_t e = 0; e < regions.size(); ++e) {
     const std::size_t before = parts.size();
     const ExcavationSpec& spec = scene.excavations[e];
     const bool in_a_stage = excavated_by_stage(scene, spec.name);
+    const double least = spec.smallest_piece.value_or(limits.smallest_inscribed_radius);
     if (in_a_stage)
-      model.excavations.push_back({spec.name, regions[e], limits.smallest_inscribed_radius});
+      model.excavations.push_back({spec.name, regions[e], least});
     else
-      take_out<Dim>(parts, regions[e], origins);
+      take_out<Dim>(parts, regions[e], least, origins);
     std::vector<Polytope<Dim>> left = excavated<Dim>(in_a_stage ? parts : std::move(parts), regions[e]);
     const Subject& subject = spec.region.subject;
     if (left.size() == before)
@@ -146,9 +147,7 @@ std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
   // pieces that an outline left of blocks go, too; a block that lost nothing is whole, however small its parts
   std::vector<char> stays(bodies.size(), false);
   for (std::size_t p = 0; p < parts.size(); ++p)
-    if (bodies[body[p]].fixed || !origins.has_lost[origins.body[p]] ||
-        parts[p].inscribed_radius >= limits.smallest_inscribed_radius)
-      stays[body[p]] = true;
+    if (bodies[body[p]].fixed || parts[p].inscribed_radius >= origins.least[origins.body[p]]) stays[body[p]] = true;
   for (std::size_t p = 0; p < parts.size(); ++p)
     bodies[body[p]].parts.push_back(std::move(parts[p]));
   std::vector<DomainBody<Dim>> left;

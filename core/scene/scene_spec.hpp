@@ -84,7 +84,8 @@ struct JointSpec {
 struct ExcavationSpec {
   std::string name;
   RegionSpec region;
-  bool outline = false;  // construction joints along its faces
+  bool outline = false;                  // construction joints along its faces
+  std::optional<double> smallest_piece;  // m: inscribed radius; of what it leaves of blocks
 };
 
 enum class JointEnds {

@@ -49,6 +49,7 @@ properties = "rock"
 name = "tunnel"
 cylinder = { from = [0.3, -2, -0.3], to = [0.3, 2, -0.3], radius = 0.2 }
 outline = true
+smallest_piece = 0.001
 [[joint_sets]]
 name = "plain"
 dip = 30

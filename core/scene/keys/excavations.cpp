@@ -11,6 +11,10 @@ KeyTable excavation_keys() {
      .meaning = "unique among the excavations"},
     {.key = "outline", .members = {in(&ExcavationSpec::outline)}, .example = "true",
      .meaning = "cut blocks along the region's faces by construction joints, last; without it they go or stay whole"},
+    {.key = "smallest_piece", .members = {in(&ExcavationSpec::smallest_piece)}, .unit = "m",
+     .range = not_negative, .plausible = {.low = 1e-3, .high = 50, .or_zero = true}, .example = "0.1",
+     .meaning = "inscribed radius below which a piece that the region leaves of a block goes, too; slicing.smallest_inscribed_radius without it",
+     .breaks = "slivers shorten the time step", .mistake = "was it given in mm?"},
   }};
 }
 

@@ -9,7 +9,7 @@ KeyTable slicing_keys() {
   return {"slicing", {
     {.key = "smallest_inscribed_radius", .members = {in(&SlicingSpec::smallest_inscribed_radius)}, .unit = "m",
      .range = not_negative, .plausible = {.low = 1e-3, .high = 50, .or_zero = true}, .example = "0.01",
-     .meaning = "a cut that would leave a smaller block is not made in that block; outlines of excavations are cut all the same, and blocks of which they leave less go, too",
+     .meaning = "a cut that would leave a smaller block is not made in that block; outlines of excavations are cut all the same, and what they leave of blocks that is smaller goes, too, where they state no smallest_piece",
      .breaks = "slivers shorten the time step", .mistake = "was it given in mm?"},
     {.key = "largest_aspect_ratio", .members = {in(&SlicingSpec::largest_aspect_ratio)}, .unit = "1",
      .range = not_negative, .plausible = {.low = 10, .high = 1e5, .or_zero = true}, .example = "8000",
