@@ -34,6 +34,13 @@ double sum(const std::vector<double>& forces) {
   return total;
 }
 
+double mean_thrust(const SupportedRun& run) {
+  double total = 0;
+  for (const LiningRow& node : run.run.results.linings)
+    total += node.forces.thrust;
+  return total / static_cast<double>(run.run.results.linings.size());
+}
+
 double smeared_bolts(double spacing) {
   reference::BoltedRing ring{radius,  pressure, rock().shear_modulus, rock().poisson_ratio,
                              stretch, 1,        bolt_length,          2 * std::numbers::pi * radius / bolts,
@@ -54,6 +61,11 @@ const char* const blocks =
     "0.2 "
     "(reference/tunnel/isotropic_mass_test.cpp), so within 30 % at 0.4";
 
+const char* const as_single_forces =
+    "the same blocks and let-off forces; joints that close or open in part and corners that overlap, as in the "
+    "comparison "
+    "of single forces";
+
 TEST(Continuum, BoltsOfOneIsotropicMass) {
   CaseReport report("tunnel");
   const SupportedRun run = run_supported("isotropic_bolts.toml");
@@ -73,7 +85,7 @@ TEST(Continuum, BoltsOfOneIsotropicMass) {
                  "linear network (reference/tunnel/network.hpp)",
                  1,
                  {0.01, 0},
-                 "joints that open at the rim, none near the opening"},
+                 as_single_forces},
                 total / sum(both.linear.bolts), cost(run.run));
   const SupportedRun late = run_supported("isotropic_bolts.toml", {"stage.dig.let_off.share=0.85"});
   report.record({"sum of bolt forces where 0.3 is let off before, of all",
@@ -93,9 +105,16 @@ TEST(Continuum, ARingInOneIsotropicMass) {
     const SupportedRun run = run_supported(
         "isotropic_ring.toml", {fmt::format("joint_properties.rock_to_lining.normal_stiffness={}", interface),
                                 fmt::format("joint_properties.rock_to_lining.shear_stiffness={}", interface)});
-    double thrust = 0;
-    for (const LiningRow& node : run.run.results.linings)
-      thrust += node.forces.thrust / static_cast<double>(run.run.results.linings.size());
+    const Twins both = twins(run, 2);
+    const double thrust = mean_thrust(run);
+    report.record({fmt::format("mean thrust of the ring, s/a 0.4, K_L {}, of the same blocks' network", name),
+                   "1",
+                   Kind::exact,
+                   "linear network (reference/tunnel/network.hpp)",
+                   1,
+                   {0.01, 0},
+                   as_single_forces},
+                  sum(both.program.thrust) / sum(both.linear.thrust), cost(run.run));
     report.record({fmt::format("mean thrust of the ring, s/a 0.4, K_L {}, of appendix H", name),
                    "1",
                    Kind::limit,
@@ -105,6 +124,43 @@ TEST(Continuum, ARingInOneIsotropicMass) {
                    blocks},
                   thrust / smeared_ring(interface), cost(run.run));
   }
+}
+
+// s/a 0.2: joints of twice the stiffness at half the spacing, bolts' springs likewise
+std::vector<std::string> half_spacing(std::vector<std::string> more = {}) {
+  for (const char* set : {"A", "B", "C"})
+    more.push_back(fmt::format("joint_sets.{}.spacing=1", set));
+  more.push_back(
+      "slicing.smallest_inscribed_radius=0.05");  // a third of the offset of 0.3 is in the smallest triangles
+  more.push_back("joint_properties.rock.normal_stiffness=5e9");
+  more.push_back("joint_properties.rock.shear_stiffness=0.5e9");
+  return more;
+}
+
+TEST(ContinuumLong, SmallerBlocks) {
+  CaseReport report("tunnel");
+  const char* const within = "blocks of s/a 0.2: as the network's means of four offsets, within 15 %";
+  const SupportedRun bolted = run_supported(
+      "isotropic_bolts.toml",
+      half_spacing({fmt::format("bolts.bolts.stiffness={}", stretch * reference::network::mean_crossings(1))}));
+  const Increment forces = twins(bolted, 2).program;
+  report.record({"sum of bolt forces, s/a 0.2, of the smeared ring's",
+                 "1",
+                 Kind::limit,
+                 "Carranza-Torres (2009), held at 7 a",
+                 1,
+                 {0.15, 0},
+                 within},
+                sum(forces.bolts) / smeared_bolts(1), cost(bolted.run));
+  const SupportedRun lined = run_supported("isotropic_ring.toml", half_spacing());
+  report.record({"mean thrust of the ring, s/a 0.2, K_L 1 GPa/m, of appendix H",
+                 "1",
+                 Kind::limit,
+                 "Boon (2013), appendix H, held at 7 a",
+                 1,
+                 {0.15, 0},
+                 within},
+                mean_thrust(lined) / smeared_ring(1e9), cost(lined.run));
 }
 
 }  // namespace
