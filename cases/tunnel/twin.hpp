@@ -1,0 +1,50 @@
+// A supported opening of the program, and the linear network of the same blocks (reference/tunnel/network.hpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/run_scene.hpp"
+#include "reference/tunnel/blocks.hpp"
+
+namespace voussoir::cases {
+
+// the end of a stage
+struct StageEnd {
+  Model<2> model;
+  State<2> state;
+};
+
+struct SupportedRun {
+  SceneRun run;
+  std::vector<StageEnd> ends;  // by stage
+
+  const StageEnd& before() const { return ends[ends.size() - 2]; }  // supports go in at the last stage
+  const StageEnd& after() const { return ends.back(); }
+};
+
+// Runs <case>/<scene>, whose last stage installs the supports, with the end of each stage kept. Throws
+// std::runtime_error where a stage misses its goal.
+SupportedRun run_supported(const std::string& scene, const std::vector<std::string>& overrides = {});
+
+// What the last stage changed, by the program or by the network: increments from the state before. Of the network all
+// supports are linear, so that its forces are increments too.
+struct Increment {
+  std::vector<double> convergence;  // m, of the wall towards the centre, every degree
+  std::vector<double> bolts;        // N, by bolt and joint from the collar
+  std::vector<double> thrust;       // N, by node of the lining
+  std::vector<double> moment;       // N m
+  double mean_convergence = 0;      // m, over the wall
+};
+
+struct Twins {
+  reference::network::Network network;
+  Increment program, linear;
+  int same_joints = 0;  // springs of bolts between the same two blocks in both, in the same order
+};
+
+// The network of the blocks of the run as they are cut, on the joints of `cells` points that lie between them, with the
+// run's bolts and lining, loaded by what the last stage let off of the forces by which excavated rock held the rest.
+Twins twins(const SupportedRun& run, int cells);
+
+}  // namespace voussoir::cases
