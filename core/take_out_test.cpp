@@ -123,18 +123,6 @@ TEST(TakeOut, SplintersThatAreHeldDoNotHoldBackNewton) {
   EXPECT_LE(outlined.state.counters.static_iterations, 2 * plain.state.counters.static_iterations + 2);
 }
 
-// A splinter that an outline cuts off and a body holds is no measure of the steps of Newton's method.
-TEST(TakeOut, SplintersThatAreHeldDoNotHoldBackNewton) {
-  const std::vector<std::string> newton{"damping.statics=newton"};
-  const Progress<2> plain = simulated(scene_of(wall + settle, newton));
-  const Progress<2> outlined = simulated(
-      scene_of(wall + top + settle + dig("top", "settle", ""),
-               {"damping.statics=newton", "excavations.top.box.min=[-1, 2.9999]", "stage.dig.excavate=[\"top\"]"}));
-  EXPECT_GT(plain.state.counters.static_iterations, 0);
-  // as many once more after the splinter is gone
-  EXPECT_LE(outlined.state.counters.static_iterations, 2 * plain.state.counters.static_iterations + 2);
-}
-
 // Half of the upper block goes: what is left of it has its id, its mass and inertia, and all rise by the stress that is
 // gone over the joints' stiffness.
 TEST(TakeOut, WhatIsLeftIsRenewedAndUnloaded) {
