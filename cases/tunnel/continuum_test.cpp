@@ -143,7 +143,16 @@ TEST(ContinuumLong, SmallerBlocks) {
   const SupportedRun bolted = run_supported(
       "isotropic_bolts.toml",
       half_spacing({fmt::format("bolts.bolts.stiffness={}", stretch * reference::network::mean_crossings(1))}));
-  const Increment forces = twins(bolted, 2).program;
+  const Twins both = twins(bolted, 2);
+  const Increment& forces = both.program;
+  report.record({"sum of bolt forces, s/a 0.2, of the same blocks' network",
+                 "1",
+                 Kind::exact,
+                 "linear network (reference/tunnel/network.hpp)",
+                 1,
+                 {0.01, 0},
+                 as_single_forces},
+                sum(forces.bolts) / sum(both.linear.bolts), cost(bolted.run));
   report.record({"sum of bolt forces, s/a 0.2, of the smeared ring's",
                  "1",
                  Kind::limit,
