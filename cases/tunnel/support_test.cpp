@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "cases/case_tools.hpp"
 #include "reference/tunnel/lining.hpp"
@@ -169,6 +170,102 @@ TEST(Support, LiningStopsTheWall) {
                  {0, 0, Bound::at_most},
                  "the sign of a trend"},
                 largest_bolt_force(both) / largest_bolt_force(bolted), cost(both));
+}
+
+// Appendix H with the shear moduli between which the thesis found its hoop forces.
+TEST(Support, LiningCarriesWhatIsPublished) {
+  CaseReport report("tunnel", {"mean hoop force, 0.3 m, K_L 1 GPa/m, against the softest rock"});
+  const SceneRun lined = run("lining.toml");
+  for (const auto& [name, modulus, bound] :
+       {std::tuple("softest", 0.385e9, Bound::at_most), {"stiffest", 1.604e9, Bound::at_least}}) {
+    const double force = reference::lining_hoop_force({.radius = diameter / 2,
+                                                       .in_situ_pressure = pressure,
+                                                       .shear_modulus = modulus,
+                                                       .lining_modulus = 25e9,
+                                                       .lining_thickness = 0.3,
+                                                       .interface_stiffness = 1e9});
+    report.record({fmt::format("mean hoop force, 0.3 m, K_L 1 GPa/m, against the {} rock", name),
+                   "N",
+                   Kind::limit,
+                   thesis + ".7: between the elastic solutions of its moduli",
+                   force,
+                   {0, 0, bound},
+                   "an inequality"},
+                  mean_thrust(lined), cost(lined));
+  }
+  write_lining("support_lining.csv", lined);
+}
+
+// The thesis' way, three draws: the largest force within 0.15 s, and where Newton's method leaves it.
+TEST(SupportLong, SuddenRemoval) {
+  CaseReport report("tunnel", {"largest bolt force over p0 D, sudden removal, blocks of 0.5 m"});
+  constexpr int draws = 3;
+  double sudden = 0, gradual = 0;
+  for (int seed = 1; seed <= draws; ++seed) {
+    Overrides draw = large_blocks;
+    for (const char set : {'A', 'B', 'C'})
+      draw.push_back(fmt::format("joint_sets.{}.seed={}", set, seed));
+    const SceneRun slow = run("bolts.toml", draw);
+    const SceneRun fast = run("sudden.toml", with(draw, {"stage.dig.duration_s=0.15"}));
+    const double peak = std::ranges::max(column(fast, "bolts_largest_force_N")) / (pressure * diameter);
+    report.report(fmt::format("largest bolt force over p0 D, sudden removal, draw {}", seed), "1", peak,
+                  fmt::format("let off in steps: {:.4f}", largest_bolt_force(slow)), cost(fast));
+    sudden += peak / draws;
+    gradual += largest_bolt_force(slow) / draws;
+  }
+  report.record({"largest bolt force over p0 D, sudden removal, blocks of 0.5 m",
+                 "1",
+                 Kind::published,
+                 thesis,
+                 0.030,
+                 {0.0147, 0},
+                 "means of three draws of standard deviation 0.009 each: two deviations of their difference"},
+                sudden);
+  report.record({"largest bolt force, let off in steps over sudden removal, blocks of 0.5 m",
+                 "1",
+                 Kind::limit,
+                 "a spring loaded at once is stretched further",
+                 1,
+                 {0, 0, Bound::at_most},
+                 "the sign of a trend"},
+                gradual / sudden);
+}
+
+// Blocks of 0.5 m; the lining of 10 cm and bolts of 4 m at 15°.
+TEST(SupportLong, Trends) {
+  CaseReport report("tunnel");
+  const auto follow = [&](const std::string& what, const SceneRun& found) {
+    report.report("mean convergence, " + what, "m", mean_convergence(found), "beside section 5.4.8", cost(found));
+    return found;
+  };
+  const SceneRun both = follow("10 cm", run("both.toml", large_blocks));
+  const SceneRun thick = follow("30 cm", run("both.toml", with(large_blocks, {"linings.lining.thickness=0.3"})));
+  const SceneRun soft = follow("K_a / 3", run("both.toml", with(large_blocks, {"bolts.bolts.stiffness=0.66666667e8"})));
+  const SceneRun plain = follow("bolts alone", run("bolts.toml", with(large_blocks, short_bolts(15))));
+  const SceneRun tight =
+      follow("bolts alone, 150 kN of pretension",
+             run("bolts.toml", with(with(large_blocks, short_bolts(15)), {"bolts.bolts.pretension=150e3"})));
+  const auto less = [&](const std::string& quantity, double ratio) {
+    report.record(
+        {quantity + ", blocks of 0.5 m", "1", Kind::limit, thesis, 1, {0, 0, Bound::at_most}, "the sign of a trend"},
+        ratio);
+  };
+  less("mean convergence, 30 over 10 cm", mean_convergence(thick) / mean_convergence(both));
+  less("mean hoop force, 10 over 30 cm", mean_thrust(both) / mean_thrust(thick));
+  less("largest bolt force, K_a / 3 over K_a", largest_bolt_force(soft) / largest_bolt_force(both));
+  less("mean hoop force, K_a over K_a / 3", mean_thrust(both) / mean_thrust(soft));
+  less("mean convergence, 150 kN over no pretension", mean_convergence(tight) / mean_convergence(plain));
+  less("largest bolt force, none over 150 kN of pretension", largest_bolt_force(plain) / largest_bolt_force(tight));
+  const auto crown_over_mean = [&](double k0) {
+    const SceneRun found = run(
+        "both.toml",
+        with(large_blocks,
+             {fmt::format(R"(stage.stress.boundary=[{{side=["left","right"],in_situ={{surface=25,k0={}}}}}])", k0)}));
+    return value(found, "crown_mean_convergence") / mean_convergence(found);
+  };
+  const double low = crown_over_mean(0.5), high = crown_over_mean(1.5);
+  less("mean over crown's convergence, K0 0.5", 1 / low);
+  less("crown's over mean convergence, K0 1.5", high);
 }
 
 }  // namespace
