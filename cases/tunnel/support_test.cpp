@@ -73,9 +73,12 @@ void write_bolts(const std::string& file, const SceneRun& run) {
   write_csv("tunnel", file, {"angle_deg", "force"}, {angles, forces});
 }
 
+// in the order of the figure's axis, so that a line through the nodes is one
 void write_lining(const std::string& file, const SceneRun& run) {
+  std::vector<LiningRow> nodes = run.results.linings;
+  std::ranges::stable_sort(nodes, {}, [](const LiningRow& node) { return degrees(node.x, node.y); });
   std::vector<std::vector<double>> columns(4);
-  for (const LiningRow& node : run.results.linings) {
+  for (const LiningRow& node : nodes) {
     columns[0].push_back(degrees(node.x, node.y));
     columns[1].push_back(node.forces.thrust);
     columns[2].push_back(node.forces.moment);
