@@ -87,6 +87,22 @@ void write_lining(const std::string& file, const SceneRun& run) {
   write_csv("tunnel", file, {"angle_deg", "thrust_N", "moment_Nm", "smoothed_moment_Nm"}, columns);
 }
 
+// convergence at the points of the monitor `wall`, which the scenes state from -82.5 degrees on, 15 apart
+void write_walls(const std::string& file, const std::vector<std::string>& names, const std::vector<SceneRun>& runs) {
+  constexpr int points = 24;
+  std::vector<std::string> header{"angle_deg"};
+  std::vector<std::vector<double>> columns(1);
+  for (int k = 0; k < points; ++k)
+    columns[0].push_back(-82.5 + 360.0 / points * k);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    header.push_back(names[r]);
+    columns.emplace_back();
+    for (int k = 1; k <= points; ++k)
+      columns.back().push_back(value(runs[r], fmt::format("wall_convergence_{}", k)));
+  }
+  write_csv("tunnel", file, header, columns);
+}
+
 const std::string two_deviations =
     "the thesis' three draws differ by a standard deviation of 0.009 (sudden removal); two of them";
 
@@ -173,6 +189,7 @@ TEST(Support, LiningStopsTheWall) {
                  {0, 0, Bound::at_most},
                  "the sign of a trend"},
                 largest_bolt_force(both) / largest_bolt_force(bolted), cost(both));
+  write_walls("support_walls.csv", {"bolts_m", "bolts_and_lining_m"}, {bolted, both});
 }
 
 // Appendix H with the shear moduli between which the thesis found its hoop forces.
