@@ -241,7 +241,7 @@ void judge_velocities(const Prepared<Dim>& prepared, const Model<Dim>& model, Pl
   if (prepared.stages.empty()) return;
   const StagePlan& first = prepared.stages.front();
   if (!begins_relaxing(first, first.damping.value_or(prepared.settings.damping))) return;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+  for (std::size_t b = 0; b < prepared.state.motions.size(); ++b) {
     const Motion<Dim>& motion = prepared.state.motions[b];
     if (!moves(model.bodies[b]) || (motion.velocity.isZero(0) && motion.angular_momentum.isZero(0))) continue;
     result.warnings.push_back(

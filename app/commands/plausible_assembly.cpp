@@ -27,7 +27,7 @@ constexpr double deep_inside = 0.5;
 
 template <int Dim>
 bool is_free(const Body<Dim>& body) {
-  return body.present && !body.fixed && !body.prescribed;
+  return body.present && !body.fixed && !body.prescribed && !body.parts.empty();
 }
 
 template <int Dim>

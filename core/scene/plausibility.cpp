@@ -183,7 +183,8 @@ void judge_bonds(const Scene& scene, Warnings& warnings) {
       warnings.push_back(complaint(spec.subject, "tension",
                                    "exceeds cohesion / tan(friction_deg) = " + text(p.cohesion / std::tan(p.friction)) +
                                        " Pa, beyond which a pulled joint has no strength in shear: it breaks there"));
-    if (made || scene.stages.empty() || !p.laws.bond) continue;
+    const bool of_lining = std::ranges::count(scene.linings, p.name, &LiningSpec::interface_properties) > 0;
+    if (made || scene.stages.empty() || !p.laws.bond || of_lining) continue;
     warnings.push_back(complaint(spec.subject, p.cohesion > 0 ? "cohesion" : "tension",
                                  "counts only where joints are bonded, and no stage bonds any: write bond = true into "
                                  "the stage from which it is to count"));

@@ -154,7 +154,9 @@ std::vector<SectionForces> forces_at_nodes(const Lining& lining, const std::vect
 // parabola through the moments of each side gives its pressure, q = -M''; the pressures act on a ring of the outline's
 // mean radius, and what of them is out of balance is taken by shear. With q = Σ q_n cos(nθ - f_n), n up to half the
 // number of sides, M = a² Σ_{n >= 2} q_n cos(nθ - f_n)/(n² - 1). None for a lining that is no ring, has fewer than five
-// sides or one of less than three nodes.
+// sides or one of less than three nodes. The shear of the rock along the
+// lining is left out but for what balances the pressures: under uneven pressure, which that shear helps to carry, the
+// smoothed moments may be larger than those of the beams.
 std::vector<double> smoothed_moments(const Lining& lining, const std::vector<SectionForces>& at_nodes);
 
 // Largest fibre stress of a rectangular, uncracked section over the strength it meets: in moment and thrust the
