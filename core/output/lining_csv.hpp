@@ -6,8 +6,8 @@
 //   installed thrust_N, shear_N, moment_Nm     compression positive; sagging positive: tension on the side of the
 //   opening smoothed_moment_Nm               without the ripple of straight sides (core/support/lining.hpp); empty
 //   where the outline
-//                                    has too few sides, or too few nodes on one; it leaves out what shear along the rock
-//                                    carries, so under uneven pressure it may exceed the moment
+//                                    has too few sides, or too few nodes on one; it leaves out what shear along the
+//                                    rock carries, so under uneven pressure it may exceed the moment
 //   pressure_Pa, shear_stress_Pa     of the rock on the lining, towards the opening, and along it counter-clockwise
 //   body                             the block opposite; empty where there is none
 //   use                              of its strength; empty where none is stated

@@ -160,8 +160,9 @@ std::vector<int> chosen_some(const Scene& scene, const Model<Dim>& model, const 
 
 // what is fixed now may yet be released or moved, or line an opening
 bool loosens(const Scene& scene) {
-  return !scene.linings.empty() || std::any_of(scene.stages.begin(), scene.stages.end(),
-                     [](const StageSpec& s) { return !s.plan.change.release.empty() || !s.plan.change.move.empty(); });
+  return !scene.linings.empty() || std::any_of(scene.stages.begin(), scene.stages.end(), [](const StageSpec& s) {
+    return !s.plan.change.release.empty() || !s.plan.change.move.empty();
+  });
 }
 
 template <int Dim>
