@@ -167,11 +167,8 @@ void carry_linings(const Model<Dim>& before, const Model<Dim>& model, const Exca
   if constexpr (Dim == 2)
     for (LiningState& lined : state.linings)
       keep_rock(lined, [&](LiningRock& rock) {
-        const auto first = std::ranges::find(before.parts, rock.body, &PartId::body) - before.parts.begin();
-        const Vector<2> middle = rock.corner + 0.5 * (rock.from + rock.to) * left_of(rock.normal);
-        const int part = moved.part[first + part_at<2>(before.bodies[rock.body], middle)];
-        if (part < 0) return false;
-        rock.body = model.parts[part].body;
+        Vector<2> middle = rock.corner + 0.5 * (rock.from + rock.to) * left_of(rock.normal);
+        if (!follow(before, model, moved, rock.body, middle)) return false;
         rock.corner -= moved.shift[rock.body];
         return true;
       });

@@ -215,6 +215,19 @@ Excavated<Dim> excavate(Model<Dim>& model, const std::vector<std::string>& names
   return moved;
 }
 
+template <int Dim>
+bool follow(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, int& body,
+            Vector<Dim>& place) {
+  const auto first = std::ranges::find(before.parts, body, &PartId::body) - before.parts.begin();
+  const int part = moved.part[first + part_at<Dim>(before.bodies[body], place)];
+  if (part < 0 || !model.bodies[model.parts[part].body].present) return false;
+  body = model.parts[part].body;
+  place -= moved.shift[body];
+  return true;
+}
+
+template bool follow<2>(const Model<2>&, const Model<2>&, const Excavated<2>&, int&, Vector<2>&);
+template bool follow<3>(const Model<3>&, const Model<3>&, const Excavated<3>&, int&, Vector<3>&);
 template int part_at<2>(const Body<2>&, const Vector<2>&);
 template int part_at<3>(const Body<3>&, const Vector<3>&);
 template Excavated<2> excavate<2>(Model<2>&, const std::vector<std::string>&);

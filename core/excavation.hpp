@@ -33,4 +33,10 @@ int body_around(const Model<Dim>& model, const Vector<Dim>& point);
 template <int Dim>
 Excavated<Dim> excavate(Model<Dim>& model, const std::vector<std::string>& names);
 
+// Follows a point of a body of the model as it was, m in its frame: body and place become those of now. False, and
+// nothing changed, where its part was taken out.
+template <int Dim>
+bool follow(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, int& body,
+            Vector<Dim>& place);
+
 }  // namespace voussoir

@@ -101,14 +101,7 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
 template <int Dim>
 void carry_springs(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state) {
   if (state.bolt_springs.empty()) return;
-  const auto is_left = [&](int& body, Vector<Dim>& place) {
-    const auto first = std::ranges::find(before.parts, body, &PartId::body) - before.parts.begin();
-    const int part = moved.part[first + part_at<Dim>(before.bodies[body], place)];
-    if (part < 0 || !model.bodies[model.parts[part].body].present) return false;
-    body = model.parts[part].body;
-    place -= moved.shift[body];
-    return true;
-  };
+  const auto is_left = [&](int& body, Vector<Dim>& place) { return follow(before, model, moved, body, place); };
   cut_bolts<Dim>(is_left, state);
 }
 
