@@ -423,7 +423,7 @@ TEST(Grout, CondensesToSpringsBetweenStretches) {
     std::vector<double> k;
     condensed_stiffness(bar, test.state, stretch, 4, test.workspace, k);
     for (int a = 0; a < 4; ++a) {
-      const auto [first, last] = std::ranges::equal_range(stretch, a);
+      const auto [first, last] = std::equal_range(stretch.begin(), stretch.end(), a);
       const double alone = elastic_stiffness(bar, static_cast<int>(first - stretch.begin()),
                                              static_cast<int>(last - stretch.begin()), test.workspace);
       EXPECT_NEAR(k[5 * a], alone, 1e-12 * alone) << "nothing slips yet";

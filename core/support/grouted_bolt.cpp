@@ -8,9 +8,9 @@ template <int Dim>
 void bound_stiffness(GroutedBolt<Dim>& g, GroutWorkspace& workspace) {
   g.stiffness.clear();
   for (int s = 0; s <= g.joints(); ++s) {
-    const auto nodes = std::ranges::equal_range(g.stretch, s);
-    const int first = static_cast<int>(nodes.begin() - g.stretch.begin());
-    g.stiffness.push_back(elastic_stiffness(g.bar, first, first + static_cast<int>(nodes.size()), workspace));
+    const auto [first, last] = std::equal_range(g.stretch.begin(), g.stretch.end(), s);
+    g.stiffness.push_back(elastic_stiffness(g.bar, static_cast<int>(first - g.stretch.begin()),
+                                            static_cast<int>(last - g.stretch.begin()), workspace));
   }
 }
 
