@@ -16,10 +16,6 @@ constexpr double near_side = 0.5;
 // of a side's length: less of a face is a corner
 constexpr double least_face = 1e-9;
 
-Vector<2> left_of(const Vector<2>& v) {
-  return {-v[1], v[0]};
-}
-
 double mean_length(const Lining& lining) {
   double sum = 0;
   for (const LiningNode& node : lining.nodes)
@@ -41,7 +37,7 @@ LiningRock stretch_of(const Model<2>& model, const Motion<2>& motion, int b, con
   const Vector<2> a = part.vertices[part.loops[face].front()] - rock.corner,
                   b_end = part.vertices[part.loops[face].back()] - rock.corner;
   if (std::abs(rock.normal.dot(0.5 * (a + b_end))) > near_side * mean_length(lining)) return rock;
-  const Vector<2> along = left_of(rock.normal);
+  const Vector<2> along = perpendicular(rock.normal);
   const double first = along.dot(a), last = along.dot(b_end);
   rock.from = std::max(std::min(first, last), -near_side * mean_length(lining));
   rock.to = std::min(std::max(first, last), side.length + near_side * mean_length(lining));
@@ -66,7 +62,7 @@ LiningState cast(const Model<2>& model, int index, State<2>& state) {
     const LiningRock& rock = lined.rock[contact.rock];
     const Vector<2> at = seen_from_rock(rock, lining.first_body + static_cast<int>(i / 2), state);
     contact.closure = rock.normal.dot(at);
-    contact.place = left_of(rock.normal).dot(at);
+    contact.place = perpendicular(rock.normal).dot(at);
   }
   return lined;
 }
@@ -118,7 +114,7 @@ int rock_opposite(const Lining& lining, const LiningState& lined, int half_node,
   const auto outside = [&](int k) {
     const LiningRock& rock = lined.rock[k];
     const Vector<2> at = seen_from_rock(rock, lining.first_body + n, state);
-    return outside_by(rock, left_of(rock.normal).dot(at));
+    return outside_by(rock, perpendicular(rock.normal).dot(at));
   };
   int found = lined.contacts[half_node].rock;
   double least = found < 0 ? std::numeric_limits<double>::infinity() : outside(found);
@@ -167,7 +163,7 @@ void carry_linings(const Model<Dim>& before, const Model<Dim>& model, const Exca
   if constexpr (Dim == 2)
     for (LiningState& lined : state.linings)
       keep_rock(lined, [&](LiningRock& rock) {
-        Vector<2> middle = rock.corner + 0.5 * (rock.from + rock.to) * left_of(rock.normal);
+        Vector<2> middle = rock.corner + 0.5 * (rock.from + rock.to) * perpendicular(rock.normal);
         if (!follow(before, model, moved, rock.body, middle)) return false;
         rock.corner -= moved.shift[rock.body];
         return true;

@@ -21,7 +21,7 @@ struct AtRock {
 
   AtRock(const LiningRock& rock, int node, const State<2>& state)
       : normal(state.poses[rock.body].axes * rock.normal),
-        along(-normal[1], normal[0]),
+        along(perpendicular(normal)),
         from_block(between(state.poses[rock.body], state.poses[node])) {
     const Vector<2> at = seen_from_rock(rock, node, state);
     motion.closure = rock.normal.dot(at);
