@@ -87,18 +87,25 @@ struct PairStiffness {
   Vector<Dim> apart = Vector<Dim>::Zero();  // m, of the second centroid from the first
 };
 
+// Bonds, each contact or sub-contact that carries one counted: what led to this state. Those whole are in the contacts.
+struct BondTally {
+  long long made = 0, removed = 0;  // removed: whole when a block of theirs was
+};
+
 // What a contact's joint remembers where an increment begins.
 template <int Dim>
 struct BaseHistory {
   int part_a = 0, part_b = 0;
   int divided_face = -1;
+  bool bond_due = false;
   JointState<Dim> history;
 };
 
 // Newton's method on the joints (step/newton.hpp): what an increment keeps from one evaluation to the next.
 template <int Dim>
 struct NewtonIncrement {
-  enum class Trial { waiting, start, step, forced };  // what the next evaluation is
+  // what the next evaluation is; `last`: of what has been accepted, before it is left to relaxation
+  enum class Trial { waiting, start, step, forced, last };
   bool under_way = false;
   Trial trial = Trial::start;
   int increments_left = 0;    // after this one
@@ -113,6 +120,8 @@ struct NewtonIncrement {
   std::vector<BoltSpring<Dim>> springs;        // as they were at the base
   std::vector<GroutedBolt<Dim>> grouted;       // the same
   std::vector<LiningState> linings;            // likewise
+  BondTally bonds;                             // at the base
+  long long whole_bonds = 0;                   // there
   std::vector<JointState<Dim>> sub_histories;  // as many places for each contact
   long long listed = 0;                        // Counters::neighbour_builds that they belong to
   LoadsBySource<Dim> loads_begin;              // at the base, under the loads of now
@@ -144,11 +153,6 @@ struct Schedule {
   double started = 0;                                     // s: when the schedules began to run
   double ends = std::numeric_limits<double>::infinity();  // s: when the run that is under way is complete; its last
                                                           // step ends there
-};
-
-// Bonds, each contact or sub-contact that carries one counted: what led to this state. Those whole are in the contacts.
-struct BondTally {
-  long long made = 0, removed = 0;  // removed: whole when a block of theirs was
 };
 
 // the tally, and what has become of the bonds
@@ -255,6 +259,15 @@ long long whole_bonds(const State<Dim>& state, std::size_t place) {
   if (c.cells == 0) return c.history.bonded;
   const auto whole = [](const SubContact<Dim>& s) { return s.area > 0 && s.history.bonded; };
   return std::ranges::count_if(subs_of(state, place), whole);
+}
+
+// of all contacts
+template <int Dim>
+long long whole_bonds(const State<Dim>& state) {
+  long long whole = 0;
+  for (std::size_t i = 0; i < state.contacts.size(); ++i)
+    whole += whole_bonds(state, i);
+  return whole;
 }
 
 // the places of a body's contacts in State::contacts

@@ -58,24 +58,28 @@ void let_off_held(const StageEnd& before, const StageEnd& after, const std::vect
   }
 }
 
-// the bolts of which the run has springs, and where these agree
+// the bolts of which the run has springs, and which springs are between the same two blocks
 void add_bolts(const StageEnd& after, const std::vector<Face>& joints, const std::vector<int>& number, Twins& both) {
   const Model<2>& model = after.model;
+  auto& bolts = both.network.bolts;
   int last = -1;
+  std::size_t next = 0;  // of the network's along this bolt, not yet met
   for (const BoltSpring<2>& spring : after.state.bolt_springs) {
-    if (spring.bolt == last) continue;
-    last = spring.bolt;
-    const voussoir::Bolt<2>& bolt = model.bolts[last];
-    const BoltProperties& properties = model.bolt_properties[bolt.properties];
-    for (const reference::network::Bolt& laid :
-         bolts_across(joints, point(bolt.collar), point(bolt.toe), properties.stiffness, 1.2 * properties.diameter))
-      both.network.bolts.push_back(laid);
-  }
-  const std::size_t count = std::min(both.network.bolts.size(), after.state.bolt_springs.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const BoltSpring<2>& spring = after.state.bolt_springs[i];
-    const reference::network::Bolt& laid = both.network.bolts[i];
-    both.same_joints += number[spring.body_a] == laid.first && number[spring.body_b] == laid.second;
+    if (spring.bolt != last) {
+      last = spring.bolt;
+      next = bolts.size();
+      const voussoir::Bolt<2>& bolt = model.bolts[last];
+      const BoltProperties& properties = model.bolt_properties[bolt.properties];
+      for (const reference::network::Bolt& laid :
+           bolts_across(joints, point(bolt.collar), point(bolt.toe), properties.stiffness, 1.2 * properties.diameter))
+        bolts.push_back(laid);
+    }
+    const auto same = std::find_if(
+        bolts.begin() + static_cast<std::ptrdiff_t>(next), bolts.end(),
+        [&](const auto& laid) { return number[spring.body_a] == laid.first && number[spring.body_b] == laid.second; });
+    const bool met = same != bolts.end();
+    both.twin_of_spring.push_back(met ? static_cast<int>(same - bolts.begin()) : -1);
+    if (met) next = static_cast<std::size_t>(same - bolts.begin()) + 1;
   }
 }
 

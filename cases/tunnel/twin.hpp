@@ -40,7 +40,9 @@ struct Increment {
 struct Twins {
   reference::network::Network network;
   Increment program, linear;
-  int same_joints = 0;  // springs of bolts between the same two blocks in both, in the same order
+  // By spring of a bolt of the program, the network's between the same two blocks; -1 where it has none: bolts are put
+  // through blocks as they stand in the one and as they were cut in the other.
+  std::vector<int> twin_of_spring;
 };
 
 // The network of the blocks of the run as they are cut, on the joints of `cells` points that lie between them, with the

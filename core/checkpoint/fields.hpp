@@ -104,8 +104,8 @@ void serialize(Archive& archive, PairStiffness<Dim>& p) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, BaseHistory<Dim>& b) {
-  auto& [part_a, part_b, divided_face, history] = b;
-  archive(part_a, part_b, divided_face, history);
+  auto& [part_a, part_b, divided_face, bond_due, history] = b;
+  archive(part_a, part_b, divided_face, bond_due, history);
 }
 
 template <class Archive>
@@ -196,11 +196,11 @@ void serialize(Archive& archive, LiningState& l) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, NewtonIncrement<Dim>& n) {
   auto& [under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
-         regularisation, overshoot, base, histories, springs, grouted, linings, sub_histories, listed, loads_begin,
-         energy, accepted, residual, change, merits, stiffness, closed, of_water] = n;
+         regularisation, overshoot, base, histories, springs, grouted, linings, bonds, whole_bonds, sub_histories,
+         listed, loads_begin, energy, accepted, residual, change, merits, stiffness, closed, of_water] = n;
   archive(under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
-          regularisation, overshoot, base, histories, springs, grouted, linings, sub_histories, listed,
-          loads_begin.values, energy, accepted, residual, change, merits, stiffness, closed, of_water);
+          regularisation, overshoot, base, histories, springs, grouted, linings, bonds, whole_bonds, sub_histories,
+          listed, loads_begin.values, energy, accepted, residual, change, merits, stiffness, closed, of_water);
 }
 
 template <class Archive, int Dim>

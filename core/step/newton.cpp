@@ -115,7 +115,7 @@ struct Newton {
     for (const PairStiffness<Dim>& p : n.stiffness)
       pairs.push_back(&p);
     for (const PairStiffness<Dim>& p : n.closed)
-      if (!state.contacts[p.contact].touching()) pairs.push_back(&p);
+      if (is_slack(model, state, p.contact)) pairs.push_back(&p);
     const Eigen::VectorXd& free = unknowns.free;
     BlockMatrix<F> k = tangent_of<Dim>(settings.threads, pairs, stiffness_of_loads(), unknowns.place, free);
     // what is held goes nowhere
@@ -232,11 +232,21 @@ struct Newton {
   // relaxation continues from the base
   void leave() { begin_relaxation(state); }
 
-  void reject() {
+  void give_up() {
+    ++state.counters.static_fallbacks;
+    commit();
+    leave();
+  }
+
+  // A broken bond lets go at once of what it carried: how, is relaxation's to find.
+  bool breaks_bonds() const { return whole_bonds(state) < n.whole_bonds + state.bonds.made - n.bonds.made; }
+
+  void reject(bool breaks) {
     ++state.counters.static_rejections;
     ++n.tries;
     n.regularisation = std::max(8 * n.regularisation, 1e-6);
     const bool forced = n.tries >= most_tries;
+    if (forced && breaks) return set_trial_at(numbers(n.accepted), Trial::last);
     if (forced) n.regularisation = first_regularisation;
     step_from_accepted(forced ? Trial::forced : Trial::step);
   }
@@ -258,11 +268,7 @@ struct Newton {
     n.merits.push_back(now);
     n.tries = 0;
     if (rests()) return end_increment();
-    if (n.iteration >= iteration_limit) {
-      ++state.counters.static_fallbacks;
-      commit();
-      return leave();
-    }
+    if (n.iteration >= iteration_limit) return give_up();
     if (forced || ++n.since_commit >= most_since_commit || fraction_in_new_contacts() > most_in_new_contacts) commit();
     const double reached = static_cast<double>(n.stiffness.size());
     find_pair_stiffness(model, settings, state);
@@ -286,9 +292,11 @@ struct Newton {
       n.energy.flows[ramp] += state.energy.flows[ramp] - before[ramp];
     const Trial trial = n.trial;
     if (trial == Trial::start) start_increment();
+    const bool breaks = breaks_bonds();
+    if (trial == Trial::last || (trial == Trial::start && breaks)) return give_up();
     const Eigen::VectorXd residual = residual_now();
     const double now = merit(residual);
-    if (trial == Trial::step && !is_acceptable(residual, now)) return reject();
+    if (breaks || (trial == Trial::step && !is_acceptable(residual, now))) return reject(breaks);
     accept(residual, now, trial == Trial::forced);
   }
 };
@@ -296,7 +304,7 @@ struct Newton {
 }  // namespace
 
 bool newton_follows(const JointProperties& joint) {
-  return !joint.laws.bond && joint.laws.friction != FrictionLaw::softening;
+  return joint.laws.friction != FrictionLaw::softening;
 }
 
 template <int Dim>

@@ -20,9 +20,9 @@
 
 namespace voussoir {
 
-// Whether Newton's method follows a joint's laws: stiffness that depends on stress and friction that hardens, besides
-// the plain ones. Strength that is lost makes the force of an increment jump, or fall as it goes on: bonds and
-// softening.
+// Whether Newton's method follows a joint's laws: all but softening, by which the force of an increment falls as it
+// goes on. Bonds are followed as long as they are whole: a trial that breaks one is refused, and where no shorter step
+// spares it, the increment is left to relaxation.
 bool newton_follows(const JointProperties& joint);
 
 // whether it follows those of all joints; else all is left to relaxation

@@ -63,9 +63,11 @@ void take_base(const Model<Dim>& model, const Settings& settings, const Unknowns
   n.springs = state.bolt_springs;
   n.grouted = state.grouted;
   n.linings = state.linings;
+  n.bonds = state.bonds;
+  n.whole_bonds = whole_bonds(state);
   n.histories.clear();
   for (const Contact<Dim>& c : state.contacts)
-    n.histories.push_back({c.part_a, c.part_b, c.divided_face, c.history});
+    n.histories.push_back({c.part_a, c.part_b, c.divided_face, c.bond_due, c.history});
   n.sub_histories.clear();
   for (const SubContact<Dim>& s : state.subs)
     n.sub_histories.push_back(s.history);
@@ -126,12 +128,14 @@ void set_trial(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const Eig
   for (std::size_t i = 0; i < n.histories.size(); ++i) {
     state.contacts[i].history = n.histories[i].history;
     state.contacts[i].divided_face = n.histories[i].divided_face;
+    state.contacts[i].bond_due = n.histories[i].bond_due;
   }
   for (std::size_t i = 0; i < n.sub_histories.size(); ++i)
     state.subs[i].history = n.sub_histories[i];
   state.bolt_springs = n.springs;
   state.grouted = n.grouted;
   state.linings = n.linings;
+  state.bonds = n.bonds;
   state.energy = n.energy;
   state.time_step = 1;
 }

@@ -346,24 +346,34 @@ TEST(Newton, ShearThatStressStiffensComesToItsClosedFormInIncrements) {
   }
 }
 
-// Joints that lose strength are left to relaxation, to the bit.
-TEST(Newton, LeavesLossOfStrengthToRelaxation) {
-  for (const bool bonds : {false, true}) {
-    Model<2> model = block_on_plate<2>(20 * degree, 35 * degree);
-    JointProperties& joint = model.properties[0];
-    if (bonds) {
-      joint.laws.bond = true;
-      joint.cohesion = 1e5;
-    } else {
-      joint.laws.friction = FrictionLaw::softening;
-      joint.softening_drop = joint.softening_slip = 0.1;
-    }
-    EXPECT_FALSE(newton_follows(joint));
-    const auto [marched, by_steps] = rest_of(model, Statics::adaptive);
-    const auto [found, by_newton] = rest_of(model, Statics::newton);
-    EXPECT_EQ(by_newton.counters.static_iterations, 0);
-    EXPECT_EQ(state_hash(model, by_newton), state_hash(model, by_steps));
-  }
+// Joints that soften are left to relaxation, to the bit.
+TEST(Newton, LeavesSofteningToRelaxation) {
+  Model<2> model = block_on_plate<2>(20 * degree, 35 * degree);
+  JointProperties& joint = model.properties[0];
+  joint.laws.friction = FrictionLaw::softening;
+  joint.softening_drop = joint.softening_slip = 0.1;
+  EXPECT_FALSE(newton_follows(joint));
+  const auto [marched, by_steps] = rest_of(model, Statics::adaptive);
+  const auto [found, by_newton] = rest_of(model, Statics::newton);
+  EXPECT_EQ(by_newton.counters.static_iterations, 0);
+  EXPECT_EQ(state_hash(model, by_newton), state_hash(model, by_steps));
+}
+
+// Blocks that are to carry tension once they are bonded first close by tension over normal stiffness, here as far
+// as their weight closes the lowest of them: without stiffness on that way Newton's method would have nothing to follow.
+TEST(Newton, AColumnClosesByTheRoomOfItsBonds) {
+  Model<2> model = column(30);
+  JointProperties& joint = model.properties[0];
+  joint.laws.bond = true;
+  joint.constant_stiffness = false;
+  joint.normal_stiffness = joint.shear_stiffness = 1e9;
+  const double largest = model.bodies.back().mass * gravity * 30;  // N, and Pa on faces of 1 m2
+  joint.tension = largest;
+  const auto [report, state] = rest_of(model, Statics::newton);
+  const double closed = 30 * joint.tension / joint.normal_stiffness;
+  const double settled = closed + largest / joint.normal_stiffness * 31 / 2;
+  EXPECT_NEAR(-state.motions.back().displacement[1], settled, 1e-6 * settled) << "unbalanced forces";
+  EXPECT_EQ(state.counters.static_fallbacks, 0);
 }
 
 // ---- the same bits --------------------------------------------------------------------------------------------------
