@@ -115,7 +115,7 @@ struct Newton {
     for (const PairStiffness<Dim>& p : n.stiffness)
       pairs.push_back(&p);
     for (const PairStiffness<Dim>& p : n.closed)
-      if (is_slack(model, state, p.contact)) pairs.push_back(&p);
+      if (!state.contacts[p.contact].touching()) pairs.push_back(&p);
     const Eigen::VectorXd& free = unknowns.free;
     BlockMatrix<F> k = tangent_of<Dim>(settings.threads, pairs, stiffness_of_loads(), unknowns.place, free);
     // what is held goes nowhere

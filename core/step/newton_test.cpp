@@ -359,8 +359,8 @@ TEST(Newton, LeavesSofteningToRelaxation) {
   EXPECT_EQ(state_hash(model, by_newton), state_hash(model, by_steps));
 }
 
-// Blocks that are to carry tension once they are bonded first close by tension over normal stiffness, here as far
-// as their weight closes the lowest of them: without stiffness on that way Newton's method would have nothing to follow.
+// Blocks that are to carry tension once they are bonded first close by tension over normal stiffness, as far as their
+// weight closes the lowest of them, and carry nothing on that way.
 TEST(Newton, AColumnClosesByTheRoomOfItsBonds) {
   Model<2> model = column(30);
   JointProperties& joint = model.properties[0];

@@ -6,7 +6,6 @@
 #include "core/contact/narrow_phase.hpp"
 #include "core/contact/sensitivity.hpp"
 #include "core/contact/sub_contacts.hpp"
-#include "core/law/joint_law.hpp"
 #include "core/on_threads.hpp"
 #include "core/step/joint_forces.hpp"
 #include "core/step/neighbours.hpp"
@@ -243,21 +242,6 @@ void find_pair_stiffness(const Model<Dim>& model, const Settings& settings, Stat
 }
 
 template <int Dim>
-bool is_slack(const Model<Dim>& model, const State<Dim>& state, std::size_t place) {
-  const Contact<Dim>& c = state.contacts[place];
-  if (!c.touching()) return true;
-  const JointProperties& properties = model.properties[c.properties];
-  if (!properties.laws.bond) return false;
-  const auto carries = [&](double overlap, bool bonded) {
-    return normal_answer(properties, overlap, bonded).stress != 0;
-  };
-  if (c.cells == 0) return !carries(c.geometry.overlap, c.history.bonded);
-  return std::ranges::none_of(subs_of(state, place), [&](const SubContact<Dim>& s) {
-    return s.area > 0 && carries(s.overlap, s.history.bonded);
-  });
-}
-
-template <int Dim>
 void find_closed_joints(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   std::vector<Pair<Dim>> pairs;
   std::vector<Contact<Dim>> copies;
@@ -265,10 +249,10 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     const Contact<Dim>& c = state.contacts[i];
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
-    if (!is_slack(model, state, i) || c.unanswered() || c.status == ContactStatus::apart ||
+    if (c.touching() || c.unanswered() || c.status == ContactStatus::apart ||
         (!is_free(model, a) && !is_free(model, b)))
       continue;
-    if (!c.touching() && !state.newton.histories[i].history.normal.isZero(0)) continue;
+    if (!state.newton.histories[i].history.normal.isZero(0)) continue;
     const double probe = probe_of_size * size_of(model, a, b);
     if (c.status == ContactStatus::separated && c.proof.margin > probe) continue;
     Pair<Dim> pair = pair_of(model, state, c.part_a, c.part_b, QueryLevel::area);
@@ -305,9 +289,8 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
     closed.body_b = model.parts[c.part_b].body;
     closed.apart = between(state.poses[closed.body_a], state.poses[closed.body_b]);
     const Vector<Dim>& n = c.geometry.normal;
-    const bool new_here = !state.contacts[chosen[j]].touching();
     const auto stand = [&](JointState<Dim>& history, const Vector<Dim>& point, double area) {
-      if (new_here) history = unloaded<Dim>(n, point, area);
+      history = unloaded<Dim>(n, point, area);
       add_point<Dim>(properties, n, point - closed.apart, area, closed.stiffness);
     };
     JointState<Dim>& history = state.newton.histories[closed.contact].history;
@@ -317,10 +300,8 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
     } else {
       std::fill(cells.begin(), cells.end(), SubContact<Dim>{});
       divide<Dim>(pairs[j], properties.sub_contacts, c, std::span(cells).first(count));
-      if (new_here) {
-        history = unloaded<Dim>(n, c.geometry.point, c.geometry.area);
-        state.newton.histories[closed.contact].divided_face = c.divided_face;
-      }
+      history = unloaded<Dim>(n, c.geometry.point, c.geometry.area);
+      state.newton.histories[closed.contact].divided_face = c.divided_face;
       for (int k = 0; k < count; ++k)
         if (cells[k].area > 0)
           stand(state.newton.sub_histories[closed.contact * stride + k], cells[k].point,
@@ -332,7 +313,6 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                          \
   template void find_pair_stiffness<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
-  template bool is_slack<Dim>(const Model<Dim>&, const State<Dim>&, std::size_t);          \
   template void find_closed_joints<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

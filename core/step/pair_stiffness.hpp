@@ -20,9 +20,4 @@ void find_pair_stiffness(const Model<Dim>& model, const Settings& settings, Stat
 template <int Dim>
 void find_closed_joints(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 
-// Whether a contact carries nothing however close it is: it does not touch, or it is to carry tension once it is bonded
-// and has not yet closed by the overlap that leaves room for it.
-template <int Dim>
-bool is_slack(const Model<Dim>& model, const State<Dim>& state, std::size_t place);
-
 }  // namespace voussoir
