@@ -57,6 +57,7 @@ struct PotentialStart {
 template <int Dim>
 struct PotentialWorkspace {
   PlacedPotential<Dim> a, b;
+  PlacedPotential<Dim> near_a, near_b;  // with the planes alone that count around the contact
   RayScratch ray;
 };
 

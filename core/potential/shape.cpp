@@ -51,40 +51,42 @@ double value(const PlacedPotential<Dim>& potential, const Vector<Dim>& point) {
 
 template <int Dim>
 PotentialDerivatives<Dim> derivatives(const PlacedPotential<Dim>& potential, const Vector<Dim>& point) {
-  PotentialDerivatives<Dim> at;
-  double squares = 0;
+  constexpr int entries = Dim * (Dim + 1) / 2;
+  double slope[Dim]{}, curvature[entries]{}, squares = 0, lost = 0;
+  const double far = point.norm() + potential.centre.norm();
   for (const HalfSpace<Dim>& plane : potential.planes) {
     const double slack = signed_distance<Dim>(plane, point);
     if (slack <= 0) continue;
+    const double error = slack_rounding * (std::abs(plane.offset) + far);
     squares += slack * slack;
-    at.gradient += slack * plane.normal;
-    for (int k = 0; k < Dim; ++k)  // the lower triangle
+    lost += (2 * slack + error) * error;
+    int entry = 0;
+    for (int k = 0; k < Dim; ++k) {
+      slope[k] += slack * plane.normal[k];
       for (int l = 0; l <= k; ++l)
-        at.hessian(k, l) += plane.normal[k] * plane.normal[l];
+        curvature[entry++] += plane.normal[k] * plane.normal[l];
+    }
   }
+  PotentialDerivatives<Dim> at;
   const Vector<Dim> arm = point - potential.centre;
-  at.value = potential.plane_weight * squares + potential.sphere_weight * arm.squaredNorm() - 1;
-  at.gradient = 2 * (potential.plane_weight * at.gradient + potential.sphere_weight * arm);
-  for (int k = 0; k < Dim; ++k)
-    for (int l = 0; l <= k; ++l)
+  const double arm_squared = arm.squaredNorm();
+  int entry = 0;
+  for (int k = 0; k < Dim; ++k) {
+    at.gradient[k] = 2 * (potential.plane_weight * slope[k] + potential.sphere_weight * arm[k]);
+    for (int l = 0; l <= k; ++l, ++entry)
       at.hessian(l, k) = at.hessian(k, l) =
-          2 * (potential.plane_weight * at.hessian(k, l) + (k == l ? potential.sphere_weight : 0));
+          2 * (potential.plane_weight * curvature[entry] + (k == l ? potential.sphere_weight : 0));
+  }
+  at.value = potential.plane_weight * squares + potential.sphere_weight * arm_squared - 1;
+  at.rounding = potential.plane_weight * (lost + sum_rounding * squares) +
+                potential.sphere_weight * (slack_rounding * far * std::sqrt(arm_squared) + sum_rounding * arm_squared) +
+                sum_rounding;
   return at;
 }
 
 template <int Dim>
 double value_rounding(const PlacedPotential<Dim>& potential, const Vector<Dim>& point) {
-  const double far = point.norm() + potential.centre.norm();
-  double squares = 0, lost = 0;
-  for (const HalfSpace<Dim>& plane : potential.planes) {
-    const double error = slack_rounding * (std::abs(plane.offset) + far);
-    const double slack = std::max(signed_distance<Dim>(plane, point), 0.0);
-    squares += slack * slack;
-    if (slack > 0) lost += (2 * slack + error) * error;
-  }
-  const double arm = (point - potential.centre).norm();
-  return potential.plane_weight * (lost + sum_rounding * squares) +
-         potential.sphere_weight * arm * (slack_rounding * far + sum_rounding * arm) + sum_rounding;
+  return derivatives<Dim>(potential, point).rounding;
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \

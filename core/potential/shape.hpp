@@ -46,6 +46,7 @@ double value(const PlacedPotential<Dim>& potential, const Vector<Dim>& point);
 template <int Dim>
 struct PotentialDerivatives {
   double value = 0;
+  double rounding = 0;  // of the value, that of placing the planes included
   Vector<Dim> gradient = Vector<Dim>::Zero();
   Matrix<Dim> hessian = Matrix<Dim>::Zero();
 };
