@@ -5,27 +5,23 @@
 
 namespace voussoir {
 
-// Solves H y = g by LDLᵀ without pivoting, y in place of g, for every column of g; false when H is not positive
-// definite. Only H's lower half is looked at. The order of operations is written out: the same bits for every
-// instruction set.
-template <int Size, int Columns>
-bool solve_symmetric(Eigen::Matrix<double, Size, Size> h, Eigen::Matrix<double, Size, Columns>& g) {
+// Solves H y = g by LDLᵀ without pivoting, y in place of g; false when H is not positive definite. Only H's lower half
+// is looked at. The order of operations is written out: the same bits for every instruction set.
+template <int Size>
+bool solve_symmetric(Eigen::Matrix<double, Size, Size> h, Eigen::Matrix<double, Size, 1>& g) {
   for (int k = 0; k < Size; ++k) {
     if (!(h(k, k) > 0)) return false;
     for (int i = k + 1; i < Size; ++i) {
       const double factor = h(i, k) / h(k, k);
       for (int j = k + 1; j <= i; ++j)
         h(i, j) -= factor * h(j, k);
-      for (int c = 0; c < Columns; ++c)
-        g(i, c) -= factor * g(k, c);
+      g[i] -= factor * g[k];
     }
   }
   for (int k = Size - 1; k >= 0; --k) {
-    for (int c = 0; c < Columns; ++c) {
-      for (int i = k + 1; i < Size; ++i)
-        g(k, c) -= h(i, k) * g(i, c);
-      g(k, c) /= h(k, k);
-    }
+    for (int i = k + 1; i < Size; ++i)
+      g[k] -= h(i, k) * g[i];
+    g[k] /= h(k, k);
   }
   return true;
 }

@@ -94,8 +94,8 @@ TEST(PotentialCertainty, RandomPairs) {
 }
 
 TEST(PotentialCertaintyLong, RandomPairs) {
-  judge_pairs<2>(100000, 2000, 11);
-  judge_pairs<3>(100000, 2000, 12);
+  judge_pairs<2>(100000, 10000, 11);
+  judge_pairs<3>(100000, 10000, 12);
 }
 
 // k down to 0, where the least point need not be unique: the value alone, and both decisions. The referee needs some

@@ -88,6 +88,12 @@ double reach_of_value(const PlacedPotential<Dim>& potential, double value) {
   return potential.reach * std::max(1.0, 1 - value / potential.at_centre);
 }
 
+// the gradients at the contact point
+template <int Dim>
+struct Slopes {
+  Vector<Dim> a = Vector<Dim>::Zero(), b = Vector<Dim>::Zero();
+};
+
 // The planes that can count within a distance of a point. Those that lie farther inside do not, as normals are unit.
 template <int Dim>
 class NearPlanes {
@@ -170,15 +176,18 @@ class Search {
   }
 
   // Newton's method on both conditions at once from where the answer is thought to be near. False: it was not.
-  bool refine(const PotentialStart<Dim>& start, bool to_the_end, NearPlanes<Dim>& near,
-              PotentialContact<Dim>& contact) {
+  bool refine(const PotentialStart<Dim>& start, bool to_the_end, NearPlanes<Dim>& near, PotentialContact<Dim>& contact,
+              Slopes<Dim>& slopes) {
     contact.point = start.point;
     contact.ratio = start.ratio;
     double lambda = start.ratio / (1 + start.ratio), of_b = 1 / (1 + start.ratio), previous = infinity;
     for (int i = 0; i < refine_limit; ++i) {
       near.hold(contact.point);
-      const Place<Dim> at = look(contact);
-      if (!to_the_end && contact.bound > contact.rounding) return judge(contact), true;
+      const Place<Dim> at = look_around(contact);
+      if (!to_the_end && at.a.value > 0 && at.b.value > 0) {
+        certify(at, contact);
+        if (contact.bound > contact.rounding) return judge(contact), true;
+      }
       const double terms = 3 + at.a.value + at.b.value;
       const Vector<Dim> difference = at.a.gradient - at.b.gradient;
       const double rate = difference.dot(at.across);
@@ -187,9 +196,14 @@ class Search {
       const Vector<Dim> step = at.newton + change * at.across;
       const double length = step.norm();
       const double left = at.decrement + std::abs(at.q_a - at.q_b) * std::min(lambda, of_b);
-      if (left <= last_gap * terms + contact.rounding &&
-          (length >= previous / 2 || length <= settled * (a_.reach + b_.reach)))
-        return judge(contact), contact.value - contact.bound <= last_gap * terms + 2 * contact.rounding;
+      if (length >= previous / 2 || length <= settled * (a_.reach + b_.reach)) {
+        certify(at, contact);
+        if (left <= last_gap * terms + contact.rounding) {
+          judge(contact);
+          slopes = {at.a.gradient, at.b.gradient};
+          return contact.value - contact.bound <= last_gap * terms + 2 * contact.rounding;
+        }
+      }
       previous = length;
       lambda += change;
       of_b -= change;
@@ -202,6 +216,18 @@ class Search {
 
  private:
   Place<Dim> look(PotentialContact<Dim>& contact) const {
+    const Place<Dim> at = look_around(contact);
+    certify(at, contact);
+    return at;
+  }
+
+  void certify(const Place<Dim>& at, PotentialContact<Dim>& contact) const {
+    contact.value = std::max(at.a.value, at.b.value);
+    contact.bound = bound_below(at, contact.point, contact.value);
+    contact.rounding = value_rounding<Dim>(a_, contact.point) + value_rounding<Dim>(b_, contact.point);
+  }
+
+  Place<Dim> look_around(PotentialContact<Dim>& contact) const {
     ++contact.iterations;
     Place<Dim> at;
     at.a = derivatives<Dim>(a_, contact.point);
@@ -220,9 +246,6 @@ class Search {
     at.decrement = -at.gradient.dot(at.newton);
     at.q_a = 1 + at.a.value + at.a.gradient.dot(at.newton);
     at.q_b = 1 + at.b.value + at.b.gradient.dot(at.newton);
-    contact.value = std::max(at.a.value, at.b.value);
-    contact.bound = bound_below(at, contact.point, contact.value);
-    contact.rounding = at.a.rounding + at.b.rounding;
     return at;
   }
 
@@ -303,14 +326,13 @@ double length_through(const PlacedPotential<Dim>& a, const PlacedPotential<Dim>&
 }
 
 template <int Dim>
-void find_overlap(const NearPlanes<Dim>& near, PotentialWorkspace<Dim>& workspace, PotentialContact<Dim>& contact) {
+void find_overlap(const Slopes<Dim>& slopes, const NearPlanes<Dim>& near, PotentialWorkspace<Dim>& workspace,
+                  PotentialContact<Dim>& contact) {
   const PlacedPotential<Dim>&a = workspace.a, &b = workspace.b;
   const bool covered = near.cover(contact.point, 0);
-  const Vector<Dim> of_a = derivatives<Dim>(covered ? workspace.near_a : a, contact.point).gradient;
-  const Vector<Dim> of_b = derivatives<Dim>(covered ? workspace.near_b : b, contact.point).gradient;
   contact.status = PotentialStatus::no_normal;
-  if (!has_direction<Dim>(a, contact.point, of_a) || !has_direction<Dim>(b, contact.point, of_b)) return;
-  const Vector<Dim> mean = of_a.normalized() - of_b.normalized();
+  if (!has_direction<Dim>(a, contact.point, slopes.a) || !has_direction<Dim>(b, contact.point, slopes.b)) return;
+  const Vector<Dim> mean = slopes.a.normalized() - slopes.b.normalized();
   if (!(mean.norm() > 1)) return;  // at the least point the two are opposite
   contact.status = PotentialStatus::touching;
   contact.normal = mean.normalized();
@@ -324,9 +346,9 @@ void find_overlap(const NearPlanes<Dim>& near, PotentialWorkspace<Dim>& workspac
 // from nothing: where planes alone would have the contact, else where the enclosing spheres have equal values, with the
 // weights that balance there
 template <int Dim>
-PotentialStart<Dim> begin(const PotentialPair<Dim>& pair, const PotentialWorkspace<Dim>& workspace, bool& near) {
+PotentialStart<Dim> begin(const PotentialPair<Dim>& pair, PotentialWorkspace<Dim>& workspace, bool& near) {
   const PlacedPotential<Dim>&a = workspace.a, &b = workspace.b;
-  const FirstPoint<Dim> first = find_first_point<Dim>(a, b);
+  const FirstPoint<Dim> first = find_first_point<Dim>(a, b, workspace.columns);
   near = true;
   if (first.found && first.level > 0) return {first.point, first.ratio};
   near = !first.found;
@@ -340,7 +362,7 @@ PotentialStart<Dim> begin(const PotentialPair<Dim>& pair, const PotentialWorkspa
 template <int Dim>
 PotentialContact<Dim> resolve(const PotentialPair<Dim>& pair, PotentialQuery query, PotentialWorkspace<Dim>& workspace,
                               const PotentialStart<Dim>& given) {
-  place<Dim>(*pair.a, Matrix<Dim>::Identity(), Vector<Dim>::Zero(), workspace.a);
+  place<Dim>(*pair.a, workspace.a);
   place<Dim>(*pair.b, pair.rotation, pair.offset, workspace.b);
   bool near = true;
   const PotentialStart<Dim> start = given.ratio > 0 ? given : begin<Dim>(pair, workspace, near);
@@ -348,14 +370,15 @@ PotentialContact<Dim> resolve(const PotentialPair<Dim>& pair, PotentialQuery que
 
   PotentialContact<Dim> contact;
   NearPlanes<Dim> planes(pair, workspace);
-  bool answered = false;
-  if (near) {
-    Search<Dim> search(workspace.near_a, workspace.near_b, workspace.ray);
-    answered = search.refine(start, to_the_end, planes, contact);
+  Slopes<Dim> slopes;
+  if (!near || !Search<Dim>(workspace.near_a, workspace.near_b, workspace.ray)
+                    .refine(start, to_the_end, planes, contact, slopes)) {
+    Search<Dim>(workspace.a, workspace.b, workspace.ray).solve(start, to_the_end, contact);
+    slopes = {derivatives<Dim>(workspace.a, contact.point).gradient,
+              derivatives<Dim>(workspace.b, contact.point).gradient};
   }
-  if (!answered) Search<Dim>(workspace.a, workspace.b, workspace.ray).solve(start, to_the_end, contact);
   if (query == PotentialQuery::overlap && contact.status == PotentialStatus::touching)
-    find_overlap<Dim>(planes, workspace, contact);
+    find_overlap<Dim>(slopes, planes, workspace, contact);
   return contact;
 }
 

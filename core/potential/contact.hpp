@@ -59,6 +59,7 @@ struct PotentialWorkspace {
   PlacedPotential<Dim> a, b;
   PlacedPotential<Dim> near_a, near_b;  // with the planes alone that count around the contact
   RayScratch ray;
+  std::vector<double> columns;
 };
 
 // Both shapes are valid (core/potential/valid_shape.hpp) and the offset is finite. For k = 0 of both the least point

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/optimise/symmetric_system.hpp"
-
 namespace voussoir {
 namespace {
 
@@ -97,6 +95,30 @@ bool hold_planes(const WeightedPotentials<Dim>& sum, const Vector<Dim>& point, d
   return held;
 }
 
+// as solve_symmetric, with one division for each of H's pivots
+template <int Dim, int Columns>
+bool solve_by_factors(Matrix<Dim>& h, Eigen::Matrix<double, Dim, Columns>& g) {
+  double inverse[Dim];
+  for (int k = 0; k < Dim; ++k) {
+    if (!(h(k, k) > 0)) return false;
+    inverse[k] = 1 / h(k, k);
+    for (int i = k + 1; i < Dim; ++i) {
+      const double factor = h(i, k) * inverse[k];
+      for (int j = k + 1; j <= i; ++j)
+        h(i, j) -= factor * h(j, k);
+      for (int c = 0; c < Columns; ++c)
+        g(i, c) -= factor * g(k, c);
+    }
+  }
+  for (int k = Dim - 1; k >= 0; --k)
+    for (int c = 0; c < Columns; ++c) {
+      for (int i = k + 1; i < Dim; ++i)
+        g(k, c) -= h(i, k) * g(i, c);
+      g(k, c) *= inverse[k];
+    }
+  return true;
+}
+
 template <int Dim, int Columns>
 Eigen::Matrix<double, Dim, Columns> solve(const Matrix<Dim>& hessian, double spheres,
                                           const Eigen::Matrix<double, Dim, Columns>& right) {
@@ -114,7 +136,7 @@ Eigen::Matrix<double, Dim, Columns> solve(const Matrix<Dim>& hessian, double sph
     for (int k = 0; k < Dim; ++k)
       h(k, k) += rounding;
   // without any curvature (inside all planes, k = 0) the search along the line says how far
-  if (!solve_symmetric<Dim, Columns>(h, solution)) solution = -right;
+  if (!solve_by_factors<Dim, Columns>(h, solution)) solution = -right;
   return solution;
 }
 

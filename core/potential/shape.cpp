@@ -14,28 +14,44 @@ constexpr double slack_rounding = 8 * std::numeric_limits<double>::epsilon();
 // squares, their sum and the constant
 constexpr double sum_rounding = 8 * std::numeric_limits<double>::epsilon();
 
+// planes and centre are placed
+template <int Dim>
+void weigh(const PotentialShape<Dim>& shape, PlacedPotential<Dim>& placed) {
+  placed.plane_weight = (1 - shape.sphericity) / (shape.corner_radius * shape.corner_radius);
+  placed.sphere_weight = shape.sphericity / (shape.sphere_radius * shape.sphere_radius);
+  placed.reach = shape.sphere_radius;
+  placed.at_centre = value<Dim>(placed, placed.centre);
+}
+
 }  // namespace
 
 template <int Dim>
 void place(const PotentialShape<Dim>& shape, const Matrix<Dim>& rotation, const Vector<Dim>& origin,
            PlacedPotential<Dim>& placed) {
-  placed.planes.clear();
-  if (shape.sphericity < 1)
-    for (const HalfSpace<Dim>& plane : shape.planes) {
-      const Vector<Dim> normal = rotation * plane.normal;
-      placed.planes.push_back({normal, plane.offset + normal.dot(origin)});
-    }
-  placed.plane_weight = (1 - shape.sphericity) / (shape.corner_radius * shape.corner_radius);
-  placed.sphere_weight = shape.sphericity / (shape.sphere_radius * shape.sphere_radius);
+  placed.planes.resize(shape.sphericity < 1 ? shape.planes.size() : 0);
+  for (std::size_t i = 0; i < placed.planes.size(); ++i) {
+    const HalfSpace<Dim>& plane = shape.planes[i];
+    const Vector<Dim> normal = rotation * plane.normal;
+    placed.planes[i] = {normal, plane.offset + normal.dot(origin)};
+  }
   placed.centre = rotation * shape.centre + origin;
-  placed.reach = shape.sphere_radius;
-  placed.at_centre = value<Dim>(placed, placed.centre);
+  weigh<Dim>(shape, placed);
+}
+
+template <int Dim>
+void place(const PotentialShape<Dim>& shape, PlacedPotential<Dim>& placed) {
+  if (shape.sphericity < 1)
+    placed.planes = shape.planes;
+  else
+    placed.planes.clear();
+  placed.centre = shape.centre;
+  weigh<Dim>(shape, placed);
 }
 
 template <int Dim>
 PlacedPotential<Dim> placed(const PotentialShape<Dim>& shape) {
   PlacedPotential<Dim> placed;
-  place<Dim>(shape, Matrix<Dim>::Identity(), Vector<Dim>::Zero(), placed);
+  place<Dim>(shape, placed);
   return placed;
 }
 
@@ -52,14 +68,11 @@ double value(const PlacedPotential<Dim>& potential, const Vector<Dim>& point) {
 template <int Dim>
 PotentialDerivatives<Dim> derivatives(const PlacedPotential<Dim>& potential, const Vector<Dim>& point) {
   constexpr int entries = Dim * (Dim + 1) / 2;
-  double slope[Dim]{}, curvature[entries]{}, squares = 0, lost = 0;
-  const double far = point.norm() + potential.centre.norm();
+  double slope[Dim]{}, curvature[entries]{}, squares = 0;
   for (const HalfSpace<Dim>& plane : potential.planes) {
     const double slack = signed_distance<Dim>(plane, point);
     if (slack <= 0) continue;
-    const double error = slack_rounding * (std::abs(plane.offset) + far);
     squares += slack * slack;
-    lost += (2 * slack + error) * error;
     int entry = 0;
     for (int k = 0; k < Dim; ++k) {
       slope[k] += slack * plane.normal[k];
@@ -78,19 +91,27 @@ PotentialDerivatives<Dim> derivatives(const PlacedPotential<Dim>& potential, con
           2 * (potential.plane_weight * curvature[entry] + (k == l ? potential.sphere_weight : 0));
   }
   at.value = potential.plane_weight * squares + potential.sphere_weight * arm_squared - 1;
-  at.rounding = potential.plane_weight * (lost + sum_rounding * squares) +
-                potential.sphere_weight * (slack_rounding * far * std::sqrt(arm_squared) + sum_rounding * arm_squared) +
-                sum_rounding;
   return at;
 }
 
 template <int Dim>
 double value_rounding(const PlacedPotential<Dim>& potential, const Vector<Dim>& point) {
-  return derivatives<Dim>(potential, point).rounding;
+  const double far = point.norm() + potential.centre.norm();
+  double squares = 0, lost = 0;
+  for (const HalfSpace<Dim>& plane : potential.planes) {
+    const double error = slack_rounding * (std::abs(plane.offset) + far);
+    const double slack = std::max(signed_distance<Dim>(plane, point), 0.0);
+    squares += slack * slack;
+    if (slack > 0) lost += (2 * slack + error) * error;
+  }
+  const double arm = (point - potential.centre).norm();
+  return potential.plane_weight * (lost + sum_rounding * squares) +
+         potential.sphere_weight * arm * (slack_rounding * far + sum_rounding * arm) + sum_rounding;
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \
   template void place<Dim>(const PotentialShape<Dim>&, const Matrix<Dim>&, const Vector<Dim>&, PlacedPotential<Dim>&); \
+  template void place<Dim>(const PotentialShape<Dim>&, PlacedPotential<Dim>&);                                         \
   template PlacedPotential<Dim> placed<Dim>(const PotentialShape<Dim>&);                                               \
   template double value<Dim>(const PlacedPotential<Dim>&, const Vector<Dim>&);                                         \
   template PotentialDerivatives<Dim> derivatives<Dim>(const PlacedPotential<Dim>&, const Vector<Dim>&);                \
