@@ -62,13 +62,6 @@ double between(double low, double high) {
   return std::isfinite(high) ? std::sqrt(low) * std::sqrt(high) : 4 * low;
 }
 
-// The gradient's length on the surface beyond one face, halfway out to the sphere: what the weights of λ balance.
-template <int Dim>
-double usual_slope(const PotentialShape<Dim>& shape) {
-  const double k = shape.sphericity;
-  return std::sqrt((1 - k) * (1 - k / 2)) / shape.corner_radius + k / shape.sphere_radius;
-}
-
 // Both functions at the point, the weighted sum and what Newton's steps need of it.
 template <int Dim>
 struct Place {
@@ -326,8 +319,8 @@ double length_through(const PlacedPotential<Dim>& a, const PlacedPotential<Dim>&
 }
 
 template <int Dim>
-void find_overlap(const Slopes<Dim>& slopes, const NearPlanes<Dim>& near, PotentialWorkspace<Dim>& workspace,
-                  PotentialContact<Dim>& contact) {
+void find_overlap(const Slopes<Dim>& slopes, const NearPlanes<Dim>& near, double scale,
+                  PotentialWorkspace<Dim>& workspace, PotentialContact<Dim>& contact) {
   const PlacedPotential<Dim>&a = workspace.a, &b = workspace.b;
   const bool covered = near.cover(contact.point, 0);
   contact.status = PotentialStatus::no_normal;
@@ -341,6 +334,11 @@ void find_overlap(const Slopes<Dim>& slopes, const NearPlanes<Dim>& near, Potent
     contact.overlap = length_through<Dim>(workspace.near_a, workspace.near_b, contact.point, contact.normal, longer);
   if (!near.cover(contact.point, longer))
     contact.overlap = length_through<Dim>(a, b, contact.point, contact.normal, longer);
+
+  const double root = std::sqrt(1 + contact.value), of_b = 1 / (1 + contact.ratio);
+  const double slope = of_b * (contact.ratio * slopes.a.norm() + slopes.b.norm()) / 2;  // both terms are equal
+  contact.energy_overlap = -scale * contact.value / (1 + root);                         // S (1 - root)
+  contact.energy_rate = scale * slope / (2 * root);
 }
 
 // from nothing: where planes alone would have the contact, else where the enclosing spheres have equal values, with the
@@ -352,12 +350,18 @@ PotentialStart<Dim> begin(const PotentialPair<Dim>& pair, PotentialWorkspace<Dim
   near = true;
   if (first.found && first.level > 0) return {first.point, first.ratio};
   near = !first.found;
-  const double usual = usual_slope<Dim>(*pair.b) / usual_slope<Dim>(*pair.a);
+  const double usual = energy_scale<Dim>(*pair.a) / energy_scale<Dim>(*pair.b);
   if (first.found) return {first.point, usual};
   return {a.centre + a.reach / (a.reach + b.reach) * (b.centre - a.centre), usual};
 }
 
 }  // namespace
+
+template <int Dim>
+double energy_scale(const PotentialShape<Dim>& shape) {
+  const double k = shape.sphericity;
+  return 1 / (std::sqrt((1 - k) * (1 - k / 2)) / shape.corner_radius + k / shape.sphere_radius);
+}
 
 template <int Dim>
 PotentialContact<Dim> resolve(const PotentialPair<Dim>& pair, PotentialQuery query, PotentialWorkspace<Dim>& workspace,
@@ -378,10 +382,12 @@ PotentialContact<Dim> resolve(const PotentialPair<Dim>& pair, PotentialQuery que
               derivatives<Dim>(workspace.b, contact.point).gradient};
   }
   if (query == PotentialQuery::overlap && contact.status == PotentialStatus::touching)
-    find_overlap<Dim>(slopes, planes, workspace, contact);
+    find_overlap<Dim>(slopes, planes, energy_scale<Dim>(*pair.a) + energy_scale<Dim>(*pair.b), workspace, contact);
   return contact;
 }
 
+template double energy_scale<2>(const PotentialShape<2>&);
+template double energy_scale<3>(const PotentialShape<3>&);
 template PotentialContact<2> resolve<2>(const PotentialPair<2>&, PotentialQuery, PotentialWorkspace<2>&,
                                         const PotentialStart<2>&);
 template PotentialContact<3> resolve<3>(const PotentialPair<3>&, PotentialQuery, PotentialWorkspace<3>&,
