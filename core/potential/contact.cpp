@@ -35,6 +35,9 @@ constexpr double longest_change = 8;
 // from a good point both conditions are met after a few steps; who needs more is better served by the careful search
 constexpr int refine_limit = 12;
 
+// as is who does not come nearer: planes that count in turns
+constexpr int most_longer_steps = 2;
+
 // a step of this fraction of the bodies' reach is rounding
 constexpr double settled = 2 * std::numeric_limits<double>::epsilon();
 
@@ -174,7 +177,8 @@ class Search {
     contact.point = start.point;
     contact.ratio = start.ratio;
     double lambda = start.ratio / (1 + start.ratio), of_b = 1 / (1 + start.ratio), previous = infinity;
-    for (int i = 0; i < refine_limit; ++i) {
+    int foreseen = 0, longer_steps = 0;
+    for (int i = 0; i < refine_limit && longer_steps <= most_longer_steps; ++i) {
       near.hold(contact.point);
       const Place<Dim> at = look_around(contact);
       if (!to_the_end && at.a.value > 0 && at.b.value > 0) {
@@ -189,14 +193,16 @@ class Search {
       const Vector<Dim> step = at.newton + change * at.across;
       const double length = step.norm();
       const double left = at.decrement + std::abs(at.q_a - at.q_b) * std::min(lambda, of_b);
+      foreseen = left <= last_gap * terms ? foreseen + 1 : 0;
       if (length >= previous / 2 || length <= settled * (a_.reach + b_.reach)) {
         certify(at, contact);
         if (left <= last_gap * terms + contact.rounding) {
           judge(contact);
           slopes = {at.a.gradient, at.b.gradient};
-          return contact.value - contact.bound <= last_gap * terms + 2 * contact.rounding;
+          return foreseen > 1 || contact.value - contact.bound <= last_gap * terms + 2 * contact.rounding;
         }
       }
+      longer_steps += length >= previous / 2;
       previous = length;
       lambda += change;
       of_b -= change;
