@@ -71,7 +71,7 @@ const std::vector<Order> orders{
       {"warm_start_inl"},
       {"cold_start_inl", "central_inl"},
       {"kernel"}}},
-    {"core/potential", {{"shape"}, {"descent", "surface"}, {"support", "contact"}, {"mass", "valid_shape", "ipopt"}}},
+    {"core/potential", {{"shape"}, {"descent", "surface", "first_point"}, {"support", "contact"}, {"mass", "valid_shape", "ipopt"}}},
     {"core/slicing", {{"block", "joint"}, {"clump", "slice"}}},
     {"core/joint_sets", {{"portable_math"}, {"random_stream"}, {"joint_set"}, {"statistics"}}},
     {"core/limit", {{"interfaces", "linear_program"}, {"glpk_program"}, {"limit"}, {"mechanism"}}},
