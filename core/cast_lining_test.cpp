@@ -98,6 +98,35 @@ TEST(Linings, KeepTheirBits) {
   EXPECT_EQ(simulated(threads).results.state_hash, whole.results.state_hash);
 }
 
+// Bolts that the same stage installs look for their blocks among the bodies of the lining, too: they carry what they do
+// when a stage before, in which nothing moves, has put them in.
+TEST(Linings, AreInstalledTogetherWithBolts) {
+  const std::string roof = "[[bolts]]\nname = \"roof\"\nstiffness = 1e8\n",
+                    left = roof + "from = [-0.2, 3]\nto = [-5, 7.8]\n",
+                    right = "[[bolts]]\nname = \"right\"\nstiffness = 1e8\nfrom = [0.5, 3]\nto = [4, 6.5]\n";
+  const std::string dug = stage("weight", "gravity_ramp_s = 1") +
+                          stage("dig", "excavate = [\"tunnel\"]\nlet_off = { share = 0.5, duration_s = 1 }");
+  const auto last = [](const std::string& names) {
+    return stage("line", "install = [" + names + "]\nlet_off = { share = 0, duration_s = 1 }");
+  };
+  const std::string support = held + shell + left + right;
+  const Progress<2> together = simulated(scene_of(rock + support + dug + last(R"("roof", "shell", "right")")));
+  const Progress<2> reordered =
+      simulated(scene_of(rock + right + left + shell + held + dug + last(R"("shell", "right", "roof")")));
+  const Progress<2> before =
+      simulated(scene_of(rock + support + dug + stage("bolt", R"(install = ["right", "roof"])") + last(R"("shell")")));
+  EXPECT_EQ(reordered.results.state_hash, together.results.state_hash);
+  ASSERT_EQ(together.state.bolt_springs.size(), 2u);
+  ASSERT_EQ(before.state.bolt_springs.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double force = together.state.bolt_springs[i].force;
+    EXPECT_GT(std::abs(force), 100) << i;
+    EXPECT_NEAR(before.state.bolt_springs[i].force, force, 1e-3 * std::abs(force)) << i;
+  }
+  EXPECT_EQ(together.results.linings.size(), 48u);
+  EXPECT_LT(together.results.energy.relative_error(), 0.01);
+}
+
 TEST(Linings, AreCastWithoutForce) {
   Cast cast;
   EXPECT_EQ(nodes_without_rock(cast.state.linings.front()), 0);

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "cases/case_tools.hpp"
+#include "reference/tunnel/bedded_arc.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -99,6 +102,85 @@ TEST(Lining, SmoothingTakesTheRippleOfThePolygon) {
        "by symmetry all sides have one pressure but for what Newton's method leaves, 1e-8 of the forces, times "
        "N a over M, 40"},
       smoothed / raw, cost(run));
+}
+
+// An arc over a bed of n sides a turn. A node at a corner rests on two sides, each turned by π/n away from it: what of
+// the bed's normal stiffness acts along the arc there holds it besides the shear stiffness, and the other way round.
+reference::BeddedArc invert(double shear_stiffness, int sides, double half_angle_deg) {
+  constexpr double thickness = 0.3, modulus = 25e9, normal_stiffness = 1e7, density = 2400, gravity = 9.81;
+  const double turn = std::numbers::pi / sides, along = std::pow(std::sin(turn), 2);
+  return {5 / std::cos(turn),
+          half_angle_deg * degree,
+          modulus * thickness,
+          modulus * std::pow(thickness, 3) / 12,
+          normal_stiffness + (shear_stiffness - normal_stiffness) * along,
+          shear_stiffness + (normal_stiffness - shear_stiffness) * along,
+          density * gravity * thickness};
+}
+
+// largest at a node but for the ends, of the largest
+struct ArcError {
+  double thrust = 0, moment = 0;
+};
+
+ArcError arc_error(const SceneRun& run, const reference::BeddedArc& arc) {
+  ArcError error;
+  double thrust = 0, moment = 0;
+  const std::vector<LiningRow>& nodes = run.results.linings;
+  for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+    const SectionForces& forces = nodes[i].forces;
+    const reference::MemberForces exact = bedded_arc(arc, std::atan2(nodes[i].x, -nodes[i].y));
+    error.thrust = std::max(error.thrust, std::abs(forces.thrust - exact.thrust));
+    error.moment = std::max(error.moment, std::abs(forces.moment - exact.moment));
+    thrust = std::max(thrust, std::abs(exact.thrust));
+    moment = std::max(moment, std::abs(exact.moment));
+  }
+  return {error.thrust / thrust, error.moment / moment};
+}
+
+void check_invert(CaseReport& report, double shear_stiffness) {
+  const std::string stiffness = fmt::format("joint_properties.bed.shear_stiffness={}", shear_stiffness),
+                    name = fmt::format("shear stiffness {:g} MPa/m", 1e-6 * shear_stiffness),
+                    form = "arc on an elastic bed under its weight, reference/tunnel/bedded_arc.hpp";
+  const SceneRun run = cases::run("invert.toml", {stiffness});
+  const SceneRun coarse =
+      cases::run("invert.toml", {stiffness, "excavations.opening.cylinder.sides=90", "linings.invert.nodes=31",
+                                 "linings.invert.from_deg=210", "linings.invert.to_deg=330"});
+  const ArcError fine = arc_error(run, invert(shear_stiffness, 180, 59)),
+                 rough = arc_error(coarse, invert(shear_stiffness, 90, 60));
+  report.record(
+      {"thrust of an invert, largest error of the largest, " + name,
+       "1",
+       Kind::exact,
+       form,
+       0,
+       {1.5e-3, 0},
+       "beams of 2°: a thrust that changes with γ a cos θ, γ a = 35 kN, is known to (2°)²/2 of that, 21 N of 15 kN"},
+      fine.thrust, cost(run));
+  report.record(
+      {"moment of an invert, largest error of the largest, " + name,
+       "1",
+       Kind::exact,
+       form,
+       0,
+       {2e-2, 0},
+       "the largest thrust, 15 to 17 kN, times l²/8a = 0.76 mm that a beam's middle lies off the circle: 13 N m of 700 "
+       "to 800"},
+      fine.moment, cost(run));
+  report.record({"error of an invert's moment with 30 beams over that with 59, " + name,
+                 "1",
+                 Kind::limit,
+                 "second order: 4",
+                 3,
+                 {0, 0, verification::Bound::at_least},
+                 "half way between the first order's 2 and 4: it is the largest error, not that of one place"},
+                rough.moment / fine.moment, cost(coarse));
+}
+
+TEST(Lining, AnInvertLiesInItsBed) {
+  CaseReport report("support");
+  for (const double shear_stiffness : {1e6, 1e4})
+    check_invert(report, shear_stiffness);
 }
 
 TEST(Lining, APlateHangsFromItsInterface) {
