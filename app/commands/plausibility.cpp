@@ -11,6 +11,7 @@
 #include "core/cast_lining.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/motion/time_step.hpp"
+#include "core/potential/particle.hpp"
 #include "core/scene/plausibility.hpp"
 #include "core/step/contacts.hpp"
 #include "core/step/joint_forces.hpp"
@@ -389,7 +390,8 @@ template <int Dim>
 void judge_multipliers(const ContactSettings& contact, const Model<Dim>& model, Plausibility& result) {
   if (contact.smoothing != ContactSettings{}.smoothing && contact.point != ContactPoint::central_path)
     result.warnings.push_back("contact.smoothing acts only with contact.point = \"central_path\"");
-  if (contact.normal != ContactNormal::multipliers) return;
+  const auto of_half_spaces = [&](const PartId& id) { return !is_particle(model.bodies[id.body].parts[id.part]); };
+  if (contact.normal != ContactNormal::multipliers || std::ranges::none_of(model.parts, of_half_spaces)) return;
   const char* const keeps = "contact.normal = \"multipliers\" keeps energy only with";
   if (contact.point != ContactPoint::central_path && contact.point != ContactPoint::chebyshev)
     result.warnings.push_back(fmt::format("{} contact.point = \"central_path\"", keeps));
