@@ -25,7 +25,7 @@ bool holds(const std::string& letters, char letter) {
 // one draw held against what the table says of an opening
 void add(DrawsAgree& sum, const DrawRow& row, const OpeningRow& said, double weight) {
   sum.draws += weight;
-  sum.roof += weight * (row.area[0] > 0);
+  sum.roof += weight * (row.words[0] != "-");
   sum.roof_kind += weight * row.words[0].starts_with(kind_word(said.first));
   sum.roof_sets += weight * holds(row.roof_kind, said.first);
   sum.second_place += weight * holds(row.second_place, said.second);
@@ -171,7 +171,7 @@ DrawsAgree by_chance(const std::vector<DrawRow>& rows) {
 
 std::string agreement_table(const std::vector<DrawRow>& rows) {
   std::string text =
-      "| no. | sets, φ | thesis: roof; besides | draws | roof loses blocks | roof: kind | and sets | besides: place | "
+      "| no. | sets, φ | thesis: roof; besides | draws | roof fails | roof: kind | and sets | besides: place | "
       "and kind | roof, ours | walls, ours | roof, left, right, m² "
       "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   DrawsAgree all;

@@ -29,7 +29,7 @@ std::vector<DrawRow> read_draws(const std::string& csv);
 // How many of the draws of an opening agree with table 5.1, or how many are to be expected to (see `by_chance`).
 struct DrawsAgree {
   double draws = 0;
-  double roof = 0, roof_kind = 0, roof_sets = 0;  // loses blocks; by the same kind; of the same sets
+  double roof = 0, roof_kind = 0, roof_sets = 0;  // fails; by the same kind; of the same sets
   double second_place = 0, second_kind = 0;
 };
 DrawsAgree draws_agree(const std::vector<DrawRow>& rows, int number);
