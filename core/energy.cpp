@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace voussoir {
 namespace {
@@ -12,6 +13,19 @@ constexpr bool in_order() {
   return true;
 }
 static_assert(in_order(), "the rows stand in the order of the enum");
+
+// A column's sum with the rows known before the program runs, so that what does not count costs nothing: every step
+// strikes the balance.
+template <int SourceRow::*column, std::size_t... row>
+double sum_of(const EnergyFlows& flows, std::index_sequence<row...>) {
+  double sum = 0;
+  ((source_table[row].*column != 0 ? void(sum += source_table[row].*column * flows.values[row]) : void()), ...);
+  return sum;
+}
+template <int SourceRow::*column>
+double sum_of(const EnergyFlows& flows) {
+  return sum_of<column>(flows, std::make_index_sequence<source_count>{});
+}
 
 }  // namespace
 
@@ -25,7 +39,7 @@ double EnergyLedger::sum(int SourceRow::*column) const {
 void balance(EnergyLedger& ledger) {
   EnergyFlows& f = ledger.flows;
   if (ledger.phase == LedgerPhase::not_begun) f = {};  // half a kick that belongs to the time before
-  const double to_motion = ledger.sum(&SourceRow::motion), from_springs = ledger.sum(&SourceRow::springs);
+  const double to_motion = sum_of<&SourceRow::motion>(f), from_springs = sum_of<&SourceRow::springs>(f);
 
   // at the start, and where the model has changed, the errors stay what they were
   if (ledger.phase != LedgerPhase::running) {
@@ -41,8 +55,9 @@ void balance(EnergyLedger& ledger) {
   ledger.contact_error = (ledger.elastic - ledger.elastic_origin) + from_springs;
   ledger.worst_error = std::max(ledger.worst_error, std::abs(ledger.unexplained()));
   ledger.largest_energy =
-      std::max({ledger.largest_energy, ledger.kinetic, ledger.elastic, std::abs(ledger.potential()),
-                f[Source::friction], ledger.damping(), std::abs(f[Source::stiffening]), std::abs(ledger.external())});
+      std::max({ledger.largest_energy, ledger.kinetic, ledger.elastic, std::abs(sum_of<&SourceRow::potential>(f)),
+                f[Source::friction], sum_of<&SourceRow::damping>(f), std::abs(f[Source::stiffening]),
+                std::abs(sum_of<&SourceRow::external>(f))});
 }
 
 }  // namespace voussoir

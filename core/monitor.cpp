@@ -88,10 +88,13 @@ Placement<Dim> counted_from(int since, int body, const State<Dim>& state, const 
   return static_cast<std::size_t>(body) < end->bodies.size() ? end->bodies[body] : start;
 }
 
+// one number, or a vector's; asks for no memory
+using Components = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 3, 1>;
+
 // of one body
 template <int Dim>
-Eigen::VectorXd value_of(const Monitor& monitor, int body, const Model<Dim>& model, const State<Dim>& state,
-                         const std::vector<StageEnd<Dim>>& ends) {
+Components value_of(const Monitor& monitor, int body, const Model<Dim>& model, const State<Dim>& state,
+                    const std::vector<StageEnd<Dim>>& ends) {
   const Monitored& followed = monitor.followed;
   const Motion<Dim>& motion = state.motions[body];
   switch (followed.quantity) {
@@ -116,7 +119,7 @@ Eigen::VectorXd value_of(const Monitor& monitor, int body, const Model<Dim>& mod
 template <int Dim>
 void append_bodies(std::vector<double>& values, const Monitor& monitor, const Model<Dim>& model,
                    const State<Dim>& state, const std::vector<StageEnd<Dim>>& ends) {
-  Eigen::VectorXd sum = value_of(monitor, monitor.subject, model, state, ends);
+  Components sum = value_of(monitor, monitor.subject, model, state, ends);
   if (monitor.over != Over::one) {
     sum.setZero();
     double count = 0;

@@ -29,7 +29,7 @@ struct Dug {
   std::optional<State<2>> before, after;
 };
 
-Dug simulated(LoadedScene& scene, Results& results) {
+Dug simulated(const LoadedScene& scene, Results& results) {
   Dug dug;
   Watcher<2> watcher;
   watcher.frame = [&](const Model<2>& model, const State<2>& state, double) {
@@ -154,6 +154,17 @@ std::array<int, 2> widest_pair(const Opening& opening) {
   return widest;
 }
 
+std::vector<JointSet> sets_of(const OpeningRow& row) {
+  std::vector<JointSet> sets;
+  for (const int dip : row.dips)
+    sets.push_back({std::abs(dip) * degree, dip > 0});
+  return sets;
+}
+
+std::string name_of(const JointSet& set) {
+  return fmt::format("{:.0f}{}", set.dip / degree, set.to_right ? 'E' : 'W');
+}
+
 bool is_wedge_of(const Mechanism& m, const std::array<int, 2>& sets) {
   return m.kind == Kind::wedge && std::minmax(m.first_set, m.second_set) == std::minmax(sets[0], sets[1]);
 }
@@ -181,20 +192,21 @@ double Opening::lost_area() const {
   return std::accumulate(found.begin(), found.end(), 0.0, [](double sum, const Mechanism& m) { return sum + m.area; });
 }
 
-Opening dig(const OpeningRow& row, int seed, double seconds, const std::string& file,
-            const std::vector<std::string>& more) {
+LoadedScene opening_scene(const OpeningRow& row, int seed, double seconds, const std::vector<std::string>& more) {
   std::vector<std::string> settings{fmt::format("joint_properties.rock.friction_deg={}", row.friction),
                                     fmt::format("stage.dig.duration_s={}", seconds)};
-  Opening opening{row, {}, {}};
   for (int s = 0; s < 3; ++s) {
     const std::string set = fmt::format("joint_sets.{}.", static_cast<char>('A' + s));
     settings.push_back(fmt::format("{}dip={}", set, std::abs(row.dips[s])));
     settings.push_back(fmt::format("{}dip_direction={}", set, row.dips[s] > 0 ? 90 : 270));
     settings.push_back(fmt::format("{}seed={}", set, seed));
-    opening.sets.push_back({std::abs(row.dips[s]) * degree, row.dips[s] > 0});
   }
   settings.insert(settings.end(), more.begin(), more.end());
-  LoadedScene scene = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "unsupported.toml", settings);
+  return load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "unsupported.toml", settings);
+}
+
+Opening dig(const OpeningRow& row, const LoadedScene& scene, const std::string& file) {
+  Opening opening{row, sets_of(row), {}};
   Results results;
   const Dug dug = simulated(scene, results);
   const std::vector<BlockMotion> blocks = motions(dug);
@@ -210,11 +222,14 @@ Opening dig(const OpeningRow& row, int seed, double seconds, const std::string& 
   return opening;
 }
 
+Opening dig(const OpeningRow& row, int seed, double seconds, const std::string& file,
+            const std::vector<std::string>& more) {
+  return dig(row, opening_scene(row, seed, seconds, more), file);
+}
+
 std::string words(const Opening& opening, Place place) {
   const Mechanism& m = opening.at(place);
-  const auto name = [&](int s) {
-    return fmt::format("{:.0f}{}", opening.sets[s].dip / degree, opening.sets[s].to_right ? 'E' : 'W');
-  };
+  const auto name = [&](int s) { return name_of(opening.sets[s]); };
   switch (m.kind) {
     case Kind::none:
       return "-";
@@ -230,13 +245,55 @@ std::string words(const Opening& opening, Place place) {
   return {};
 }
 
+std::string published(const OpeningRow& row) {
+  const Opening opening{row, sets_of(row), {}};
+  const std::array<int, 3> steep = by_dip(opening);
+  const std::array<int, 2> widest = widest_pair(opening);
+  const auto name = [&](int s) { return name_of(opening.sets[s]); };
+  const auto first = [&]() -> std::string {
+    switch (row.first) {
+      case 'W':
+        return "wedge " + name(widest[0]) + "/" + name(widest[1]);
+      case 'S':
+        return "slide " + name(steep[0]);
+      case 'T':
+        return "slide " + name(steep[1]);
+      default:
+        return "minor fall";
+    }
+  };
+  const auto second = [&]() -> std::string {
+    switch (row.second) {
+      case 's':
+        return "slide " + name(steep[2]);
+      case '2':
+        return "slide " + name(steep[1]);
+      case 'r':
+        return "roof, slide " + name(steep[0]);
+      case 'w':
+        return "other wedge";
+      case 't':
+        return "topple";
+      case 'b':
+        return "both sides";
+      default:
+        return "-";
+    }
+  };
+  return first() + "; " + second();
+}
+
 Agreement agreement(const Opening& opening) {
+  return agreement(opening, opening.row.first, opening.row.second);
+}
+
+Agreement agreement(const Opening& opening, char first, char second) {
   const Mechanism &roof = opening.at(Place::roof), &left = opening.at(Place::left_wall),
                   &right = opening.at(Place::right_wall);
   const std::array<int, 3> steep = by_dip(opening);
   const std::array<int, 2> widest = widest_pair(opening);
   Agreement found;
-  switch (opening.row.first) {
+  switch (first) {
     case 'W':
       found.roof_kind = is_wedge_of(roof, widest);
       break;
@@ -249,11 +306,10 @@ Agreement agreement(const Opening& opening) {
     default:
       found.roof_kind = roof.kind == Kind::fall;
   }
-  constexpr double minor = 1;  // m2: a wall that loses less has no mechanism of its own
-  const auto fails = [&](const Mechanism& m) { return m.area >= minor; };
+  const auto fails = [&](const Mechanism& m) { return m.area >= minor_area; };
   const bool wall = fails(left) || fails(right);
   const auto either = [&](const auto& is) { return (fails(left) && is(left)) || (fails(right) && is(right)); };
-  switch (opening.row.second) {
+  switch (second) {
     case '-':
       found.second_place = found.second_kind = !wall;
       break;
@@ -266,7 +322,7 @@ Agreement agreement(const Opening& opening) {
     default:
       found.second_place = wall;
       found.second_kind = either([&](const Mechanism& m) {
-        switch (opening.row.second) {
+        switch (second) {
           case 's':
             return is_slide_of(m, steep[2]);
           case '2':

@@ -33,18 +33,30 @@ struct Opening {
   double lost_area() const;  // m2
 };
 
-// Digs the opening of a row in `seed`'s draw of its joints and watches it for `seconds`. Where `file` is not empty its
-// blocks are left for a figure, in <file>_left.csv and <file>_lost.csv.
+// The scene of a row in `seed`'s draw of its joints, watched for `seconds` after it is dug.
+LoadedScene opening_scene(const OpeningRow& row, int seed, double seconds, const std::vector<std::string>& more = {});
+
+// Digs it. Where `file` is not empty its blocks are left for a figure, in <file>_left.csv and <file>_lost.csv.
+Opening dig(const OpeningRow& row, const LoadedScene& scene, const std::string& file = "");
 Opening dig(const OpeningRow& row, int seed, double seconds, const std::string& file = "",
             const std::vector<std::string>& more = {});
 
 // "wedge 85E/65W", "slide 25W", ...
 std::string words(const Opening& opening, reference::Place place);
 
+// what table 5.1 has, in the same words: in the roof; besides
+std::string published(const OpeningRow& row);
+
+inline constexpr double minor_area = 1;  // m2: a wall that loses less has no mechanism of its own
+
 // Whether what was found is what the thesis has: in the roof, and besides. By place, and by kind of what moved there.
 struct Agreement {
   bool roof_kind = false, second_place = false, second_kind = false;
 };
 Agreement agreement(const Opening& opening);
+
+// all letters of the table, and whether what was found is what two of them say
+inline constexpr const char *first_letters = "WSTm", *second_letters = "-s2wrtb";
+Agreement agreement(const Opening& opening, char first, char second);
 
 }  // namespace voussoir::cases

@@ -36,8 +36,10 @@ OnOutline on_outline(const std::vector<LiningSide>& sides, const Vector<2>& cent
   double nearest = std::numeric_limits<double>::infinity();
   int hit = -1;
   for (std::size_t k = 0; k < sides.size(); ++k) {
-    const double rate = sides[k].normal.dot(ray), distance = sides[k].normal.dot(sides[k].corner - centre) / rate;
-    if (!(rate > 0 && distance < nearest)) continue;
+    const double rate = sides[k].normal.dot(ray);
+    if (!(rate > 0)) continue;  // along the side, or away from it
+    const double distance = sides[k].normal.dot(sides[k].corner - centre) / rate;
+    if (!(distance < nearest)) continue;
     nearest = distance;
     hit = static_cast<int>(k);
   }
