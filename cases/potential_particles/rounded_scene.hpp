@@ -1,0 +1,26 @@
+// Scenes whose half-space blocks are replaced by potential particles of the same faces.
+#pragma once
+
+#include <string>
+
+#include "core/simulate.hpp"
+
+namespace voussoir::cases {
+
+struct Rounding {
+  double radius = 0;      // r, m; 0: the half-space blocks themselves
+  double sphericity = 0;  // k
+};
+
+// The blocks of a model as they stand now, as lines of a scene's `blocks`; those without a name are named after their
+// place in the model ("block_0"). The middle of each rounded face lies on the sharp one: where the foot of the
+// perpendicular from the centroid is D away, its plane lies u = r sqrt((1 - k D²/R²)/(1 - k)) inside. R is the least
+// that encloses. Throws std::domain_error where some u exceeds D: no such body.
+template <int Dim>
+std::string blocks_as_particles(const Model<Dim>& model, const State<Dim>& state, const Rounding& rounding);
+
+// the smallest inscribed radius of the bodies that are not fixed, m
+template <int Dim>
+double smallest_size(const Model<Dim>& model);
+
+}  // namespace voussoir::cases
