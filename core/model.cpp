@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/load/water.hpp"
+#include "core/potential/particle.hpp"
 
 namespace voussoir {
 namespace {
@@ -38,6 +39,7 @@ const Joint<Dim>& joint_named(const Model<Dim>& model, const std::string& name) 
 template <int Dim>
 bool contains(const Body<Dim>& body, const Vector<Dim>& point) {
   return std::any_of(body.parts.begin(), body.parts.end(), [&](const Polytope<Dim>& part) {
+    if (is_particle(part)) return potential_at<Dim>(part, point - body.reference) <= 0;
     return std::all_of(part.faces.begin(), part.faces.end(),
                        [&](const HalfSpace<Dim>& f) { return signed_distance<Dim>(f, point - body.reference) <= 0; });
   });
@@ -172,8 +174,10 @@ Body<Dim> assemble_body(std::vector<Polytope<Dim>> parts, double density) {
   for (Polytope<Dim>& p : parts) {
     body.parts.push_back(moved_origin<Dim>(std::move(p), body.reference));
     const Polytope<Dim>& moved = body.parts.back();
-    // integrated again: moved there, the second moment of a small part far from the origin would be lost
-    total.second_moment += integrate(moved.vertices, moved.loops).second_moment;
+    // found again: moved there, the second moment of a small part far from the origin would be lost
+    const MassProperties<Dim> own = is_particle(moved) ? moved_origin<Dim>(moved.particle->mass.mass, -moved.centre)
+                                                       : integrate(moved.vertices, moved.loops);
+    total.second_moment += own.second_moment;
     body.radius = std::max(body.radius, moved.radius);
     body.size = body.size == 0 ? moved.inscribed_radius : std::min(body.size, moved.inscribed_radius);
   }
@@ -201,9 +205,12 @@ void number_bodies(Model<Dim>& model) {
 template <int Dim>
 void list_parts(Model<Dim>& model) {
   model.parts.clear();
+  model.particles = false;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    for (std::size_t p = 0; p < model.bodies[b].parts.size(); ++p)
+    for (std::size_t p = 0; p < model.bodies[b].parts.size(); ++p) {
       model.parts.push_back({static_cast<int>(b), static_cast<int>(p)});
+      model.particles = model.particles || is_particle(model.bodies[b].parts[p]);
+    }
 }
 
 template Body<2> make_body<2>(std::vector<Polytope<2>>, double);

@@ -108,6 +108,7 @@ struct Model {
   Vector<Dim> origin = Vector<Dim>::Zero();  // world = origin + model coordinates, m
   std::vector<Body<Dim>> bodies;             // ids are places in this list: canonical order, never changed
   std::vector<PartId> parts;                 // every part, by body
+  bool particles = false;                    // some of them are potential particles
   std::vector<Joint<Dim>> joints;
   std::vector<JointProperties> properties;
   std::vector<PrescribedMotion<Dim>> prescribed;  // of this stage, by ascending body, at most one for each

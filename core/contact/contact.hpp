@@ -34,7 +34,8 @@ enum class ProofKind {
   none,
   interior_point,   // `point` lies inside both parts by at least `margin`
   separating_axis,  // nothing of A lies beyond `support` along `axis`, nothing of B before support + margin
-  multipliers       // the LP's optimum is at least `margin`, by its multipliers (weak duality)
+  multipliers,      // the LP's optimum is at least `margin`, by its multipliers (weak duality)
+  least_point       // of potential particles: `point` is where max(f_A, f_B) is least, `support` the ratio λ / (1 - λ)
 };
 
 // What proves the answer, its own rounding included, and where the kernel starts next time. In the frame of the first

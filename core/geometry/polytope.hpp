@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "core/geometry/half_space.hpp"
@@ -15,6 +16,10 @@ struct MassProperties {
   Vector<Dim> centroid = Vector<Dim>::Zero();       // m
   Matrix<Dim> second_moment = Matrix<Dim>::Zero();  // ∫ x xᵀ dV about the origin, m⁵ (2-D: m⁴)
 };
+
+// what a part is as a potential particle: core/potential/particle.hpp
+template <int Dim>
+struct Particle;
 
 template <int Dim>
 struct Polytope {
@@ -30,6 +35,9 @@ struct Polytope {
   Eigen::Matrix<double, Dim + 1, Dim + 1> basis_inverse;  // of the columns (normal, 1) of these faces
   double vertex_error = 0;  // m: no point of the half-spaces lies farther outside the vertices' hull than this
   double largest_face = 0;  // area of the largest face, m² (2-D: m)
+  // Where the part is a potential particle the faces only enclose it; where it meets some, what it is to them; else
+  // none.
+  std::shared_ptr<const Particle<Dim>> particle;
 };
 
 // the order of solids, whatever order they were given in: by centroid, then volume

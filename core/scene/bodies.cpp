@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/scene/particles.hpp"
 #include "core/slicing/block.hpp"
 
 namespace voussoir {
@@ -53,6 +54,7 @@ std::vector<StatedPoint<Dim>> stated_points(const Scene& scene) {
     for (const std::vector<double>& v : block.vertices)
       add(v, key_path(block.subject.path, "vertices"));
     if (block.box) add_box(*block.box, block.subject);
+    if (block.particle.centre) add(*block.particle.centre, key_path(block.subject.path, "centre"));
     for (const BlockPlaneSpec& p : block.planes) {
       const Vector<Dim> normal = to_vector<Dim>(p.normal);
       if (p.point)
@@ -221,6 +223,7 @@ Polytope<Dim> make_solid(const Scene& scene, const BlockSpec& block, const Vecto
   if (block.box) planes = box_planes<Dim>(*block.box, origin);
   for (const BlockPlaneSpec& plane : block.planes)
     planes.push_back(to_half_space<Dim>(plane, origin));
+  if (block.shape == BlockShape::potential) return make_particle_part<Dim>(block, std::move(planes), origin);
   const BlockResult<Dim> result = make_block<Dim>(planes, std::vector<int>(planes.size(), no_joint));
   const char* key = block.box ? "box" : "planes";
   return checked<Dim>(scene, result, *block.subject.node->find(key), key_path(block.subject.path, key), "block");

@@ -12,6 +12,7 @@
 #include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/linings.hpp"
+#include "core/scene/particles.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/wall_points.hpp"
 #include "core/scene/wet_faces.hpp"
@@ -103,9 +104,11 @@ const BlockSpec& owner_of(const Scene& scene, const BlockSpec& part) {
 template <int Dim>
 void add_blocks(const Scene& scene, Model<Dim>& model) {
   std::map<std::string, std::vector<Polytope<Dim>>> parts;
-  for (const BlockSpec& block : scene.blocks)
-    parts[block.part_of.empty() ? block.name : owner_of(scene, block).name].push_back(
-        make_solid<Dim>(scene, block, model.origin));
+  for (const BlockSpec& block : scene.blocks) {
+    Polytope<Dim> part = make_solid<Dim>(scene, block, model.origin);
+    if (block.shape == BlockShape::potential) part = with_particle_mass<Dim>(std::move(part));
+    parts[block.part_of.empty() ? block.name : owner_of(scene, block).name].push_back(std::move(part));
+  }
   for (const BlockSpec& block : scene.blocks) {
     if (!block.part_of.empty()) continue;
     model.bodies.push_back(make_body<Dim>(std::move(parts[block.name]), density_of(scene, block.density)));
@@ -449,6 +452,7 @@ Prepared<Dim> prepare(const Scene& scene) {
   add_blocks<Dim>(scene, model);
   check_blocks<Dim>(scene, model);
   number_bodies<Dim>(model);
+  add_inner_particles<Dim>(scene.settings.contact, model);
 
   // what the scene says about them by selectors, and the water on them
   add_waters<Dim>(scene, model);

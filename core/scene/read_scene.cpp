@@ -10,6 +10,7 @@
 #include "core/scene/keys.hpp"
 #include "core/scene/linings.hpp"
 #include "core/scene/overrides.hpp"
+#include "core/scene/particles.hpp"
 #include "core/scene/read_joint_sets.hpp"
 #include "core/scene/read_slicing.hpp"
 #include "core/scene/read_stages.hpp"
@@ -71,11 +72,13 @@ std::vector<BlockSpec> read_blocks(const Subject& scene) {
     block.subject = item;
     read_keys(*item.node, "blocks", block);
     read_keys(*item.node, "blocks", block.motion);
+    read_keys(*item.node, "blocks", block.particle);
     for (const Subject& plane : children(item, "planes"))
       block.planes.push_back(read_block_plane(plane));
     if (const auto box = child(item, "box")) block.box = read_box(*box);
     const int shapes = !!item.node->find("vertices") + !!item.node->find("planes") + !!item.node->find("box");
-    if (shapes == 0)
+    check_particle_keys(block);
+    if (shapes == 0 && block.shape == BlockShape::half_spaces)
       refuse(
           item, "vertices",
           "a block needs its shape: one of vertices, planes or box; write for example box = { min = […], max = […] }");

@@ -126,9 +126,19 @@ struct MotionSpec {
   std::optional<std::vector<double>> angular_velocity;  // rad/s; 2-D one entry
 };
 
+enum class BlockShape { half_spaces, potential };
+
+// a potential particle (core/potential/shape.hpp), as far as it is stated
+struct ParticleSpec {
+  std::optional<double> corner_radius, sphericity, sphere_radius;  // r, m; k; R, m
+  std::optional<std::vector<double>> centre;                       // c, m
+};
+
 struct BlockSpec {
   Subject subject;
   std::string name;
+  BlockShape shape = BlockShape::half_spaces;
+  ParticleSpec particle;
   std::vector<std::vector<double>> vertices;  // m; exactly one of these three is stated
   std::vector<BlockPlaneSpec> planes;
   std::optional<BoxSpec> box;

@@ -15,14 +15,6 @@ namespace {
 // a few roundings: what is multiplied by this is a lower bound of what it would be without any
 constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
 
-// the joint a contact lies on: of the two faces' joints the later cut
-template <int Dim>
-int joint_of(const Model<Dim>& model, const Contact<Dim>& c) {
-  if (model.joints.empty()) return no_joint;
-  return std::max(model.polytope(c.part_a).joints[c.geometry.face_a],
-                  model.polytope(c.part_b).joints[c.geometry.face_b]);
-}
-
 template <int Dim>
 bool needs_area(const Model<Dim>& model) {
   return std::any_of(model.properties.begin(), model.properties.end(),
@@ -76,8 +68,7 @@ template <int Dim>
 void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& state, double gap,
              const Waiting<Dim>& waiting, Tally& tally) {
   const std::span contacts = std::span(waiting.contacts).first(waiting.count);
-  narrow_phase<Dim>(std::span(waiting.pairs).first(waiting.count), settings.contact, model.solvers, contacts,
-                    tally.kernel);
+  resolve_pairs<Dim>(model, settings.contact, std::span(waiting.pairs).first(waiting.count), contacts, tally.kernel);
   const std::size_t stride = state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
   for (int i = 0; i < waiting.count; ++i) {
     Contact<Dim>* const c = contacts[i];

@@ -1,9 +1,11 @@
 // Which parts may touch: pairs of neighbours, and how near each is.
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <stdexcept>
 
-#include "core/contact/narrow_phase.hpp"
+#include "core/contact/particles.hpp"
 #include "core/model.hpp"
 #include "core/settings.hpp"
 #include "core/state.hpp"
@@ -52,6 +54,22 @@ Pair<Dim> pair_of(const Model<Dim>& model, const State<Dim>& state, int part_a, 
   Pair<Dim> pair;
   set_pair(model, state, part_a, part_b, level, pair);
   return pair;
+}
+
+// narrow_phase, or, where the model has potential particles, that of all kinds of pairs
+template <int Dim>
+void resolve_pairs(const Model<Dim>& model, const ContactSettings& settings, std::span<const Pair<Dim>> pairs,
+                   std::span<Contact<Dim>* const> contacts, KernelCounters& counters) {
+  const auto resolve = model.particles ? &narrow_phase_with_particles<Dim> : &narrow_phase<Dim>;
+  resolve(pairs, settings, model.solvers, contacts, counters);
+}
+
+// The joint a contact lies on: of the two faces' joints the later cut. Contacts of potential particles lie on none.
+template <int Dim>
+int joint_of(const Model<Dim>& model, const Contact<Dim>& c) {
+  if (model.joints.empty() || c.geometry.face_a < 0) return no_joint;
+  return std::max(model.polytope(c.part_a).joints[c.geometry.face_a],
+                  model.polytope(c.part_b).joints[c.geometry.face_b]);
 }
 
 // m: a joint that is to be bonded (make_bonds) must not open by more before it presses; 0 where no joint has strength

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact/narrow_phase.hpp"
 #include "core/contact/sensitivity.hpp"
 #include "core/contact/sub_contacts.hpp"
 #include "core/on_threads.hpp"
@@ -117,7 +116,7 @@ struct MovedContacts {
       move(model, settings, state, p);
     for (const std::size_t k : of_kernel)
       places.push_back(&contacts[k]);
-    narrow_phase<Dim>(asked, settings.contact, model.solvers, places, counters);
+    resolve_pairs<Dim>(model, settings.contact, asked, places, counters);
   }
 
  private:
@@ -128,8 +127,8 @@ struct MovedContacts {
     const double way = std::max(of_overlap * c.geometry.overlap, of_size * size);
     const Pair<Dim> here = pair_of(model, state, c.part_a, c.part_b, QueryLevel::area);
     ContactSensitivity<Dim> sensitivity;
-    const bool closed_form =
-        has_sensitivity(settings.contact) && find_sensitivity<Dim>(here, settings.contact, c, sensitivity);
+    const bool closed_form = c.proof.kind != ProofKind::least_point && has_sensitivity(settings.contact) &&
+                             find_sensitivity<Dim>(here, settings.contact, c, sensitivity);
     for (int f = 0; f < freedoms<Dim>; ++f) {
       steps.push_back(f < Dim ? way : way / std::max(width, least_width * size));
       pairs.push_back(moved(here, state.poses[p.body_b], f, steps.back()));
@@ -270,7 +269,7 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
   for (Contact<Dim>& c : copies)
     places.push_back(&c);
   KernelCounters counters;
-  narrow_phase<Dim>(pairs, settings.contact, model.solvers, places, counters);
+  resolve_pairs<Dim>(model, settings.contact, pairs, places, counters);
   add(state.counters, counters);
 
   const std::size_t stride = stride_of(state);
@@ -278,9 +277,7 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
   for (std::size_t j = 0; j < chosen.size(); ++j) {
     Contact<Dim>& c = copies[j];
     if (!c.touching()) continue;
-    const int joint = model.joints.empty() ? no_joint
-                                           : std::max(model.polytope(c.part_a).joints[c.geometry.face_a],
-                                                      model.polytope(c.part_b).joints[c.geometry.face_b]);
+    const int joint = joint_of(model, c);
     const JointProperties& properties =
         model.properties[joint == no_joint ? model.default_properties : model.joints[joint].properties];
     PairStiffness<Dim> closed;

@@ -1,0 +1,116 @@
+#include "core/contact/particles.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "core/potential/contact.hpp"
+#include "core/potential/particle.hpp"
+
+namespace voussoir {
+namespace {
+
+constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
+
+template <int Dim>
+bool has_particle(const Pair<Dim>& pair) {
+  return is_particle(*pair.a) || is_particle(*pair.b);
+}
+
+// m: how far any points of the two may move, ways added up, before they touch. Where they then touch, one point lay
+// within `way` of both; sqrt(f + 1), of each at most 1 there, was sqrt(v + 1) or more of one of the two wherever
+// between them it was.
+template <int Dim>
+double proven_gap(const Pair<Dim>& pair, const PotentialContact<Dim>& found) {
+  const double least = found.bound - found.rounding;
+  if (!(least > 0)) return 0;
+  const double above = least / (std::sqrt(1 + least) + 1);
+  return above * (1 / pair.a->particle->steepness + 1 / pair.b->particle->steepness) * downwards;
+}
+
+ContactStatus status_of(PotentialStatus status) {
+  switch (status) {
+    case PotentialStatus::separated:
+      return ContactStatus::separated;
+    case PotentialStatus::touching:
+      return ContactStatus::touching;
+    case PotentialStatus::undecided:
+      return ContactStatus::undecided;
+    case PotentialStatus::no_normal:
+      return ContactStatus::no_normal;
+    case PotentialStatus::no_answer:
+      break;
+  }
+  return ContactStatus::centre_not_converged;
+}
+
+// One that touched before most likely touches still. Of any other the whole gap is asked for, so that it is not asked
+// for again until the bodies have moved as far.
+template <int Dim>
+PotentialContact<Dim> find(const PotentialPair<Dim>& pair, bool touched, const PotentialStart<Dim>& start,
+                           PotentialWorkspace<Dim>& workspace) {
+  PotentialContact<Dim> found =
+      resolve<Dim>(pair, touched ? PotentialQuery::overlap : PotentialQuery::least, workspace, start);
+  if (touched || found.status != PotentialStatus::touching) return found;
+  const int iterations = found.iterations;
+  found = resolve<Dim>(pair, PotentialQuery::overlap, workspace, {found.point, found.ratio});
+  found.iterations += iterations;
+  return found;
+}
+
+template <int Dim>
+void resolve_particles(const Pair<Dim>& pair, Contact<Dim>& contact, KernelCounters& counters) {
+  static thread_local PotentialWorkspace<Dim> workspace;
+  const Vector<Dim>&centre_a = pair.a->centre, &centre_b = pair.b->centre;
+  const PotentialPair<Dim> seen{&pair.a->particle->shape, &pair.b->particle->shape, pair.rotation,
+                                pair.offset + pair.rotation * centre_b - centre_a};
+  const bool warm = contact.proof.kind == ProofKind::least_point;
+  PotentialStart<Dim> start;
+  if (warm) start = {contact.proof.point - centre_a, contact.proof.support};
+  PotentialContact<Dim> found = find<Dim>(seen, contact.touching(), start, workspace);
+  counters.newton_iterations += found.iterations;
+  if (!warm || found.status == PotentialStatus::no_answer) ++counters.cold_starts;
+  if (warm && found.status == PotentialStatus::no_answer) {
+    found = find<Dim>(seen, contact.touching(), {}, workspace);
+    counters.newton_iterations += found.iterations;
+  }
+
+  contact.status = status_of(found.status);
+  if (contact.status == ContactStatus::undecided) ++counters.undecided;
+  contact.proof = {};
+  contact.proof.kind = ProofKind::least_point;
+  contact.proof.point = found.point + centre_a;
+  contact.proof.support = found.ratio;
+  contact.proof.margin = proven_gap(pair, found);
+  contact.geometry = {};
+  if (!contact.touching()) return;
+  contact.geometry.point = pair.axes * contact.proof.point;
+  contact.geometry.normal = pair.axes * found.normal;
+  contact.geometry.overlap = found.overlap;
+  contact.proof.axis = found.normal;
+}
+
+}  // namespace
+
+template <int Dim>
+void narrow_phase_with_particles(std::span<const Pair<Dim>> pairs, const ContactSettings& settings,
+                                 const Solvers<Dim>& solvers, std::span<Contact<Dim>* const> contacts,
+                                 KernelCounters& counters) {
+  for (std::size_t from = 0, to = 0; from < pairs.size(); from = to) {
+    if (has_particle(pairs[from])) {
+      ++counters.evaluations;
+      resolve_particles(pairs[from], *contacts[from], counters);
+      to = from + 1;
+      continue;
+    }
+    for (to = from + 1; to < pairs.size() && !has_particle(pairs[to]);)
+      ++to;
+    narrow_phase<Dim>(pairs.subspan(from, to - from), settings, solvers, contacts.subspan(from, to - from), counters);
+  }
+}
+
+template void narrow_phase_with_particles<2>(std::span<const Pair<2>>, const ContactSettings&, const Solvers<2>&,
+                                             std::span<Contact<2>* const>, KernelCounters&);
+template void narrow_phase_with_particles<3>(std::span<const Pair<3>>, const ContactSettings&, const Solvers<3>&,
+                                             std::span<Contact<3>* const>, KernelCounters&);
+
+}  // namespace voussoir
