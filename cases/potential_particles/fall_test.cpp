@@ -1,10 +1,10 @@
-// The five regular shapes, rounded, fall into a box and come to rest: nothing gives way, and what becomes of the energy.
+// The five regular shapes, rounded, fall into a box and come to rest: nothing gives way, and what becomes of the
+// energy.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "cases/case_tools.hpp"
 #include "cases/model_picture.hpp"
-#include "cases/potential_particles/rounded_scene.hpp"
+#include "cases/potential_particles/trial.hpp"
 #include "cases/recorded_run.hpp"
 #include "core/testing/fall_scene.hpp"
 #include "core/testing/fall_watch.hpp"
@@ -24,19 +24,13 @@ constexpr double sphericity = 0.05;
 const std::vector<std::string> stiff{"joint_properties.rock.normal_stiffness=1e8",
                                      "joint_properties.rock.shear_stiffness=5e7"};
 
-std::filesystem::path write_scene(const std::string& name, const std::string& text) {
-  const std::filesystem::path path = verification::case_output("potential_particles") / (name + ".toml");
-  std::ofstream(path, std::ios::binary) << text;
-  return path;
-}
-
 // the scene of the case free_fall, its blocks, plate and walls made particles
 std::filesystem::path rounded_fall(const FallPlan& plan) {
   const std::string sharp = fall_scene(plan, "Rounded regular polyhedra fall into a box");
   const LoadedScene loaded = load_scene(write_scene("fall_sharp", sharp));
   const auto& scene = std::get<Prepared<3>>(loaded.prepared);
-  const std::string particles = blocks_as_particles<3>(
-      scene.model, scene.state, {corner_radius * smallest_size(scene.model), sphericity});
+  const std::string particles =
+      blocks_as_particles<3>(scene.model, scene.state, {corner_radius * smallest_size(scene.model), sphericity});
   const std::size_t begin = sharp.find("blocks = ["), end = sharp.find("[[joint_properties]]");
   return write_scene("fall", sharp.substr(0, begin) + particles + "\n" + sharp.substr(end));
 }
@@ -50,11 +44,11 @@ struct Fall {
 Fall let_fall(const FallPlan& plan, std::vector<std::string> overrides) {
   overrides.insert(overrides.begin(), stiff.begin(), stiff.end());
   Fall fall{load_scene(rounded_fall(plan), overrides), {}};
-  fall.found = fall_until_rest(std::get<Prepared<3>>(fall.loaded.prepared), plan.side * plan.pitch,
-                               [&](const State<3>& state) {
-                                 for (const Contact<3>& c : state.contacts)
-                                   if (c.touching()) fall.deepest = std::max(fall.deepest, c.geometry.overlap);
-                               });
+  fall.found =
+      fall_until_rest(std::get<Prepared<3>>(fall.loaded.prepared), plan.side * plan.pitch, [&](const State<3>& state) {
+        for (const Contact<3>& c : state.contacts)
+          if (c.touching()) fall.deepest = std::max(fall.deepest, c.geometry.overlap);
+      });
   return fall;
 }
 
@@ -65,8 +59,18 @@ TEST(ScratchLong, Fall) {
   plan.blocks = getenv("N") ? atoi(getenv("N")) : 20;
   plan.side = getenv("S") ? atoi(getenv("S")) : 3;
   std::vector<std::string> o;
-  if (getenv("O")) { std::istringstream in(getenv("O")); std::string w; while (in >> w) o.push_back(w); }
+  if (getenv("O")) {
+    std::istringstream in(getenv("O"));
+    std::string w;
+    while (in >> w)
+      o.push_back(w);
+  }
   const Fall f = let_fall(plan, o);
-  fmt::print("before {} {} end {} {} kinetic {} time {} seconds {} evals {} deepest {} unconv {} deep {} undecided {} cold {}\n", f.found.before.motion, f.found.before.contacts, f.found.end.motion, f.found.end.contacts, f.found.kinetic, f.found.time, f.found.seconds, f.found.counters.contact_evaluations, f.deepest, f.found.counters.unconverged, f.found.counters.deep_overlaps,f.found.counters.undecided,f.found.counters.cold_starts);
+  fmt::print(
+      "before {} {} end {} {} kinetic {} time {} seconds {} evals {} deepest {} unconv {} deep {} undecided {} cold "
+      "{}\n",
+      f.found.before.motion, f.found.before.contacts, f.found.end.motion, f.found.end.contacts, f.found.kinetic,
+      f.found.time, f.found.seconds, f.found.counters.contact_evaluations, f.deepest, f.found.counters.unconverged,
+      f.found.counters.deep_overlaps, f.found.counters.undecided, f.found.counters.cold_starts);
 }
 }  // namespace voussoir::cases

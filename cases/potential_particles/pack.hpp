@@ -5,8 +5,8 @@
 
 namespace voussoir::cases {
 
-// Forty regular polyhedra have fallen into a box (the case free_fall) and have then settled on contacts so stiff that
-// they overlap by a tenth of the least radius that is asked, 1e-4 of the size.
+// Forty regular polyhedra have fallen into a box (the case free_fall) and have then settled on contacts as stiff as the
+// least radius that is asked wants them.
 struct Pack {
   Model<3> model;
   State<3> state;
@@ -15,7 +15,7 @@ struct Pack {
 };
 Pack settle_pack();
 
-// By how much the centroids have come down on the mean when the pack is at rest again, over their height before.
+// By how much the centroids have come down on the mean within a second, over their height before.
 Trial settled_pack(const Pack& pack, const RelativeRounding& rounding);
 
 }  // namespace voussoir::cases

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <ctime>
 
-#include "cases/case_tools.hpp"
 #include "reference/potential_particles/rounded_blocks.hpp"
 #include "text/angle.hpp"
 
@@ -13,28 +11,6 @@ namespace voussoir::cases {
 namespace {
 
 const std::filesystem::path all_cases = std::filesystem::path(VOUSSOIR_SOURCE_DIR) / "cases";
-
-std::filesystem::path write(const std::string& name, const std::string& text) {
-  const std::filesystem::path path = verification::case_output("potential_particles") / (name + ".toml");
-  std::ofstream(path, std::ios::binary) << text;
-  return path;
-}
-
-// runs the scene and asks for the number
-template <class Answer>
-Trial ask(const std::string& name, const std::string& text, Answer&& answer,
-          const std::vector<std::string>& overrides = {}) {
-  const std::filesystem::path path = write(name, text);
-  Trial trial;
-  const std::clock_t began = std::clock();
-  const SceneRun run = run_scene(path, overrides, 1);
-  trial.seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
-  trial.evaluations = run.results.counters.contact_evaluations;
-  trial.why = run.results.message;
-  trial.answered = run.results.outcome == Outcome::done;
-  if (trial.answered) trial.value = answer(run);
-  return trial;
-}
 
 template <int Dim>
 struct Sharp {
@@ -81,7 +57,7 @@ density = 2000
 joint_properties = [{{ name = "rock", normal_stiffness = {}, shear_stiffness = {}, friction_deg = 85, constant_stiffness = true }}]
 restrain = [{{ bodies = ["{}"], rotation = true }}]
 stage = [{{ name = "settle", kind = "settle", gravity_ramp_s = 1.0 }},
-         {{ name = "reduce", kind = "reduce", method = "bisection", from_deg = 43.357, to_deg = 23.357, tolerance_deg = 0.01, ramp_steps = 100 }}]
+         {{ name = "reduce", kind = "reduce", method = "bisection", from_deg = 45, to_deg = 22, tolerance_deg = 0.01, ramp_steps = 100 }}]
 )",
                          sharp.blocks(rounding), stiffness, stiffness / 10, wedge),
              [](const SceneRun& run) { return cases::value(run, "critical_friction"); });
@@ -136,11 +112,15 @@ const reference::RoundedHingedBeam sharp_hinge{{}, beam_stiffness, 0};
 
 }  // namespace
 
-Trial hinged_beam(const RelativeRounding& rounding) {
-  constexpr double inscribed = 0.023;  // m, as the blocks of the case are
+double beam_rotation(const RelativeRounding& rounding) {
+  constexpr double inscribed = 0.023;   // m, as the blocks of the case are
+  constexpr double most_turned = 0.05;  // rad: well before the peak
   // corners go in by 2/3 of L2 θ/2 where both joints are as stiff
-  const double rotation = 1.5 * radius_of(rounding, inscribed) / sharp_hinge.beam.depth;
-  return push_beam(rounding, rotation, 0.02, [](const std::vector<reference::HingedBeamLoad>& curve) {
+  return std::min(1.5 * radius_of(rounding, inscribed) / sharp_hinge.beam.depth, most_turned);
+}
+
+Trial hinged_beam(const RelativeRounding& rounding) {
+  return push_beam(rounding, beam_rotation(rounding), 0.02, [](const std::vector<reference::HingedBeamLoad>& curve) {
     return curve.back().weight / reference::rounded_hinged_beam(sharp_hinge, curve.back().rotation).weight;
   });
 }
@@ -169,7 +149,7 @@ std::string column_scene(const RelativeRounding& rounding, const std::string& re
   for (int i = 0; i <= column_blocks; ++i)
     squares += fmt::format("  {{ name = \"b{}\", fixed = {}, box = {{ min = [0, {}], max = [1, {}] }} }},\n", i, i == 0,
                            i, i + 1);
-  const Sharp<2> sharp(write("study_column_sharp", head + squares + "]\n" + properties + rest));
+  const Sharp<2> sharp(write_scene("study_column_sharp", head + squares + "]\n" + properties + rest));
   return head + sharp.blocks(rounding) + properties + rest;
 }
 
@@ -195,6 +175,18 @@ Trial leaning_column(const RelativeRounding& rounding) {
                                              monitor);
   return ask("study_column_lean", scene, [](const SceneRun& run) { return column(run, "top_displacement_x_m").back(); },
              {"blocks.b8.velocity=[0.001,0]"});
+}
+
+double joint_radius(const RelativeRounding& rounding) {
+  constexpr double edge = 1;  // m
+  HalfSpaces<2> faces;
+  for (const Vector<2>& normal : {Vector<2>(1, 0), Vector<2>(-1, 0), Vector<2>(0, 1), Vector<2>(0, -1)})
+    faces.push_back({normal, edge / 2});
+  const PotentialShape<2> square =
+      rounded<2>(faces, Vector<2>::Zero(), {rounding.radius * edge / 2, rounding.sphericity});
+  const reference::FaceBulge bulge = reference::face_bulge(square.planes.front().offset, square.corner_radius,
+                                                           square.sphericity, square.sphere_radius);
+  return bulge.curvature_radius / 2 / edge;
 }
 
 }  // namespace voussoir::cases

@@ -17,6 +17,8 @@ std::string numbers(const Vector<Dim>& v) {
   return fmt::format("[{}]", fmt::join(v.data(), v.data() + Dim, ", "));
 }
 
+}  // namespace
+
 // Planes and R settle together: R is that of the planes moved in, and says by how much they are. From one round to the
 // next what is left falls by about k r/R.
 template <int Dim>
@@ -36,8 +38,6 @@ PotentialShape<Dim> rounded(const HalfSpaces<Dim>& faces, const Vector<Dim>& cen
   }
   return shape;
 }
-
-}  // namespace
 
 template <int Dim>
 std::string blocks_as_particles(const Model<Dim>& model, const State<Dim>& state, const Rounding& rounding) {
@@ -78,6 +78,8 @@ double smallest_size(const Model<Dim>& model) {
   return least;
 }
 
+template PotentialShape<2> rounded<2>(const HalfSpaces<2>&, const Vector<2>&, const Rounding&);
+template PotentialShape<3> rounded<3>(const HalfSpaces<3>&, const Vector<3>&, const Rounding&);
 template std::string blocks_as_particles<2>(const Model<2>&, const State<2>&, const Rounding&);
 template std::string blocks_as_particles<3>(const Model<3>&, const State<3>&, const Rounding&);
 template double smallest_size<2>(const Model<2>&);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/potential/shape.hpp"
 #include "core/simulate.hpp"
 
 namespace voussoir::cases {
@@ -12,10 +13,14 @@ struct Rounding {
   double sphericity = 0;  // k
 };
 
-// The blocks of a model as they stand now, as lines of a scene's `blocks`; those without a name are named after their
-// place in the model ("block_0"). The middle of each rounded face lies on the sharp one: where the foot of the
-// perpendicular from the centroid is D away, its plane lies u = r sqrt((1 - k D²/R²)/(1 - k)) inside. R is the least
-// that encloses. Throws std::domain_error where some u exceeds D: no such body.
+// The potential particle of a sharp body: the middle of each rounded face lies on the sharp one. Where the foot of the
+// perpendicular from the sphere's centre is D away, its plane lies u = r sqrt((1 - k D²/R²)/(1 - k)) inside; R is the
+// least that encloses. Throws std::domain_error where some u exceeds D: no such body.
+template <int Dim>
+PotentialShape<Dim> rounded(const HalfSpaces<Dim>& faces, const Vector<Dim>& centre, const Rounding& rounding);
+
+// The blocks of a model as they stand now, rounded about their centroids, as lines of a scene's `blocks`; those without
+// a name are named after their place in the model ("block_0").
 template <int Dim>
 std::string blocks_as_particles(const Model<Dim>& model, const State<Dim>& state, const Rounding& rounding);
 
