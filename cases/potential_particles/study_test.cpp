@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "cases/potential_particles/pack.hpp"
@@ -22,8 +24,11 @@ using verification::Bound;
 using verification::CaseReport;
 using verification::Kind;
 
-constexpr std::array radii{1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 0.5};  // of the size
-constexpr std::array sphericities{0.0, 1e-3, 1e-2, 0.1, 0.3, 0.6, 0.9};
+struct Grid {
+  std::vector<double> radii, sphericities;  // r of the size; k
+};
+const Grid fine{{1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 0.5}, {0, 1e-3, 1e-2, 0.1, 0.3, 0.6, 0.9}};
+const Grid coarse{{1e-3, 1e-2, 0.1, 0.5}, {0, 0.1, 0.6}};
 constexpr std::array levels{0.05, 0.01, 0.001};
 
 double sharp_angle() {
@@ -156,7 +161,7 @@ std::optional<double> boundary(const std::vector<Point>& points, double spherici
   return last;
 }
 
-void write(const std::string& problem, const std::vector<Point>& points) {
+void write(const std::string& problem, const Grid& grid, const std::vector<Point>& points) {
   std::vector<std::vector<double>> columns(5), lines(1 + levels.size());
   for (const Point& p : points) {
     const std::array row{p.radius, p.sphericity, p.error, p.nanoseconds, p.load};
@@ -165,7 +170,7 @@ void write(const std::string& problem, const std::vector<Point>& points) {
   }
   write_csv("potential_particles", "study_" + problem + ".csv",
             {"radius", "sphericity", "error", "nanoseconds", "load_seconds"}, columns);
-  for (const double k : sphericities) {
+  for (const double k : grid.sphericities) {
     lines[0].push_back(k);
     for (std::size_t l = 0; l < levels.size(); ++l)
       lines[l + 1].push_back(boundary(points, k, levels[l]).value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -174,58 +179,112 @@ void write(const std::string& problem, const std::vector<Point>& points) {
             {"sphericity", "five_percent", "one_percent", "tenth_percent"}, lines);
 }
 
-// One problem over the grid; `error` of a trial's value. Where there is no such body, there is no point.
-void study(CaseReport& report, const std::string& problem, double sharp_nanoseconds,
-           const std::function<Trial(const RelativeRounding&)>& solve, const std::function<double(double)>& error) {
+struct Problem {
+  std::string name;
+  std::function<Trial(const RelativeRounding&)> solve;
+  std::function<double(double)> error;  // of a trial's value
+};
+
+Problem wedge_problem() {
+  return {"wedge", sliding_wedge, [exact = sharp_angle()](double angle) { return std::abs(angle / exact - 1); }};
+}
+Problem beam_problem() {
+  return {"beam", hinged_beam, [](double ratio) { return std::abs(ratio - 1); }};
+}
+Problem column_problem() {
+  return {"column", settled_column, [](double ratio) { return std::abs(ratio - 1); }};
+}
+
+struct Findings {
   std::vector<Point> points;
-  int unanswered = 0;
-  double cost = 0;
-  std::string why;
-  for (const double k : sphericities)
-    for (const double radius : radii) {
+  std::string unanswered;  // which points
+};
+
+// Where there is no such body, there is no point.
+Findings vary(const Problem& problem, const Grid& grid) {
+  Findings found;
+  for (const double k : grid.sphericities)
+    for (const double radius : grid.radii) {
       try {
-        const Trial trial = solve({radius, k});
-        points.push_back(
-            {radius, k, trial.answered ? error(trial.value) : NAN, trial.nanoseconds(), trial.load_seconds});
-        if (!trial.answered) why += fmt::format("{}r/size {:g}, k {:g}", unanswered++ ? "; " : "", radius, k);
-        if (trial.answered) cost = std::max(cost, trial.nanoseconds());
+        const Trial trial = problem.solve({radius, k});
+        const double error = trial.answered ? problem.error(trial.value) : std::numeric_limits<double>::quiet_NaN();
+        found.points.push_back({radius, k, error, trial.nanoseconds(), trial.load_seconds});
+        if (!trial.answered) {
+          found.unanswered += fmt::format("{}r/size {:g}, k {:g}", found.unanswered.empty() ? "" : "; ", radius, k);
+          fmt::print("{}, r/size {:g}, k {:g}: {}\n", problem.name, radius, k, trial.why);
+        }
       } catch (const std::domain_error&) {
       }
-      write(problem, points);
     }
-  report.report("study, " + problem + ": points without an answer", "1", unanswered, why.empty() ? "none" : why);
-  report.report("study, " + problem + ": dearest contact over one of half-spaces", "1", cost / sharp_nanoseconds,
-                "processor time of this run");
+  write(problem.name, grid, found.points);
+  return found;
+}
+
+void write_standing_columns(const Grid& grid) {
+  std::vector<double> sphericity;
+  for (const double r : grid.radii)
+    sphericity.push_back(critical_sphericity(r));
+  write_csv("potential_particles", "column_stands.csv", {"radius", "sphericity"}, {grid.radii, sphericity});
+}
+
+// the short sibling: a coarse grid, the pack left out
+TEST(PotentialParticles, RoundingChangesWhatItsBoundariesSay) {
+  CaseReport report("potential_particles");
+  for (const Problem& problem : {wedge_problem(), beam_problem(), column_problem()}) {
+    const Findings found = vary(problem, coarse);
+    report.record({"coarse study, " + problem.name + ": error at r/size 0.001, k 0",
+                   "1",
+                   Kind::limit,
+                   "a sharp shape's",
+                   0,
+                   {0.005, 0, Bound::at_most},
+                   "twice r/size, and what its own test leaves: wedge 0.0015, beam 0.004, column 0.0001"},
+                  found.points.front().error);
+    report.report("coarse study, " + problem.name + ": error at r/size 0.1, k 0", "1", found.points[2].error,
+                  "the study's long sibling has the whole grid");
+  }
+  write_standing_columns(coarse);
+}
+
+void study(CaseReport& report, const Problem& problem) {
+  const Trial sharp = problem.solve({});
+  const Findings found = vary(problem, fine);
+  double most = 0, least = INFINITY;
+  for (const Point& p : found.points)
+    if (std::isfinite(p.error)) {
+      most = std::max(most, p.nanoseconds);
+      least = std::min(least, p.nanoseconds);
+    }
+  report.report("study, " + problem.name + ": points without an answer", "1",
+                static_cast<double>(std::count_if(found.points.begin(), found.points.end(),
+                                                  [](const Point& p) { return !std::isfinite(p.error); })),
+                found.unanswered.empty() ? "none" : found.unanswered);
+  const std::string note = "processor time of this run";
+  report.report("study, " + problem.name + ": a contact of half-spaces", "ns", sharp.nanoseconds(), note);
+  report.report("study, " + problem.name + ": the cheapest contact of particles", "ns", least, note);
+  report.report("study, " + problem.name + ": the dearest contact of particles", "ns", most, note);
   for (const double k : {0.0, 0.01, 0.1})
     for (const double level : levels) {
-      const auto found = boundary(points, k, level);
-      report.report(fmt::format("study, {}, k {}: largest r/size for an error of {} %", problem, k, 100 * level), "1",
-                    found.value_or(0), found ? "between points of the study" : "more already at 1e-4");
+      const auto limit = boundary(found.points, k, level);
+      report.report(fmt::format("study, {}, k {}: largest r/size for an error of {} %", problem.name, k, 100 * level),
+                    "1", limit.value_or(0), limit ? "between points of the study" : "more already at the least r");
     }
 }
 
 TEST(PotentialParticlesLong, WhichRoundingIsAcceptableForAWedge) {
   CaseReport report("potential_particles");
-  const double exact = sharp_angle();
-  study(report, "wedge", sliding_wedge({}).nanoseconds(), sliding_wedge,
-        [&](double angle) { return std::abs(angle / exact - 1); });
+  study(report, wedge_problem());
 }
 
 TEST(PotentialParticlesLong, WhichRoundingIsAcceptableForAHingedBeam) {
   CaseReport report("potential_particles");
-  study(report, "beam", hinged_beam({}).nanoseconds(), hinged_beam, [](double ratio) { return std::abs(ratio - 1); });
+  study(report, beam_problem());
 }
 
 TEST(PotentialParticlesLong, WhichRoundingIsAcceptableForAColumn) {
   CaseReport report("potential_particles");
-  study(report, "column", settled_column({}).nanoseconds(), settled_column,
-        [](double ratio) { return std::abs(ratio - 1); });
-  std::vector<double> radius, sphericity;
-  for (const double r : radii) {
-    radius.push_back(r);
-    sphericity.push_back(critical_sphericity(r));
-  }
-  write_csv("potential_particles", "column_stands.csv", {"radius", "sphericity"}, {radius, sphericity});
+  study(report, column_problem());
+  write_standing_columns(fine);
 }
 
 TEST(PotentialParticlesLong, WhichRoundingIsAcceptableForASettlingPack) {
@@ -235,10 +294,8 @@ TEST(PotentialParticlesLong, WhichRoundingIsAcceptableForASettlingPack) {
   ASSERT_TRUE(sharp.answered);
   report.report("study, pack: half-space blocks that settle on, of the height", "1", sharp.value,
                 "below this the study sees nothing");
-  study(
-      report, "pack", sharp.nanoseconds(),
-      [&](const RelativeRounding& rounding) { return settled_pack(pack, rounding); },
-      [&](double drop) { return std::abs(drop - sharp.value); });
+  study(report, {"pack", [&](const RelativeRounding& rounding) { return settled_pack(pack, rounding); },
+                 [&](double drop) { return std::abs(drop - sharp.value); }});
 }
 
 }  // namespace
