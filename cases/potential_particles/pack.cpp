@@ -9,10 +9,10 @@
 namespace voussoir::cases {
 namespace {
 
-constexpr double carried = 50e3;        // N, by the most loaded contact
-constexpr double pressed = 0.02;        // of r, by that
-constexpr double least_radius = 1e-4;   // of the size
-constexpr double first = 3, again = 1;  // s
+constexpr double carried = 50e3;          // N, by the most loaded contact
+constexpr double pressed = 0.02;          // of r, by that
+constexpr double least_radius = 1e-4;     // of the size
+constexpr double first = 3, again = 0.5;  // s
 // Of all places: the fallen blocks overlap by some 2 mm, which a stiffer contact would throw apart.
 constexpr double loosened = 5e-3;
 
@@ -72,7 +72,7 @@ Trial settled_pack(const Pack& pack, const RelativeRounding& rounding) {
   const double radius = (rounding.radius > 0 ? rounding.radius : least_radius) * pack.size;
   const Rounding rounded{rounding.radius * pack.size, rounding.sphericity};
   return ask("study_pack", resting_scene(pack.model, pack.state, rounded, radius, again),
-             [&](const SceneRun& run) { return -column(run, "pack_displacement_z_m").back() / pack.height; });
+             [&](const SceneRun& run) { return -column(run, "pack_mean_displacement_z_m").back() / pack.height; });
 }
 
 }  // namespace voussoir::cases

@@ -15,7 +15,7 @@ struct Pack {
 };
 Pack settle_pack();
 
-// By how much the centroids have come down on the mean within a second, over their height before.
+// By how much the centroids have come down on the mean within half a second, over their height before.
 Trial settled_pack(const Pack& pack, const RelativeRounding& rounding);
 
 }  // namespace voussoir::cases

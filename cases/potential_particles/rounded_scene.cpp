@@ -30,11 +30,13 @@ PotentialShape<Dim> rounded(const HalfSpaces<Dim>& faces, const Vector<Dim>& cen
   for (int i = 0; i < rounds; ++i) {
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const double foot = -signed_distance<Dim>(faces[f], centre);
-      const double inside = r * std::sqrt((1 - k * std::pow(foot / shape.sphere_radius, 2)) / (1 - k));
-      if (!(inside < foot)) throw std::domain_error("the block is too small for this radius");
+      const double left = 1 - k * std::pow(foot / shape.sphere_radius, 2);
+      const double inside = r * std::sqrt(std::max(left, 0.0) / (1 - k));
+      if (!(left > 0 && inside < foot)) throw std::domain_error("the block is too small for this radius");
       shape.planes[f].offset = faces[f].offset - inside;
     }
     shape.sphere_radius = (1 + room) * enclosing_radius<Dim>(shape.planes, r, centre);
+    if (!(shape.sphere_radius > 0)) throw std::domain_error("the block is too small for this radius");
   }
   return shape;
 }
