@@ -49,7 +49,7 @@ struct Fall {
   LoadedScene loaded;
   FallFindings found;
   double deepest = -INFINITY;  // m, over all frames: of the balls that the blocks hold in plate or walls
-  State<3> end;
+  double room = 0;             // m: the deepest that an overlap may be
 
   const Prepared<3>& scene() const { return std::get<Prepared<3>>(loaded.prepared); }
 };
@@ -67,13 +67,66 @@ double deepest_ball(const Model<3>& model, const State<3>& state, double radius,
 
 Fall let_fall(const FallPlan& plan, const std::vector<std::string>& overrides) {
   const RoundedScene scene = rounded_fall(plan);
-  Fall fall{load_scene(scene.path, overrides), {}, -INFINITY, {}};
+  Fall fall{load_scene(scene.path, overrides), {}, -INFINITY, 2 * corner_radius * scene.size};
   const double width = plan.side * plan.pitch;
   fall.found = fall_until_rest(fall.scene(), width, [&](const State<3>& state) {
     fall.deepest = std::max(fall.deepest, deepest_ball(fall.scene().model, state, scene.size, width));
-    fall.end = state;
   });
   return fall;
+}
+
+enum class Overlap { bracketed, conservative };
+
+const char* name_of(Overlap overlap) {
+  return overlap == Overlap::bracketed ? ", bracketed overlap" : ", conservative overlap";
+}
+
+void check(CaseReport& report, const std::string& which, const Fall& fall, Overlap overlap) {
+  const FallFindings& found = fall.found;
+  const verification::Cost cost{found.counters.contact_evaluations, found.seconds};
+  const auto at_most = [&](const std::string& quantity, const char* unit, const char* source, double value,
+                           double limit, const char* reason) {
+    report.record(
+        {which + quantity + name_of(overlap), unit, Kind::limit, source, 0, {limit, 0, Bound::at_most}, reason}, value,
+        cost);
+  };
+  at_most(": contacts without an answer", "1", "robustness", static_cast<double>(found.counters.unconverged), 0.5,
+          "a count");
+  at_most(": deepest in the plate or a wall", "m", "no block goes through", fall.deepest, fall.room,
+          "the overlap at which the inner bodies of block and wall would meet: the sum of their radii");
+  at_most(": kinetic energy at rest", "1", "rest, as a fraction of the energy of the drop", found.kinetic, at_rest,
+          "what was asked of the case; there the fall is ended");
+  for (const auto& [when, closure] :
+       {std::pair(", before the damping starts", found.before), {", at rest", found.end}}) {
+    at_most(std::string(": energy that the motion does not account for") + when, "1",
+            "work of all forces against kinetic energy, as a fraction of the energy of the drop", closure.motion,
+            motion_closed, "leapfrog closes to the rounding of some ten thousand steps");
+    const std::string quantity = std::string(": energy that the contacts do not account for") + when;
+    if (overlap == Overlap::conservative)
+      at_most(quantity, "1",
+              "work of the contacts against springs, dashpots and friction, as a fraction of the energy of the drop",
+              closure.contacts, energy_balanced, "what was asked of the case (README.md)");
+    else
+      report.report(which + quantity + name_of(overlap), "1", closure.contacts,
+                    "the bracketed overlap changes with the point, which the force does not feel (README.md)", cost);
+  }
+}
+
+void fall_both_ways(const std::string& which, const FallPlan& plan) {
+  CaseReport report("potential_particles");
+  check(report, which, let_fall(plan, bracketed), Overlap::bracketed);
+  check(report, which, let_fall(plan, conservative()), Overlap::conservative);
+}
+
+TEST(PotentialParticles, TwentyFallAndRest) {
+  FallPlan plan;
+  plan.blocks = 20;
+  plan.side = 3;
+  fall_both_ways("twenty", plan);
+}
+
+TEST(PotentialParticlesLong, TwoHundredFallAndRest) {
+  fall_both_ways("two hundred", {});
 }
 
 }  // namespace
