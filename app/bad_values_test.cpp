@@ -235,10 +235,14 @@ bool is_harmless(const KeyRow& row, const std::string& value) {
 }
 
 TEST(BadValues, AreToldForEveryKeyOfTheTable) {
-  const SceneFile in_space(every_key::everything), in_the_plane(every_key::in_the_plane);
+  const SceneFile in_space(every_key::everything), in_the_plane(every_key::in_the_plane),
+      of_particles(every_key::of_particles);
   int tried = 0;
   for (const KeyRow& row : key_rows()) {
-    const SceneFile& file = &every_key::scene_of(row) == &every_key::in_the_plane ? in_the_plane : in_space;
+    const std::string* scene = &every_key::scene_of(row);
+    const SceneFile& file = scene == &every_key::in_the_plane   ? in_the_plane
+                            : scene == &every_key::of_particles ? of_particles
+                                                                : in_space;
     const auto tree = file.tree();
     if (!is_numeric(row)) continue;
     if (row.table == "bolts" && row.key == "spacing") continue;  // of plane scenes; this one is none

@@ -39,7 +39,7 @@ const Joint<Dim>& joint_named(const Model<Dim>& model, const std::string& name) 
 template <int Dim>
 bool contains(const Body<Dim>& body, const Vector<Dim>& point) {
   return std::any_of(body.parts.begin(), body.parts.end(), [&](const Polytope<Dim>& part) {
-    if (is_particle(part)) return potential_at<Dim>(part, point - body.reference) <= 0;
+    if (is_particle(part)) return outside_by<Dim>(part, point - body.reference) <= 0;
     return std::all_of(part.faces.begin(), part.faces.end(),
                        [&](const HalfSpace<Dim>& f) { return signed_distance<Dim>(f, point - body.reference) <= 0; });
   });

@@ -139,7 +139,7 @@ const char* name(ContactStatus status) {
     case ContactStatus::lp_not_converged:
       return "the LP did not converge";
     case ContactStatus::centre_not_converged:
-      return "the analytic centre did not converge";
+      return "the analytic centre, or the least point of potential particles, did not converge";
     case ContactStatus::no_normal:
       return "no normal was found";
     case ContactStatus::no_face:

@@ -61,6 +61,9 @@ voussoir_test(unit.potential LONG LABEL unit
   SOURCES potential/shape_test.cpp potential/mass_test.cpp potential/contact_test.cpp potential/certainty_test.cpp
   LIBS voussoir_core ${outside_cone_solver} Boost::headers)
 
+voussoir_test(unit.particles LABEL unit SOURCES scene/particles_test.cpp scene/bad_particles_test.cpp
+  LIBS voussoir_core cereal::cereal fmt::fmt Boost::headers)
+
 if(TARGET voussoir_limit)
   voussoir_test(unit.limit LABEL unit SOURCES limit/limit_test.cpp limit/factor_of_safety_test.cpp LIBS voussoir_limit)
 endif()

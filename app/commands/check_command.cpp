@@ -393,6 +393,7 @@ template <int Dim>
 void print_active(const Prepared<Dim>& prepared) {
   const Settings& settings = prepared.settings;
   print_blocks(prepared.model);
+  print_particles(prepared.model);
   print_joints(prepared.model);
   print_properties(prepared.model);
   print_line("gravity", vector_text<Dim>(prepared.model.gravity) + " m/s²");

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/install.hpp"
+#include "core/potential/particle.hpp"
 
 namespace voussoir {
 namespace {
@@ -75,11 +77,49 @@ void print_line(const char* label, const std::string& text) {
 }
 
 template <int Dim>
+void print_particles(const Model<Dim>& model) {
+  if (!model.particles) return;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  int count = 0;
+  double least = none, most = 0, mass = 0, drawing = 0, least_inner = none, most_inner = 0;
+  for (const PartId& id : model.parts) {
+    const Particle<Dim>& particle = *model.bodies[id.body].parts[id.part].particle;
+    const double radius = particle.shape.corner_radius;
+    if (particle.inner) {
+      least_inner = std::min(least_inner, radius);
+      most_inner = std::max(most_inner, radius);
+      continue;
+    }
+    ++count;
+    mass = std::max(mass, particle.mass.error);
+    drawing = std::max(drawing, particle.drawing.error);
+    if (particle.shape.sphericity == 1) continue;
+    least = std::min(least, radius);
+    most = std::max(most, radius);
+  }
+  print_line(
+      "particles",
+      fmt::format("{} of {} convex parts{}; volume, centroid and inertia within {:.2g} of the volume, drawn "
+                  "within {:.2g} m",
+                  count, model.parts.size(),
+                  most > 0 ? fmt::format(", corner radius {:.4g} to {:.4g} m", least, most) : "", mass, drawing));
+  if (!model.properties.empty())
+    print_line("", fmt::format("they touch at one point, without area, by the properties {} (N/m)",
+                               model.properties[model.default_properties].name));
+  if (most_inner > 0)
+    print_line("", fmt::format("blocks of half-spaces meet them with edges rounded by {:.4g} to {:.4g} m "
+                               "(contact.potential_radius): one at right angles recedes by {:.2g} m",
+                               least_inner, most_inner, (std::sqrt(2) - 1) * most_inner));
+}
+
+template <int Dim>
 void print_support(const Prepared<Dim>& prepared) {
   print_bolts(prepared);
   print_linings(prepared);
 }
 
+template void print_particles<2>(const Model<2>&);
+template void print_particles<3>(const Model<3>&);
 template void print_support<2>(const Prepared<2>&);
 template void print_support<3>(const Prepared<3>&);
 

@@ -9,6 +9,7 @@
 #include "core/exchange/tables.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/paraview.hpp"
+#include "core/potential/particle.hpp"
 #include "text/csv_table.hpp"
 
 namespace voussoir {
@@ -24,7 +25,7 @@ std::string block_table(const Model<Dim>& model) {
     const Body<Dim>& body = model.bodies[b];
     std::size_t faces = 0;
     for (const Polytope<Dim>& part : body.parts)
-      faces += part.faces.size();
+      faces += is_particle(part) ? 0 : part.faces.size();
     text +=
         fmt::format("{},{},{},{},{},{}", b, csv_cell(body.name), volume(body), faces, body.size, body.fixed ? 1 : 0);
     const Vector<Dim> centroid = model.origin + body.reference;
@@ -114,6 +115,11 @@ ExitCode slice_command(const SliceArguments& arguments) {
   const LoadedScene loaded = load_scene(arguments.scene.scene, arguments.scene.overrides);
   if (loaded.dimension == 2 && (arguments.stl || arguments.obj))
     throw BadInput("--stl and --obj write blocks in space but the scene has dimension = 2; use --planes");
+  const bool particles = std::visit([](const auto& prepared) { return prepared.model.particles; }, loaded.prepared);
+  if (particles && (arguments.planes || arguments.stl || arguments.obj))
+    throw BadInput(
+        "--planes, --stl and --obj write blocks of half-spaces but the scene has potential particles; blocks.vtp has "
+        "their surfaces");
   const ClaimedFolder claim(arguments.out, outputs_of(arguments, loaded.dimension), loaded.files, arguments.overwrite);
   std::visit([&](const auto& prepared) { write_blocks(prepared, arguments); }, loaded.prepared);
   if (arguments.report) {

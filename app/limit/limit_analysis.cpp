@@ -230,6 +230,10 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
     throw BadInput(
         "dimension = 3: limit analysis knows scenes in the plane only; state a section with dimension = 2, or use "
         "'voussoir run' with a stage of kind = \"reduce\"");
+  if (prepared->model.particles)
+    throw BadInput(
+        "the scene has potential particles: limit analysis knows blocks of half-spaces alone; leave out shape = "
+        "\"potential\", or use 'voussoir run' with a stage of kind = \"reduce\"");
   if (!prepared->model.bolts.empty())
     throw BadInput(
         "the scene has bolts: limit analysis knows blocks and joints alone; remove [[bolts]] and install for the "

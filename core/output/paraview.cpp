@@ -10,6 +10,7 @@
 #include <span>
 
 #include "core/output/atomic_file.hpp"
+#include "core/potential/particle.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -52,10 +53,20 @@ void append_part(PolyData& data, BlockArrays& arrays, const Model<Dim>& model, c
   const int first_point = static_cast<int>(data.points.size());
   const Matrix<Dim> turn = matrix(motion.rotation);
   const Vector<Dim> centroid = body.reference + motion.displacement;
-  for (const Vector<Dim>& vertex : part.vertices)
-    data.points.push_back(in_space(Vector<Dim>(model.origin + (centroid + turn * vertex))));
+  const auto add_point = [&](const Vector<Dim>& point) {
+    data.points.push_back(in_space(Vector<Dim>(model.origin + (centroid + turn * point))));
+  };
+  std::vector<std::vector<int>> outlines;
+  if (is_particle(part)) {
+    outlines = part.particle->drawing.cells;
+    for (const Vector<Dim>& point : part.particle->drawing.points)
+      add_point(part.centre + point);
+  } else {
+    outlines = polygons(part);
+    for (const Vector<Dim>& vertex : part.vertices)
+      add_point(vertex);
+  }
 
-  const std::vector<std::vector<int>> outlines = polygons(part);
   for (std::size_t face = 0; face < outlines.size(); ++face) {
     if (outlines[face].size() < 3) continue;  // a plane that only touches an edge or a corner
     std::vector<int>& cell = data.cells.emplace_back(outlines[face]);
@@ -63,7 +74,7 @@ void append_part(PolyData& data, BlockArrays& arrays, const Model<Dim>& model, c
       point += first_point;
     arrays.body.values.push_back(id.body);
     arrays.part.values.push_back(id.part);
-    arrays.joint.values.push_back(face < part.joints.size() ? part.joints[face] : no_joint);
+    arrays.joint.values.push_back(!is_particle(part) && face < part.joints.size() ? part.joints[face] : no_joint);
     arrays.fixed.values.push_back(body.fixed);
     append<Dim>(arrays.displacement, motion.displacement);
     append<Dim>(arrays.velocity, motion.velocity);

@@ -44,22 +44,23 @@ bool equal(const PotentialShape<Dim>& a, const PotentialShape<Dim>& b) {
 
 template <int Dim>
 Particle<Dim> make_particle(const PotentialShape<Dim>& shape) {
-  return {shape, false, steepness_of<Dim>(shape), {}};
+  return {shape, false, steepness_of<Dim>(shape), {}, {}};
 }
 
 template <int Dim>
-PotentialMass<Dim> mass_of(const PotentialShape<Dim>& shape) {
+PotentialMass<Dim> mass_of(const PotentialShape<Dim>& shape, double tolerance) {
   if (shape.sphericity == 1) return mass_of_sphere<Dim>(shape);
   struct Known {
     PotentialShape<Dim> shape;
+    double tolerance;
     PotentialMass<Dim> mass;
   };
   constexpr std::size_t most_known = 64;
   static thread_local std::vector<Known> known;
   for (const Known& k : known)
-    if (equal<Dim>(k.shape, shape)) return k.mass;
+    if (k.tolerance == tolerance && equal<Dim>(k.shape, shape)) return k.mass;
   if (known.size() == most_known) known.erase(known.begin());
-  known.push_back({shape, integrate<Dim>(shape, mass_tolerance)});
+  known.push_back({shape, tolerance, integrate<Dim>(shape, tolerance)});
   return known.back().mass;
 }
 
@@ -77,15 +78,16 @@ Particle<Dim> inner_particle(const Polytope<Dim>& part, double fraction) {
 }
 
 template <int Dim>
-double potential_at(const Polytope<Dim>& part, const Vector<Dim>& point) {
-  return value<Dim>(placed<Dim>(part.particle->shape), point - part.centre);
+double outside_by(const Polytope<Dim>& part, const Vector<Dim>& point) {
+  const double f = value<Dim>(placed<Dim>(part.particle->shape), point - part.centre);
+  return f / (std::sqrt(1 + std::max(f, 0.0)) + 1) / part.particle->steepness;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                           \
-  template Particle<Dim> make_particle<Dim>(const PotentialShape<Dim>&);    \
-  template PotentialMass<Dim> mass_of<Dim>(const PotentialShape<Dim>&);     \
-  template Particle<Dim> inner_particle<Dim>(const Polytope<Dim>&, double); \
-  template double potential_at<Dim>(const Polytope<Dim>&, const Vector<Dim>&);
+#define VOUSSOIR_INSTANTIATE(Dim)                                               \
+  template Particle<Dim> make_particle<Dim>(const PotentialShape<Dim>&);        \
+  template PotentialMass<Dim> mass_of<Dim>(const PotentialShape<Dim>&, double); \
+  template Particle<Dim> inner_particle<Dim>(const Polytope<Dim>&, double);     \
+  template double outside_by<Dim>(const Polytope<Dim>&, const Vector<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

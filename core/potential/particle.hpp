@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "core/potential/drawing.hpp"
 #include "core/potential/mass.hpp"
 
 namespace voussoir {
@@ -11,19 +12,19 @@ namespace voussoir {
 template <int Dim>
 struct Particle {
   PotentialShape<Dim> shape;
-  bool inner = false;       // stands for a part of half-spaces, which it lies in
-  double steepness = 0;     // 1/m: sqrt(f + 1) changes by no more than this times the way, anywhere
-  PotentialMass<Dim> mass;  // per unit density; none of an inner one
+  bool inner = false;             // stands for a part of half-spaces, which it lies in
+  double steepness = 0;           // 1/m: sqrt(f + 1) changes by no more than this times the way, anywhere
+  PotentialMass<Dim> mass;        // per unit density; none of an inner one
+  PotentialDrawing<Dim> drawing;  // nor of an inner one
 };
 
 template <int Dim>
 Particle<Dim> make_particle(const PotentialShape<Dim>& shape);
 
-// Volume, centroid and second moment: closed forms of a sphere, else `integrate` to this error. A scene has many
-// particles of few shapes: the last ones are remembered.
-inline constexpr double mass_tolerance = 1e-4;
+// Volume, centroid and second moment: closed forms of a sphere, else `integrate`. A scene has many particles of few
+// shapes: the last ones are remembered.
 template <int Dim>
-PotentialMass<Dim> mass_of(const PotentialShape<Dim>& shape);
+PotentialMass<Dim> mass_of(const PotentialShape<Dim>& shape, double tolerance);
 
 // The inner potential particle of a part of half-spaces (Boon 2013, 3.3.4): its planes moved in by r, a fraction of the
 // inscribed radius, and k = 0, so that f = 0 on its faces. Only an edge is rounded: between two faces at an inner angle
@@ -37,8 +38,8 @@ bool is_particle(const Polytope<Dim>& part) {
   return part.particle && !part.particle->inner;
 }
 
-// f at a point of the body's frame; negative inside
+// m: how far a point of the body's frame lies outside of a particle, at least; at most 0 in it
 template <int Dim>
-double potential_at(const Polytope<Dim>& part, const Vector<Dim>& point);
+double outside_by(const Polytope<Dim>& part, const Vector<Dim>& point);
 
 }  // namespace voussoir

@@ -23,7 +23,7 @@ HalfSpaces<Dim> box_planes(const BoxSpec& box, const Vector<Dim>& origin);
 template <int Dim>
 Vector<Dim> find_origin(const Scene& scene);
 
-// The scene's domain, and one of its blocks, a potential particle's without its mass. Both throw SceneError on what is
+// The scene's domain, and one of its blocks, a potential particle's not finished. Both throw SceneError on what is
 // open, empty, flat or far.
 template <int Dim>
 Polytope<Dim> make_domain(const Scene& scene, const Vector<Dim>& origin);

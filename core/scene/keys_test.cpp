@@ -107,6 +107,7 @@ Values values_of(const Scene& s) {
   for (const BlockSpec& block : s.blocks) {
     add(values, "blocks", block);
     add(values, "blocks", block.motion);
+    add(values, "blocks", block.particle);
     for (const BlockPlaneSpec& plane : block.planes)
       add(values, "blocks.planes", plane);
   }

@@ -9,14 +9,18 @@ namespace voussoir {
 // what the table of one block must state together
 void check_particle_keys(const BlockSpec& block);
 
-// The part that a block of shape = "potential" is, seen from `origin`, its mass left out; `planes` of any length.
-// Throws SceneError where the numbers make no particle.
+// The part that a block of shape = "potential" is, seen from `origin`, its mass and drawing left out; `planes` of any
+// length. Throws SceneError where the numbers make no particle.
 template <int Dim>
 Polytope<Dim> make_particle_part(const BlockSpec& block, HalfSpaces<Dim> planes, const Vector<Dim>& origin);
 
-// the same part with its mass
+// the same part with both
 template <int Dim>
-Polytope<Dim> with_particle_mass(Polytope<Dim> part);
+Polytope<Dim> finish_particle(const BlockSpec& block, Polytope<Dim> part);
+
+// What a scene with particles may not state beside them: it throws SceneError.
+template <int Dim>
+void check_beside_particles(const Scene& scene, const Model<Dim>& model);
 
 // Gives the parts of half-spaces of a model with particles what they are to these.
 template <int Dim>

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/potential/particle.hpp"
+#include "core/potential/valid_shape.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/keys/ranges.hpp"
@@ -298,6 +300,31 @@ void judge_joints(const Scene& scene, const Model<Dim>& model, Warnings& warning
                                    "than slicing.smallest_inscribed_radius or what it cut was excavated"));
 }
 
+// numbers of potential particles that are legal but far from what is meant, or from what is tested
+template <int Dim>
+void judge_particles(const Scene& scene, const Model<Dim>& model, Warnings& warnings) {
+  constexpr double sharpest = 1e-4;  // r over R: the contact's answers are tested down to it
+  constexpr double widest = 10;      // R over the least that encloses
+  for (const BlockSpec& block : scene.blocks) {
+    const ParticleSpec& spec = block.particle;
+    if (block.shape != BlockShape::potential || *spec.sphericity == 1) continue;
+    const Polytope<Dim> part = make_solid<Dim>(scene, block, model.origin);
+    const PotentialShape<Dim>& shape = part.particle->shape;
+    const double least = enclosing_radius<Dim>(shape.planes, shape.corner_radius, shape.centre);
+    if (shape.corner_radius < sharpest * least)
+      warnings.push_back(complaint(block.subject, "corner_radius",
+                                   "is " + text(shape.corner_radius / least) +
+                                       " of the particle's radius: below 1e-4 rounding may leave contacts without an "
+                                       "answer; a block of half-spaces is sharp"));
+    if (shape.sphere_radius > widest * least)
+      warnings.push_back(
+          complaint(block.subject, "sphere_radius",
+                    "is " + text(shape.sphere_radius / least) +
+                        " times what encloses the particle: its sphere, and k with it, count for next to "
+                        "nothing; leave it out for the least"));
+  }
+}
+
 // how far all corners of all blocks lie below a surface, m: the least and the greatest depth
 template <int Dim>
 std::pair<double, double> depths_below(const std::vector<double>& numbers, const Model<Dim>& model) {
@@ -424,6 +451,7 @@ std::vector<std::string> implausible_values(const Scene& scene, const Prepared<D
   judge_domain<Dim>(scene, prepared.model, warnings);
   judge_joints<Dim>(scene, prepared.model, warnings);
   judge_sizes<Dim>(scene, prepared.model, warnings);
+  judge_particles<Dim>(scene, prepared.model, warnings);
   return warnings;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "core/potential/particle.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/bolts.hpp"
 #include "core/scene/domain_blocks.hpp"
@@ -106,7 +107,7 @@ void add_blocks(const Scene& scene, Model<Dim>& model) {
   std::map<std::string, std::vector<Polytope<Dim>>> parts;
   for (const BlockSpec& block : scene.blocks) {
     Polytope<Dim> part = make_solid<Dim>(scene, block, model.origin);
-    if (block.shape == BlockShape::potential) part = with_particle_mass<Dim>(std::move(part));
+    if (block.shape == BlockShape::potential) part = finish_particle<Dim>(block, std::move(part));
     parts[block.part_of.empty() ? block.name : owner_of(scene, block).name].push_back(std::move(part));
   }
   for (const BlockSpec& block : scene.blocks) {
@@ -234,6 +235,7 @@ double outside_by(const Body<Dim>& body, const Vector<Dim>& point) {
     double most = -std::numeric_limits<double>::infinity();
     for (const HalfSpace<Dim>& face : part.faces)
       most = std::max(most, signed_distance<Dim>(face, point - body.reference));
+    if (is_particle(part)) most = std::max(most, outside_by<Dim>(part, point - body.reference));
     least = std::min(least, most);
   }
   return least;
@@ -452,6 +454,7 @@ Prepared<Dim> prepare(const Scene& scene) {
   add_blocks<Dim>(scene, model);
   check_blocks<Dim>(scene, model);
   number_bodies<Dim>(model);
+  check_beside_particles<Dim>(scene, model);
   add_inner_particles<Dim>(scene.settings.contact, model);
 
   // what the scene says about them by selectors, and the water on them

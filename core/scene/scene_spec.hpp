@@ -132,6 +132,7 @@ enum class BlockShape { half_spaces, potential };
 struct ParticleSpec {
   std::optional<double> corner_radius, sphericity, sphere_radius;  // r, m; k; R, m
   std::optional<std::vector<double>> centre;                       // c, m
+  double mass_tolerance = 1e-3;                                    // of the volume
 };
 
 struct BlockSpec {

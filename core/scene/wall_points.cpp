@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/excavation.hpp"
+#include "core/potential/particle.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/bolts.hpp"
 #include "core/scene/region.hpp"
@@ -101,6 +102,7 @@ WallPoint wall_at(const Model<Dim>& model, const View<Dim>& view, double angle, 
   for (const Body<Dim>& body : model.bodies) {
     if (!body.present) continue;
     for (const Polytope<Dim>& part : body.parts) {
+      if (is_particle(part)) continue;  // it is no wall
       const double distance = begins_at<Dim>(part, view.centre - body.reference, along);
       if (distance >= nearest) continue;
       nearest = distance;

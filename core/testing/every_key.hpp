@@ -310,8 +310,37 @@ quantities = ["lining_force"]
 lining = "shell"
 )";
 
+// what blocks of half-spaces alone cannot state, and what else stands in `everything` does not go with
+inline const std::string of_particles = R"(dimension = 3
+density = 2000
+[[joint_properties]]
+name = "rock"
+normal_stiffness = 1e9
+shear_stiffness = 1e8
+friction_deg = 35
+constant_stiffness = true
+[[blocks]]
+name = "rounded"
+shape = "potential"
+box = { min = [9.1, -0.9, 0.1], max = [10.9, 0.9, 1.9] }
+corner_radius = 0.1
+sphericity = 0.05
+sphere_radius = 2
+centre = [10, 0.1, 1]
+[[blocks]]
+name = "ball"
+shape = "potential"
+sphericity = 1
+sphere_radius = 1
+centre = [15, 0, 1]
+[[stage]]
+name = "settle"
+kind = "settle"
+)";
+
 // the scene in which a row's key can be set
 inline const std::string& scene_of(const KeyRow& row) {
+  if (row.table == "blocks" && (row.key == "shape" || row.when.key == "shape")) return of_particles;
   const bool of_lining = row.table == "monitors" && row.key == "lining";
   return row.table == "linings" || of_lining ? in_the_plane : everything;
 }
@@ -366,6 +395,8 @@ inline std::string address(const KeyRow& row) {
   }
   if (row.table == "joint_sets" && row.when.key == "arrangement") table = "joint_sets.equal";
   if (row.table == "blocks" && row.key == "vertices") table = "blocks.by vertices";
+  if (row.table == "blocks" && &scene_of(row) == &of_particles)
+    table = row.key == "mass_tolerance" ? "blocks.ball" : "blocks.rounded";
   if (row.table == "blocks.planes" && row.key == "point") table = "blocks.by planes.planes.5";
   if (row.table == "monitors" && row.key == "joint") table = "monitors.joint";
   if (row.table == "monitors" && (row.key == "excavation" || row.key == "angles_deg" || row.key == "since"))
