@@ -1,14 +1,18 @@
 // Contacts of potential particles: our solver cold and warm, Ipopt on the same program, and libccd's GJK+EPA on the
-// polyhedra of the same planes; µs of processor time per pair, by polyhedron type, over the touching pairs of the
-// contact benchmark. The particles' planes lie r inside the polyhedra's, so that their faces coincide.
+// polyhedra of the same planes; µs of processor time per pair, by polyhedron type and radius, all on the same pairs in
+// one run. The particles' planes lie r inside the polyhedra's, so that their faces coincide. Corners recede as r grows:
+// the pairs of the contact benchmark are moved along their line of centres until the rounded bodies overlap by 1e-4 of
+// the size, as the polyhedra did; the polyhedra then overlap by that and by what the corners receded.
 #include <fmt/format.h>
 #include <time.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <functional>
 
 #include "benchmarks/peers/peers.hpp"
+#include "core/potential/contact.hpp"
 #include "core/potential/valid_shape.hpp"
 #ifdef VOUSSOIR_PEER_IPOPT
 #include "core/potential/ipopt.hpp"
@@ -19,8 +23,10 @@ namespace {
 
 constexpr int rounds = 5;                 // of which the median counts
 constexpr std::size_t outside_pairs = 4;  // Ipopt's
-constexpr double corner_radius = 1e-5;    // of the size, a tenth of the overlaps: corners recede by less than these
 constexpr double sphericity = 0.01;
+constexpr double overlap = 1e-4;                             // of the size
+constexpr std::array<double, 3> radii = {1e-5, 1e-2, 1e-1};  // of the size; the first a tenth of the overlaps
+constexpr int bisections = 50;
 
 double processor_us() {
   timespec now;
@@ -39,7 +45,7 @@ double median_us(std::size_t pairs, const std::function<void()>& resolve) {
   return times[rounds / 2];
 }
 
-PotentialShape<3> rounded(const Polytope<3>& part) {
+PotentialShape<3> rounded(const Polytope<3>& part, double corner_radius) {
   PotentialShape<3> shape{part.faces, corner_radius, sphericity};
   for (HalfSpace<3>& plane : shape.planes)
     plane.offset -= corner_radius;
@@ -47,26 +53,50 @@ PotentialShape<3> rounded(const Polytope<3>& part) {
   return shape;
 }
 
+// along the line of centres to where the two just touch, and from there against the normal by the overlap
+void push_together(PotentialPair<3>& pair, double depth) {
+  PotentialWorkspace<3> workspace;
+  const Vector<3> along = pair.offset.normalized();
+  double near = 0, far = pair.a->sphere_radius + pair.b->sphere_radius;
+  for (int k = 0; k < bisections; ++k) {
+    const double middle = (near + far) / 2;
+    pair.offset = middle * along;
+    const bool touch = resolve<3>(pair, PotentialQuery::decision, workspace).status == PotentialStatus::touching;
+    (touch ? near : far) = middle;
+  }
+  pair.offset = near * along;
+  pair.offset -= depth * resolve<3>(pair, PotentialQuery::overlap, workspace).normal;
+}
+
 struct Pairs {
   std::vector<PotentialShape<3>> shapes;
   std::vector<PotentialPair<3>> now, before;
+  Workload sharp;  // the same poses
 };
 
-Pairs rounded_pairs(const Workload& work) {
+Pairs rounded_pairs(Shape type, double radius) {
   Pairs pairs;
-  for (const Polytope<3>& part : *work.parts)
-    pairs.shapes.push_back(rounded(part));
-  const auto shape_of = [&](const Polytope<3>* part) { return &pairs.shapes[part - work.parts->data()]; };
-  for (const Pair<3>& p : work.pairs)
-    pairs.now.push_back({shape_of(p.a), shape_of(p.b), p.rotation, p.offset});
-  for (const Pair<3>& p : work.previous[0])
-    pairs.before.push_back({shape_of(p.a), shape_of(p.b), p.rotation, p.offset});
+  pairs.sharp = workload(type, PairState::touch);
+  const std::vector<Polytope<3>>& parts = *pairs.sharp.parts;
+  const double unit = unit_of(type);
+  for (const Polytope<3>& part : parts)
+    pairs.shapes.push_back(rounded(part, radius * unit));
+  for (std::size_t i = 0; i < pairs.sharp.pairs.size(); ++i) {
+    Pair<3>& now = pairs.sharp.pairs[i];
+    const Pair<3>& before = pairs.sharp.previous[0][i];
+    const PotentialShape<3>*a = &pairs.shapes[now.a - parts.data()], *b = &pairs.shapes[now.b - parts.data()];
+    PotentialPair<3> placed{a, b, now.rotation, now.offset};
+    push_together(placed, overlap * unit);
+    pairs.now.push_back(placed);
+    pairs.before.push_back({a, b, before.rotation, before.offset + (placed.offset - now.offset)});
+    now.offset = placed.offset;
+  }
   return pairs;
 }
 
-void print_row(Shape shape) {
-  const Workload& work = workload(shape, PairState::touch);
-  const Pairs pairs = rounded_pairs(work);
+void print_row(Shape shape, double radius) {
+  const Pairs pairs = rounded_pairs(shape, radius);
+  const Workload& work = pairs.sharp;
   PotentialWorkspace<3> workspace;
   std::vector<PotentialStart<3>> starts;
   int touching = 0, failed = 0;
@@ -90,9 +120,9 @@ void print_row(Shape shape) {
       resolve<3>(pairs.now[i], PotentialQuery::overlap, workspace, starts[i]);
   });
   const double count = static_cast<double>(pairs.now.size());
-  fmt::print("{},{:.1f},{:.2f},{:.2f},{:.1f},{:.1f},{},{}", name_of(shape), mean_planes(work), cold_us, warm_us,
-             static_cast<double>(cold_iterations) / count, static_cast<double>(warm_iterations) / count, touching,
-             failed);
+  fmt::print("{},{:g},{:.1f},{:.2f},{:.2f},{:.1f},{:.1f},{},{}", name_of(shape), radius, mean_planes(work), cold_us,
+             warm_us, static_cast<double>(cold_iterations) / count, static_cast<double>(warm_iterations) / count,
+             touching, failed);
 #ifdef VOUSSOIR_PEER_IPOPT
   fmt::print(",{:.0f}", median_us(outside_pairs, [&] {
                for (std::size_t i = 0; i < outside_pairs; ++i)
@@ -115,7 +145,7 @@ void print_row(Shape shape) {
 
 int main() {
   using namespace voussoir::benchmarks;
-  fmt::print("shape,planes,cold_us,warm_us,cold_iterations,warm_iterations,touching,failed");
+  fmt::print("shape,radius,planes,cold_us,warm_us,cold_iterations,warm_iterations,touching,failed");
 #ifdef VOUSSOIR_PEER_IPOPT
   fmt::print(",ipopt_us");
 #endif
@@ -123,6 +153,7 @@ int main() {
   fmt::print(",ccd_epa_us");
 #endif
   fmt::print("\n");
-  for (int shape = 0; shape < shape_count; ++shape)
-    print_row(static_cast<Shape>(shape));
+  for (const double radius : radii)
+    for (int shape = 0; shape < shape_count; ++shape)
+      print_row(static_cast<Shape>(shape), radius);
 }

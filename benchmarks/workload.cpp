@@ -6,6 +6,11 @@
 #include <stdexcept>
 
 namespace voussoir::benchmarks {
+
+double unit_of(Shape shape) {
+  return shape == Shape::slab_20 ? 0.05 : shape == Shape::slab_100 ? 0.01 : 1;
+}
+
 namespace {
 
 using Parts = std::vector<Polytope<3>>;
@@ -65,10 +70,6 @@ Parts make_parts(Shape shape, PairState state) {
     default:
       return {platonic(static_cast<int>(shape))};
   }
-}
-
-double unit_of(Shape shape) {
-  return shape == Shape::slab_20 ? 0.05 : shape == Shape::slab_100 ? 0.01 : 1;
 }
 
 // optimum of the feasibility program: negative when the parts overlap

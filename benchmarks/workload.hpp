@@ -31,6 +31,9 @@ inline constexpr int pair_state_count = 7;
 // shapes that a state has: a slab by itself is a cube, and the plane has two
 bool occurs(Shape shape, PairState state);
 
+// m: what lengths are measured in
+double unit_of(Shape shape);
+
 const char* name_of(Shape shape);
 const char* name_of(PairState state);
 

@@ -58,7 +58,8 @@ if(TARGET voussoir_ipopt)
   set(outside_cone_solver voussoir_ipopt)
 endif()
 voussoir_test(unit.potential LONG LABEL unit
-  SOURCES potential/shape_test.cpp potential/mass_test.cpp potential/contact_test.cpp potential/certainty_test.cpp
+  SOURCES potential/shape_test.cpp potential/mass_test.cpp potential/contact_test.cpp potential/conservative_test.cpp
+  potential/certainty_test.cpp
   LIBS voussoir_core ${outside_cone_solver} Boost::headers)
 
 voussoir_test(unit.particles LABEL unit SOURCES scene/particles_test.cpp scene/bad_particles_test.cpp

@@ -73,7 +73,7 @@ const std::vector<Order> orders{
       {"kernel"}}},
     {"core/potential",
      {{"shape"},
-      {"descent", "surface"},
+      {"descent", "surface", "first_point"},
       {"support", "contact"},
       {"mass", "valid_shape", "drawing", "ipopt"},
       {"particle"}}},

@@ -93,9 +93,11 @@ TEST(PotentialCertainty, RandomPairs) {
   judge_pairs<3>(500, 40, 2);
 }
 
-TEST(PotentialCertaintyLong, RandomPairs) {
-  judge_pairs<2>(100000, 2000, 11);
-  judge_pairs<3>(100000, 2000, 12);
+TEST(PotentialCertaintyLong, RandomPairsInThePlane) {
+  judge_pairs<2>(100000, 5000, 11);
+}
+TEST(PotentialCertaintyLong, RandomPairsInSpace) {
+  judge_pairs<3>(100000, 5000, 12);
 }
 
 // k down to 0, where the least point need not be unique: the value alone, and both decisions. The referee needs some

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/potential/first_point.hpp"
 #include "core/potential/surface.hpp"
 
 namespace voussoir {
@@ -31,6 +32,18 @@ constexpr double shut = 1e-6;
 // log λ/(1-λ) changes by no more at once: the model behind the step is a line in logarithms
 constexpr double longest_change = 8;
 
+// from a good point both conditions are met after a few steps; who needs more is better served by the careful search
+constexpr int refine_limit = 12;
+
+// as is who does not come nearer: planes that count in turns
+constexpr int most_longer_steps = 2;
+
+// a step of this fraction of the bodies' reach is rounding
+constexpr double settled = 2 * std::numeric_limits<double>::epsilon();
+
+// planes count up to this many radii r from where the contact is thought to be
+constexpr double near_radii = 4;
+
 // about e^x and log x, to first order exact at 0 and 1, from operations that have the same bits on every platform
 double grown(double x) {
   double power = (16 + x) / (16 - x);
@@ -52,13 +65,6 @@ double between(double low, double high) {
   return std::isfinite(high) ? std::sqrt(low) * std::sqrt(high) : 4 * low;
 }
 
-// The gradient's length on the surface beyond one face, halfway out to the sphere: what the weights of λ balance.
-template <int Dim>
-double usual_slope(const PotentialShape<Dim>& shape) {
-  const double k = shape.sphericity;
-  return std::sqrt((1 - k) * (1 - k / 2)) / shape.corner_radius + k / shape.sphere_radius;
-}
-
 // Both functions at the point, the weighted sum and what Newton's steps need of it.
 template <int Dim>
 struct Place {
@@ -78,21 +84,63 @@ double reach_of_value(const PlacedPotential<Dim>& potential, double value) {
   return potential.reach * std::max(1.0, 1 - value / potential.at_centre);
 }
 
+// the gradients at the contact point
+template <int Dim>
+struct Slopes {
+  Vector<Dim> a = Vector<Dim>::Zero(), b = Vector<Dim>::Zero();
+};
+
+// The planes that can count within a distance of a point. Those that lie farther inside do not, as normals are unit.
+template <int Dim>
+class NearPlanes {
+ public:
+  NearPlanes(const PotentialPair<Dim>& pair, PotentialWorkspace<Dim>& workspace)
+      : workspace_(workspace), distance_(near_radii * (pair.a->corner_radius + pair.b->corner_radius)) {
+    take(workspace_.a, workspace_.near_a);
+    take(workspace_.b, workspace_.near_b);
+  }
+  // whether what lies within the length of the point sees all planes that count
+  bool cover(const Vector<Dim>& point, double length) const {
+    return held_ && (point - middle_).norm() + length < distance_;
+  }
+  // once it may have left the distance, planes are chosen again
+  void hold(const Vector<Dim>& point) {
+    if (cover(point, 0)) return;
+    held_ = true;
+    middle_ = point;
+    choose(workspace_.a, workspace_.near_a);
+    choose(workspace_.b, workspace_.near_b);
+  }
+
+ private:
+  void take(const PlacedPotential<Dim>& all, PlacedPotential<Dim>& near) const {
+    near.plane_weight = all.plane_weight;
+    near.sphere_weight = all.sphere_weight;
+    near.centre = all.centre;
+    near.reach = all.reach;
+    near.at_centre = all.at_centre;
+  }
+  void choose(const PlacedPotential<Dim>& all, PlacedPotential<Dim>& near) const {
+    near.planes.clear();
+    for (const HalfSpace<Dim>& plane : all.planes)
+      if (signed_distance<Dim>(plane, middle_) > -1.01 * distance_) near.planes.push_back(plane);
+  }
+
+  PotentialWorkspace<Dim>& workspace_;
+  Vector<Dim> middle_ = Vector<Dim>::Zero();
+  double distance_;
+  bool held_ = false;
+};
+
 template <int Dim>
 class Search {
  public:
-  Search(const PotentialPair<Dim>& pair, PotentialWorkspace<Dim>& workspace)
-      : a_(workspace.a),
-        b_(workspace.b),
-        ray_(workspace.ray),
-        usual_ratio_(usual_slope<Dim>(*pair.b) / usual_slope<Dim>(*pair.a)) {
-    place<Dim>(*pair.a, Matrix<Dim>::Identity(), Vector<Dim>::Zero(), a_);
-    place<Dim>(*pair.b, pair.rotation, pair.offset, b_);
-  }
+  Search(const PlacedPotential<Dim>& a, const PlacedPotential<Dim>& b, RayScratch& ray) : a_(a), b_(b), ray_(ray) {}
 
   // stops early where the particles are proven apart, if that is all that is asked
   void solve(const PotentialStart<Dim>& start, bool to_the_end, PotentialContact<Dim>& contact) {
-    begin(start, contact);
+    contact.point = start.point;
+    contact.ratio = start.ratio;
     double low = 0, high = infinity;  // of the ratio, as far as the signs of f_A - f_B show
     double fraction = inner_fraction;
     int foreseen = 0;
@@ -123,20 +171,62 @@ class Search {
                                                             : PotentialStatus::undecided;
   }
 
-  const PlacedPotential<Dim>& a() const { return a_; }
-  const PlacedPotential<Dim>& b() const { return b_; }
-
- private:
-  // from nothing: where the enclosing spheres have equal values, with the weights that balance there
-  void begin(const PotentialStart<Dim>& start, PotentialContact<Dim>& contact) const {
+  // Newton's method on both conditions at once from where the answer is thought to be near. False: it was not.
+  bool refine(const PotentialStart<Dim>& start, bool to_the_end, NearPlanes<Dim>& near, PotentialContact<Dim>& contact,
+              Slopes<Dim>& slopes) {
     contact.point = start.point;
     contact.ratio = start.ratio;
-    if (contact.ratio > 0) return;
-    contact.point = a_.centre + a_.reach / (a_.reach + b_.reach) * (b_.centre - a_.centre);
-    contact.ratio = usual_ratio_;
+    double lambda = start.ratio / (1 + start.ratio), of_b = 1 / (1 + start.ratio), previous = infinity;
+    int foreseen = 0, longer_steps = 0;
+    for (int i = 0; i < refine_limit && longer_steps <= most_longer_steps; ++i) {
+      near.hold(contact.point);
+      const Place<Dim> at = look_around(contact);
+      if (!to_the_end && at.a.value > 0 && at.b.value > 0) {
+        certify(at, contact);
+        if (contact.bound > contact.rounding) return judge(contact), true;
+      }
+      const double terms = 3 + at.a.value + at.b.value;
+      const Vector<Dim> difference = at.a.gradient - at.b.gradient;
+      const double rate = difference.dot(at.across);
+      if (!(rate < 0)) return false;
+      const double change = -(at.a.value - at.b.value + difference.dot(at.newton)) / rate;
+      const Vector<Dim> step = at.newton + change * at.across;
+      const double length = step.norm();
+      const double left = at.decrement + std::abs(at.q_a - at.q_b) * std::min(lambda, of_b);
+      foreseen = left <= last_gap * terms ? foreseen + 1 : 0;
+      if (length >= previous / 2 || length <= settled * (a_.reach + b_.reach)) {
+        certify(at, contact);
+        if (left <= last_gap * terms + contact.rounding) {
+          judge(contact);
+          slopes = {at.a.gradient, at.b.gradient};
+          return foreseen > 1 || contact.value - contact.bound <= last_gap * terms + 2 * contact.rounding;
+        }
+      }
+      longer_steps += length >= previous / 2;
+      previous = length;
+      lambda += change;
+      of_b -= change;
+      if (!(lambda > 0 && of_b > 0)) return false;
+      contact.point += step;
+      contact.ratio = lambda / of_b;
+    }
+    return false;
   }
 
+ private:
   Place<Dim> look(PotentialContact<Dim>& contact) const {
+    const Place<Dim> at = look_around(contact);
+    certify(at, contact);
+    return at;
+  }
+
+  void certify(const Place<Dim>& at, PotentialContact<Dim>& contact) const {
+    contact.value = std::max(at.a.value, at.b.value);
+    contact.bound = bound_below(at, contact.point, contact.value);
+    contact.rounding = value_rounding<Dim>(a_, contact.point) + value_rounding<Dim>(b_, contact.point);
+  }
+
+  Place<Dim> look_around(PotentialContact<Dim>& contact) const {
     ++contact.iterations;
     Place<Dim> at;
     at.a = derivatives<Dim>(a_, contact.point);
@@ -147,14 +237,14 @@ class Search {
     at.gradient = at.lambda * at.a.gradient + of_b * at.b.gradient;
     at.hessian = at.lambda * at.a.hessian + of_b * at.b.hessian;
     at.spheres = 2 * (at.lambda * a_.sphere_weight + of_b * b_.sphere_weight);
-    at.newton = newton_solution<Dim>(at.hessian, at.spheres, at.gradient);
-    at.across = newton_solution<Dim>(at.hessian, at.spheres, at.a.gradient - at.b.gradient);
+    Eigen::Matrix<double, Dim, 2> right;
+    right << at.gradient, at.a.gradient - at.b.gradient;
+    right = newton_solutions<Dim>(at.hessian, at.spheres, right);
+    at.newton = right.col(0);
+    at.across = right.col(1);
     at.decrement = -at.gradient.dot(at.newton);
     at.q_a = 1 + at.a.value + at.a.gradient.dot(at.newton);
     at.q_b = 1 + at.b.value + at.b.gradient.dot(at.newton);
-    contact.value = std::max(at.a.value, at.b.value);
-    contact.bound = bound_below(at, contact.point, contact.value);
-    contact.rounding = value_rounding<Dim>(a_, contact.point) + value_rounding<Dim>(b_, contact.point);
     return at;
   }
 
@@ -215,9 +305,8 @@ class Search {
     judge(contact);
   }
 
-  PlacedPotential<Dim>&a_, &b_;
+  const PlacedPotential<Dim>&a_, &b_;
   RayScratch& ray_;
-  double usual_ratio_;
 };
 
 // whether a gradient is more than the rounding of coordinates leaves
@@ -228,32 +317,83 @@ bool has_direction(const PlacedPotential<Dim>& potential, const Vector<Dim>& poi
 }
 
 template <int Dim>
-void find_overlap(const PlacedPotential<Dim>& a, const PlacedPotential<Dim>& b, PotentialContact<Dim>& contact) {
-  const Vector<Dim> of_a = derivatives<Dim>(a, contact.point).gradient;
-  const Vector<Dim> of_b = derivatives<Dim>(b, contact.point).gradient;
+double length_through(const PlacedPotential<Dim>& a, const PlacedPotential<Dim>& b, const Vector<Dim>& point,
+                      const Vector<Dim>& normal, double& longer) {
+  const double ahead = distance_to_surface<Dim>(a, point, normal), behind = distance_to_surface<Dim>(b, point, -normal);
+  longer = std::max(ahead, behind);
+  return ahead + behind;
+}
+
+template <int Dim>
+void find_overlap(const Slopes<Dim>& slopes, const NearPlanes<Dim>& near, double scale,
+                  PotentialWorkspace<Dim>& workspace, PotentialContact<Dim>& contact) {
+  const PlacedPotential<Dim>&a = workspace.a, &b = workspace.b;
+  const bool covered = near.cover(contact.point, 0);
   contact.status = PotentialStatus::no_normal;
-  if (!has_direction<Dim>(a, contact.point, of_a) || !has_direction<Dim>(b, contact.point, of_b)) return;
-  const Vector<Dim> mean = of_a.normalized() - of_b.normalized();
+  if (!has_direction<Dim>(a, contact.point, slopes.a) || !has_direction<Dim>(b, contact.point, slopes.b)) return;
+  const Vector<Dim> mean = slopes.a.normalized() - slopes.b.normalized();
   if (!(mean.norm() > 1)) return;  // at the least point the two are opposite
   contact.status = PotentialStatus::touching;
   contact.normal = mean.normalized();
-  contact.overlap = distance_to_surface<Dim>(a, contact.point, contact.normal) +
-                    distance_to_surface<Dim>(b, contact.point, -contact.normal);
+  double longer = 0;
+  if (covered)
+    contact.overlap = length_through<Dim>(workspace.near_a, workspace.near_b, contact.point, contact.normal, longer);
+  if (!near.cover(contact.point, longer))
+    contact.overlap = length_through<Dim>(a, b, contact.point, contact.normal, longer);
+
+  const double root = std::sqrt(1 + contact.value), of_b = 1 / (1 + contact.ratio);
+  const double slope = of_b * (contact.ratio * slopes.a.norm() + slopes.b.norm()) / 2;  // both terms are equal
+  contact.energy_overlap = -scale * contact.value / (1 + root);                         // S (1 - root)
+  contact.energy_rate = scale * slope / (2 * root);
+}
+
+// from nothing: where planes alone would have the contact, else where the enclosing spheres have equal values, with the
+// weights that balance there
+template <int Dim>
+PotentialStart<Dim> begin(const PotentialPair<Dim>& pair, PotentialWorkspace<Dim>& workspace, bool& near) {
+  const PlacedPotential<Dim>&a = workspace.a, &b = workspace.b;
+  const FirstPoint<Dim> first = find_first_point<Dim>(a, b, workspace.columns);
+  near = true;
+  if (first.found && first.level > 0) return {first.point, first.ratio};
+  near = !first.found;
+  const double usual = energy_scale<Dim>(*pair.a) / energy_scale<Dim>(*pair.b);
+  if (first.found) return {first.point, usual};
+  return {a.centre + a.reach / (a.reach + b.reach) * (b.centre - a.centre), usual};
 }
 
 }  // namespace
 
 template <int Dim>
+double energy_scale(const PotentialShape<Dim>& shape) {
+  const double k = shape.sphericity;
+  return 1 / (std::sqrt((1 - k) * (1 - k / 2)) / shape.corner_radius + k / shape.sphere_radius);
+}
+
+template <int Dim>
 PotentialContact<Dim> resolve(const PotentialPair<Dim>& pair, PotentialQuery query, PotentialWorkspace<Dim>& workspace,
-                              const PotentialStart<Dim>& start) {
+                              const PotentialStart<Dim>& given) {
+  place<Dim>(*pair.a, workspace.a);
+  place<Dim>(*pair.b, pair.rotation, pair.offset, workspace.b);
+  bool near = true;
+  const PotentialStart<Dim> start = given.ratio > 0 ? given : begin<Dim>(pair, workspace, near);
+  const bool to_the_end = query == PotentialQuery::least;
+
   PotentialContact<Dim> contact;
-  Search<Dim> search(pair, workspace);
-  search.solve(start, query == PotentialQuery::least, contact);
+  NearPlanes<Dim> planes(pair, workspace);
+  Slopes<Dim> slopes;
+  if (!near || !Search<Dim>(workspace.near_a, workspace.near_b, workspace.ray)
+                    .refine(start, to_the_end, planes, contact, slopes)) {
+    Search<Dim>(workspace.a, workspace.b, workspace.ray).solve(start, to_the_end, contact);
+    slopes = {derivatives<Dim>(workspace.a, contact.point).gradient,
+              derivatives<Dim>(workspace.b, contact.point).gradient};
+  }
   if (query == PotentialQuery::overlap && contact.status == PotentialStatus::touching)
-    find_overlap<Dim>(search.a(), search.b(), contact);
+    find_overlap<Dim>(slopes, planes, energy_scale<Dim>(*pair.a) + energy_scale<Dim>(*pair.b), workspace, contact);
   return contact;
 }
 
+template double energy_scale<2>(const PotentialShape<2>&);
+template double energy_scale<3>(const PotentialShape<3>&);
 template PotentialContact<2> resolve<2>(const PotentialPair<2>&, PotentialQuery, PotentialWorkspace<2>&,
                                         const PotentialStart<2>&);
 template PotentialContact<3> resolve<3>(const PotentialPair<3>&, PotentialQuery, PotentialWorkspace<3>&,

@@ -43,8 +43,30 @@ struct PotentialContact {
   double rounding = 0;                       // of both
   Vector<Dim> normal = Vector<Dim>::Zero();  // unit, from the first to the second: mean of the gradients' directions
   double overlap = 0;                        // between the surfaces along the normal through the point, m
+  double energy_overlap = 0;                 // of a force with a potential, see below, m
+  double energy_rate = 0;                    // by which that overlap falls as the bodies part along the normal
   int iterations = 0;                        // Newton's, of which each takes one factorisation
 };
+
+// The conservative overlap. The bracketed overlap's force has no potential: the overlap changes with the point, which
+// the force does not feel. The pair's value has one: by the envelope theorem it changes as if the least point and λ
+// stood still, so that U = k δ(v)² / 2 acts at the contact point, along the same normal, by k δ (-dδ/dn). With
+//   δ(v) = S (1 - sqrt(1 + v)),   -dδ/dn = S |λ ∇f_A| / (2 sqrt(1 + v)),   S = length of A + length of B
+// it is the true overlap between spheres, and at k = 0 between faces and right-angled features (energy_scale).
+// The force on the second body, N, along the normal, for a stiffness in N/m; and the energy, J.
+template <int Dim>
+double conservative_force(const PotentialContact<Dim>& contact, double stiffness) {
+  return stiffness * contact.energy_overlap * contact.energy_rate;
+}
+template <int Dim>
+double conservative_energy(const PotentialContact<Dim>& contact, double stiffness) {
+  return stiffness * contact.energy_overlap * contact.energy_overlap / 2;
+}
+
+// A shape's part of S, m: how far the surface beyond one face lies from where sqrt(f + 1) would vanish, on a straight
+// line; halfway out to the sphere, |x - c|² = R² / 2. r at k = 0, R at k = 1.
+template <int Dim>
+double energy_scale(const PotentialShape<Dim>& shape);
 
 // where to begin: the point in the first body's frame and the ratio of the step before
 template <int Dim>
@@ -57,7 +79,9 @@ struct PotentialStart {
 template <int Dim>
 struct PotentialWorkspace {
   PlacedPotential<Dim> a, b;
+  PlacedPotential<Dim> near_a, near_b;  // with the planes alone that count around the contact
   RayScratch ray;
+  std::vector<double> columns;
 };
 
 // Both shapes are valid (core/potential/valid_shape.hpp) and the offset is finite. For k = 0 of both the least point

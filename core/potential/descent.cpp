@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/optimise/symmetric_system.hpp"
-
 namespace voussoir {
 namespace {
 
@@ -97,25 +95,61 @@ bool hold_planes(const WeightedPotentials<Dim>& sum, const Vector<Dim>& point, d
   return held;
 }
 
-}  // namespace
+// as solve_symmetric, with one division for each of H's pivots
+template <int Dim, int Columns>
+bool solve_by_factors(Matrix<Dim>& h, Eigen::Matrix<double, Dim, Columns>& g) {
+  double inverse[Dim];
+  for (int k = 0; k < Dim; ++k) {
+    if (!(h(k, k) > 0)) return false;
+    inverse[k] = 1 / h(k, k);
+    for (int i = k + 1; i < Dim; ++i) {
+      const double factor = h(i, k) * inverse[k];
+      for (int j = k + 1; j <= i; ++j)
+        h(i, j) -= factor * h(j, k);
+      for (int c = 0; c < Columns; ++c)
+        g(i, c) -= factor * g(k, c);
+    }
+  }
+  for (int k = Dim - 1; k >= 0; --k)
+    for (int c = 0; c < Columns; ++c) {
+      for (int i = k + 1; i < Dim; ++i)
+        g(k, c) -= h(i, k) * g(i, c);
+      g(k, c) *= inverse[k];
+    }
+  return true;
+}
 
-template <int Dim>
-Vector<Dim> newton_solution(const Matrix<Dim>& hessian, double spheres, const Vector<Dim>& right) {
+template <int Dim, int Columns>
+Eigen::Matrix<double, Dim, Columns> solve(const Matrix<Dim>& hessian, double spheres,
+                                          const Eigen::Matrix<double, Dim, Columns>& right) {
   const double rounding = floor_of_curvature * hessian.trace();
   if (spheres > 0 && spheres < drowned_curvature * rounding) {
     const Eigen::SelfAdjointEigenSolver<Matrix<Dim>> own(hessian);
-    Vector<Dim> along = own.eigenvectors().transpose() * right;
+    Eigen::Matrix<double, Dim, Columns> along = own.eigenvectors().transpose() * right;
     for (int k = 0; k < Dim; ++k)
-      along[k] /= own.eigenvalues()[k] > drowned_curvature * rounding ? own.eigenvalues()[k] : spheres;
+      along.row(k) /= own.eigenvalues()[k] > drowned_curvature * rounding ? own.eigenvalues()[k] : spheres;
     return -(own.eigenvectors() * along);
   }
   Matrix<Dim> h = hessian;
-  Vector<Dim> solution = -right;
+  Eigen::Matrix<double, Dim, Columns> solution = -right;
   if (!(spheres > 0))
     for (int k = 0; k < Dim; ++k)
       h(k, k) += rounding;
   // without any curvature (inside all planes, k = 0) the search along the line says how far
-  return solve_symmetric<Dim>(h, solution) ? solution : Vector<Dim>(-right);
+  if (!solve_by_factors<Dim, Columns>(h, solution)) solution = -right;
+  return solution;
+}
+
+}  // namespace
+
+template <int Dim>
+Vector<Dim> newton_solution(const Matrix<Dim>& hessian, double spheres, const Vector<Dim>& right) {
+  return solve<Dim, 1>(hessian, spheres, right);
+}
+template <int Dim>
+Eigen::Matrix<double, Dim, 2> newton_solutions(const Matrix<Dim>& hessian, double spheres,
+                                               const Eigen::Matrix<double, Dim, 2>& right) {
+  return solve<Dim, 2>(hessian, spheres, right);
 }
 
 template <int Dim>
@@ -162,8 +196,12 @@ LeastPoint<Dim> find_least_point(const WeightedPotentials<Dim>& sum, const Vecto
   return least;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                            \
-  template Vector<Dim> newton_solution<Dim>(const Matrix<Dim>&, double, const Vector<Dim>&); \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                \
+  template Vector<Dim> newton_solution<Dim>(const Matrix<Dim>&, double, const Vector<Dim>&);                     \
+  template Eigen::Matrix<double, Dim, 2> newton_solutions<Dim>(const Matrix<Dim>&, double,                       \
+                                                               const Eigen::Matrix<double, Dim, 2>&);            \
+  template Vector<Dim> descent_step<Dim>(const WeightedPotentials<Dim>&, const Vector<Dim>&, const Vector<Dim>&, \
+                                         const Matrix<Dim>&, double, RayScratch&);                               \
   template LeastPoint<Dim> find_least_point<Dim>(const WeightedPotentials<Dim>&, const Vector<Dim>&, RayScratch&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

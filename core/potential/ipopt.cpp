@@ -28,12 +28,16 @@ struct Side {
   Index planes() const { return static_cast<Index>(potential.planes.size()); }
 };
 
-// Variables: x, the p of A, the p of B, then t or s_A and s_B. Constraints: one for each plane, then the two cones.
+// Variables: x, the p of A, the p of B, then t, or s_A and s_B, or t_A and t_B. Constraints: one for each plane, then
+// the two cones.
 template <int Dim>
 class ConeProgram : public Ipopt::TNLP {
  public:
   ConeProgram(std::array<Side<Dim>, 2> sides, ConeReading reading, const Vector<Dim>& start)
-      : sides_(std::move(sides)), linked_(reading == ConeReading::linked), start_(start) {}
+      : sides_(std::move(sides)),
+        linked_(reading == ConeReading::linked),
+        roots_(reading == ConeReading::unlinked),
+        start_(start) {}
   const Vector<Dim>& solution() const { return solution_; }
 
   bool get_nlp_info(Index& variables, Index& constraints, Index& jacobian, Index& hessian,
@@ -41,7 +45,7 @@ class ConeProgram : public Ipopt::TNLP {
     variables = last() + (linked_ ? 1 : 2);
     constraints = planes() + 2;
     jacobian = planes() * (Dim + 1) + planes() + 2 * (Dim + 1);
-    hessian = Dim + planes() + (linked_ ? 0 : 2);
+    hessian = Dim + planes() + (roots_ ? 2 : 0);
     style = C_STYLE;
     return true;
   }
@@ -68,7 +72,7 @@ class ConeProgram : public Ipopt::TNLP {
         x[p++] = std::max(signed_distance<Dim>(plane, start_), 0.0) / sides_[cone].unit;
       const double q = 1 + value<Dim>(sides_[cone].potential, start_);
       Number& height = x[linked_ ? last() : last() + cone];
-      height = std::max(height, linked_ ? q : std::sqrt(q));
+      height = std::max(height, roots_ ? std::sqrt(q) : q);
     }
     return true;
   }
@@ -96,7 +100,8 @@ class ConeProgram : public Ipopt::TNLP {
         g[row++] = plane.normal.dot(point) - side.unit * p;
         q += p * p;
       }
-      g[planes() + cone] = q - (linked_ ? x[last()] : x[last() + cone] * x[last() + cone]);
+      const double height = x[linked_ ? last() : last() + cone];
+      g[planes() + cone] = q - (roots_ ? height * height : height);
       ++cone;
     }
     return true;
@@ -118,7 +123,7 @@ class ConeProgram : public Ipopt::TNLP {
       const Index cone_row = planes() + cone, s = linked_ ? last() : last() + cone;
       for (int k = 0; k < Dim; ++k)
         put(cone_row, k, values ? 2 * side.potential.sphere_weight * (x[k] - side.potential.centre[k]) : 0);
-      put(cone_row, s, !values ? 0 : linked_ ? -1 : -2 * x[s]);
+      put(cone_row, s, !values ? 0 : roots_ ? -2 * x[s] : -1);
       for (const HalfSpace<Dim>& plane : side.potential.planes) {
         for (int k = 0; k < Dim; ++k)
           put(plane_row, k, plane.normal[k]);
@@ -146,7 +151,7 @@ class ConeProgram : public Ipopt::TNLP {
         values[k] += multiplier * sides_[cone].potential.sphere_weight;
       for (Index i = 0; i < sides_[cone].planes(); ++i)
         values[p++] = multiplier;
-      if (!linked_) values[last() + cone] = -multiplier;
+      if (roots_) values[last() + cone] = -multiplier;
     }
     return true;
   }
@@ -162,7 +167,7 @@ class ConeProgram : public Ipopt::TNLP {
   Index last() const { return Dim + planes(); }
 
   std::array<Side<Dim>, 2> sides_;
-  bool linked_;
+  bool linked_, roots_;
   Vector<Dim> start_, solution_ = Vector<Dim>::Zero();
 };
 

@@ -6,12 +6,13 @@
 
 namespace voussoir {
 
-// Two readings of the cone program of Boon (2013), Eq. A.10, in the squared form, whose functions are smooth (the norms
+// Readings of the cone program of Boon (2013), Eq. A.10, in the squared form, whose functions are smooth (the norms
 // themselves have no derivative where they vanish). p: a slack above each plane in units of r / sqrt(1 - k), Eq. A.7;
 // a·x - (r / sqrt(1 - k)) p <= d, p >= 0; Q = Σ p² + k |x - c|² / R².
 enum class ConeReading {
-  linked,   // minimise t, Q_A <= t, Q_B <= t: with s_A = s_B, which the text after A.10 has
-  unlinked  // minimise s_A + s_B, Q_A <= s_A², Q_B <= s_B²: A.10 as it is printed
+  linked,           // minimise t, Q_A <= t, Q_B <= t: with s_A = s_B, which the text after A.10 has
+  unlinked,         // minimise s_A + s_B, Q_A <= s_A², Q_B <= s_B²: A.10 as it is printed
+  unlinked_squares  // minimise t_A + t_B, Q_A <= t_A, Q_B <= t_B: f_A + f_B, A.3 without f_A = f_B
 };
 
 template <int Dim>

@@ -14,28 +14,44 @@ constexpr double slack_rounding = 8 * std::numeric_limits<double>::epsilon();
 // squares, their sum and the constant
 constexpr double sum_rounding = 8 * std::numeric_limits<double>::epsilon();
 
+// planes and centre are placed
+template <int Dim>
+void weigh(const PotentialShape<Dim>& shape, PlacedPotential<Dim>& placed) {
+  placed.plane_weight = (1 - shape.sphericity) / (shape.corner_radius * shape.corner_radius);
+  placed.sphere_weight = shape.sphericity / (shape.sphere_radius * shape.sphere_radius);
+  placed.reach = shape.sphere_radius;
+  placed.at_centre = value<Dim>(placed, placed.centre);
+}
+
 }  // namespace
 
 template <int Dim>
 void place(const PotentialShape<Dim>& shape, const Matrix<Dim>& rotation, const Vector<Dim>& origin,
            PlacedPotential<Dim>& placed) {
-  placed.planes.clear();
-  if (shape.sphericity < 1)
-    for (const HalfSpace<Dim>& plane : shape.planes) {
-      const Vector<Dim> normal = rotation * plane.normal;
-      placed.planes.push_back({normal, plane.offset + normal.dot(origin)});
-    }
-  placed.plane_weight = (1 - shape.sphericity) / (shape.corner_radius * shape.corner_radius);
-  placed.sphere_weight = shape.sphericity / (shape.sphere_radius * shape.sphere_radius);
+  placed.planes.resize(shape.sphericity < 1 ? shape.planes.size() : 0);
+  for (std::size_t i = 0; i < placed.planes.size(); ++i) {
+    const HalfSpace<Dim>& plane = shape.planes[i];
+    const Vector<Dim> normal = rotation * plane.normal;
+    placed.planes[i] = {normal, plane.offset + normal.dot(origin)};
+  }
   placed.centre = rotation * shape.centre + origin;
-  placed.reach = shape.sphere_radius;
-  placed.at_centre = value<Dim>(placed, placed.centre);
+  weigh<Dim>(shape, placed);
+}
+
+template <int Dim>
+void place(const PotentialShape<Dim>& shape, PlacedPotential<Dim>& placed) {
+  if (shape.sphericity < 1)
+    placed.planes = shape.planes;
+  else
+    placed.planes.clear();
+  placed.centre = shape.centre;
+  weigh<Dim>(shape, placed);
 }
 
 template <int Dim>
 PlacedPotential<Dim> placed(const PotentialShape<Dim>& shape) {
   PlacedPotential<Dim> placed;
-  place<Dim>(shape, Matrix<Dim>::Identity(), Vector<Dim>::Zero(), placed);
+  place<Dim>(shape, placed);
   return placed;
 }
 
@@ -51,24 +67,30 @@ double value(const PlacedPotential<Dim>& potential, const Vector<Dim>& point) {
 
 template <int Dim>
 PotentialDerivatives<Dim> derivatives(const PlacedPotential<Dim>& potential, const Vector<Dim>& point) {
-  PotentialDerivatives<Dim> at;
-  double squares = 0;
+  constexpr int entries = Dim * (Dim + 1) / 2;
+  double slope[Dim]{}, curvature[entries]{}, squares = 0;
   for (const HalfSpace<Dim>& plane : potential.planes) {
     const double slack = signed_distance<Dim>(plane, point);
     if (slack <= 0) continue;
     squares += slack * slack;
-    at.gradient += slack * plane.normal;
-    for (int k = 0; k < Dim; ++k)  // the lower triangle
+    int entry = 0;
+    for (int k = 0; k < Dim; ++k) {
+      slope[k] += slack * plane.normal[k];
       for (int l = 0; l <= k; ++l)
-        at.hessian(k, l) += plane.normal[k] * plane.normal[l];
+        curvature[entry++] += plane.normal[k] * plane.normal[l];
+    }
   }
+  PotentialDerivatives<Dim> at;
   const Vector<Dim> arm = point - potential.centre;
-  at.value = potential.plane_weight * squares + potential.sphere_weight * arm.squaredNorm() - 1;
-  at.gradient = 2 * (potential.plane_weight * at.gradient + potential.sphere_weight * arm);
-  for (int k = 0; k < Dim; ++k)
-    for (int l = 0; l <= k; ++l)
+  const double arm_squared = arm.squaredNorm();
+  int entry = 0;
+  for (int k = 0; k < Dim; ++k) {
+    at.gradient[k] = 2 * (potential.plane_weight * slope[k] + potential.sphere_weight * arm[k]);
+    for (int l = 0; l <= k; ++l, ++entry)
       at.hessian(l, k) = at.hessian(k, l) =
-          2 * (potential.plane_weight * at.hessian(k, l) + (k == l ? potential.sphere_weight : 0));
+          2 * (potential.plane_weight * curvature[entry] + (k == l ? potential.sphere_weight : 0));
+  }
+  at.value = potential.plane_weight * squares + potential.sphere_weight * arm_squared - 1;
   return at;
 }
 
@@ -89,6 +111,7 @@ double value_rounding(const PlacedPotential<Dim>& potential, const Vector<Dim>& 
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \
   template void place<Dim>(const PotentialShape<Dim>&, const Matrix<Dim>&, const Vector<Dim>&, PlacedPotential<Dim>&); \
+  template void place<Dim>(const PotentialShape<Dim>&, PlacedPotential<Dim>&);                                         \
   template PlacedPotential<Dim> placed<Dim>(const PotentialShape<Dim>&);                                               \
   template double value<Dim>(const PlacedPotential<Dim>&, const Vector<Dim>&);                                         \
   template PotentialDerivatives<Dim> derivatives<Dim>(const PlacedPotential<Dim>&, const Vector<Dim>&);                \

@@ -36,8 +36,11 @@ struct PlacedPotential {
 template <int Dim>
 void place(const PotentialShape<Dim>& shape, const Matrix<Dim>& rotation, const Vector<Dim>& origin,
            PlacedPotential<Dim>& placed);
+// in its own frame
 template <int Dim>
-PlacedPotential<Dim> placed(const PotentialShape<Dim>& shape);  // in its own frame
+void place(const PotentialShape<Dim>& shape, PlacedPotential<Dim>& placed);
+template <int Dim>
+PlacedPotential<Dim> placed(const PotentialShape<Dim>& shape);
 
 template <int Dim>
 double value(const PlacedPotential<Dim>& potential, const Vector<Dim>& point);

@@ -14,24 +14,37 @@ constexpr double rounding = 2 * std::numeric_limits<double>::epsilon();
 template <int Dim>
 double distance_to_surface(const PlacedPotential<Dim>& potential, const Vector<Dim>& point,
                            const Vector<Dim>& direction) {
+  const double length = direction.norm(), from_centre = (point - potential.centre).norm();
   // the body lies in the sphere of radius R around its centre; twice that is outside whatever rounding does
-  double inside = 0, outside = 2 * ((point - potential.centre).norm() + potential.reach) / direction.norm();
-  double t = outside;
+  double inside = 0, outside = 2 * (from_centre + potential.reach) / length, t = 0;
+  const double blur = rounding * (point.norm() + potential.centre.norm()) / length;
   while (true) {
+    // Q(t + x) = q + 2 b x + c x², as long as the same planes count
     const Vector<Dim> x = point + t * direction;
-    double squares = 0, slope = 0;
+    double q = 0, b = 0, c = 0;
     for (const HalfSpace<Dim>& plane : potential.planes) {
-      const double slack = std::max(signed_distance<Dim>(plane, x), 0.0);
-      squares += slack * slack;
-      slope += slack * plane.normal.dot(direction);
+      const double slack = signed_distance<Dim>(plane, x);
+      if (slack <= 0) continue;
+      const double rate = plane.normal.dot(direction);
+      q += slack * slack;
+      b += slack * rate;
+      c += rate * rate;
     }
     const Vector<Dim> arm = x - potential.centre;
-    const double root = std::sqrt(potential.plane_weight * squares + potential.sphere_weight * arm.squaredNorm());
-    slope = potential.plane_weight * slope + potential.sphere_weight * arm.dot(direction);
-    (root < 1 ? inside : outside) = t;
-    double next = slope > 0 ? t - (root - 1) * root / slope : inside;
-    if (!(next > inside && next < outside)) next = inside + (outside - inside) / 2;
-    if (next <= inside || next >= outside || std::abs(next - t) <= rounding * t) return next;
+    q = potential.plane_weight * q + potential.sphere_weight * arm.squaredNorm();
+    b = potential.plane_weight * b + potential.sphere_weight * arm.dot(direction);
+    c = potential.plane_weight * c + potential.sphere_weight * (length * length);
+    (q < 1 ? inside : outside) = t;
+    const double root = std::sqrt(std::max(b * b + c * (1 - q), 0.0));
+    const bool turns = q < 1 && b < 0;  // the parabola still falls
+    const double numerator = turns ? root - b : 1 - q, denominator = turns ? c : b + root;
+    double next = inside + (outside - inside) / 2;
+    if (std::abs(numerator) < denominator * (outside - inside)) {
+      const double move = numerator / denominator;
+      if (std::abs(move) <= blur + rounding * t) return t + move;
+      if (t + move > inside && t + move < outside) next = t + move;
+    }
+    if (next <= inside || next >= outside) return next;
     t = next;
   }
 }

@@ -46,6 +46,38 @@ TEST(PotentialParticles, IsTheLeastLargerValueOnTheLine) {
     }
 }
 
+TEST(PotentialParticles, RoundedFeaturesHaveEqualValuesAndBecomeTheSimpleOnes) {
+  for (const double k : {0.0, 0.1, 0.5}) {
+    const RoundedForm c = rounded_features(k, 0.35, 1, 0.8);
+    const auto q = [&](double t, double part) { return (1 - k) * t * t + k * part; };
+    EXPECT_NEAR(q(c.from_first, 0.35), q(c.from_second, 1), 1e-15);
+    EXPECT_NEAR(c.from_first + c.from_second, 0.8, 1e-15);
+    // the overlap's ends lie on both surfaces
+    const double first = std::sqrt((1 - k * 0.35) / (1 - k));
+    EXPECT_NEAR(q(first, 0.35), 1, 1e-15);
+    EXPECT_NEAR(q(0.8 + c.overlap - first, 1), 1, 1e-14);
+  }
+  EXPECT_NEAR(rounded_features(0, 0.3, 1, 1.5).from_first, touching_features(1, 1, 1.5).from_first, 1e-15);
+  EXPECT_NEAR(rounded_features(0, 0.3, 1, 1.5).overlap, touching_features(1, 1, 1.5).overlap, 1e-15);
+  EXPECT_EQ(tilt(0, 1, 1, 1), 0);
+  EXPECT_NEAR(tilt(0.5, 0.2, 2, 0.25), 0.2, 1e-15);
+}
+
+TEST(PotentialParticles, WithoutTheLinkSquaresAreLeastElsewhere) {
+  for (const double a : {0.1, 1.0, 3.0})
+    for (const double b : {0.2, 1.0}) {
+      const double gap = 0.95 * (a + b);
+      const auto squares = [&](double t) { return t * t / (a * a) + (gap - t) * (gap - t) / (b * b); };
+      // flat at its least: thirds find it to the root of rounding
+      EXPECT_NEAR(unlinked_squares(a, b, gap), least_place(squares, gap), 1e-7);
+      EXPECT_NEAR(unlinked_squares(a, b, gap), gap - unlinked_squares(b, a, gap), 1e-15);
+      // at the overlap from which the contact is seen, the point lies on the larger body's surface
+      const double just = a + b - unseen_overlap(a, b), t = unlinked_squares(a, b, just);
+      EXPECT_NEAR(std::max(t / a, (just - t) / b), 1, 1e-14);
+    }
+  EXPECT_EQ(unseen_overlap(1, 1), 0);
+}
+
 TEST(PotentialParticles, ScalesWithItsLengthsAndTouchesAtTheSum) {
   const PotentialContactForm one = touching_features(0.1, 0.3, 0.35), ten = touching_features(1, 3, 3.5);
   EXPECT_NEAR(10 * one.from_first, ten.from_first, 1e-14);
