@@ -58,9 +58,10 @@ std::string blocks_as_particles(const Model<Dim>& model, const State<Dim>& state
     if (rounding.radius > 0) {
       const PotentialShape<Dim> shape = rounded<Dim>(faces, place, rounding);
       faces = shape.planes;
-      particle =
-          fmt::format(", shape = \"potential\", corner_radius = {}, sphericity = {}, sphere_radius = {}, centre = {}",
-                      shape.corner_radius, shape.sphericity, shape.sphere_radius, numbers<Dim>(shape.centre));
+      particle = fmt::format(
+          ", shape = \"potential\", corner_radius = {}, sphericity = {}, sphere_radius = {}, centre = {}, "
+          "mass_tolerance = {}",
+          shape.corner_radius, shape.sphericity, shape.sphere_radius, numbers<Dim>(shape.centre), mass_tolerance<Dim>);
     }
     std::string planes;
     for (const HalfSpace<Dim>& f : faces)

@@ -24,6 +24,11 @@ PotentialShape<Dim> rounded(const HalfSpaces<Dim>& faces, const Vector<Dim>& cen
 template <int Dim>
 std::string blocks_as_particles(const Model<Dim>& model, const State<Dim>& state, const Rounding& rounding);
 
+// Bound of the error of volume and inertia, over the volume; the error itself is a hundred times smaller. In space 1e-4
+// takes a second for five bodies, and nothing here weighs them that finely.
+template <int Dim>
+inline constexpr double mass_tolerance = Dim == 2 ? 1e-4 : 1e-2;
+
 // the smallest inscribed radius of the bodies that are not fixed, m
 template <int Dim>
 double smallest_size(const Model<Dim>& model);

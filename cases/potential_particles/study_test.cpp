@@ -268,7 +268,8 @@ void study(CaseReport& report, const Problem& problem, const Grid& grid) {
     for (const double level : levels) {
       const auto limit = boundary(found.points, k, level);
       report.report(fmt::format("study, {}, k {}: largest r/size for an error of {} %", problem.name, k, 100 * level),
-                    "1", limit.value_or(0), limit ? "between points of the study" : "more already at the least r");
+                    "1", limit.value_or(0),
+                    limit ? "between points of the study" : "more already at the least r that was answered");
     }
 }
 
