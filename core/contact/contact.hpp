@@ -35,7 +35,9 @@ enum class ProofKind {
   interior_point,   // `point` lies inside both parts by at least `margin`
   separating_axis,  // nothing of A lies beyond `support` along `axis`, nothing of B before support + margin
   multipliers,      // the LP's optimum is at least `margin`, by its multipliers (weak duality)
-  least_point       // of potential particles: `point` is where max(f_A, f_B) is least, `support` the ratio λ / (1 - λ)
+  // of potential particles: `point` is where max(f_A, f_B) is least, `support` the ratio λ / (1 - λ); where they touch
+  // `margin` is how far the point walks as one part turns, m/rad
+  least_point
 };
 
 // What proves the answer, its own rounding included, and where the kernel starts next time. In the frame of the first

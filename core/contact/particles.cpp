@@ -1,5 +1,6 @@
 #include "core/contact/particles.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,33 @@ double proven_gap(const Pair<Dim>& pair, const PotentialContact<Dim>& found) {
   if (!(least > 0)) return 0;
   const double above = least / (std::sqrt(1 + least) + 1);
   return above * (1 / pair.a->particle->steepness + 1 / pair.b->particle->steepness) * downwards;
+}
+
+// the least eigenvalue of a symmetric matrix across a unit vector
+double least_across(const Matrix<2>& m, const Vector<2>& normal) {
+  const Vector<2> t = perpendicular(normal);
+  return t.dot(m * t);
+}
+double least_across(const Matrix<3>& m, const Vector<3>& normal) {
+  const Vector<3> t = perpendicular(normal), u = normal.cross(t);
+  const double half_sum = (t.dot(m * t) + u.dot(m * u)) / 2, half_difference = (t.dot(m * t) - u.dot(m * u)) / 2;
+  const double mixed = t.dot(m * u);
+  return half_sum - std::sqrt(half_difference * half_difference + mixed * mixed);
+}
+
+// m/rad: one over the two surfaces' curvatures at the point together, where they are least. Flat ones (k = 0) have
+// none: then it is this many times their size.
+constexpr double farthest_walk = 1e7;
+
+template <int Dim>
+double walk_of_point(const PotentialPair<Dim>& pair, const PotentialContact<Dim>& found) {
+  static thread_local PlacedPotential<Dim> a, b;
+  place<Dim>(*pair.a, Matrix<Dim>::Identity(), Vector<Dim>::Zero(), a);
+  place<Dim>(*pair.b, pair.rotation, pair.offset, b);
+  const PotentialDerivatives<Dim> of_a = derivatives<Dim>(a, found.point), of_b = derivatives<Dim>(b, found.point);
+  const Matrix<Dim> curvatures = of_a.hessian / of_a.gradient.norm() + of_b.hessian / of_b.gradient.norm();
+  const double least = least_across(curvatures, found.normal);
+  return 1 / std::max(least, 1 / (farthest_walk * std::min(a.reach, b.reach)));
 }
 
 ContactStatus status_of(PotentialStatus status) {
@@ -94,6 +122,7 @@ void resolve_particles(const Pair<Dim>& pair, const ContactSettings& settings, C
     contact.geometry.stiffness_factor = found.energy_rate * found.energy_rate;
   }
   contact.proof.axis = found.normal;
+  contact.proof.margin = walk_of_point(seen, found);
 }
 
 }  // namespace

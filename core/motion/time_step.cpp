@@ -178,11 +178,19 @@ void add(Stiffness<Dim>& k, const Tangent& now, double area, const Vector<Dim>& 
     k.col(j) += more * along[j] * along;
 }
 
+// m²: the overlap of two potential particles times how far their contact's point walks as one turns; the normal
+// stiffness times it is what rocking meets beside the springs
+template <int Dim>
+double rocking(const Contact<Dim>& c) {
+  return c.proof.kind == ProofKind::least_point ? c.geometry.overlap * c.proof.margin : 0;
+}
+
 // stiffer than it was rated, or new to the rating
 template <int Dim>
 bool outgrown(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
   if (c.status == ContactStatus::apart) return false;
   if (c.area_rated < 0) return true;
+  if (model.particles && c.touching() && rocking(c) > c.area_rated) return true;
   return c.touching() && c.geometry.area * stiffening<Dim>(model.properties[c.properties], c,
                                                            subs_of(state, &c - state.contacts.data())) >
                              c.area_rated;
@@ -225,13 +233,13 @@ void add_contact(const Model<Dim>& model, const BodiesToUpdate& updated, State<D
   };
   if (!c.touching()) {
     const double face = std::min(model.polytope(c.part_a).largest_face, model.polytope(c.part_b).largest_face);
-    rate(face);
+    rate(c.proof.kind == ProofKind::least_point ? 0 : face);  // how far it rocks is not known before
     impact += factor * stiffest_joint(model.properties, face);
     return;
   }
   const JointProperties& p = model.properties[c.properties];
   const auto subs = subs_of(std::as_const(state), static_cast<std::size_t>(place));
-  rate(c.geometry.area * stiffening<Dim>(p, c, subs));
+  rate(std::max(c.geometry.area * stiffening<Dim>(p, c, subs), rocking(c)));
   const Vector<Dim> apart = between(state.poses[ia], state.poses[ib]);
   // `gyration2` times the area: what the cell about its own point adds to rocking and spin, at most
   const auto add_cell = [&](const Vector<Dim>& point, double overlap, double area, double gyration2) {
@@ -242,7 +250,7 @@ void add_contact(const Model<Dim>& model, const BodiesToUpdate& updated, State<D
       stiffness(i, i) += turning;
   };
   if (c.cells == 0)
-    return add_cell(c.geometry.point, c.geometry.overlap, p.constant_stiffness ? 1 : c.geometry.area, 0);
+    return add_cell(c.geometry.point, c.geometry.overlap, p.constant_stiffness ? 1 : c.geometry.area, rocking(c));
   const double unit = p.constant_stiffness ? c.geometry.area : 1;
   for (const SubContact<Dim>& s : subs)
     if (s.area > 0) add_cell(s.point, s.overlap, s.area / unit, s.gyration2);

@@ -70,27 +70,30 @@ INSTANTIATE_TEST_SUITE_P(
 // what does not go with particles
 const std::string friction = "friction_deg = 40\n";
 const std::string constant = friction + "constant_stiffness = true\n";
+const std::string settle = "[[stage]]\nname = \"settle\"\nkind = \"settle\"\n";
+const std::string standard =
+    "[[joint_properties]]\nname = \"default\"\nnormal_stiffness = 1e7\nshear_stiffness = 1e7\nfriction_deg = 30\n"
+    "constant_stiffness = true\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Beside, BadParticles,
-    testing::Values(
-        BadInput{"stiffness_per_area", "", sphere, "joint_properties.rock.constant_stiffness is missing",
-                 "points without area"},
-        BadInput{"sub_contacts", friction, constant + "sub_contacts = 2 #!\n" + sphere,
-                 "joint_properties.rock.sub_contacts = 2", "touch at one point"},
-        BadInput{"water", friction, constant + sphere + "[[water]]\nname = \"lake\" #!\nlevel = 1\n", "water.lake.name",
-                 "know no potential particles"},
-        BadInput{
-            "bolts", friction,
-            constant + sphere + "[[bolts]]\nname = \"pin\" #!\nfrom = [0, 0, 1]\nto = [0, 0, -1]\nstiffness = 1e8\n",
-            "bolts.pin.name", "know no potential particles"},
-        BadInput{"tolerance", friction, constant + sphere + "[contact]\ntolerance = 1e-12 #!\n",
-                 "contact.tolerance = 1e-12", "a tolerance of half-spaces"},
-        BadInput{"boundary_stress", "[[stage]]\nname = \"settle\"\nkind = \"settle\"\n",
-                 sphere + "[[joint_properties]]\nname = \"default\"\nnormal_stiffness = 1e7\nshear_stiffness = 1e7\n"
-                          "friction_deg = 30\nconstant_stiffness = true\n[[stage]]\nname = \"settle\"\nkind = "
-                          "\"settle\"\nboundary = [{ bodies = [\"ball\"], stress = [1, 1, 1, 0, 0, 0] }] #!\n",
-                 "stage.settle.boundary", "stresses block 'ball', a potential particle"}),
+    testing::Values(BadInput{"stiffness_per_area", "", sphere, "joint_properties.rock.constant_stiffness is missing",
+                             "points without area"},
+                    BadInput{"sub_contacts", friction, constant + "sub_contacts = 2 #!\n" + sphere,
+                             "joint_properties.rock.sub_contacts = 2", "touch at one point"},
+                    BadInput{"water", friction, constant + sphere + "[[water]]\nname = \"lake\" #!\nlevel = 1\n",
+                             "water.lake.name", "know no potential particles"},
+                    BadInput{"bolts", settle,
+                             sphere + standard +
+                                 "[[bolts]]\nname = \"pin\" #!\nfrom = [0, 0, 1]\nto = [0, 0, -1]\nstiffness = 1e8\n" +
+                                 settle + "install = [\"pin\"]\n",
+                             "bolts.pin.name", "know no potential particles"},
+                    BadInput{"tolerance", friction, constant + sphere + "[contact]\ntolerance = 1e-12 #!\n",
+                             "contact.tolerance = 1e-12", "a tolerance of half-spaces"},
+                    BadInput{"boundary_stress", settle,
+                             sphere + standard + settle +
+                                 "boundary = [{ bodies = [\"ball\"], stress = [1, 1, 1, 0, 0, 0] }] #!\n",
+                             "stage.settle.boundary", "stresses block 'ball', a potential particle"}),
     by_name);
 
 }  // namespace

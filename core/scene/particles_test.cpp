@@ -14,7 +14,9 @@
 #include "core/potential/particle.hpp"
 #include "core/scene/scene.hpp"
 #include "core/simulate.hpp"
+#include "core/step.hpp"
 #include "core/step/neighbours.hpp"
+#include "core/testing/counted_allocations.hpp"
 #include "core/testing/potential_pairs.hpp"
 
 namespace voussoir {
@@ -43,11 +45,15 @@ int body_named(const Model<Dim>& model, const std::string& name) {
   return select<Dim>(model, {.names = {name}, .above = {}, .below = {}, .inside = {}}).front();
 }
 
-// m, where a body's centroid stands
+// m, where the centre of a particle's sphere stands; its body's centroid is off it by what its mass is
 template <int Dim>
 Vector<Dim> place(const Ran<Dim>& run, const std::string& name) {
   const int b = body_named(run.scene.model, name);
-  return run.scene.model.origin + run.scene.model.bodies[b].reference + run.progress.state.motions[b].displacement;
+  const Body<Dim>& body = run.scene.model.bodies[b];
+  const Motion<Dim>& motion = run.progress.state.motions[b];
+  const Polytope<Dim>& part = body.parts.front();
+  return run.scene.model.origin + body.reference + motion.displacement +
+         matrix(motion.rotation) * (part.centre + part.particle->shape.centre);
 }
 
 const std::string properties =
@@ -290,6 +296,19 @@ TEST(Particles, KeepTheirBitsOverThreadsOrderAndInterruptions) {
   }
   EXPECT_GT(interruptions, 5);
   EXPECT_TRUE(end_of(progress) == expected);
+}
+
+TEST(Particles, AskForNoMemoryWhileTheirNeighboursStay) {
+  Prepared<3> scene = prepare<3>(parse_scene(heap(), "scene.toml", {"contact.skin=20"}));
+  for (int i = 0; i < 400; ++i)
+    step(scene.model, scene.settings, scene.state);
+  const long long builds = scene.state.counters.neighbour_builds, made = allocations;
+  for (int i = 0; i < 200; ++i)
+    step(scene.model, scene.settings, scene.state);
+  const long long asked = allocations - made;
+  if (!allocations_are_counted) GTEST_SKIP() << "this build counts no allocations";
+  EXPECT_EQ(asked, 0);
+  EXPECT_EQ(scene.state.counters.neighbour_builds, builds);
 }
 
 // a wider skin lists more neighbours and changes nothing
