@@ -27,6 +27,7 @@ constexpr double sphericity = 0.01;
 constexpr double overlap = 1e-4;                             // of the size
 constexpr std::array<double, 3> radii = {1e-5, 1e-2, 1e-1};  // of the size; the first a tenth of the overlaps
 constexpr int bisections = 50;
+constexpr double first_part = 0.01;  // of the overlap
 
 double processor_us() {
   timespec now;
@@ -64,8 +65,8 @@ void push_together(PotentialPair<3>& pair, double depth) {
     const bool touch = resolve<3>(pair, PotentialQuery::decision, workspace).status == PotentialStatus::touching;
     (touch ? near : far) = middle;
   }
-  pair.offset = near * along;
-  pair.offset -= depth * resolve<3>(pair, PotentialQuery::overlap, workspace).normal;
+  pair.offset = (near - first_part * depth) * along;  // where rounding does not hide the normal
+  pair.offset -= (1 - first_part) * depth * resolve<3>(pair, PotentialQuery::overlap, workspace).normal;
 }
 
 struct Pairs {

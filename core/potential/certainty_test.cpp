@@ -20,16 +20,22 @@ constexpr double proof_gap = 1e-26;
 
 struct Tally {
   int pairs = 0, without_answer = 0, undecided = 0, asked_outside = 0, outside_failed = 0, outside_off = 0;
+  double point_off = 0, value_off = 0;  // at worst, m and of f + 1
+  long long iterations = 0;
+  int most_iterations = 0;
 };
 
 template <int Dim>
-void expect_proven(const shapes::PotentialCase<Dim>& c, const PotentialContact<Dim>& found, int index) {
+void expect_proven(const shapes::PotentialCase<Dim>& c, const PotentialContact<Dim>& found, int index, Tally& tally) {
   const referee::Verdict<Dim> truth = referee::judge<Dim>(c.pair(), found.point, found.ratio, proof_gap);
   ASSERT_TRUE(truth.proven) << index;
   ASSERT_LE(truth.point_error, point_tolerance / 10) << index;
   ASSERT_LE(truth.distance_to(found.point), point_tolerance) << index;
   const double terms = 1 + std::max(0.0, found.value + 1);
-  ASSERT_LE(std::abs(static_cast<double>(truth.value - Quad(found.value))), value_tolerance * terms) << index;
+  const double value_off = std::abs(static_cast<double>(truth.value - Quad(found.value))) / terms;
+  ASSERT_LE(value_off, value_tolerance) << index;
+  tally.point_off = std::max(tally.point_off, truth.distance_to(found.point));
+  tally.value_off = std::max(tally.value_off, value_off);
   // the two bounds hold, but for the rounding that is stated
   ASSERT_GE(static_cast<double>(Quad(found.value) - truth.bound), -found.rounding) << index;
   ASSERT_LE(static_cast<double>(Quad(found.bound) - truth.value), found.rounding) << index;
@@ -72,14 +78,21 @@ Tally judge_pairs(int pairs, [[maybe_unused]] int outside, unsigned seed) {
     ++tally.pairs;
     tally.without_answer += found.status == PotentialStatus::no_answer;
     tally.undecided += found.status == PotentialStatus::undecided;
-    expect_proven<Dim>(c, found, i);
+    expect_proven<Dim>(c, found, i, tally);
+    tally.iterations += found.iterations;
+    tally.most_iterations = std::max(tally.most_iterations, found.iterations);
 #ifdef VOUSSOIR_HAS_IPOPT
     if (i < outside) ask_outside<Dim>(c, found, tally);
 #endif
   }
   testing::Test::RecordProperty("dimension", Dim);
   testing::Test::RecordProperty("undecided", tally.undecided);
+  testing::Test::RecordProperty("asked_outside", tally.asked_outside);
   testing::Test::RecordProperty("outside_off", tally.outside_off);
+  testing::Test::RecordProperty("point_off", std::to_string(1e16 * tally.point_off) + "e-16");
+  testing::Test::RecordProperty("value_off", std::to_string(1e16 * tally.value_off) + "e-16");
+  testing::Test::RecordProperty("mean_iterations", std::to_string(static_cast<double>(tally.iterations) / tally.pairs));
+  testing::Test::RecordProperty("most_iterations", tally.most_iterations);
   EXPECT_EQ(tally.without_answer, 0);
   EXPECT_EQ(tally.outside_failed, 0);
   // Ipopt ends where its own error measure is below 1e-12: across faces that are nearly parallel its point is then off

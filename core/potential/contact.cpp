@@ -137,8 +137,8 @@ class Search {
  public:
   Search(const PlacedPotential<Dim>& a, const PlacedPotential<Dim>& b, RayScratch& ray) : a_(a), b_(b), ray_(ray) {}
 
-  // stops early where the particles are proven apart, if that is all that is asked
-  void solve(const PotentialStart<Dim>& start, bool to_the_end, PotentialContact<Dim>& contact) {
+  // stops as soon as what is asked is proven
+  void solve(const PotentialStart<Dim>& start, PotentialQuery query, PotentialContact<Dim>& contact) {
     contact.point = start.point;
     contact.ratio = start.ratio;
     double low = 0, high = infinity;  // of the ratio, as far as the signs of f_A - f_B show
@@ -146,7 +146,7 @@ class Search {
     int foreseen = 0;
     while (contact.iterations < iteration_limit) {
       const Place<Dim> at = look(contact);
-      if (!to_the_end && contact.bound > contact.rounding) return judge(contact);
+      if (is_decided(query, contact)) return judge(contact);
       const double terms = 3 + at.a.value + at.b.value;
       const double mismatch = std::abs(at.q_a - at.q_b) * std::min(at.lambda, 1 - at.lambda);
       // Where no sphere curves the sum the bound is blunt, and what Newton's step foresees counts instead; twice,
@@ -165,6 +165,13 @@ class Search {
     contact.status = PotentialStatus::no_answer;
   }
 
+  // whether the bounds prove all that is asked
+  static bool is_decided(PotentialQuery query, const PotentialContact<Dim>& contact) {
+    if (query == PotentialQuery::least) return false;
+    return contact.bound > contact.rounding ||
+           (query == PotentialQuery::decision && contact.value + contact.rounding < 0);
+  }
+
   void judge(PotentialContact<Dim>& contact) const {
     contact.status = contact.value + contact.rounding < 0   ? PotentialStatus::touching
                      : contact.bound - contact.rounding > 0 ? PotentialStatus::separated
@@ -172,8 +179,8 @@ class Search {
   }
 
   // Newton's method on both conditions at once from where the answer is thought to be near. False: it was not.
-  bool refine(const PotentialStart<Dim>& start, bool to_the_end, NearPlanes<Dim>& near, PotentialContact<Dim>& contact,
-              Slopes<Dim>& slopes) {
+  bool refine(const PotentialStart<Dim>& start, PotentialQuery query, NearPlanes<Dim>& near,
+              PotentialContact<Dim>& contact, Slopes<Dim>& slopes) {
     contact.point = start.point;
     contact.ratio = start.ratio;
     double lambda = start.ratio / (1 + start.ratio), of_b = 1 / (1 + start.ratio), previous = infinity;
@@ -181,9 +188,10 @@ class Search {
     for (int i = 0; i < refine_limit && longer_steps <= most_longer_steps; ++i) {
       near.hold(contact.point);
       const Place<Dim> at = look_around(contact);
-      if (!to_the_end && at.a.value > 0 && at.b.value > 0) {
+      const double least = std::max(at.a.value, at.b.value);
+      if (query == PotentialQuery::decision || (query == PotentialQuery::overlap && least > 0)) {
         certify(at, contact);
-        if (contact.bound > contact.rounding) return judge(contact), true;
+        if (is_decided(query, contact)) return judge(contact), true;
       }
       const double terms = 3 + at.a.value + at.b.value;
       const Vector<Dim> difference = at.a.gradient - at.b.gradient;
@@ -376,14 +384,13 @@ PotentialContact<Dim> resolve(const PotentialPair<Dim>& pair, PotentialQuery que
   place<Dim>(*pair.b, pair.rotation, pair.offset, workspace.b);
   bool near = true;
   const PotentialStart<Dim> start = given.ratio > 0 ? given : begin<Dim>(pair, workspace, near);
-  const bool to_the_end = query == PotentialQuery::least;
 
   PotentialContact<Dim> contact;
   NearPlanes<Dim> planes(pair, workspace);
   Slopes<Dim> slopes;
-  if (!near || !Search<Dim>(workspace.near_a, workspace.near_b, workspace.ray)
-                    .refine(start, to_the_end, planes, contact, slopes)) {
-    Search<Dim>(workspace.a, workspace.b, workspace.ray).solve(start, to_the_end, contact);
+  if (!near ||
+      !Search<Dim>(workspace.near_a, workspace.near_b, workspace.ray).refine(start, query, planes, contact, slopes)) {
+    Search<Dim>(workspace.a, workspace.b, workspace.ray).solve(start, query, contact);
     slopes = {derivatives<Dim>(workspace.a, contact.point).gradient,
               derivatives<Dim>(workspace.b, contact.point).gradient};
   }
