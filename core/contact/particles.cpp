@@ -86,7 +86,8 @@ PotentialContact<Dim> find(const PotentialPair<Dim>& pair, bool touched, const P
 }
 
 template <int Dim>
-void resolve_particles(const Pair<Dim>& pair, Contact<Dim>& contact, KernelCounters& counters) {
+void resolve_particles(const Pair<Dim>& pair, const ContactSettings& settings, Contact<Dim>& contact,
+                       KernelCounters& counters) {
   static thread_local PotentialWorkspace<Dim> workspace;
   const Vector<Dim>&centre_a = pair.a->centre, &centre_b = pair.b->centre;
   const PotentialPair<Dim> seen{&pair.a->particle->shape, &pair.b->particle->shape, pair.rotation,
@@ -114,6 +115,12 @@ void resolve_particles(const Pair<Dim>& pair, Contact<Dim>& contact, KernelCount
   contact.geometry.point = pair.axes * contact.proof.point;
   contact.geometry.normal = pair.axes * found.normal;
   contact.geometry.overlap = found.overlap;
+  // A force with a potential: of a stiffness k the force k δ ρ and the energy k δ²/2 (core/potential/contact.hpp) are
+  // those of an overlap δ/ρ on a spring of k ρ².
+  if (settings.normal == ContactNormal::multipliers) {
+    contact.geometry.overlap = found.energy_overlap / found.energy_rate;
+    contact.geometry.stiffness_factor = found.energy_rate * found.energy_rate;
+  }
   contact.proof.axis = found.normal;
   contact.proof.margin = walk_of_point(seen, found);
 }
@@ -127,7 +134,7 @@ void narrow_phase_with_particles(std::span<const Pair<Dim>> pairs, const Contact
   for (std::size_t from = 0, to = 0; from < pairs.size(); from = to) {
     if (has_particle(pairs[from])) {
       ++counters.evaluations;
-      resolve_particles(pairs[from], *contacts[from], counters);
+      resolve_particles(pairs[from], settings, *contacts[from], counters);
       to = from + 1;
       continue;
     }

@@ -27,7 +27,8 @@ KeyTable contact_keys() {
          {{"potential", ContactNormal::potential}, {"multipliers", ContactNormal::multipliers}})},
      .example = "\"multipliers\"",
      .meaning = "direction and depth: by potential particles, as published, or by "
-         "the linear program, which with point = \"central_path\" and constant_stiffness keeps energy; softer at edges",
+         "the linear program, which with point = \"central_path\" and constant_stiffness keeps energy; softer at edges. "
+         "Between bodies of shape = \"potential\" multipliers give the conservative overlap",
      .breaks = "potential loses or makes energy where edges slide; multipliers cost more; with chebyshev, faces hop on corners"},
     {.key = "smoothing", .members = {in(&ContactSettings::smoothing)}, .unit = "1", .range = {0, 1e-2, true},
      .plausible = {1e-5, 3e-3}, .example = "1e-3",

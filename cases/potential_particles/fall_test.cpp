@@ -1,0 +1,153 @@
+// The five regular shapes, rounded, fall into a box and come to rest: nothing gives way, and what becomes of the
+// energy.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "cases/model_picture.hpp"
+#include "cases/potential_particles/trial.hpp"
+#include "core/testing/fall_scene.hpp"
+#include "core/testing/fall_watch.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using namespace shapes;
+using verification::Bound;
+using verification::CaseReport;
+using verification::Kind;
+
+constexpr double corner_radius = 0.2;  // of the smallest block's inscribed radius: 33 mm
+constexpr double sphericity = 0.05;
+
+// An impact at 7 m/s then goes in by v sqrt(m/K) = 13 mm, less than the 67 mm at which inner bodies would meet.
+const std::vector<std::string> as_published{"joint_properties.rock.normal_stiffness=1e8",
+                                         "joint_properties.rock.shear_stiffness=5e7"};
+
+std::vector<std::string> conservative() {
+  std::vector<std::string> settings = as_published;
+  settings.insert(settings.end(), {"contact.normal=multipliers", "contact.point=central_path", "time.fraction=0.7"});
+  return settings;
+}
+
+struct RoundedScene {
+  std::filesystem::path path;
+  double size = 0;  // m, the smallest inscribed radius of the sharp blocks
+};
+
+// the scene of the case free_fall, its blocks, plate and walls made particles
+RoundedScene rounded_fall(const FallPlan& plan) {
+  const std::string sharp = fall_scene(plan, "Rounded regular polyhedra fall into a box");
+  const LoadedScene loaded = load_scene(write_scene("fall_sharp", sharp));
+  const auto& scene = std::get<Prepared<3>>(loaded.prepared);
+  const double size = smallest_size(scene.model);
+  const std::string particles = blocks_as_particles<3>(scene.model, scene.state, {corner_radius * size, sphericity});
+  const std::size_t begin = sharp.find("blocks = ["), end = sharp.find("[[joint_properties]]");
+  return {write_scene("fall", sharp.substr(0, begin) + particles + "\n" + sharp.substr(end)), size};
+}
+
+struct Fall {
+  LoadedScene loaded;
+  FallFindings found;
+  double deepest = -INFINITY;  // m, over all frames: of the balls that the blocks hold in plate or walls
+  double room = 0;             // m: the deepest that an overlap may be
+
+  const Prepared<3>& scene() const { return std::get<Prepared<3>>(loaded.prepared); }
+};
+
+// how far the ball of the smallest inscribed radius about any centroid reaches into plate or wall, m
+double deepest_ball(const Model<3>& model, const State<3>& state, double radius, double width) {
+  double deepest = -INFINITY;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].fixed) continue;
+    const Vector<3> c = model.origin + model.bodies[b].reference + state.motions[b].displacement;
+    deepest = std::max(deepest, radius - std::min({c[0], width - c[0], c[1], width - c[1], c[2]}));
+  }
+  return deepest;
+}
+
+Fall let_fall(const FallPlan& plan, const std::vector<std::string>& overrides) {
+  const RoundedScene scene = rounded_fall(plan);
+  Fall fall{load_scene(scene.path, overrides), {}, -INFINITY, 2 * corner_radius * scene.size};
+  const double width = plan.side * plan.pitch;
+  fall.found = fall_until_rest(fall.scene(), width, [&](const State<3>& state) {
+    fall.deepest = std::max(fall.deepest, deepest_ball(fall.scene().model, state, scene.size, width));
+  });
+  return fall;
+}
+
+enum class Overlap { bracketed, conservative };
+
+const char* name_of(Overlap overlap) {
+  return overlap == Overlap::bracketed ? ", bracketed overlap" : ", conservative overlap";
+}
+
+void check(CaseReport& report, const std::string& which, const Fall& fall, Overlap overlap) {
+  const FallFindings& found = fall.found;
+  const verification::Cost cost{found.counters.contact_evaluations, found.seconds};
+  const auto at_most = [&](const std::string& quantity, const char* unit, const char* source, double value,
+                           double limit, const char* reason) {
+    report.record(
+        {which + quantity + name_of(overlap), unit, Kind::limit, source, 0, {limit, 0, Bound::at_most}, reason}, value,
+        cost);
+  };
+  at_most(": contacts without an answer", "1", "robustness", static_cast<double>(found.counters.unconverged), 0.5,
+          "a count");
+  at_most(": deepest in the plate or a wall", "m", "no block goes through", fall.deepest, fall.room,
+          "the overlap at which the inner bodies of block and wall would meet: the sum of their radii");
+  at_most(": kinetic energy at rest", "1", "rest, as a fraction of the energy of the drop", found.kinetic, at_rest,
+          "what was asked of the case; there the fall is ended");
+  for (const auto& [when, closure] :
+       {std::pair(", before the damping starts", found.before), {", at rest", found.end}}) {
+    at_most(std::string(": energy that the motion does not account for") + when, "1",
+            "work of all forces against kinetic energy, as a fraction of the energy of the drop", closure.motion,
+            motion_closed, "leapfrog closes to the rounding of some ten thousand steps");
+    const std::string quantity = std::string(": energy that the contacts do not account for") + when;
+    if (overlap == Overlap::conservative)
+      at_most(quantity, "1",
+              "work of the contacts against springs, dashpots and friction, as a fraction of the energy of the drop",
+              closure.contacts, energy_balanced, "what was asked of the case (README.md)");
+    else
+      report.report(which + quantity + name_of(overlap), "1", closure.contacts,
+                    "the bracketed overlap changes with the point, which the force does not feel (README.md)", cost);
+  }
+}
+
+void fall_both_ways(const std::string& which, const FallPlan& plan) {
+  CaseReport report("potential_particles");
+  check(report, which, let_fall(plan, as_published), Overlap::bracketed);
+  check(report, which, let_fall(plan, conservative()), Overlap::conservative);
+}
+
+TEST(PotentialParticles, TwentyFallAndRest) {
+  FallPlan plan;
+  plan.blocks = 20;
+  plan.side = 3;
+  fall_both_ways("twenty", plan);
+}
+
+TEST(PotentialParticlesLong, TwoHundredFallAndRest) {
+  fall_both_ways("two hundred", {});
+}
+
+}  // namespace
+
+TEST(ScratchLong, Fall) {
+  FallPlan plan;
+  plan.blocks = getenv("N") ? atoi(getenv("N")) : 20;
+  plan.side = getenv("S") ? atoi(getenv("S")) : 3;
+  std::vector<std::string> o = as_published;
+  if (getenv("O")) {
+    std::istringstream in(getenv("O"));
+    std::string w;
+    while (in >> w)
+      o.push_back(w);
+  }
+  const Fall f = let_fall(plan, o);
+  fmt::print(
+      "before {} {} end {} {} kinetic {} time {} seconds {} evals {} deepest {} unconv {} deep {} undecided {} cold "
+      "{}\n",
+      f.found.before.motion, f.found.before.contacts, f.found.end.motion, f.found.end.contacts, f.found.kinetic,
+      f.found.time, f.found.seconds, f.found.counters.contact_evaluations, f.deepest, f.found.counters.unconverged,
+      f.found.counters.deep_overlaps, f.found.counters.undecided, f.found.counters.cold_starts);
+}
+}  // namespace voussoir::cases

@@ -1,0 +1,21 @@
+// A settled pack of half-space blocks whose blocks are rounded where they lie, and which then settles again.
+#pragma once
+
+#include "cases/potential_particles/problems.hpp"
+
+namespace voussoir::cases {
+
+// Forty regular polyhedra have fallen into a box (the case free_fall) and have then settled on contacts as stiff as the
+// least radius that is asked wants them.
+struct Pack {
+  Model<3> model;
+  State<3> state;
+  double height = 0;  // m, mean of the centroids above the plate
+  double size = 0;    // m, the smallest inscribed radius
+};
+Pack settle_pack();
+
+// By how much the centroids have come down on the mean within half a second, over their height before.
+Trial settled_pack(const Pack& pack, const RelativeRounding& rounding);
+
+}  // namespace voussoir::cases

@@ -1,0 +1,36 @@
+// Scenes whose half-space blocks are replaced by potential particles of the same faces.
+#pragma once
+
+#include <string>
+
+#include "core/potential/shape.hpp"
+#include "core/simulate.hpp"
+
+namespace voussoir::cases {
+
+struct Rounding {
+  double radius = 0;      // r, m; 0: the half-space blocks themselves
+  double sphericity = 0;  // k
+};
+
+// The potential particle of a sharp body: the middle of each rounded face lies on the sharp one. Where the foot of the
+// perpendicular from the sphere's centre is D away, its plane lies u = r sqrt((1 - k D²/R²)/(1 - k)) inside; R is the
+// least that encloses. Throws std::domain_error where some u exceeds D: no such body.
+template <int Dim>
+PotentialShape<Dim> rounded(const HalfSpaces<Dim>& faces, const Vector<Dim>& centre, const Rounding& rounding);
+
+// The blocks of a model as they stand now, rounded about their centroids, as lines of a scene's `blocks`; those without
+// a name are named after their place in the model ("block_0").
+template <int Dim>
+std::string blocks_as_particles(const Model<Dim>& model, const State<Dim>& state, const Rounding& rounding);
+
+// Bound of the error of volume and inertia, over the volume; the error itself is a hundred times smaller. In space 1e-4
+// takes a second for five bodies, and nothing here weighs them that finely.
+template <int Dim>
+inline constexpr double mass_tolerance = Dim == 2 ? 1e-4 : 1e-2;
+
+// the smallest inscribed radius of the bodies that are not fixed, m
+template <int Dim>
+double smallest_size(const Model<Dim>& model);
+
+}  // namespace voussoir::cases
