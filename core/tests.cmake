@@ -76,6 +76,7 @@ voussoir_test(unit.exact_referee LABEL unit SOURCES testing/exact_referee_test.c
 # the contact kernel judged by it
 voussoir_test(unit.certainty LONG LABEL unit
   SOURCES contact/certainty_test.cpp contact/centre_test.cpp contact/sensitivity_test.cpp contact/catalogue_test.cpp contact/symmetry_test.cpp
+    contact/face_integral_test.cpp
     geometry/catalogue_test.cpp testing/pair_families.cpp testing/pair_judge.cpp
   LIBS voussoir_exact_referee Boost::headers fmt::fmt hwy::hwy)
 

@@ -60,7 +60,7 @@ const std::vector<Order> orders{
      {{"contact", "pair", "kernel_counters", "rounding"},
       {"broad_phase", "thin_directions", "separation", "pair_geometry", "overlap_region", "bracketing",
        "extended_precision_overlap"},
-      {"nearness", "sub_contacts", "sensitivity", "kernel", "reference_kernel"},
+      {"nearness", "sub_contacts", "face_integral", "sensitivity", "kernel", "reference_kernel"},
       {"narrow_phase"},
       {"contact_between"}}},
     {"core/contact/kernel",
