@@ -16,7 +16,7 @@ voussoir_test(unit.joint_sets LABEL unit
   LIBS voussoir_core Boost::headers fmt::fmt)
 
 voussoir_test(unit.law_and_motion LABEL unit
-  SOURCES law/law_test.cpp law/joint_law_test.cpp motion/motion_test.cpp support/bolt_test.cpp
+  SOURCES law/law_test.cpp law/joint_law_test.cpp law/face_friction_test.cpp motion/motion_test.cpp support/bolt_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.support LABEL unit SOURCES support/beam_test.cpp support/grout_test.cpp support/lining_test.cpp LIBS voussoir_core Boost::headers)

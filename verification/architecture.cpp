@@ -47,7 +47,7 @@ const std::vector<Order> orders{
       {"progress", "history"},
       {"checkpoint", "simulate", "begin"}}},
     {"core/geometry", {{"types"}, {"half_space"}, {"polytope", "surface"}, {"outline"}}},
-    {"core/law", {{"joint_properties", "joint_state"}, {"elastic_coulomb"}, {"joint_law"}, {"joint_path"}}},
+    {"core/law", {{"joint_properties", "joint_state", "face_friction"}, {"elastic_coulomb"}, {"joint_law"}, {"joint_path"}}},
     {"core/exchange", {{"mesh", "tables"}, {"convex_corners"}}},
     {"core/optimise",
      {{"feasibility_program", "far_planes", "double_double", "symmetric_system", "glpk_environment", "block_matrix"},

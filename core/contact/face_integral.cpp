@@ -44,15 +44,17 @@ struct Edge {
   double slack;
 };
 
-// the sums over a segment or polygon, coordinates of the mean plane
+// The sums over a segment or polygon, coordinates of the mean plane. Of the overlap from its values in the corners: on
+// a needle that presses along one side, its second moment across is lost in the one along.
 template <int Flat>
 struct Sums {
-  double area = 0;
+  double area = 0, volume = 0, square = 0, polar = 0;
   Eigen::Matrix<double, Flat, 1> centre = Eigen::Matrix<double, Flat, 1>::Zero();
-  Eigen::Matrix<double, Flat, Flat> second = Eigen::Matrix<double, Flat, Flat>::Zero();  // about the centre
+  Eigen::Matrix<double, Flat, 1> lean = Eigen::Matrix<double, Flat, 1>::Zero();  // ∫ u (y - centre) dA
 };
 
-bool measure(const std::vector<Edge<1>>& edges, double reach, std::vector<Vector<2>>&, Sums<1>& sums) {
+bool measure(const std::vector<Edge<1>>& edges, const MeanPlane<2>& mean, double reach, std::vector<Vector<2>>&,
+             Sums<1>& sums) {
   double low = -reach, high = reach;
   for (const Edge<1>& e : edges) {
     if (e.q[0] > 0)
@@ -63,9 +65,14 @@ bool measure(const std::vector<Edge<1>>& edges, double reach, std::vector<Vector
       return false;
   }
   if (!(high > low)) return false;
+  const double p = std::max(mean.at_origin + mean.gradient[0] * low, 0.0),
+               q = std::max(mean.at_origin + mean.gradient[0] * high, 0.0);
   sums.area = high - low;
   sums.centre[0] = 0.5 * (low + high);
-  sums.second(0, 0) = sums.area * sums.area * sums.area / 12;
+  sums.polar = sums.area * sums.area * sums.area / 12;
+  sums.volume = 0.5 * sums.area * (p + q);
+  sums.square = sums.area / 3 * (p * p + p * q + q * q);
+  sums.lean = sums.polar * mean.gradient;
   return true;
 }
 
@@ -82,7 +89,8 @@ void cut(const std::vector<Edge<2>>& edges, double half, std::vector<Vector<2>>&
   }
 }
 
-bool measure(const std::vector<Edge<2>>& edges, double reach, std::vector<Vector<2>>& polygon, Sums<2>& sums) {
+bool measure(const std::vector<Edge<2>>& edges, const MeanPlane<3>& mean, double reach, std::vector<Vector<2>>& polygon,
+             Sums<2>& sums) {
   double half = reach;
   Vector<2> shift = Vector<2>::Zero();  // of the square's middle
   static thread_local std::vector<Edge<2>> moved;
@@ -103,18 +111,25 @@ bool measure(const std::vector<Edge<2>>& edges, double reach, std::vector<Vector
     shift += 0.5 * (low + high);
     half = extent;
   }
-  Vector<2> first_moment = Vector<2>::Zero();
-  Matrix<2> second = Matrix<2>::Zero();
+  const double here = mean.at_origin + mean.gradient.dot(shift);
+  const auto overlap = [&](const Vector<2>& y) { return std::max(here + mean.gradient.dot(y), 0.0); };
+  Vector<2> moment = Vector<2>::Zero(), pressed = Vector<2>::Zero();  // from the first corner
+  double second = 0;
+  const double p = overlap(polygon[0]);
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
-    const Vector<2> u = polygon[k] - polygon[0], v = polygon[k + 1] - polygon[0];
-    const double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
+    const Vector<2> v = polygon[k] - polygon[0], w = polygon[k + 1] - polygon[0];
+    const double area = 0.5 * (v[0] * w[1] - v[1] * w[0]), q = overlap(polygon[k]), r = overlap(polygon[k + 1]);
     sums.area += area;
-    first_moment += area / 3 * (u + v);
-    second += area / 12 * (u * u.transpose() + v * v.transpose() + (u + v) * (u + v).transpose());
+    sums.volume += area / 3 * (p + q + r);
+    sums.square += area / 6 * (p * p + q * q + r * r + p * q + q * r + r * p);
+    second += area / 6 * (v.squaredNorm() + w.squaredNorm() + v.dot(w));
+    moment += area / 3 * (v + w);
+    pressed += area / 12 * ((p + 2 * q + r) * v + (p + q + 2 * r) * w);
   }
   if (!(sums.area > 0)) return false;
-  const Vector<2> from_corner = first_moment / sums.area, middle = polygon[0] + from_corner;
-  sums.second = second - sums.area * (from_corner * from_corner.transpose());
+  const Vector<2> from_corner = moment / sums.area, middle = polygon[0] + from_corner;
+  sums.polar = second - moment.dot(from_corner);
+  sums.lean = pressed - sums.volume * from_corner;
   for (Vector<2>& v : polygon)
     v -= middle;
   sums.centre = shift + middle;
@@ -142,20 +157,17 @@ bool integrate_face(const HalfSpaces<Dim>& planes, int faces_a, int face_a, int 
 
   Sums<Flat> sums;
   polygon.corners.clear();
-  if (!measure(edges, reach, polygon.corners, sums)) return false;
-  const double overlap = mean.at_origin + mean.gradient.dot(sums.centre);
-  if (!(overlap > 0)) return false;
-  const auto lean = (sums.second * mean.gradient).eval();
+  if (!measure(edges, mean, reach, polygon.corners, sums) || !(sums.volume > 0)) return false;
   face.normal = mean.normal;
   face.area = sums.area;
   face.centre = mean.origin + mean.axes * sums.centre;
-  face.volume = sums.area * overlap;
-  face.pressure = mean.origin + mean.axes * (sums.centre + lean / face.volume);
-  face.square = sums.area * overlap * overlap + mean.gradient.dot(lean);
-  face.polar = sums.second.trace();
+  face.volume = sums.volume;
+  face.pressure = mean.origin + mean.axes * (sums.centre + sums.lean / sums.volume);
+  face.square = sums.square;
+  face.polar = sums.polar;
   if constexpr (Dim == 3) {
     polygon.axes = mean.axes;
-    polygon.overlap = overlap;
+    polygon.overlap = sums.volume / sums.area;
     polygon.gradient = mean.gradient;
   }
   return true;

@@ -21,9 +21,8 @@
 // a fraction of u over the width times the cotangent of their slope.
 #pragma once
 
-#include <vector>
-
 #include "core/geometry/half_space.hpp"
+#include "core/law/face_friction.hpp"
 
 namespace voussoir {
 
@@ -42,21 +41,13 @@ struct FaceIntegral {
   double polar = 0;                            // ∫ |y - centre|² dA, m⁴: the twisting stiffness over ks
 };
 
-// The contact polygon in the mean plane with the overlap on it, which friction in twist asks for; in 2-D without
-// corners.
-struct PressedPolygon {
-  std::vector<Vector<2>> corners;          // counter-clockwise about the normal, m, from the centre of the area
-  Eigen::Matrix<double, 3, 2> axes;        // of its coordinates
-  double overlap = 0;                      // at that centre, m
-  Vector<2> gradient = Vector<2>::Zero();  // of the overlap
-};
-
 // Integrates over the contact polygon of one face of each part. `planes`: of both parts, the first `faces_a` the first
 // one's, seen from a point in the overlap; `face_b` counts in all planes. `reach`, m: no point of both parts
 // lies farther from there along any axis. False, and nothing is said, where the faces do not press on each other or are
-// not parallel (parallel_faces). Of planes as they are given, area, ∫ u, ∫ u², J are right to 1e-12 of themselves,
-// centres to 1e-12 of the polygon's extent, times one over the sine of the least angle between the mean plane and a
-// side plane that bounds it: so much does the rounding of a side plane's normal move it.
+// not parallel (parallel_faces). The polygon is about the centre of the area, in 2-D without corners. Of planes as they
+// are given, area, ∫ u, ∫ u², J are right to 1e-12 of themselves, centres to 1e-12 of the polygon's extent, times one
+// over the sine of the least angle between the mean plane and a side plane that bounds it: so much does the rounding of
+// a side plane's normal move it.
 template <int Dim>
 bool integrate_face(const HalfSpaces<Dim>& planes, int faces_a, int face_a, int face_b, double reach,
                     FaceIntegral<Dim>& face, PressedPolygon& polygon);
