@@ -16,7 +16,7 @@ voussoir_test(unit.joint_sets LABEL unit
   LIBS voussoir_core Boost::headers fmt::fmt)
 
 voussoir_test(unit.law_and_motion LABEL unit
-  SOURCES law/law_test.cpp law/joint_law_test.cpp motion/motion_test.cpp support/bolt_test.cpp
+  SOURCES law/law_test.cpp law/joint_law_test.cpp law/face_friction_test.cpp motion/motion_test.cpp support/bolt_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.support LABEL unit SOURCES support/beam_test.cpp support/grout_test.cpp support/lining_test.cpp LIBS voussoir_core Boost::headers)
@@ -80,6 +80,7 @@ voussoir_test(unit.exact_referee LABEL unit SOURCES testing/exact_referee_test.c
 # the contact kernel judged by it
 voussoir_test(unit.certainty LONG LABEL unit
   SOURCES contact/certainty_test.cpp contact/centre_test.cpp contact/sensitivity_test.cpp contact/catalogue_test.cpp contact/symmetry_test.cpp
+    contact/face_integral_test.cpp
     geometry/catalogue_test.cpp testing/pair_families.cpp testing/pair_judge.cpp
   LIBS voussoir_exact_referee Boost::headers fmt::fmt hwy::hwy)
 

@@ -301,6 +301,65 @@ Section section(const Planes& planes, const Point& point, const Point& n) {
   return result;
 }
 
+PressedFace pressed_face(const Planes& planes, int face_a, int face_b) {
+  const Plane &a = planes[face_a], &b = planes[face_b];
+  Plane mean{{}, a.offset - b.offset}, open{{}, a.offset + b.offset};
+  for (int k = 0; k < 3; ++k) {
+    mean.normal[k] = a.normal[k] - b.normal[k];
+    open.normal[k] = a.normal[k] + b.normal[k];
+  }
+  // on the mean plane the two faces end where u = 0; of parallel ones that is nowhere
+  Planes sides;
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    if (static_cast<int>(i) != face_a && static_cast<int>(i) != face_b) sides.push_back(planes[i]);
+  sides.push_back(open);
+  const Chart chart(mean);
+  std::vector<Line> lines;
+  const Polygon polygon = clipped_section(chart, sides, rounded_planes(sides), -1, lines);
+  if (polygon.size() < 3) return {};
+
+  const Quad length = root(quad(dot(mean.normal, mean.normal)));
+  std::vector<QuadVector> corner;  // from the first
+  std::vector<Quad> overlap;
+  const Point first = chart.lift(polygon[0]);
+  const Line pressed_edge = chart.line(open);
+  PressedFace face;
+  for (const Corner& c : polygon) {
+    const Point x = chart.lift(c);
+    overlap.push_back(quad(open.offset - dot(open.normal, x)) / (length / 2));
+    corner.push_back({quad(x[0] - first[0]), quad(x[1] - first[1]), quad(x[2] - first[2])});
+    face.extent = std::max(face.extent, root(dot(corner.back(), corner.back())));
+    // a line of the chart holds two components of the cross product of both planes' normals
+    const Line& line = lines[c.second];
+    if (line.alpha == pressed_edge.alpha && line.beta == pressed_edge.beta) continue;
+    const Point& n = mean.normal;
+    const Rational third = (n[chart.i] * line.beta - n[chart.j] * line.alpha) / n[chart.k];
+    const Quad sine = root(quad(line.alpha * line.alpha + line.beta * line.beta + third * third)) / length;
+    face.least_sine = std::min(face.least_sine, sine);
+  }
+  QuadVector moment{}, pressed{};
+  Quad second = 0;  // ∫ |y|² from the first corner
+  for (std::size_t k = 1; k + 1 < corner.size(); ++k) {
+    const QuadVector &v = corner[k], &w = corner[k + 1], normal = cross(v, w);
+    const Quad area = root(dot(normal, normal)) / 2, p = overlap[0], q = overlap[k], r = overlap[k + 1];
+    face.area += area;
+    face.volume += area / 3 * (p + q + r);
+    face.square += area / 6 * (p * p + q * q + r * r + p * q + q * r + r * p);
+    second += area / 6 * (dot(v, v) + dot(w, w) + dot(v, w));
+    for (int i = 0; i < 3; ++i) {
+      moment[i] += area / 3 * (v[i] + w[i]);
+      pressed[i] += area / 12 * ((p + 2 * q + r) * v[i] + (p + q + 2 * r) * w[i]);
+    }
+  }
+  if (!(face.area > 0) || !(face.volume > 0)) return {};
+  face.polar = second - dot(moment, moment) / face.area;
+  for (int i = 0; i < 3; ++i) {
+    face.centre[i] = quad(first[i]) + moment[i] / face.area;
+    face.pressure[i] = quad(first[i]) + pressed[i] / face.volume;
+  }
+  return face;
+}
+
 Quad section_area(const Planes& planes, const Vector<3>& point, const Vector<3>& normal) {
   return section(planes, point_of(point), point_of(normal)).area;
 }

@@ -90,6 +90,20 @@ struct Section {
 Section section(const Planes& planes, const Point& point, const Point& normal);
 Quad section_area(const Planes& planes, const Vector<3>& point, const Vector<3>& normal);
 
+// What one face of A and one of B do to each other on the plane that halves their angle (contact/face_integral.hpp says
+// on which, and what the overlap u is there); planes of A stand first, normals as they are, unit or not. The solid must
+// be closed.
+struct PressedFace {
+  Quad area = 0;                    // 0: they do not press on each other
+  Quad volume = 0;                  // ∫ u
+  Quad square = 0;                  // ∫ u²
+  Quad polar = 0;                   // ∫ r² about the area's centre
+  Quad extent = 0;                  // m: largest distance of a corner from the first
+  Quad least_sine = 1;              // of the angles between that plane and unit side planes that bound the polygon
+  QuadVector centre{}, pressure{};  // of the area, of u
+};
+PressedFace pressed_face(const Planes& planes, int face_a, int face_b);
+
 struct Solid {
   Quad volume = 0;
   QuadVector centroid{};                       // m

@@ -1,0 +1,55 @@
+// A face on a face carried as a whole. Both faces cross in a line (or are parallel); the mean plane holds it and halves
+// the angle between them. Measured along the mean plane's normal n, from one face to the other, the overlap is linear:
+//
+//   u(y) = (d_a + d_b - (a + b)·y) / c,   c = |a - b| / 2,   n = (a - b) / |a - b|
+//
+// where a·y = d_a and b·y = d_b are the faces. The contact polygon P is what lies inside of all other planes of both
+// parts on the mean plane, and where u >= 0. With k, Pa/m, energy and force on the second part are
+//
+//   E = ½ k ∫ u² dA,   F = n k ∫ u dA,   acting at the centre of pressure ∫ u y dA / ∫ u dA.
+//
+// What F is the derivative of. As the second part moves by w and turns by t about the origin, faces all but parallel,
+//
+//   dE = -F·w - M·t + k/4 (∮_B - ∮_A) u² ν·(w + t × y) ds,   M = ∫ k u y × n dA
+//
+// with A and B the polygon's edges that either part makes, and ν their outward normals in the mean plane: there the
+// polygon gains or loses what is under stress. The pressed edge, where u = 0, adds nothing. The edges' term is not
+// answered by a force: it would push a block off its neighbour's edge, would change its sign where both edges are
+// flush, and is at most u over the width of the face, of the normal force. So force and moment are the exact derivative
+// of E in every motion that carries no edge over a pressed face, and what an edge takes with it is E's own difference.
+// Side planes that are not normal to the mean plane move its edges as the faces approach, which is left out likewise:
+// a fraction of u over the width times the cotangent of their slope.
+#pragma once
+
+#include "core/geometry/half_space.hpp"
+#include "core/law/face_friction.hpp"
+
+namespace voussoir {
+
+// Two faces, planes of one frame, count as parallel within this angle of their outward normals being opposite (cosine
+// of 30 degrees): beyond it the mean plane leans on both so much that the overlap across it is no closure any more.
+inline constexpr double parallel_faces = 0.86602540378443865;
+
+template <int Dim>
+struct FaceIntegral {
+  Vector<Dim> normal = Vector<Dim>::Zero();    // of the mean plane, from the first part to the second, unit
+  double area = 0;                             // m² (2-D: m, unit thickness)
+  Vector<Dim> centre = Vector<Dim>::Zero();    // of the area, m
+  double volume = 0;                           // ∫ u dA, m³
+  Vector<Dim> pressure = Vector<Dim>::Zero();  // its centre, m
+  double square = 0;                           // ∫ u² dA, m⁴: E is half of it, times k
+  double polar = 0;                            // ∫ |y - centre|² dA, m⁴: the twisting stiffness over ks
+};
+
+// Integrates over the contact polygon of one face of each part. `planes`: of both parts, the first `faces_a` the first
+// one's, seen from a point in the overlap; `face_b` counts in all planes. `reach`, m: no point of both parts
+// lies farther from there along any axis. False, and nothing is said, where the faces do not press on each other or are
+// not parallel (parallel_faces). The polygon is about the centre of the area, in 2-D without corners. Of planes as they
+// are given, area, ∫ u, ∫ u², J are right to 1e-12 of themselves, centres to 1e-12 of the polygon's extent, times one
+// over the sine of the least angle between the mean plane and a side plane that bounds it: so much does the rounding of
+// a side plane's normal move it.
+template <int Dim>
+bool integrate_face(const HalfSpaces<Dim>& planes, int faces_a, int face_a, int face_b, double reach,
+                    FaceIntegral<Dim>& face, PressedPolygon& polygon);
+
+}  // namespace voussoir
