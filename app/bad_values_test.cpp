@@ -149,6 +149,8 @@ const Harmless harmless[] = {
     {"domain.planes", "point", "negative",
      "another domain; one that takes a selector or an excavation its blocks is refused"},
     {"joints", "normal", "negative", "the same plane"},
+    {"blocks", "centre", "0", "still inside; a centre outside is refused"},
+    {"blocks", "centre", "negative", "still inside; a centre outside is refused"},
     {"blocks", "velocity", "0", "at rest, as without the key"},
     {"blocks", "angular_velocity", "0", "at rest, as without the key"},
     {"motion", "velocity", "0", "at rest, as without the key"},

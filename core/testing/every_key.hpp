@@ -340,7 +340,7 @@ kind = "settle"
 
 // the scene in which a row's key can be set
 inline const std::string& scene_of(const KeyRow& row) {
-  if (row.table == "blocks" && (row.key == "shape" || row.when.key == "shape")) return of_particles;
+  if (row.table == "blocks" && row.when.key == "shape") return of_particles;
   const bool of_lining = row.table == "monitors" && row.key == "lining";
   return row.table == "linings" || of_lining ? in_the_plane : everything;
 }
