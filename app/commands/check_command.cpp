@@ -385,8 +385,7 @@ void print_left_to_relaxation(const Prepared<Dim>& prepared) {
   for (const JointProperties& p : prepared.model.properties)
     if (!newton_follows(p)) names.push_back(p.name);
   if (!names.empty())
-    print_line("", fmt::format("Newton's method leaves all to relaxation: {} softens",
-                               fmt::join(names, ", ")));
+    print_line("", fmt::format("Newton's method leaves all to relaxation: {} softens", fmt::join(names, ", ")));
 }
 
 template <int Dim>

@@ -195,7 +195,7 @@ TEST(SupportedLong, TheChaptersMassBonded) {
     compare(report, which, both, twins(both, 2), 12,
             "bolts are put through blocks as they stand, here some 5 mm from where they were cut: of 370 crossings of "
             "faces of 0.6 m six lie so near to a face's end that another joint is crossed, on either side");
-    // a lining that bears nothing, and bolts that hold nothing
+    // a lining that carries nothing, and bolts that hold nothing
     const SupportedRun bolted = run_supported("bonded.toml", draw(seed, {"linings.shell.young_modulus=1e3"}));
     const SupportedRun lined = run_supported("bonded.toml", draw(seed, {"bolts.bolts.stiffness=1"}));
     const double of_bolts = bolts_of_smeared(twins(bolted, 2).program, rock), of_ring = thrust_of_smeared(lined, rock);

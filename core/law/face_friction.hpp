@@ -34,7 +34,7 @@ struct FaceFriction {
 };
 FaceFriction friction_against(const PressedPolygon& polygon, const Vector<2>& v, double w);
 
-// The nearest to the trial, in the energy of the springs, of what friction bears: what they keep, and the slip at the
+// The nearest to the trial, in the energy of the springs, of what friction carries: what they keep, and the slip at the
 // centre and the turn that they give way by. `pressure`: µ k ∫ u, N; stiffness ks A, N/m, twisting stiffness ks J, N m.
 // The kept force and moment lie on the limit surface, or are the trial where it lies within.
 struct FaceSlip {

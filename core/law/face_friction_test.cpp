@@ -49,7 +49,7 @@ double twist_of_regular(int corners, double inscribed) {
   return corners * inscribed * inscribed * inscribed / 3 * (secant * tangent + std::log(secant + tangent));
 }
 
-// a moment far beyond what friction bears: ks A and ks J as a linear joint has them
+// a moment far beyond what friction carries: ks A and ks J as a linear joint has them
 FaceSlip twisted(const PressedPolygon& p, double polar) {
   const double stiffness = 1e3 * area(p);
   return return_to_limit(p, area(p) * p.overlap, stiffness, stiffness / area(p) * polar, Vector<2>::Zero(), 1e6);
@@ -112,7 +112,7 @@ TEST(FaceFriction, TranslationAndTwistTogetherAreTheSumOfAMillionCells) {
 }
 
 // The measure of what an ellipsoid through the same extremes would cost, which is why there is none: it is beyond what
-// the face bears by 10 to 17 % in the middle of the quarter (sampled where force and moment share).
+// the face carries by 10 to 17 % in the middle of the quarter (sampled where force and moment share).
 TEST(FaceFriction, AnEllipsoidWouldBeTooStrong) {
   const PressedPolygon p = rectangle(4, 1, 1, {0.5, 0});
   const double n = p.overlap * area(p);
