@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "cases/case_tools.hpp"
+#include "cases/tunnel/oedometer.hpp"
 
 namespace voussoir::cases {
 namespace {
@@ -13,45 +13,6 @@ namespace {
 using verification::Bound;
 using verification::CaseReport;
 using verification::Kind;
-
-constexpr double pressure = 662175;            // Pa, as the scenes state it
-constexpr double width_m = 70, height_m = 60;  // of the rock mass
-
-using Overrides = std::vector<std::string>;
-
-struct Moduli {
-  double shear = 0, poisson = 0;  // Pa, 1
-  verification::Cost cost;
-};
-
-// Eqs 5.12 and 5.13
-Moduli moduli(const SceneRun& test, double stress, double strain) {
-  return {(pressure - stress) / (2 * strain), stress / (pressure + stress), cost(test)};
-}
-
-Moduli pressed_down(const Overrides& settings, double side = 0) {
-  Overrides all = settings;
-  if (side > 0)
-    for (const auto& [end, at] : {std::pair("min", -side / 2), {"max", side / 2}})
-      all.push_back(fmt::format("domain.box.{}=[{},{}]", end, at, at));
-  const SceneRun test = run("oedometer.toml", all);
-  const double height = side > 0 ? side : height_m;
-  return moduli(test, -value(test, "wall_sum_contact_load_x") / height,
-                -value(test, "plate_mean_displacement_y") / height);
-}
-
-Moduli pressed_across(const Overrides& settings) {
-  const SceneRun test = run("oedometer_across.toml", settings);
-  return moduli(test, -value(test, "wall_sum_contact_load_y") / width_m,
-                -value(test, "plate_mean_displacement_x") / width_m);
-}
-
-Overrides draw(int seed) {
-  Overrides settings;
-  for (const char set : {'A', 'B', 'C'})
-    settings.push_back(fmt::format("joint_sets.{}.seed={}", set, seed));
-  return settings;
-}
 
 const Overrides coarse{"slicing.smallest_inscribed_radius=0.5"};
 const std::string thesis = "Boon (2013), table 5.3", network = "independent network of blocks so made";

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "cases/case_tools.hpp"
+#include "cases/tunnel/oedometer.hpp"
 #include "cases/tunnel/twin.hpp"
 #include "reference/tunnel/bolted_ring.hpp"
 #include "reference/tunnel/lining.hpp"
@@ -123,29 +123,11 @@ TEST(Supported, WhatIsLetOffBeforeIsNotTheirs) {
 
 // ---- the chapter's mass, bonded -------------------------------------------------------------------------------------
 
-std::vector<std::string> draw(int seed, std::vector<std::string> more = {}) {
-  for (const char set : {'A', 'B', 'C'})
-    more.push_back(fmt::format("joint_sets.{}.seed={}", set, seed));
-  return more;
-}
-
-struct Moduli {
-  double shear = 0, poisson = 0;
-};
-
 // of a draw's mass whose joints stay closed: means of vertical and horizontal oedometer tests
 Moduli moduli_of(int seed) {
-  constexpr double pressure = 662175, width = 70, height = 60;  // as the scenes state them
-  const auto of = [&](double stress, double strain) {
-    return Moduli{(pressure - stress) / (2 * strain), stress / (pressure + stress)};
-  };
-  const std::vector<std::string> rough = draw(seed, {"joint_properties.rock.friction_deg=89"});
-  const SceneRun down = run("oedometer.toml", rough), across = run("oedometer_across.toml", rough);
-  const Moduli one = of(-value(down, "wall_sum_contact_load_x") / height,
-                        -value(down, "plate_mean_displacement_y") / height),
-               other = of(-value(across, "wall_sum_contact_load_y") / width,
-                          -value(across, "plate_mean_displacement_x") / width);
-  return {(one.shear + other.shear) / 2, (one.poisson + other.poisson) / 2};
+  const Overrides rough = draw(seed, {"joint_properties.rock.friction_deg=89"});
+  const Moduli down = pressed_down(rough), across = pressed_across(rough);
+  return {(down.shear + across.shear) / 2, (down.poisson + across.poisson) / 2, {}};
 }
 
 // of bonded.toml

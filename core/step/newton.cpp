@@ -239,7 +239,10 @@ struct Newton {
   }
 
   // A broken bond lets go at once of what it carried: how, is relaxation's to find.
-  bool breaks_bonds() const { return whole_bonds(state) < n.whole_bonds + state.bonds.made - n.bonds.made; }
+  bool breaks_bonds() const {
+    const long long expected = n.whole_bonds + state.bonds.made - n.bonds.made;
+    return expected > 0 && whole_bonds(state) < expected;
+  }
 
   void reject(bool breaks) {
     ++state.counters.static_rejections;

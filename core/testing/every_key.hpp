@@ -310,7 +310,7 @@ quantities = ["lining_force"]
 lining = "shell"
 )";
 
-// what blocks of half-spaces alone cannot state, and what else stands in `everything` does not go with
+// what blocks of half-spaces alone cannot state, and what the other keys of `everything` do not go with
 inline const std::string of_particles = R"(dimension = 3
 density = 2000
 [[joint_properties]]
