@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 // one compilation for each instruction set that is worth its size
@@ -20,8 +21,12 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// the simplex that holds the program before any plane does, in reaches of both bodies
-constexpr double far_in_reaches = 8;
+// The simplex that holds the program before any plane does: how far its planes lie from the point p that divides the
+// line of centres as the spheres' radii, over the sum of the radii. A point x of both spheres has (Stewart's theorem)
+//   |x - p|² <= (R_B |x - c_A|² + R_A |x - c_B|²) / (R_A + R_B) <= R_A R_B <= ((R_A + R_B) / 2)²,
+// so that half holds all contacts; the program's optimum may lie a little farther out, as corners recede. The nearer
+// the planes, the fewer exchanges.
+constexpr double far_in_reaches = 0.6;
 
 // A pivot below this would spoil the inverse. The program only says where to begin, so that a plane may be left out.
 constexpr double least_pivot = 1e-9;
@@ -37,6 +42,14 @@ constexpr double far_multiplier = 1e-6;
 
 // the planes' columns are filled up to a multiple of the widest register
 constexpr int most_lanes = 8;
+
+// of the tight planes, of which there are three or four
+constexpr int tight_lanes = 4;
+
+// The search for the most violated plane carries a plane's number in the last bits of its violation, which is so
+// compared to 4e-12 of itself.
+constexpr std::uint64_t number_bits = (std::uint64_t{1} << 14) - 1;
+constexpr std::size_t most_planes = number_bits - most_lanes;
 
 // the normals of a regular simplex
 template <int Dim>
@@ -81,38 +94,37 @@ HWY_INLINE Columns<Dim> fill(const PlacedPotential<Dim>& a, const PlacedPotentia
   return {out, static_cast<int>(stride), static_cast<int>(a.planes.size())};
 }
 
-// the plane most violated by more than `worst` at y = (x, -t), of equal ones the first; -1: none
+// the plane most violated by more than `least` at y = (x, -t), of equal ones the first; -1: none
 template <int Dim>
-HWY_INLINE int most_violated(const Columns<Dim>& columns, const double (&y)[Dim + 1], double& worst) {
+HWY_INLINE int most_violated(const Columns<Dim>& columns, const double (&y)[Dim + 1], double least) {
   const hn::CappedTag<double, most_lanes> d;
+  const hn::RebindToUnsigned<decltype(d)> bits;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  auto best = hn::Set(d, worst), where = hn::Set(d, -1.0), number = hn::Iota(d, 0);
-  const auto next = hn::Set(d, static_cast<double>(lanes));
+  const auto number_mask = hn::Set(bits, number_bits), next = hn::Set(bits, static_cast<std::uint64_t>(lanes));
+  auto number = hn::Sub(number_mask, hn::Iota(bits, 0));  // falls from plane to plane
+  auto worst = hn::BitCast(d, hn::AndNot(number_mask, hn::BitCast(bits, hn::Set(d, least))));
   for (int i = 0; i < columns.stride; i += lanes) {
     const double* at = columns.numbers + i;
     auto violation = hn::Mul(hn::LoadU(d, at), hn::Set(d, y[0]));
+    HWY_UNROLL(4)
     for (int k = 1; k < Dim; ++k)
       violation = hn::Add(violation, hn::Mul(hn::LoadU(d, at + k * columns.stride), hn::Set(d, y[k])));
     violation = hn::Add(violation, hn::Mul(hn::LoadU(d, at + (Dim + 1) * columns.stride), hn::Set(d, y[Dim])));
     violation = hn::Sub(violation, hn::LoadU(d, at + Dim * columns.stride));
-    const auto more = hn::Gt(violation, best);
-    best = hn::IfThenElse(more, violation, best);
-    where = hn::IfThenElse(more, number, where);
-    number = hn::Add(number, next);
+    const auto numbered = hn::Or(hn::AndNot(number_mask, hn::BitCast(bits, violation)), number);
+    worst = hn::Max(worst, hn::BitCast(d, numbered));
+    number = hn::Sub(number, next);
   }
-  const double most = hn::GetLane(hn::MaxOfLanes(d, best));
-  if (!(most > worst)) return -1;
-  worst = most;
-  const auto none = hn::Set(d, static_cast<double>(columns.stride));
-  return static_cast<int>(hn::GetLane(hn::MinOfLanes(d, hn::IfThenElse(hn::Eq(best, hn::Set(d, most)), where, none))));
+  const std::uint64_t found = hn::GetLane(hn::BitCast(bits, hn::MaxOfLanes(d, worst))) & number_bits;
+  return found == 0 ? -1 : static_cast<int>(number_bits - found);
 }
 
 // The tight planes of the dual simplex. With C = columns (a_i, u_i): C μ = (0, …, 0, 1) and (x, -t) C = d.
 template <int Dim>
 struct TightPlanes {
   static constexpr int size = Dim + 1;
-  int planes[size];            // far ones below zero
-  double inverse[size][size];  // rows: of the planes
+  int planes[size];                        // far ones below zero
+  double inverse[size][tight_lanes] = {};  // column k: of the plane k, what y takes of its offset, and last its μ
   double offsets[size];
 
   HWY_INLINE TightPlanes(const Vector<Dim>& around, double far) {
@@ -122,47 +134,74 @@ struct TightPlanes {
       offsets[k] = far;
       for (int j = 0; j < Dim; ++j) {
         offsets[k] += normal[j] * around[j];
-        inverse[k][j] = normal[j] * Dim / size;
+        inverse[j][k] = normal[j] * Dim / size;
       }
-      inverse[k][Dim] = 1.0 / size;
+      inverse[Dim][k] = 1.0 / size;
     }
   }
-  HWY_INLINE double multiplier(int k) const { return std::max(inverse[k][Dim], 0.0); }
+  HWY_INLINE double multiplier(int k) const { return std::max(inverse[Dim][k], 0.0); }
   // (x, -t) for the offsets
   HWY_INLINE void solve(const double (&right)[size], double (&y)[size]) const {
     for (int j = 0; j < size; ++j) {
-      y[j] = inverse[0][j] * right[0];
+      y[j] = inverse[j][0] * right[0];
+      HWY_UNROLL(4)
       for (int k = 1; k < size; ++k)
-        y[j] += inverse[k][j] * right[k];
+        y[j] += inverse[j][k] * right[k];
     }
   }
   // The plane enters for the first that loses its multiplier, and y = (x, -t) moves onto it; false: it cannot.
-  HWY_INLINE bool exchange(int plane, const Columns<Dim>& columns, double violation, double (&y)[size]) {
-    double pivots[size];
-    int leave = -1;
-    for (int k = 0; k < size; ++k) {
-      pivots[k] = inverse[k][Dim] * columns.get(Dim + 1, plane);
-      for (int j = 0; j < Dim; ++j)
-        pivots[k] += inverse[k][j] * columns.get(j, plane);
-      if (pivots[k] <= least_pivot) continue;
-      // smaller multiplier over pivot, of equal ones the larger pivot
-      const double here = leave < 0 ? -1 : multiplier(k) * pivots[leave],
-                   there = leave < 0 ? 0 : multiplier(leave) * pivots[k];
-      if (here < there || (here == there && pivots[k] > pivots[leave])) leave = k;
-    }
-    if (leave < 0) return false;
-    const double factor = 1 / pivots[leave];
+  HWY_INLINE bool exchange(int plane, const Columns<Dim>& columns, double (&y)[size]) {
+    double entering[size], violation = -columns.get(Dim, plane);
+    HWY_UNROLL(4)
     for (int j = 0; j < size; ++j) {
-      inverse[leave][j] *= factor;
-      y[j] -= violation * inverse[leave][j];
+      entering[j] = columns.get(j < Dim ? j : Dim + 1, plane);
+      violation += entering[j] * y[j];
     }
-    for (int k = 0; k < size; ++k)
-      if (k != leave)
-        for (int j = 0; j < size; ++j)
-          inverse[k][j] -= pivots[k] * inverse[leave][j];
+    double pivots[tight_lanes], reciprocals[tight_lanes];
+    const int leave = leaving(entering, pivots, reciprocals);
+    if (leave < 0) return false;
+    const hn::CappedTag<double, tight_lanes> d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    HWY_UNROLL(4)
+    for (int j = 0; j < size; ++j) {
+      const double row = inverse[j][leave] * reciprocals[leave];
+      y[j] -= violation * row;
+      for (int k = 0; k < tight_lanes; k += lanes) {
+        const auto others = hn::Sub(hn::LoadU(d, inverse[j] + k), hn::Mul(hn::LoadU(d, pivots + k), hn::Set(d, row)));
+        const auto leaves = hn::Eq(hn::Iota(d, k), hn::Set(d, static_cast<double>(leave)));
+        hn::StoreU(hn::IfThenElse(leaves, hn::Set(d, row), others), d, inverse[j] + k);
+      }
+    }
     planes[leave] = plane;
     offsets[leave] = columns.get(Dim, plane);
     return true;
+  }
+
+ private:
+  // the plane of the least multiplier over pivot, of equal ones of the largest pivot; -1: none
+  HWY_INLINE int leaving(const double (&entering)[size], double (&pivots)[tight_lanes],
+                         double (&reciprocals)[tight_lanes]) const {
+    const hn::CappedTag<double, tight_lanes> d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    double ratios[tight_lanes];
+    for (int k = 0; k < tight_lanes; k += lanes) {
+      auto pivot = hn::Mul(hn::LoadU(d, inverse[0] + k), hn::Set(d, entering[0]));
+      HWY_UNROLL(4)
+      for (int j = 1; j < size; ++j)
+        pivot = hn::Add(pivot, hn::Mul(hn::LoadU(d, inverse[j] + k), hn::Set(d, entering[j])));
+      const auto fit = hn::Gt(pivot, hn::Set(d, least_pivot));
+      const auto one = hn::Set(d, 1.0), reciprocal = hn::Div(one, hn::IfThenElse(fit, pivot, one));
+      const auto multiplier = hn::Max(hn::LoadU(d, inverse[Dim] + k), hn::Zero(d));
+      const auto none = hn::Set(d, std::numeric_limits<double>::infinity());
+      hn::StoreU(pivot, d, pivots + k);
+      hn::StoreU(reciprocal, d, reciprocals + k);
+      hn::StoreU(hn::IfThenElse(fit, hn::Mul(multiplier, reciprocal), none), d, ratios + k);
+    }
+    int leave = 0;
+    HWY_UNROLL(4)
+    for (int k = 1; k < size; ++k)
+      if (ratios[k] < ratios[leave] || (ratios[k] == ratios[leave] && pivots[k] > pivots[leave])) leave = k;
+    return pivots[leave] > least_pivot ? leave : -1;
   }
 };
 
@@ -201,19 +240,20 @@ HWY_INLINE FirstPoint<Dim> share(const TightPlanes<Dim>& tight, const Columns<Di
 template <int Dim>
 HWY_INLINE void search(const PlacedPotential<Dim>& a, const PlacedPotential<Dim>& b, std::vector<double>& scratch,
                        FirstPoint<Dim>& first) {
+  if (a.planes.size() + b.planes.size() > most_planes) return;
   // t is measured in both radii together
   const double unit_a = 1 / std::sqrt(a.plane_weight), unit_b = 1 / std::sqrt(b.plane_weight), both = unit_a + unit_b;
   const std::array<double, 2> units{unit_a / both, unit_b / both};
   const Columns<Dim> columns = fill<Dim>(a, b, units, scratch);
   const double reach = a.reach + b.reach;
-  TightPlanes<Dim> tight(a.centre + a.reach / reach * (b.centre - a.centre), far_in_reaches * reach);
+  const Vector<Dim> line = b.centre - a.centre;
+  TightPlanes<Dim> tight(a.centre + a.reach / reach * line, far_in_reaches * std::max(reach, line.norm()));
   double y[Dim + 1];
   tight.solve(tight.offsets, y);
   int exchanges = 0;
   while (true) {
-    double worst = enough * both;
-    const int plane = most_violated<Dim>(columns, y, worst);
-    if (plane < 0 || ++exchanges > exchange_limit || !tight.exchange(plane, columns, worst, y)) break;
+    const int plane = most_violated<Dim>(columns, y, enough * both);
+    if (plane < 0 || ++exchanges > exchange_limit || !tight.exchange(plane, columns, y)) break;
   }
   tight.solve(tight.offsets, y);  // without the rounding of all that moved it
   first = share<Dim>(tight, columns, y, units, both);

@@ -67,30 +67,21 @@ double value(const PlacedPotential<Dim>& potential, const Vector<Dim>& point) {
 
 template <int Dim>
 PotentialDerivatives<Dim> derivatives(const PlacedPotential<Dim>& potential, const Vector<Dim>& point) {
-  constexpr int entries = Dim * (Dim + 1) / 2;
-  double slope[Dim]{}, curvature[entries]{}, squares = 0;
+  Vector<Dim> slope = Vector<Dim>::Zero();
+  Matrix<Dim> curvature = Matrix<Dim>::Zero();
+  double squares = 0;
   for (const HalfSpace<Dim>& plane : potential.planes) {
     const double slack = signed_distance<Dim>(plane, point);
     if (slack <= 0) continue;
     squares += slack * slack;
-    int entry = 0;
-    for (int k = 0; k < Dim; ++k) {
-      slope[k] += slack * plane.normal[k];
-      for (int l = 0; l <= k; ++l)
-        curvature[entry++] += plane.normal[k] * plane.normal[l];
-    }
+    slope += slack * plane.normal;
+    curvature.noalias() += plane.normal * plane.normal.transpose();
   }
   PotentialDerivatives<Dim> at;
   const Vector<Dim> arm = point - potential.centre;
-  const double arm_squared = arm.squaredNorm();
-  int entry = 0;
-  for (int k = 0; k < Dim; ++k) {
-    at.gradient[k] = 2 * (potential.plane_weight * slope[k] + potential.sphere_weight * arm[k]);
-    for (int l = 0; l <= k; ++l, ++entry)
-      at.hessian(l, k) = at.hessian(k, l) =
-          2 * (potential.plane_weight * curvature[entry] + (k == l ? potential.sphere_weight : 0));
-  }
-  at.value = potential.plane_weight * squares + potential.sphere_weight * arm_squared - 1;
+  at.gradient = 2 * (potential.plane_weight * slope + potential.sphere_weight * arm);
+  at.hessian = 2 * (potential.plane_weight * curvature + potential.sphere_weight * Matrix<Dim>::Identity());
+  at.value = potential.plane_weight * squares + potential.sphere_weight * arm.squaredNorm() - 1;
   return at;
 }
 
