@@ -69,6 +69,9 @@ double between(double low, double high) {
 // Both functions at the point, the weighted sum and what Newton's steps need of it.
 template <int Dim>
 struct Place {
+  Place(const PlacedPotential<Dim>& of_a, const PlacedPotential<Dim>& of_b, const Vector<Dim>& point)
+      : a(derivatives<Dim>(of_a, point)), b(derivatives<Dim>(of_b, point)) {}
+
   PotentialDerivatives<Dim> a, b;
   double lambda, sum;
   Vector<Dim> gradient, newton, across;  // of the sum; -H⁻¹ gradient; -H⁻¹ (∇f_A - ∇f_B): dx / dλ
@@ -81,9 +84,19 @@ struct Place {
 // No point farther from the centre has f <= value: f is convex, so that along a ray it grows at least as fast beyond
 // the surface, which lies within R, as on the way there.
 template <int Dim>
-double reach_of_value(const PlacedPotential<Dim>& potential, double value) {
-  return potential.reach * std::max(1.0, 1 - value / potential.at_centre);
-}
+class Reach {
+ public:
+  explicit Reach(const PlacedPotential<Dim>& all) : all_(all) {}
+  double of_value(double value) {
+    if (value <= 0) return all_.reach;
+    if (at_centre_ == 0) at_centre_ = voussoir::value<Dim>(all_, all_.centre);
+    return all_.reach * (1 - value / at_centre_);
+  }
+
+ private:
+  const PlacedPotential<Dim>& all_;
+  double at_centre_ = 0;  // f there, below 0 once it is known
+};
 
 // the gradients at the contact point
 template <int Dim>
@@ -119,7 +132,6 @@ class NearPlanes {
     near.sphere_weight = all.sphere_weight;
     near.centre = all.centre;
     near.reach = all.reach;
-    near.at_centre = all.at_centre;
   }
   void choose(const PlacedPotential<Dim>& all, PlacedPotential<Dim>& near) const {
     near.planes.clear();
@@ -136,7 +148,11 @@ class NearPlanes {
 template <int Dim>
 class Search {
  public:
-  Search(const PlacedPotential<Dim>& a, const PlacedPotential<Dim>& b, RayScratch& ray) : a_(a), b_(b), ray_(ray) {}
+  // with all planes
+  explicit Search(PotentialWorkspace<Dim>& workspace) : Search(workspace, workspace.a, workspace.b) {}
+  // with the planes alone that count around the contact
+  Search(PotentialWorkspace<Dim>& workspace, const PlacedPotential<Dim>& a, const PlacedPotential<Dim>& b)
+      : a_(a), b_(b), reach_a_(workspace.a), reach_b_(workspace.b), ray_(workspace.ray) {}
 
   // stops as soon as what is asked is proven
   void solve(const PotentialStart<Dim>& start, PotentialQuery query, PotentialContact<Dim>& contact) {
@@ -223,23 +239,21 @@ class Search {
   }
 
  private:
-  Place<Dim> look(PotentialContact<Dim>& contact) const {
+  Place<Dim> look(PotentialContact<Dim>& contact) {
     const Place<Dim> at = look_around(contact);
     certify(at, contact);
     return at;
   }
 
-  void certify(const Place<Dim>& at, PotentialContact<Dim>& contact) const {
+  void certify(const Place<Dim>& at, PotentialContact<Dim>& contact) {
     contact.value = std::max(at.a.value, at.b.value);
     contact.bound = bound_below(at, contact.point, contact.value);
-    contact.rounding = value_rounding<Dim>(a_, contact.point) + value_rounding<Dim>(b_, contact.point);
+    contact.rounding = value_rounding<Dim>(a_, contact.point, at.a) + value_rounding<Dim>(b_, contact.point, at.b);
   }
 
   Place<Dim> look_around(PotentialContact<Dim>& contact) const {
     ++contact.iterations;
-    Place<Dim> at;
-    at.a = derivatives<Dim>(a_, contact.point);
-    at.b = derivatives<Dim>(b_, contact.point);
+    Place<Dim> at(a_, b_, contact.point);
     at.lambda = contact.ratio / (1 + contact.ratio);
     const double of_b = 1 / (1 + contact.ratio);
     at.sum = at.lambda * at.a.value + of_b * at.b.value;
@@ -248,9 +262,9 @@ class Search {
     at.spheres = 2 * (at.lambda * a_.sphere_weight + of_b * b_.sphere_weight);
     Eigen::Matrix<double, Dim, 2> right;
     right << at.gradient, at.a.gradient - at.b.gradient;
-    right = newton_solutions<Dim>(at.hessian, at.spheres, right);
-    at.newton = right.col(0);
-    at.across = right.col(1);
+    const Eigen::Matrix<double, Dim, 2> solution = newton_solutions<Dim>(at.hessian, at.spheres, right);
+    at.newton = solution.col(0);
+    at.across = solution.col(1);
     at.decrement = -at.gradient.dot(at.newton);
     at.q_a = 1 + at.a.value + at.a.gradient.dot(at.newton);
     at.q_b = 1 + at.b.value + at.b.gradient.dot(at.newton);
@@ -260,10 +274,10 @@ class Search {
   // No point has a lower max(f_A, f_B) than this. Three ways to bound what the sum's slope may still gain: by the
   // curvature of the spheres, below which none falls, and by how far the points reach whose f_A (f_B) is no larger than
   // the value already found.
-  double bound_below(const Place<Dim>& at, const Vector<Dim>& point, double value) const {
+  double bound_below(const Place<Dim>& at, const Vector<Dim>& point, double value) {
     const double slope = at.gradient.norm();
-    double gain = std::min(at.gradient.dot(point - a_.centre) + slope * reach_of_value(a_, value),
-                           at.gradient.dot(point - b_.centre) + slope * reach_of_value(b_, value));
+    double gain = std::min(at.gradient.dot(point - a_.centre) + slope * reach_a_.of_value(value),
+                           at.gradient.dot(point - b_.centre) + slope * reach_b_.of_value(value));
     if (at.spheres > 0) gain = std::min(gain, slope * slope / (2 * at.spheres));
     return std::max(at.sum - gain, -1.0);  // no f is lower
   }
@@ -293,7 +307,7 @@ class Search {
   }
 
   // Newton's method on both conditions at once, as long as its steps grow shorter and the bounds do not part
-  void finish(Place<Dim> at, PotentialContact<Dim>& contact) const {
+  void finish(Place<Dim> at, PotentialContact<Dim>& contact) {
     double previous = infinity;
     for (int i = 0; i < last_steps; ++i) {
       const Vector<Dim> difference = at.a.gradient - at.b.gradient;
@@ -315,6 +329,7 @@ class Search {
   }
 
   const PlacedPotential<Dim>&a_, &b_;
+  Reach<Dim> reach_a_, reach_b_;
   RayScratch& ray_;
 };
 
@@ -390,8 +405,8 @@ PotentialContact<Dim> resolve(const PotentialPair<Dim>& pair, PotentialQuery que
   NearPlanes<Dim> planes(pair, workspace);
   Slopes<Dim> slopes;
   if (!near ||
-      !Search<Dim>(workspace.near_a, workspace.near_b, workspace.ray).refine(start, query, planes, contact, slopes)) {
-    Search<Dim>(workspace.a, workspace.b, workspace.ray).solve(start, query, contact);
+      !Search<Dim>(workspace, workspace.near_a, workspace.near_b).refine(start, query, planes, contact, slopes)) {
+    Search<Dim>(workspace).solve(start, query, contact);
     slopes = {derivatives<Dim>(workspace.a, contact.point).gradient,
               derivatives<Dim>(workspace.b, contact.point).gradient};
   }

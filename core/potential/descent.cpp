@@ -95,23 +95,30 @@ bool hold_planes(const WeightedPotentials<Dim>& sum, const Vector<Dim>& point, d
   return held;
 }
 
-// as solve_symmetric, with one division for each of H's pivots
+// as solve_symmetric, with one division for each of H's pivots; the loops are short, and unrolled stay in registers
 template <int Dim, int Columns>
 bool solve_by_factors(Matrix<Dim>& h, Eigen::Matrix<double, Dim, Columns>& g) {
   double inverse[Dim];
+#pragma GCC unroll 3
   for (int k = 0; k < Dim; ++k) {
     if (!(h(k, k) > 0)) return false;
     inverse[k] = 1 / h(k, k);
+#pragma GCC unroll 3
     for (int i = k + 1; i < Dim; ++i) {
       const double factor = h(i, k) * inverse[k];
+#pragma GCC unroll 3
       for (int j = k + 1; j <= i; ++j)
         h(i, j) -= factor * h(j, k);
+#pragma GCC unroll 2
       for (int c = 0; c < Columns; ++c)
         g(i, c) -= factor * g(k, c);
     }
   }
+#pragma GCC unroll 3
   for (int k = Dim - 1; k >= 0; --k)
+#pragma GCC unroll 2
     for (int c = 0; c < Columns; ++c) {
+#pragma GCC unroll 3
       for (int i = k + 1; i < Dim; ++i)
         g(k, c) -= h(i, k) * g(i, c);
       g(k, c) *= inverse[k];

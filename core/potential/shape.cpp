@@ -20,7 +20,6 @@ void weigh(const PotentialShape<Dim>& shape, PlacedPotential<Dim>& placed) {
   placed.plane_weight = (1 - shape.sphericity) / (shape.corner_radius * shape.corner_radius);
   placed.sphere_weight = shape.sphericity / (shape.sphere_radius * shape.sphere_radius);
   placed.reach = shape.sphere_radius;
-  placed.at_centre = value<Dim>(placed, placed.centre);
 }
 
 }  // namespace
@@ -30,9 +29,9 @@ void place(const PotentialShape<Dim>& shape, const Matrix<Dim>& rotation, const 
            PlacedPotential<Dim>& placed) {
   placed.planes.resize(shape.sphericity < 1 ? shape.planes.size() : 0);
   for (std::size_t i = 0; i < placed.planes.size(); ++i) {
-    const HalfSpace<Dim>& plane = shape.planes[i];
-    const Vector<Dim> normal = rotation * plane.normal;
-    placed.planes[i] = {normal, plane.offset + normal.dot(origin)};
+    HalfSpace<Dim>& plane = placed.planes[i];
+    plane.normal.noalias() = rotation * shape.planes[i].normal;
+    plane.offset = shape.planes[i].offset + plane.normal.dot(origin);
   }
   placed.centre = rotation * shape.centre + origin;
   weigh<Dim>(shape, placed);
@@ -69,34 +68,32 @@ template <int Dim>
 PotentialDerivatives<Dim> derivatives(const PlacedPotential<Dim>& potential, const Vector<Dim>& point) {
   Vector<Dim> slope = Vector<Dim>::Zero();
   Matrix<Dim> curvature = Matrix<Dim>::Zero();
-  double squares = 0;
+  PotentialDerivatives<Dim> at;
   for (const HalfSpace<Dim>& plane : potential.planes) {
     const double slack = signed_distance<Dim>(plane, point);
     if (slack <= 0) continue;
-    squares += slack * slack;
+    ++at.planes;
+    at.squares += slack * slack;
     slope += slack * plane.normal;
     curvature.noalias() += plane.normal * plane.normal.transpose();
   }
-  PotentialDerivatives<Dim> at;
   const Vector<Dim> arm = point - potential.centre;
   at.gradient = 2 * (potential.plane_weight * slope + potential.sphere_weight * arm);
   at.hessian = 2 * (potential.plane_weight * curvature + potential.sphere_weight * Matrix<Dim>::Identity());
-  at.value = potential.plane_weight * squares + potential.sphere_weight * arm.squaredNorm() - 1;
+  at.value = potential.plane_weight * at.squares + potential.sphere_weight * arm.squaredNorm() - 1;
   return at;
 }
 
+// Each slack s = a·x - d is off by at most `error`, as |d| <= |x| + s and no s exceeds the root of the sum of squares;
+// Σ s is at most that root times sqrt(planes).
 template <int Dim>
-double value_rounding(const PlacedPotential<Dim>& potential, const Vector<Dim>& point) {
-  const double far = point.norm() + potential.centre.norm();
-  double squares = 0, lost = 0;
-  for (const HalfSpace<Dim>& plane : potential.planes) {
-    const double error = slack_rounding * (std::abs(plane.offset) + far);
-    const double slack = std::max(signed_distance<Dim>(plane, point), 0.0);
-    squares += slack * slack;
-    if (slack > 0) lost += (2 * slack + error) * error;
-  }
+double value_rounding(const PlacedPotential<Dim>& potential, const Vector<Dim>& point,
+                      const PotentialDerivatives<Dim>& at) {
+  const double far = point.norm() + potential.centre.norm(), root = std::sqrt(at.squares);
+  const double error = slack_rounding * (far + point.norm() + root);
+  const double lost = (2 * std::sqrt(at.planes) * root + at.planes * error) * error;
   const double arm = (point - potential.centre).norm();
-  return potential.plane_weight * (lost + sum_rounding * squares) +
+  return potential.plane_weight * (lost + sum_rounding * at.squares) +
          potential.sphere_weight * arm * (slack_rounding * far + sum_rounding * arm) + sum_rounding;
 }
 
@@ -106,7 +103,8 @@ double value_rounding(const PlacedPotential<Dim>& potential, const Vector<Dim>& 
   template PlacedPotential<Dim> placed<Dim>(const PotentialShape<Dim>&);                                               \
   template double value<Dim>(const PlacedPotential<Dim>&, const Vector<Dim>&);                                         \
   template PotentialDerivatives<Dim> derivatives<Dim>(const PlacedPotential<Dim>&, const Vector<Dim>&);                \
-  template double value_rounding<Dim>(const PlacedPotential<Dim>&, const Vector<Dim>&);
+  template double value_rounding<Dim>(const PlacedPotential<Dim>&, const Vector<Dim>&,                                 \
+                                      const PotentialDerivatives<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

@@ -29,7 +29,6 @@ struct PlacedPotential {
   double sphere_weight = 0;                  // k / R², 1/m²
   Vector<Dim> centre = Vector<Dim>::Zero();  // of the sphere, m
   double reach = 0;                          // R, m
-  double at_centre = 0;                      // f there: below 0
 };
 
 // `rotation` takes the body's frame to the one asked for, `origin` is where the body's origin lies there
@@ -49,14 +48,21 @@ double value(const PlacedPotential<Dim>& potential, const Vector<Dim>& point);
 template <int Dim>
 struct PotentialDerivatives {
   double value = 0;
+  double squares = 0;  // of the slacks, their sum, m²
+  int planes = 0;      // beyond which the point lies
   Vector<Dim> gradient = Vector<Dim>::Zero();
   Matrix<Dim> hessian = Matrix<Dim>::Zero();
 };
 template <int Dim>
 PotentialDerivatives<Dim> derivatives(const PlacedPotential<Dim>& potential, const Vector<Dim>& point);
 
-// how far rounding may have moved a value computed at the point, that of placing the planes included
+// how far rounding may have moved the value computed at the point, that of placing the planes included
 template <int Dim>
-double value_rounding(const PlacedPotential<Dim>& potential, const Vector<Dim>& point);
+double value_rounding(const PlacedPotential<Dim>& potential, const Vector<Dim>& point,
+                      const PotentialDerivatives<Dim>& at);
+template <int Dim>
+double value_rounding(const PlacedPotential<Dim>& potential, const Vector<Dim>& point) {
+  return value_rounding<Dim>(potential, point, derivatives<Dim>(potential, point));
+}
 
 }  // namespace voussoir

@@ -101,7 +101,7 @@ std::vector<Vector<Dim>> outer_corners(const HalfSpaces<Dim>& planes, double cor
 template <int Dim>
 PlacedPotential<Dim> planes_alone(const HalfSpaces<Dim>& planes, double corner_radius, const Vector<Dim>& inside,
                                   double reach) {
-  PlacedPotential<Dim> potential{planes, 1 / (corner_radius * corner_radius), 0, inside, reach, -1};
+  PlacedPotential<Dim> potential{planes, 1 / (corner_radius * corner_radius), 0, inside, reach};
   return potential;
 }
 
@@ -168,7 +168,7 @@ ShapeVerdict check_shape(const PotentialShape<Dim>& shape) {
   RayScratch scratch;
   const LeastPoint<Dim> least = find_least_point<Dim>({{&own, nullptr}, {1, 0}}, shape.centre, scratch);
   if (!(value<Dim>(own, least.point) < 0)) return {ShapeProblem::no_inside};
-  if (!(own.at_centre < 0)) return {ShapeProblem::centre_outside};
+  if (!(value<Dim>(own, own.centre) < 0)) return {ShapeProblem::centre_outside};
   const double enclosing = enclosing_radius<Dim>(shape.planes, shape.corner_radius, shape.centre);
   if (shape.sphere_radius < enclosing * (1 - stated_radius))
     return {ShapeProblem::sphere_does_not_enclose, -1, enclosing};
