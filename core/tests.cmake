@@ -62,7 +62,8 @@ voussoir_test(unit.potential LONG LABEL unit
   potential/certainty_test.cpp
   LIBS voussoir_core ${outside_cone_solver} Boost::headers)
 
-voussoir_test(unit.particles LABEL unit SOURCES scene/particles_test.cpp scene/bad_particles_test.cpp
+voussoir_test(unit.particles LABEL unit SOURCES scene/particles_test.cpp
+  scene/particles_energy_test.cpp scene/bad_particles_test.cpp
   LIBS voussoir_core cereal::cereal fmt::fmt Boost::headers)
 
 if(TARGET voussoir_limit)

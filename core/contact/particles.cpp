@@ -45,10 +45,7 @@ double least_across(const Matrix<3>& m, const Vector<3>& normal) {
 constexpr double farthest_walk = 1e7;
 
 template <int Dim>
-double walk_of_point(const PotentialPair<Dim>& pair, const PotentialContact<Dim>& found) {
-  static thread_local PlacedPotential<Dim> a, b;
-  place<Dim>(*pair.a, Matrix<Dim>::Identity(), Vector<Dim>::Zero(), a);
-  place<Dim>(*pair.b, pair.rotation, pair.offset, b);
+double walk_of_point(const PlacedPotential<Dim>& a, const PlacedPotential<Dim>& b, const PotentialContact<Dim>& found) {
   const PotentialDerivatives<Dim> of_a = derivatives<Dim>(a, found.point), of_b = derivatives<Dim>(b, found.point);
   const Matrix<Dim> curvatures = of_a.hessian / of_a.gradient.norm() + of_b.hessian / of_b.gradient.norm();
   const double least = least_across(curvatures, found.normal);
@@ -122,7 +119,7 @@ void resolve_particles(const Pair<Dim>& pair, const ContactSettings& settings, C
     contact.geometry.stiffness_factor = found.energy_rate * found.energy_rate;
   }
   contact.proof.axis = found.normal;
-  contact.proof.margin = walk_of_point(seen, found);
+  contact.proof.margin = walk_of_point(workspace.a, workspace.b, found);
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ struct PotentialStart {
 // memory that is kept from one pair to the next
 template <int Dim>
 struct PotentialWorkspace {
-  PlacedPotential<Dim> a, b;
+  PlacedPotential<Dim> a, b;            // the pair's, as the first one sees them: they stay until the next pair
   PlacedPotential<Dim> near_a, near_b;  // with the planes alone that count around the contact
   RayScratch ray;
   std::vector<double> columns;
