@@ -22,7 +22,8 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // The simplex that holds the program before any plane does: how far its planes lie from the point p that divides the
-// line of centres as the spheres' radii, over the sum of the radii. A point x of both spheres has (Stewart's theorem)
+// line of centres as the spheres' radii, over the sum of the radii, or over the distance of the centres where that is
+// larger. A point x of both spheres has (Stewart's theorem)
 //   |x - p|² <= (R_B |x - c_A|² + R_A |x - c_B|²) / (R_A + R_B) <= R_A R_B <= ((R_A + R_B) / 2)²,
 // so that half holds all contacts; the program's optimum may lie a little farther out, as corners recede. The nearer
 // the planes, the fewer exchanges.

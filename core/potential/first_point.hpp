@@ -23,7 +23,8 @@ struct FirstPoint {
 // proportion to its multipliers,
 //   s_i = σ u_A μ_i / |μ_A|,   σ = t / (u_A |μ_A| + u_B |μ_B|) = sqrt(Q),   λ / (1 - λ) = u_A |μ_A| / (u_B |μ_B|):
 // at k = 0 the answer itself where no other plane has a slack there. Where t is not positive the point is the
-// program's, inside both sets of planes. Not found: one of the bodies has no planes, or does not hold the optimum.
+// program's, inside both sets of planes. Not found: one of the bodies has no planes, or does not hold the optimum; or
+// there are more than 16 000 planes.
 // By dual simplex, whose scan of the planes fills the machine's vector registers; the same bits at any width. `scratch`
 // holds the planes side by side.
 template <int Dim>
