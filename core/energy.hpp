@@ -31,6 +31,7 @@ enum class Source {
   relaxation,
   // no loads from here on
   friction,
+  lost_area,
   dashpots,
   stiffening,
   bolt_yield,
@@ -68,6 +69,7 @@ inline constexpr std::array<SourceRow, source_count> source_table{{
     {Source::local_damping, "local_damping", "", -1, 0, 0, 1, 0},
     {Source::relaxation, "relaxation", "", -1, 0, 0, 1, 0},
     {Source::friction, "friction", "", 0, 1, 0, 0, 0},      // lost to slip
+    {Source::lost_area, "lost_area", "", 0, 1, 0, 0, 0},    // lost where a joint under shear loses or gains area
     {Source::dashpots, "dashpots", "", 0, 1, 0, 1, 0},      // lost to viscous damping
     {Source::stiffening, "stiffening", "", 0, 1, 0, 0, 0},  // lost by shear springs that grew stiffer with stress under
                                                             // their force; negative: made

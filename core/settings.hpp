@@ -24,12 +24,17 @@ enum class OverlapSearch { closed_form, bracketing };
 // program's or the barrier's own point, the force is that of the potential 2 k s²
 enum class ContactNormal { potential, multipliers };
 
+// What carries a joint of constant normal and shear stiffness per area: points, or the contact as a whole
+// (contact/pressed_face.hpp)
+enum class ContactFace { point, integrated };
+
 struct ContactSettings {
   LpSolver lp = LpSolver::own;
   CentreSolver centre = CentreSolver::own;
   ContactPoint point = ContactPoint::analytic_centre;
   ContactNormal normal = ContactNormal::potential;     // multipliers: with point = central_path
   OverlapSearch overlap = OverlapSearch::closed_form;  // of normal = potential
+  ContactFace face = ContactFace::point;
 
   // two parts touch when they overlap by more than this times the smaller inscribed radius, and by more than rounding
   // hides (at most 64 ulp of the pair's size); far above that, contacts are found late

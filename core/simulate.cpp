@@ -410,8 +410,8 @@ struct Simulation {
           e.flows[Source::local_damping] / e.largest_energy);
     if (causes.empty())
       causes =
-          "; areas and normals of contacts change as blocks rock or slide over edges (joint_properties sub_contacts, "
-          "contact.normal), or an impact lasts few steps (time.fraction, time.step_s)";
+          "; areas and normals of contacts change as blocks rock or slide over edges (contact.face, joint_properties "
+          "sub_contacts, contact.normal), or an impact lasts few steps (time.fraction, time.step_s)";
     return "the contacts" + causes;
   }
 

@@ -11,6 +11,7 @@
 
 #include "core/contact/broad_phase.hpp"
 #include "core/contact/contact.hpp"
+#include "core/contact/pressed_face.hpp"
 #include "core/energy.hpp"
 #include "core/geometry/types.hpp"
 #include "core/load/water.hpp"
@@ -221,6 +222,8 @@ struct State {
   std::vector<BodyStiffness> stiffened;  // by body: what loads other than the contacts add; none where none does
   std::vector<Contact<Dim>> contacts;    // candidate pairs by (part a, part b); those that touch carry history
   std::vector<SubContact<Dim>> subs;     // as many places for each contact, in their order; none where no joint has any
+  std::vector<PressedFace<Dim>> faces;   // by contact: of those carried as a whole; found every step; none where no
+                                         // joint is
   std::vector<Placement<Dim>> built;     // where the bodies stood when the candidates were last listed
   std::vector<Placement<Dim>> counted_at;  // by body: up to where its travel is counted
   std::vector<double> path_bounds;         // m, by body: how far any of its points may have gone, all ways added up

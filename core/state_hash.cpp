@@ -45,6 +45,7 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
     bytes.add(history.normal);
     bytes.add(history.point);
     bytes.add(history.plastic_slip);
+    if (history.twist != 0) bytes.add(history.twist);
     bytes.add(history.shear_stiffness);
     bytes.add(static_cast<int>(history.bonded));
   };

@@ -30,10 +30,14 @@ voussoir_test(unit.contact LABEL unit
     contact/multipliers_test.cpp contact/broad_phase_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
+voussoir_test(unit.faces LABEL unit
+  SOURCES contact/region_integral_test.cpp step/face_forces_test.cpp
+  LIBS voussoir_core voussoir_oracle_algebra cereal::cereal Boost::headers fmt::fmt)
+
 voussoir_test(unit.neighbours LABEL unit SOURCES step/neighbours_test.cpp LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.scene LABEL unit
-  SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/bad_stage_loads_test.cpp scene/bad_bolts_test.cpp scene/bad_linings_test.cpp scene/bad_water_test.cpp scene/bad_search_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
+  SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/bad_stage_loads_test.cpp scene/bad_bolts_test.cpp scene/bad_linings_test.cpp scene/bad_water_test.cpp scene/bad_search_test.cpp scene/bad_faces_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
     scene/permuted_input_test.cpp scene/accuracy_level_test.cpp scene/slicing_scene_test.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)
 

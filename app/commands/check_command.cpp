@@ -8,6 +8,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/plausibility.hpp"
 #include "app/run_scene.hpp"
+#include "core/contact/carried_whole.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/scene/plausibility.hpp"
 #include "core/step/newton.hpp"
@@ -154,7 +155,7 @@ std::vector<std::string> laws_text(const JointProperties& p) {
 }
 
 template <int Dim>
-void print_properties(const Model<Dim>& model) {
+void print_properties(const Model<Dim>& model, const ContactSettings& contact) {
   const std::vector<bool> used = properties_of_faces(model);
   for (std::size_t k = 0; k < model.properties.size(); ++k) {
     const JointProperties& p = model.properties[k];
@@ -164,6 +165,17 @@ void print_properties(const Model<Dim>& model) {
                            used[k] ? "" : "; of no face that may meet another"));
     for (const std::string& law : laws_text(p))
       print_line("", "  " + law);
+    if (carried_whole(contact, p)) {
+      print_line("", p.sub_contacts == 1
+                         ? "  each contact as a whole, integrated"
+                         : fmt::format("  each contact as a whole, integrated (sub_contacts = {} is not used)",
+                                       p.sub_contacts));
+      continue;
+    }
+    if (contact.face == ContactFace::integrated)
+      print_line("", fmt::format("  not integrated: {}", p.constant_stiffness ? "constant_stiffness knows no area"
+                                                         : p.laws.bond        ? "it can be bonded"
+                                                                              : "its laws differ from point to point"));
     print_line("", p.sub_contacts == 1
                        ? "  one point a face"
                        : fmt::format("  {} points a face", Dim == 2 ? fmt::format("{}", p.sub_contacts)
@@ -394,7 +406,7 @@ void print_active(const Prepared<Dim>& prepared) {
   print_blocks(prepared.model);
   print_particles(prepared.model);
   print_joints(prepared.model);
-  print_properties(prepared.model);
+  print_properties(prepared.model, prepared.settings.contact);
   print_line("gravity", vector_text<Dim>(prepared.model.gravity) + " m/s²");
   print_water(prepared);
   print_line("damping", damping_text(settings.damping));

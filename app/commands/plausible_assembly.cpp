@@ -11,6 +11,7 @@
 #include <set>
 
 #include "core/cast_lining.hpp"
+#include "core/contact/carried_whole.hpp"
 #include "core/install.hpp"
 #include "core/reduction/reduction.hpp"
 #include "core/waters.hpp"
@@ -141,26 +142,31 @@ std::optional<int> properties_between(const Model<Dim>& model, const Contact<Dim
 
 // blocks that may turn and rest on others that may, where one point carries each face
 template <int Dim>
-void judge_points(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings) {
+void judge_points(const Model<Dim>& model, const ContactSettings& settings, const State<Dim>& state,
+                  std::vector<std::string>& warnings) {
   if (model.gravity.norm() == 0) return;
   std::set<int> blocks, properties;
   for (const Contact<Dim>& contact : state.contacts) {
     const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
     if (!may_turn(model.bodies[a]) || !may_turn(model.bodies[b])) continue;
     const std::optional<int> between = properties_between(model, contact);
-    if (!between || model.properties[*between].sub_contacts > 1) continue;
+    if (!between || model.properties[*between].sub_contacts > 1 || carried_whole(settings, model.properties[*between]))
+      continue;
     blocks.insert({a, b});
     properties.insert(*between);
   }
   if (blocks.size() < few_blocks) return;
   std::string keys;
+  bool integrable = true;
+  for (const int p : properties)
+    integrable = integrable && can_be_integrated(model.properties[p]);
   for (const int p : properties)
     keys += fmt::format("{}joint_properties.{}.sub_contacts", keys.empty() ? "" : ", ", model.properties[p].name);
   warnings.push_back(
       fmt::format("{} free blocks rest on one another on one point a face, which resists no spin, nor rocking as a "
                   "face does: slopes "
-                  "and piles give way too early; set {} = 2 or more, or restrain what does not turn",
-                  blocks.size(), keys));
+                  "and piles give way too early; set {}{} = 2 or more, or restrain what does not turn",
+                  blocks.size(), integrable ? "contact.face = \"integrated\", or " : "", keys));
 }
 
 // a stage that leaves nothing to move
@@ -401,7 +407,7 @@ void judge_assembly(const Prepared<Dim>& prepared, const Model<Dim>& model, cons
   judge_ties(model, state, warnings);
   judge_first_contacts(prepared, model, state, warnings);
   judge_places(model, state, warnings);
-  judge_points(model, state, warnings);
+  judge_points(model, prepared.settings.contact, state, warnings);
   judge_last_block(prepared, warnings);
   judge_bolts(model, state, warnings);
   judge_linings(model, state, warnings);

@@ -64,8 +64,8 @@ void serialize(Archive& archive, ContactGeometry<Dim>& g) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, JointState<Dim>& j) {
-  auto& [shear_force, normal, point, plastic_slip, dashpot, area, shear_stiffness, bonded] = j;
-  archive(shear_force, normal, point, plastic_slip, dashpot, area, shear_stiffness, bonded);
+  auto& [shear_force, normal, point, plastic_slip, dashpot, area, twist, polar, shear_stiffness, bonded] = j;
+  archive(shear_force, normal, point, plastic_slip, dashpot, area, twist, polar, shear_stiffness, bonded);
 }
 
 template <class Archive, int Dim>
@@ -212,7 +212,7 @@ void serialize(Archive& archive, HeldLoad<Dim>& h) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
   // poses, loads by source with their stiffness, lists by body and loads of contacts are rebuilt before they are read
-  auto& [motions, loads, loads_of, stiffened, contacts, subs, built, counted_at, path_bounds, left_behind, poses,
+  auto& [motions, loads, loads_of, stiffened, contacts, subs, faces, built, counted_at, path_bounds, left_behind, poses,
          by_body, contact_loads, frequency, relaxation, newton, schedule, held, bolt_springs, grouted, linings, bonds,
          time, time_step, step_allowed, energy, counters] = s;
   archive(motions, loads, contacts, subs, built, counted_at, path_bounds, left_behind, frequency, relaxation, newton,

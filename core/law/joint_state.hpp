@@ -13,6 +13,8 @@ struct JointState {
   double plastic_slip = 0;                        // m, accumulated: β
   double dashpot = 0;                             // N: its fraction of the normal force, of the step before
   double area = 0;                                // m², of the step before; 1 for a constant stiffness
+  double twist = 0;                               // N m on the second body about the normal: of a whole face
+  double polar = 0;                               // m⁴: what its twisting stiffness was, over the shear stiffness
   double shear_stiffness = 0;                     // Pa/m, of the step before, where a law lets it vary; else 0
   bool bonded = false;                            // tension and cohesion are intact, both or neither
 };

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/contact/carried_whole.hpp"
 #include "core/law/joint_law.hpp"
 #include "core/on_threads.hpp"
 
@@ -217,8 +218,8 @@ struct BodiesToUpdate {
 // What a contact adds to one of the bodies to update: stiffness, or what may strike it. The first of its bodies that is
 // updated rates the contact again.
 template <int Dim>
-void add_contact(const Model<Dim>& model, const BodiesToUpdate& updated, State<Dim>& state, int place, int body,
-                 Stiffness<Dim>& stiffness, double& impact) {
+void add_contact(const Model<Dim>& model, const ContactSettings& settings, const BodiesToUpdate& updated,
+                 State<Dim>& state, int place, int body, Stiffness<Dim>& stiffness, double& impact) {
   Contact<Dim>& c = state.contacts[place];
   if (c.status == ContactStatus::apart) return;
   const int ia = model.parts[c.part_a].body, ib = model.parts[c.part_b].body;
@@ -249,6 +250,8 @@ void add_contact(const Model<Dim>& model, const BodiesToUpdate& updated, State<D
     for (int i = Dim; i < freedoms<Dim>; ++i)
       stiffness(i, i) += turning;
   };
+  if (carried_whole(settings, p))
+    return add_cell(c.geometry.point, c.geometry.overlap, c.geometry.area, state.faces[place].gyration2);
   if (c.cells == 0)
     return add_cell(c.geometry.point, c.geometry.overlap, p.constant_stiffness ? 1 : c.geometry.area, rocking(c));
   const double unit = p.constant_stiffness ? c.geometry.area : 1;
@@ -266,7 +269,7 @@ TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, con
     Stiffness<Dim> stiffness = Stiffness<Dim>::Zero();
     double impact = 0;  // N/m that may act at the radius
     for (const int place : contacts_of(state, body))
-      add_contact(model, updated, state, place, body, stiffness, impact);
+      add_contact(model, settings.contact, updated, state, place, body, stiffness, impact);
     state.frequency[body] = std::sqrt(stiffest(model, body, state.motions[body].rotation, stiffness, impact,
                                                state.stiffened.empty() ? BodyStiffness() : state.stiffened[body]));
   });

@@ -82,6 +82,7 @@ Json energy_json(const EnergyLedger& energy, NumberWriter& number) {
       {"friction", energy.flows[Source::friction]},
       {"damping", energy.damping()},
       {"external", energy.external()},
+      {"lost_area", energy.flows[Source::lost_area]},
       {"stiffening", energy.flows[Source::stiffening]},
       {"unexplained", energy.unexplained()},
       {"closure", energy.relative_error()},

@@ -1,9 +1,11 @@
 // From a checked tree to plain structs: units and what one table must state together.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/contact/carried_whole.hpp"
 #include "core/scene/accuracy_level.hpp"
 #include "core/scene/base_scene.hpp"
 #include "core/scene/bolts.hpp"
@@ -34,6 +36,37 @@ void check_laws(const Subject& item, const JointProperties& p) {
     refuse(item, "softening_drop",
            fmt::format("exceeds the friction coefficient tan(friction_deg) = {:.4g} that there is to lose",
                        std::tan(p.friction)));
+}
+
+// why a joint of these properties cannot be carried as a whole
+std::string why_by_points(const JointProperties& p) {
+  if (p.constant_stiffness) return "has constant_stiffness, which knows no area";
+  if (p.laws.bond) return "has tension or cohesion, which a joint loses point by point";
+  return "has a law that depends on stress or slip, which differ from point to point";
+}
+
+// contact.face = "integrated" against what else the scene says
+void check_face(const Subject& scene, const ContactSettings& contact, const std::vector<PropertiesSpec>& properties) {
+  if (contact.face != ContactFace::integrated) return;
+  const Subject table = *child(scene, "contact");
+  const auto by_points = [](const PropertiesSpec& p) { return !can_be_integrated(p.properties); };
+  if (!properties.empty() && std::ranges::all_of(properties, by_points))
+    refuse(table, "face",
+           fmt::format("would change nothing: {} {}; give a joint constant stiffnesses in Pa/m without strength, or "
+                       "leave face out",
+                       properties.front().subject.path, why_by_points(properties.front().properties)));
+  if (std::ranges::any_of(properties, by_points)) return;  // what the keys below choose serves those
+  const auto unused = [&](bool stated, const char* key, const char* what) {
+    if (stated)
+      refuse(table, key,
+             fmt::format("chooses {} where a contact acts at a point; with face = \"integrated\" every joint of this "
+                         "scene is carried as a whole, leave one of the two out",
+                         what));
+  };
+  const ContactSettings usual;
+  unused(contact.normal != usual.normal, "normal", "direction and depth");
+  unused(contact.point != usual.point, "point", "the place");
+  unused(contact.overlap != usual.overlap, "overlap", "how the depth is found");
 }
 
 std::vector<PropertiesSpec> read_properties(const Subject& scene) {
@@ -145,6 +178,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   scene.restrain = read_restrain(top);
   scene.initial_velocity = read_initial_velocity(top);
   scene.settings = read_settings(top);
+  check_face(top, scene.settings.contact, scene.properties);
   scene.excavations = read_excavations(top, scene.dimension);
   const double rock_weight = scene.density && scene.gravity ? *scene.density * std::abs(scene.gravity->back()) : 0;
   scene.stages = read_stages(top, scene.dimension, scene.settings.damping, rock_weight);

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "core/contact/carried_whole.hpp"
 #include "core/contact/narrow_phase.hpp"
 #include "core/contact/sub_contacts.hpp"
 #include "core/on_threads.hpp"
@@ -12,13 +13,17 @@
 namespace voussoir {
 namespace {
 
+// of a contact polygon: up to so many the step asks for no memory
+constexpr std::size_t expected_corners = 16;
+
 // a few roundings: what is multiplied by this is a lower bound of what it would be without any
 constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
 
 template <int Dim>
-bool needs_area(const Model<Dim>& model) {
-  return std::any_of(model.properties.begin(), model.properties.end(),
-                     [](const JointProperties& p) { return !p.constant_stiffness || p.sub_contacts > 1; });
+bool needs_area(const Model<Dim>& model, const ContactSettings& settings) {
+  return std::any_of(model.properties.begin(), model.properties.end(), [&](const JointProperties& p) {
+    return (!p.constant_stiffness || p.sub_contacts > 1) && !carried_whole(settings, p);
+  });
 }
 
 // nor do its sub-contacts count any more
@@ -79,10 +84,14 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
       c->joint = joint_of(model, *c);
       c->properties = c->joint == no_joint ? model.default_properties : model.joints[c->joint].properties;
       const int along = model.properties[c->properties].sub_contacts;
-      if (const int cells = sub_contact_count<Dim>(along); cells > 0)
-        divide<Dim>(waiting.pairs[i], along, *c, std::span(state.subs).subspan(place * stride, cells));
-      else
+      if (carried_whole(settings.contact, model.properties[c->properties])) [[unlikely]] {
+        press_face<Dim>(waiting.pairs[i], *c, state.faces[place]);
         c->cells = 0;
+      } else if (const int cells = sub_contact_count<Dim>(along); cells > 0) {
+        divide<Dim>(waiting.pairs[i], along, *c, std::span(state.subs).subspan(place * stride, cells));
+      } else {
+        c->cells = 0;
+      }
       if (bonds > 0 && whole_bonds(state, place) < bonds) c->bond_due = false;
       continue;
     }
@@ -151,11 +160,18 @@ void add(Counters& total, const Tally& tally) {
 template <int Dim>
 void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
                    const FoundContacts<Dim>& found) {
-  const QueryLevel level = needs_area(model) ? QueryLevel::area : QueryLevel::overlap;
+  const QueryLevel level = needs_area(model, settings.contact) ? QueryLevel::area : QueryLevel::overlap;
   const double gap = closed_gap(model);
   cache_poses(model, settings.threads, state);
   count_travels(model, settings, state);
   state.contact_loads.resize(state.contacts.size());
+  if (std::ranges::any_of(model.properties,
+                          [&](const JointProperties& p) { return carried_whole(settings.contact, p); })) {
+    const std::size_t before = state.faces.size();
+    if (before < state.contacts.size()) state.faces.resize(state.contacts.size());
+    for (std::size_t i = before; i < state.faces.size(); ++i)
+      state.faces[i].polygon.corners.reserve(expected_corners);
+  }
   static thread_local std::vector<Tally> own;
   std::vector<Tally>& tallies = own;  // this thread's, filled by all
   tallies.assign(groups_of_contacts(state), {});

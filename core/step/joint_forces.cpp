@@ -5,9 +5,11 @@
 #include <functional>
 #include <vector>
 
+#include "core/contact/carried_whole.hpp"
 #include "core/law/joint_law.hpp"
 #include "core/on_threads.hpp"
 #include "core/step/contacts.hpp"
+#include "core/step/face_forces.hpp"
 #include "core/step/neighbours.hpp"
 
 namespace voussoir {
@@ -38,7 +40,7 @@ struct Bearing {
 
 // what some contacts add to the energy ledger, J
 struct JointSums {
-  double elastic = 0, friction = 0, dashpots = 0, stiffening = 0;
+  double elastic = 0, friction = 0, lost_area = 0, dashpots = 0, stiffening = 0;
   long long snap_backs = 0, bonds_made = 0;
 };
 
@@ -123,7 +125,7 @@ template <int Dim>
       const double left = k.area / history.area;
       const double stiffness =
           history.area * (history.shear_stiffness > 0 ? history.shear_stiffness : properties.shear_stiffness);
-      if (stiffness > 0) sums.friction += 0.5 * history.shear_force.squaredNorm() / stiffness * (1 - left);
+      if (stiffness > 0) sums.lost_area += 0.5 * history.shear_force.squaredNorm() / stiffness * (1 - left);
       history.shear_force *= left;
     }
     history.shear_force = carried(history.shear_force, history.normal, n, k.turn);
@@ -149,6 +151,25 @@ template <int Dim>
   history.dashpot = answer.dashpot;
   history.area = k.area;
   return answer.force;
+}
+
+// the contact's normal dashpot over the root of its normal stiffness per area; between two immobile bodies there is
+// nothing to damp
+template <int Dim>
+double dashpot_of(const Settings& settings, const State<Dim>& state, const PairMotion<Dim>& motion, double area) {
+  if (!(settings.damping.viscous_ratio > 0) || !(motion.inverse_mass > 0) || state.relaxation.under_way) return 0;
+  return 2 * settings.damping.viscous_ratio * std::sqrt(area / motion.inverse_mass);
+}
+
+// The joint of a contact that is carried as a whole. Not inlined: what a scene does not ask for shall not lengthen its
+// loop.
+template <int Dim>
+[[gnu::noinline]] FaceForce<Dim> whole_face_force(const JointProperties& properties, const Settings& settings,
+                                                  const State<Dim>& state, const PairMotion<Dim>& motion,
+                                                  const ContactGeometry<Dim>& geometry, const PressedFace<Dim>& face,
+                                                  double friction, JointState<Dim>& history) {
+  const double dashpot = dashpot_of(settings, state, motion, geometry.area) * std::sqrt(properties.normal_stiffness);
+  return face_force<Dim>(properties, friction, dashpot, state.time_step, motion, geometry, face, history);
 }
 
 // Bonds what presses of a contact whose bond is due.
@@ -197,6 +218,18 @@ template <int Dim>
     bond_what_presses(properties, place, state, sums.bonds_made);
   const Friction& friction = frictions[c.properties];
   const PairMotion<Dim> motion = motion_of(model, state, c);
+  if (carried_whole(settings.contact, properties)) [[unlikely]] {
+    const FaceForce<Dim> f = whole_face_force<Dim>(properties, settings, state, motion, c.geometry, state.faces[place],
+                                                   friction.coefficient, c.history);
+    c.force = f.force;
+    state.contact_loads[place] = {model.parts[c.part_b].body, f.force, f.about,
+                                  f.about - moment(motion.between, f.force)};
+    sums.elastic += f.elastic;
+    sums.friction += f.friction;
+    sums.lost_area += f.lost_area;
+    sums.dashpots += f.dashpots;
+    return;
+  }
   if (c.cells == 0) {
     Bearing<Dim> at{c.geometry.point, c.geometry.normal, c.geometry.overlap, c.geometry.area};
     if (properties.constant_stiffness) {
@@ -242,6 +275,7 @@ void add(const std::vector<JointSums>& sums, State<Dim>& state) {
   for (const JointSums& b : sums) {
     state.energy.elastic += b.elastic;
     state.energy.flows[Source::friction] += b.friction;
+    state.energy.flows[Source::lost_area] += b.lost_area;
     state.energy.flows[Source::dashpots] += b.dashpots;
     state.energy.flows[Source::stiffening] += b.stiffening;
     state.counters.snap_backs += b.snap_backs;
@@ -253,13 +287,21 @@ void add(const std::vector<JointSums>& sums, State<Dim>& state) {
 
 template <int Dim>
 PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
-                             const Contact<Dim>& c, std::span<const SubContact<Dim>> subs,
+                             const Contact<Dim>& c, std::span<const SubContact<Dim>> subs, const PressedFace<Dim>* face,
                              const PairMotion<Dim>& motion, const JointState<Dim>& history,
                              std::span<const JointState<Dim>> sub_histories) {
   PairWrench<Dim> wrench = PairWrench<Dim>::Zero();
   if (!c.touching()) return wrench;
   const JointProperties& properties = model.properties[c.properties];
   const Friction friction = friction_of(state.schedule, c.properties);
+  if (face != nullptr) {
+    JointState<Dim> past = history;
+    const FaceForce<Dim> f =
+        whole_face_force<Dim>(properties, settings, state, motion, c.geometry, *face, friction.coefficient, past);
+    wrench.template head<Dim>() = f.force;
+    wrench.template tail<spin_freedoms<Dim>>() = f.about - moment(motion.between, f.force);
+    return wrench;
+  }
   JointSums sums;
   const auto add = [&](const Bearing<Dim>& at, JointState<Dim> past) {
     const Vector<Dim> force = joint_force<Dim>(properties, settings, state, motion, at, friction, past, sums);
@@ -357,11 +399,11 @@ BondCount count_bonds(const State<Dim>& state) {
 }
 
 template PairWrench<2> joint_wrench<2>(const Model<2>&, const Settings&, const State<2>&, const Contact<2>&,
-                                       std::span<const SubContact<2>>, const PairMotion<2>&, const JointState<2>&,
-                                       std::span<const JointState<2>>);
+                                       std::span<const SubContact<2>>, const PressedFace<2>*, const PairMotion<2>&,
+                                       const JointState<2>&, std::span<const JointState<2>>);
 template PairWrench<3> joint_wrench<3>(const Model<3>&, const Settings&, const State<3>&, const Contact<3>&,
-                                       std::span<const SubContact<3>>, const PairMotion<3>&, const JointState<3>&,
-                                       std::span<const JointState<3>>);
+                                       std::span<const SubContact<3>>, const PressedFace<3>*, const PairMotion<3>&,
+                                       const JointState<3>&, std::span<const JointState<3>>);
 template void zero_slip<2>(State<2>&);
 template void zero_slip<3>(State<3>&);
 template void remove_bonds<2>(const Model<2>&, State<2>&);

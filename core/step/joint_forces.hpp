@@ -4,28 +4,9 @@
 #include "core/model.hpp"
 #include "core/settings.hpp"
 #include "core/state.hpp"
+#include "core/step/pair_motion.hpp"
 
 namespace voussoir {
-
-// how the two bodies of a contact move
-template <int Dim>
-struct PairMotion {
-  Vector<Dim> between;  // m
-  Vector<Dim> drift;    // m/s, of the second centroid against the first
-  const Spin<Dim>&spin_a, &spin_b;
-  double inverse_mass;  // of both together, 1/kg
-
-  // of the second body against the first; `point` relative to the first one's centroid, `apart` from there to the
-  // second one's
-  [[gnu::always_inline]] Vector<Dim> velocity_at(const Vector<Dim>& point, const Vector<Dim>& apart) const {
-    return drift + cross(spin_b, point - apart) - cross(spin_a, point);
-  }
-  [[gnu::always_inline]] Vector<Dim> velocity_at(const Vector<Dim>& point) const { return velocity_at(point, between); }
-  // where the contact was before the step
-  [[gnu::always_inline]] Vector<Dim> velocity_before_at(const Vector<Dim>& point, double dt) const {
-    return velocity_at(point, between - dt * drift);
-  }
-};
 
 // Finds the contacts, and for each its joint's force from overlap and from the slip over the last step
 template <int Dim>
@@ -40,12 +21,12 @@ template <int Dim>
 using PairWrench = typename PairStiffness<Dim>::Wrench;
 
 // What the joint of a contact would answer to this geometry and this motion of its bodies, from these histories, which
-// stay; those of the sub-contacts in their order.
+// stay; those of the sub-contacts in their order. `face`: of a contact that is carried as a whole, else none.
 template <int Dim>
 PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
                              const Contact<Dim>& contact, std::span<const SubContact<Dim>> subs,
-                             const PairMotion<Dim>& motion, const JointState<Dim>& history,
-                             std::span<const JointState<Dim>> sub_histories);
+                             const PressedFace<Dim>* face, const PairMotion<Dim>& motion,
+                             const JointState<Dim>& history, std::span<const JointState<Dim>> sub_histories);
 
 // Bonds every closed joint that has tensile strength or cohesion: where it presses at once, elsewhere as soon as it
 // first does, unless its faces part by more than a thousandth of the smallest inscribed radius before. No force

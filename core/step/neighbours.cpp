@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/contact/broad_phase.hpp"
+#include "core/contact/carried_whole.hpp"
 #include "core/contact/nearness.hpp"
 #include "core/contact/sub_contacts.hpp"
 #include "core/contact/thin_directions.hpp"
@@ -149,10 +150,10 @@ Nearness nearness_of(const Model<Dim>& model, const State<Dim>& state, int a, in
 
 // places that State::subs has for each contact
 template <int Dim>
-std::size_t most_cells(const Model<Dim>& model) {
+std::size_t most_cells(const Model<Dim>& model, const ContactSettings& settings) {
   int most = 0;
   for (const JointProperties& p : model.properties)
-    most = std::max(most, sub_contact_count<Dim>(p.sub_contacts));
+    if (!carried_whole(settings, p)) most = std::max(most, sub_contact_count<Dim>(p.sub_contacts));
   return static_cast<std::size_t>(most);
 }
 
@@ -286,7 +287,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   if (count > most) throw TooManyNeighbours(crowd_at(model, boxes, pairs));
 
   // standing candidates keep their record: both lists are in ascending order
-  const std::size_t stride = most_cells(model);
+  const std::size_t stride = most_cells(model, settings.contact);
   origin.assign(pairs.size(), -1);
   auto old = state.contacts.begin();
   for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/carried_whole.hpp"
 #include "core/contact/sensitivity.hpp"
 #include "core/contact/sub_contacts.hpp"
 #include "core/on_threads.hpp"
@@ -127,7 +128,8 @@ struct MovedContacts {
     const double way = std::max(of_overlap * c.geometry.overlap, of_size * size);
     const Pair<Dim> here = pair_of(model, state, c.part_a, c.part_b, QueryLevel::area);
     ContactSensitivity<Dim> sensitivity;
-    const bool closed_form = c.proof.kind != ProofKind::least_point && has_sensitivity(settings.contact) &&
+    const bool whole = carried_whole(settings.contact, model.properties[c.properties]);  // pressed again, by whom asks
+    const bool closed_form = !whole && c.proof.kind != ProofKind::least_point && has_sensitivity(settings.contact) &&
                              find_sensitivity<Dim>(here, settings.contact, c, sensitivity);
     for (int f = 0; f < freedoms<Dim>; ++f) {
       steps.push_back(f < Dim ? way : way / std::max(width, least_width * size));
@@ -136,7 +138,7 @@ struct MovedContacts {
       if (f >= Dim && !turns(model, p.body_a) && !turns(model, p.body_b)) continue;  // held: what it says is not used
       if (closed_form) {
         move_contact(sensitivity, here.axes, f, steps.back(), contacts.back());
-      } else {
+      } else if (!whole) {
         of_kernel.push_back(contacts.size() - 1);
         asked.push_back(pairs.back());
       }
@@ -151,6 +153,7 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
   constexpr int F = freedoms<Dim>;
   static thread_local MovedContacts<Dim> after;
   static thread_local std::vector<SubContact<Dim>> cells;
+  static thread_local PressedFace<Dim> pressed;
   after.find(model, settings, state, batch, counters);
 
   cells.resize(stride_of(state));
@@ -160,11 +163,12 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
     const JointState<Dim>& history = state.newton.histories[p.contact].history;
     const std::span<const JointState<Dim>> sub_histories = sub_histories_of(state, p.contact);
     const CachedPose<Dim>&a = state.poses[p.body_a], &b = state.poses[p.body_b];
-    const int along = model.properties[c.properties].sub_contacts, count = sub_contact_count<Dim>(along);
+    const bool whole = carried_whole(settings.contact, model.properties[c.properties]);
+    const int along = model.properties[c.properties].sub_contacts, count = whole ? 0 : sub_contact_count<Dim>(along);
     p.apart = between(a, b);
     const PairMotion<Dim> now{p.apart, b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
-    p.wrench = joint_wrench<Dim>(model, settings, state, c, subs_of(state, static_cast<std::size_t>(p.contact)), now,
-                                 history, sub_histories);
+    p.wrench = joint_wrench<Dim>(model, settings, state, c, subs_of(state, static_cast<std::size_t>(p.contact)),
+                                 whole ? &state.faces[p.contact] : nullptr, now, history, sub_histories);
     for (int f = 0; f < F; ++f) {
       Contact<Dim>& then_contact = after.contacts[i * F + f];
       const double step = after.steps[i * F + f];
@@ -183,8 +187,9 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
         divide<Dim>(after.pairs[i * F + f], along, then_contact, std::span(cells).first(count));
         subs = std::span(cells).first(then_contact.cells);
       }
-      const PairWrench<Dim> wrench =
-          joint_wrench<Dim>(model, settings, state, then_contact, subs, then, history, sub_histories);
+      if (whole) press_face<Dim>(after.pairs[i * F + f], then_contact, pressed);
+      const PairWrench<Dim> wrench = joint_wrench<Dim>(model, settings, state, then_contact, subs,
+                                                       whole ? &pressed : nullptr, then, history, sub_histories);
       p.stiffness.col(f) = (p.wrench - wrench) / step;
     }
   }
@@ -201,6 +206,20 @@ void add_point(const JointProperties& properties, const Vector<Dim>& normal, con
     motion.col(Dim + k) = cross(Spin<Dim>(Spin<Dim>::Unit(k)), lever);
   stiffness += motion.transpose() *
                (area * (properties.normal_stiffness * along + properties.shear_stiffness * across)) * motion;
+}
+
+// and of a face around it: `polar` resists twist, at most as much as `rocking` rocking
+template <int Dim>
+void add_turning(const JointProperties& properties, const Vector<Dim>& normal, double polar, double rocking,
+                 typename PairStiffness<Dim>::Block& stiffness) {
+  if constexpr (Dim == 3) {
+    const Matrix<3> along = normal * normal.transpose();
+    stiffness.template bottomRightCorner<3, 3>() +=
+        properties.shear_stiffness * polar * along +
+        0.5 * properties.normal_stiffness * rocking * (Matrix<3>::Identity() - along);
+  } else {
+    stiffness(2, 2) += properties.normal_stiffness * rocking;
+  }
 }
 
 // a history without force
@@ -292,7 +311,14 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
     };
     JointState<Dim>& history = state.newton.histories[closed.contact].history;
     const int count = sub_contact_count<Dim>(properties.sub_contacts);
-    if (count == 0) {
+    if (carried_whole(settings.contact, properties)) {
+      PressedFace<Dim> face;
+      press_face<Dim>(pairs[j], c, face);
+      stand(history, face.centre, c.geometry.area);
+      history.normal = face.normal;
+      history.polar = face.polar;
+      add_turning<Dim>(properties, face.normal, face.polar, c.geometry.area * face.gyration2, closed.stiffness);
+    } else if (count == 0) {
       stand(history, c.geometry.point, properties.constant_stiffness ? 1 : c.geometry.area);
     } else {
       std::fill(cells.begin(), cells.end(), SubContact<Dim>{});

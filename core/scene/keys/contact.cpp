@@ -39,6 +39,12 @@ KeyTable contact_keys() {
      .example = "\"bracketing\"",
      .meaning = "how the ends of the overlap along the normal are found",
      .breaks = "bracketing is slow, a reference only"},
+    {.key = "face", .members = {one_of(&ContactSettings::face,
+         {{"point", ContactFace::point}, {"integrated", ContactFace::integrated}})},
+     .example = "\"integrated\"",
+     .meaning = "what carries a joint of constant stiffness per area: one point, or joint_properties sub_contacts, or the "
+         "whole contact, integrated: no normal is chosen, force and moment have a potential, faces resist twist",
+     .breaks = "integrated costs more where corners and edges touch; joints with other laws or bonds keep their points"},
     {.key = "tolerance", .members = {in(&ContactSettings::tolerance)}, .unit = "1", .range = {0, 1e-3},
      .plausible = {.low = 1e-14, .high = 5e-11, .or_zero = true}, .example = "1e-12",
      .meaning = "two blocks touch when they overlap by more than this times the smaller inscribed radius, and by more than "

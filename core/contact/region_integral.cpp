@@ -1,0 +1,318 @@
+#include "core/contact/region_integral.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace voussoir {
+namespace {
+
+// A region so much smaller than the simplex may have lost a corner to the simplex's rounding: it is cut again from a
+// smaller one.
+constexpr double lost_corners = 1e5;
+
+// of the simplex: cuts leave corners no farther off than this, unless their planes all but depend on each other
+constexpr double cut_error = 1e-10;
+
+// and that often
+constexpr int most_cuts = 8;
+
+// Planes as bits of a word: those of the parts from bit 0, the simplex's own behind them, t >= 0 last.
+using Planes = std::uint64_t;
+constexpr int base = 63, most_planes = 58;
+constexpr Planes of_simplex = ((Planes{1} << base) - 1) & ~((Planes{1} << most_planes) - 1);
+
+constexpr Planes bit(int plane) {
+  return Planes{1} << plane;
+}
+
+template <int Dim>
+struct Corner {
+  Vector<Dim> x;
+  double t;
+  Planes on;     // that pass through it
+  double slack;  // of the plane that cuts
+};
+
+template <int Dim>
+struct Polytope4 {
+  std::vector<Corner<Dim>> corners, fresh;
+  std::array<int, most_planes> plane;  // which one a bit stands for
+
+  // {x_i >= -half, t >= 0, Σ x_i + t <= what holds the cube}
+  void begin(double half) {
+    const double edge = (2 * Dim + 1) * half;
+    Planes all = bit(base);
+    for (int i = 0; i <= Dim; ++i)
+      all |= bit(most_planes + i);
+    corners.clear();
+    for (int k = 0; k <= Dim + 1; ++k) {  // the corner opposite to plane k
+      Corner<Dim> c{Vector<Dim>::Constant(-half), 0, all, 0};
+      if (k < Dim) {
+        c.x[k] += edge;
+        c.on &= ~bit(most_planes + k);
+      } else if (k == Dim) {
+        c.t = edge;
+        c.on &= ~bit(base);
+      } else {
+        c.on &= ~bit(most_planes + Dim);
+      }
+      corners.push_back(c);
+    }
+  }
+
+  // whether two corners are the ends of an edge
+  bool joined(const Corner<Dim>& a, const Corner<Dim>& b) const {
+    const Planes both = a.on & b.on;
+    if (std::popcount(both) < Dim) return false;
+    if (std::popcount(a.on) == Dim + 1 || std::popcount(b.on) == Dim + 1) return true;
+    return std::ranges::none_of(corners,
+                                [&](const Corner<Dim>& c) { return &c != &a && &c != &b && (c.on & both) == both; });
+  }
+
+  // What of it lies in {a·x + t <= d}; false where nothing does, or where there is no bit left.
+  bool cut(const HalfSpace<Dim>& p, int number) {
+    double least = 0;
+    Planes used = 0;
+    for (Corner<Dim>& c : corners) {
+      c.slack = p.offset - p.normal.dot(c.x) - c.t;
+      least = std::min(least, c.slack);
+      used |= c.on;
+    }
+    if (!(least < 0)) return true;
+    const int own = std::countr_one(used);
+    if (own >= most_planes) return false;
+    plane[own] = number;
+    fresh.clear();
+    for (Corner<Dim>& in : corners) {
+      if (in.slack < 0) continue;
+      fresh.push_back(in);
+      if (in.slack == 0) {
+        fresh.back().on |= bit(own);
+        continue;
+      }
+      for (const Corner<Dim>& out : corners) {
+        if (!(out.slack < 0) || !joined(in, out)) continue;
+        const double way = in.slack / (in.slack - out.slack);
+        fresh.push_back({in.x + way * (out.x - in.x), in.t + way * (out.t - in.t), (in.on & out.on) | bit(own), 0});
+      }
+    }
+    std::swap(corners, fresh);
+    return corners.size() > Dim + 1;
+  }
+};
+
+// Corners are what their planes make them, not what the cuts on the way left: one step of Newton's method on the planes
+// of each. Where more than enough planes meet, or nearly depend on each other, it stays.
+template <int Dim>
+void sharpen(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, double half, Polytope4<Dim>& polytope) {
+  for (Corner<Dim>& c : polytope.corners) {
+    if (std::popcount(c.on) != Dim + 1 || (c.on & of_simplex) != 0) continue;
+    Eigen::Matrix<double, Dim + 1, Dim + 1> rows;
+    Eigen::Matrix<double, Dim + 1, 1> off;
+    Planes left = c.on;
+    for (int k = 0; k <= Dim; ++k, left &= left - 1) {
+      const int b = std::countr_zero(left);
+      if (b == base) {
+        rows.row(k) = Eigen::Matrix<double, 1, Dim + 1>::Unit(Dim);
+        off[k] = -c.t;
+        continue;
+      }
+      const HalfSpace<Dim>& p = planes[polytope.plane[b]];
+      rows.row(k) << p.normal.transpose(), 1;
+      off[k] = (p.offset - p.normal.dot(shift)) - p.normal.dot(c.x) - c.t;
+    }
+    Eigen::Matrix<double, Dim + 1, Dim + 1> inverse;
+    bool independent = false;
+    rows.computeInverseWithCheck(inverse, independent);
+    if (!independent) continue;
+    const Eigen::Matrix<double, Dim + 1, 1> step = inverse * off;
+    if (!(step.norm() < cut_error * half)) continue;
+    c.x += step.template head<Dim>();
+    c.t += step[Dim];
+  }
+}
+
+// where a direction lies on the way round, 0 to 4, growing with its angle
+double way_round(double x, double y) {
+  const double length = std::abs(x) + std::abs(y);
+  if (!(length > 0)) return 0;
+  return y >= 0 ? 1 - x / length : 3 + x / length;
+}
+
+// ---- pieces of the surface between two facets --------------------------------------------------------------------
+
+// Its area as a vector, of either direction, with phi on it: ∫ phi dS, ∫ phi x dS, each over dS.
+template <int Dim>
+struct Piece {
+  Vector<Dim> area = Vector<Dim>::Zero();
+  double weight = 0;                        // ∫ phi dS
+  Vector<Dim> lever = Vector<Dim>::Zero();  // ∫ phi x dS
+};
+
+// corners of one piece, in any order
+template <int Dim>
+using PieceCorners = std::vector<const Corner<Dim>*>;
+
+Piece<2> measure(PieceCorners<2>& at, const Vector<2>&) {
+  Piece<2> piece;
+  if (at.size() != 2) return piece;
+  const Corner<2>&p = *at[0], &q = *at[1];
+  piece.area = perpendicular(Vector<2>(q.x - p.x));
+  const double length = piece.area.norm();
+  piece.weight = 0.5 * length * (p.t + q.t);
+  piece.lever = length / 6 * ((2 * p.t + q.t) * p.x + (p.t + 2 * q.t) * q.x);
+  return piece;
+}
+
+// `normal`: of any length, near the piece's own
+Piece<3> measure(PieceCorners<3>& at, const Vector<3>& normal) {
+  Piece<3> piece;
+  if (at.size() < 3) return piece;
+  const Vector<3> n = normal.normalized(), e = perpendicular(n), f = n.cross(e);
+  Vector<3> middle = Vector<3>::Zero();
+  for (const Corner<3>* c : at)
+    middle += c->x;
+  middle /= static_cast<double>(at.size());
+  static thread_local std::vector<std::pair<double, const Corner<3>*>> round;
+  round.clear();
+  for (const Corner<3>* c : at) {
+    const Vector<3> from = c->x - middle;
+    round.emplace_back(way_round(e.dot(from), f.dot(from)), c);
+  }
+  std::ranges::sort(round, {}, [](const auto& r) { return r.first; });
+  const Corner<3>& p = *round[0].second;
+  for (std::size_t k = 1; k + 1 < round.size(); ++k) {
+    const Corner<3>&q = *round[k].second, &r = *round[k + 1].second;
+    const Vector<3> triangle = 0.5 * (q.x - p.x).cross(r.x - p.x);
+    const double area = triangle.norm();
+    piece.area += triangle;
+    piece.weight += area / 3 * (p.t + q.t + r.t);
+    piece.lever +=
+        area / 12 * ((2 * p.t + q.t + r.t) * p.x + (p.t + 2 * q.t + r.t) * q.x + (p.t + q.t + 2 * r.t) * r.x);
+  }
+  return piece;
+}
+
+template <int Dim>
+struct Facet {
+  int bit, plane;  // plane: -1 of t >= 0
+  Vector<Dim> inside = Vector<Dim>::Zero();
+  double volume = 0;
+};
+
+template <int Dim>
+void sum_up(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, int faces_a, const Polytope4<Dim>& polytope,
+            RegionIntegral<Dim>& region) {
+  static thread_local std::vector<Facet<Dim>> facets;
+  static thread_local PieceCorners<Dim> at;
+  facets.clear();
+  Planes used = 0;
+  for (const Corner<Dim>& c : polytope.corners)
+    used |= c.on;
+  for (int k = 0; k < most_planes; ++k)
+    if ((used & bit(k)) != 0) facets.push_back({k, polytope.plane[k]});
+  facets.push_back({base, -1});
+  for (Facet<Dim>& f : facets) {
+    int count = 0;
+    for (const Corner<Dim>& c : polytope.corners)
+      if ((c.on & bit(f.bit)) != 0) {
+        f.inside += c.x;
+        ++count;
+      }
+    f.inside /= std::max(count, 1);
+  }
+
+  region = {};
+  double weight = 0;
+  Vector<Dim> lever = Vector<Dim>::Zero(), whole = Vector<Dim>::Zero();
+  for (std::size_t i = 0; i < facets.size(); ++i)
+    for (std::size_t j = i + 1; j < facets.size(); ++j) {
+      Facet<Dim>&f = facets[i], &g = facets[j];
+      const Planes both = bit(f.bit) | bit(g.bit);
+      at.clear();
+      for (const Corner<Dim>& c : polytope.corners)
+        if ((c.on & both) == both) at.push_back(&c);
+      if (at.size() < Dim) continue;
+      const Vector<Dim> apart =
+          g.plane < 0 ? planes[f.plane].normal : Vector<Dim>(planes[f.plane].normal - planes[g.plane].normal);
+      if (apart.isZero(0)) continue;
+      const Piece<Dim> piece = measure(at, apart);
+      const auto cone = [&](Facet<Dim>& facet) {
+        facet.volume += std::abs(piece.area.dot(at[0]->x - facet.inside)) / Dim;
+      };
+      cone(f);
+      if (g.plane >= 0) cone(g);
+      if (g.plane < 0 || (f.plane < faces_a) == (g.plane < faces_a)) continue;
+      // from the first part to the second
+      const double length = piece.area.norm();
+      if (!(length > 0)) continue;
+      const Vector<Dim> out = f.plane < faces_a ? apart : Vector<Dim>(-apart);
+      const Vector<Dim> n = (piece.area.dot(out) > 0 ? 1 : -1) / length * piece.area;
+      region.force += 2 * piece.weight * n;
+      region.moment += 2 * moment(piece.lever, n);
+      whole += length * n;
+      weight += piece.weight;
+      lever += piece.lever;
+    }
+  if (!(weight > 0)) return;
+  for (const Facet<Dim>& f : facets)
+    if (f.plane >= 0) region.square += (planes[f.plane].offset - planes[f.plane].normal.dot(shift)) * f.volume;
+  region.square *= 4.0 / (Dim + 1);
+  region.pressure = lever / weight;
+  for (const Corner<Dim>& c : polytope.corners)
+    region.spread = std::max(region.spread, (c.x - region.pressure).squaredNorm());
+  region.pressure += shift;
+  region.moment += moment(shift, region.force);
+  region.area = whole.norm();
+}
+
+}  // namespace
+
+template <int Dim>
+bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region) {
+  static thread_local Polytope4<Dim> polytope;
+  static thread_local std::vector<std::pair<double, int>> order;  // nearest first: the others soon cut nothing
+  double half = reach;
+  Vector<Dim> shift = Vector<Dim>::Zero();
+  for (int pass = 0; pass < most_cuts; ++pass) {
+    order.clear();
+    for (int i = 0; i < static_cast<int>(planes.size()); ++i)
+      order.emplace_back(planes[i].offset - planes[i].normal.dot(shift), i);
+    std::ranges::sort(order);
+    polytope.begin(half);
+    for (const auto& [offset, i] : order)
+      if (!polytope.cut({planes[i].normal, offset}, i)) return false;
+    Vector<Dim> low = polytope.corners[0].x, high = low, middle = Vector<Dim>::Zero();
+    for (const Corner<Dim>& c : polytope.corners) {
+      low = low.cwiseMin(c.x);
+      high = high.cwiseMax(c.x);
+      middle += c.x;
+    }
+    const double extent = (high - low).maxCoeff();
+    if (!(extent > 0)) return false;
+    const Vector<Dim> centre = middle / static_cast<double>(polytope.corners.size());
+    if (extent * lost_corners >= half) {
+      for (Corner<Dim>& c : polytope.corners)
+        c.x -= centre;
+      shift += centre;
+      break;
+    }
+    shift += centre;
+    half = 2 * extent;
+  }
+  sharpen(planes, shift, half, polytope);
+  sum_up(planes, shift, faces_a, polytope, region);
+  return region.square > 0 && region.area > 0;
+}
+
+template bool integrate_region<2>(const HalfSpaces<2>&, int, double, RegionIntegral<2>&);
+template bool integrate_region<3>(const HalfSpaces<3>&, int, double, RegionIntegral<3>&);
+
+}  // namespace voussoir

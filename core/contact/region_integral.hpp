@@ -1,0 +1,40 @@
+// The overlap of two parts of any shape, corners and edges included, as a spring with a potential. How deep a point of
+// the overlap lies is the least of its distances to all planes of both parts,
+//
+//   phi(x) = min_i (d_i - a_i·x),   E = 2 k ∫ phi dV   over where phi >= 0,
+//
+// with k in Pa/m. Between two parallel faces phi is u/2 half way, and E is ½ k ∫ u² dA, that of the contact polygon
+// (face_integral.hpp) but for a strip as wide as the overlap along its edges. No normal is chosen: a plane of the
+// second part that gives way takes the points for which it is the nearest with it, so that by the divergence theorem
+// force and moment on the second part are
+//
+//   F = 2 k ∫ phi n dS,   M = 2 k ∫ phi x × n dS
+//
+// over the surface where a point is as far from the nearest plane of one part as from that of the other, n its normal
+// from the first part to the second: the exact derivative of E in every motion, as long as no two of the planes
+// coincide. Phi and the region together are the polytope {(x, t): a_i·x + t <= d_i, t >= 0} of one more dimension, E is
+// 2 k times its volume, the surface is where two of its facets meet that belong to different parts.
+#pragma once
+
+#include "core/geometry/half_space.hpp"
+
+namespace voussoir {
+
+template <int Dim>
+struct RegionIntegral {
+  double square = 0;                           // 4 ∫ phi dV, m^(Dim + 1): E is half of it, times k
+  Vector<Dim> force = Vector<Dim>::Zero();     // over k, m^Dim
+  Spin<Dim> moment = Spin<Dim>::Zero();        // over k, about the origin of the planes, m^(Dim + 1)
+  Vector<Dim> pressure = Vector<Dim>::Zero();  // ∫ phi x dS / ∫ phi dS, m
+  double area = 0;    // |∫ n dS|: the surface seen along the mean of its normals, m^(Dim - 1)
+  double spread = 0;  // m²: largest distance, squared, of the surface from `pressure`
+};
+
+// Integrates over the overlap. `planes`: of both parts, the first `faces_a` the first one's, seen from a point in the
+// overlap; `reach`, m: no point of the overlap lies farther from there along any axis. False where there is no overlap
+// with a volume, or where more than 58 planes bound it. Corners are right to 1e-13 of the region's
+// extent, and so, times the extent over the thickness, is everything; moment and place of the extent.
+template <int Dim>
+bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region);
+
+}  // namespace voussoir

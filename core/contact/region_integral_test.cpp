@@ -1,0 +1,321 @@
+// The overlap as a spring: its energy against volumes, force and moment as its derivatives, the swap of both parts,
+// scales; and the contact as a whole, flat, at its edges and corners, and between.
+#include "core/contact/region_integral.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/contact/face_integral.hpp"
+#include "core/contact/pressed_face.hpp"
+#include "core/testing/contacts.hpp"
+
+namespace voussoir {
+namespace {
+
+using namespace contacts;
+using shapes::Random, shapes::uniform, shapes::integer, shapes::power_of_ten;
+
+// of the region's extent for its corners; of energy and force themselves, times the extent over the thickness
+constexpr double promised = 1e-13;
+
+// the thickness: twice the energy over the force is some half of it
+template <int Dim>
+double allowed(const RegionIntegral<Dim>& region) {
+  return promised * (1 + std::sqrt(region.spread) * region.force.norm() / region.square);
+}
+
+// central differences of an energy that is right to 1e-13, over steps of 1e-4 of the depth: their second order
+constexpr double of_differences = 1e-6;
+
+template <int Dim>
+Polytope<Dim> random_part(Random& random) {
+  if constexpr (Dim == 3) {
+    const auto solids = shapes::platonic_solids(uniform(random, 0.5, 1));
+    if (integer(random, 0, 1) == 0) return shapes::block<3>(solids[integer(random, 0, 4)].planes);
+    return shapes::block<3>(shapes::random_planes<3>(random, integer(random, 0, 8), 1));
+  } else {
+    return shapes::block<2>(shapes::random_planes<2>(random, integer(random, 0, 5), 1));
+  }
+}
+
+// two parts that overlap by about `depth`
+template <int Dim>
+struct Overlapping {
+  Polytope<Dim> a, b;
+  Pair<Dim> pair;
+  Contact<Dim> contact;
+};
+
+template <int Dim>
+void put_together(Random& random, double depth, Overlapping<Dim>& o) {
+  o.a = random_part<Dim>(random);
+  o.b = random_part<Dim>(random);
+  const Matrix<Dim> turn = matrix(shapes::orientation<Dim>(random));
+  const Vector<Dim> along = shapes::direction<Dim>(random);
+  const double away = distance_of_touching<Dim>(o.a, o.b, turn, along);
+  o.pair = {&o.a, &o.b, Matrix<Dim>::Identity(), turn, (away - depth) * along};
+  const auto found = touch<Dim>(o.a, o.b, turn, o.pair.offset);
+  o.contact = found.contact;
+  ASSERT_TRUE(o.contact.touching());
+}
+
+template <int Dim>
+double reach_of(const Pair<Dim>& pair) {
+  return 4 * std::min(pair.a->radius, pair.b->radius);
+}
+
+template <int Dim>
+RegionIntegral<Dim> region_of(const HalfSpaces<Dim>& planes, int faces_a, double reach) {
+  RegionIntegral<Dim> region;
+  EXPECT_TRUE(integrate_region<Dim>(planes, faces_a, reach, region));
+  return region;
+}
+
+// ---- energy ------------------------------------------------------------------------------------------------------
+
+TEST(RegionIntegral, OfASlabIsTheClosedForm) {
+  for (const double thin : {1.0, 1e-2, 1e-5, 1e-9}) {
+    // on both sides of the overlap a face of either part; the sides are the first one's
+    const HalfSpaces<3> planes{{{0, 0, 1}, 0.3 * thin}, {{1, 0, 0}, 1},    {{-1, 0, 0}, 1},
+                               {{0, 1, 0}, 1.5},        {{0, -1, 0}, 1.5}, {{0, 0, -1}, 0.7 * thin}};
+    const RegionIntegral<3> region = region_of<3>(planes, 5, 8);
+    const double u = thin;  // ∫ (2 - 2t)(3 - 2t)(u - 2t) dt to u/2
+    const double phi = 6 * u * u / 4 - 10 * u * u * u / 24 + 4 * u * u * u * u / 96;
+    EXPECT_NEAR(region.square, 4 * phi, allowed(region) * 4 * phi);
+    // what the second part's one face holds: half of the energy's slope in its overlap
+    const double slope = 6 * u / 2 - 10 * u * u / 8 + 4 * u * u * u / 24;
+    EXPECT_NEAR(region.force[2], 2 * slope, allowed(region) * 2 * slope);
+    EXPECT_NEAR(region.force.head<2>().norm(), 0, allowed(region) * slope);
+    EXPECT_NEAR(region.pressure.head<2>().norm(), 0, allowed(region));
+  }
+}
+
+// the polytope of one more dimension, in long double and without its vertices
+template <int Dim>
+double energy_of(const HalfSpaces<Dim>& planes) {
+  std::vector<std::vector<oracle::Real>> rows{std::vector<oracle::Real>(Dim + 1, 0)};
+  rows[0][Dim] = -1;
+  std::vector<oracle::Real> offsets{0};
+  for (const HalfSpace<Dim>& p : planes) {
+    std::vector<oracle::Real> row(p.normal.begin(), p.normal.end());
+    row.push_back(1);
+    rows.push_back(row);
+    offsets.push_back(p.offset);
+  }
+  return 4 * static_cast<double>(oracle::volume(rows, offsets));
+}
+
+template <int Dim>
+HalfSpaces<Dim> seen_planes(const Overlapping<Dim>& o) {
+  HalfSpaces<Dim> planes;
+  assemble<Dim>(o.pair, o.contact.proof.point, planes);
+  return planes;
+}
+
+template <int Dim>
+void expect_energy() {
+  Random random(7);
+  for (int i = 0; i < 40; ++i) {
+    Overlapping<Dim> o;
+    put_together(random, power_of_ten(random, -6, -0.5), o);
+    const HalfSpaces<Dim> planes = seen_planes(o);
+    const RegionIntegral<Dim> region = region_of<Dim>(planes, static_cast<int>(o.a.faces.size()), reach_of(o.pair));
+    const double should = energy_of<Dim>(planes);
+    EXPECT_NEAR(region.square, should, allowed(region) * should) << i;
+  }
+}
+
+TEST(RegionIntegral, EnergyIsTheVolumeOfTheLiftedPolytope) {
+  expect_energy<2>();
+  expect_energy<3>();
+}
+
+// ---- force and moment --------------------------------------------------------------------------------------------
+
+// the pair as its second part moves by `step` along a freedom; turns about the first one's centroid
+template <int Dim>
+Pair<Dim> moved(Pair<Dim> pair, int freedom, double step) {
+  if (freedom < Dim) {
+    pair.offset[freedom] += step;
+    return pair;
+  }
+  Spin<Dim> turn = Spin<Dim>::Zero();
+  turn[freedom - Dim] = step;
+  const Matrix<Dim> by = matrix(turned(Rotation<Dim>{}, turn));
+  pair.offset = by * pair.offset;
+  pair.rotation = by * pair.rotation;
+  return pair;
+}
+
+// Of an energy and its force and moment about the first centroid, as functions of the pair: all freedoms by central
+// differences, against the force's size.
+template <int Dim, class Energy>
+double worst_difference(const Pair<Dim>& pair, double step, double force,
+                        const Eigen::Matrix<double, freedoms<Dim>, 1>& w, const Energy& square) {
+  double worst = 0;
+  for (int f = 0; f < freedoms<Dim>; ++f) {
+    const double slope = -(square(moved(pair, f, step)) - square(moved(pair, f, -step))) / (4 * step);
+    worst = std::max(worst, std::abs(slope - w[f]) / force);
+  }
+  return worst;
+}
+
+template <int Dim>
+void expect_derivatives() {
+  Random random(11);
+  for (int i = 0; i < 60; ++i) {
+    Overlapping<Dim> o;
+    const double depth = power_of_ten(random, -4, -0.5);
+    put_together(random, depth, o);
+    const int faces_a = static_cast<int>(o.a.faces.size());
+    const RegionIntegral<Dim> region = region_of<Dim>(seen_planes(o), faces_a, reach_of(o.pair));
+    Eigen::Matrix<double, freedoms<Dim>, 1> w;
+    w << region.force, region.moment + moment(o.contact.proof.point, region.force);
+    const double worst =
+        worst_difference<Dim>(o.pair, 1e-4 * depth, region.force.norm(), w, [&](const Pair<Dim>& pair) {
+          HalfSpaces<Dim> planes;
+          assemble<Dim>(pair, o.contact.proof.point, planes);
+          return region_of<Dim>(planes, faces_a, reach_of(pair)).square;
+        });
+    EXPECT_LT(worst, of_differences) << i << ", depth " << depth;
+  }
+}
+
+TEST(RegionIntegral, ForceAndMomentAreTheEnergysDerivative) {
+  expect_derivatives<2>();
+  expect_derivatives<3>();
+}
+
+template <int Dim>
+void expect_swap_and_scale() {
+  Random random(13);
+  for (int i = 0; i < 40; ++i) {
+    Overlapping<Dim> o;
+    put_together(random, power_of_ten(random, -8, -0.5), o);
+    HalfSpaces<Dim> planes = seen_planes(o);
+    const int faces_a = static_cast<int>(o.a.faces.size());
+    const double reach = reach_of(o.pair);
+    const RegionIntegral<Dim> region = region_of<Dim>(planes, faces_a, reach);
+    const double extent = std::sqrt(region.spread) + region.pressure.norm();
+
+    HalfSpaces<Dim> swapped(planes.begin() + faces_a, planes.end());
+    swapped.insert(swapped.end(), planes.begin(), planes.begin() + faces_a);
+    const RegionIntegral<Dim> other = region_of<Dim>(swapped, static_cast<int>(planes.size()) - faces_a, reach);
+    const double promised = allowed(region);
+    EXPECT_NEAR(other.square, region.square, promised * region.square);
+    EXPECT_LT((other.force + region.force).norm(), promised * region.force.norm());
+    EXPECT_LT((other.moment + region.moment).norm(), promised * region.force.norm() * extent);
+    EXPECT_LT((other.pressure - region.pressure).norm(), promised * extent);
+    EXPECT_NEAR(other.area, region.area, promised * region.area);
+
+    for (const double scale : {1e-3, 1e4}) {
+      HalfSpaces<Dim> scaled = planes;
+      for (HalfSpace<Dim>& p : scaled)
+        p.offset *= scale;
+      const RegionIntegral<Dim> r = region_of<Dim>(scaled, faces_a, scale * reach);
+      EXPECT_NEAR(r.square, region.square * std::pow(scale, Dim + 1), promised * r.square);
+      EXPECT_LT((r.force - std::pow(scale, Dim) * region.force).norm(), promised * r.force.norm());
+    }
+  }
+}
+
+TEST(RegionIntegral, IsTheSameFromTheOtherPartAndAtOtherScales) {
+  expect_swap_and_scale<2>();
+  expect_swap_and_scale<3>();
+}
+
+TEST(RegionIntegral, SaysWhereThereIsNone) {
+  HalfSpaces<3> planes = shapes::box<3>({0, 0, 0}, {1, 1, 1});
+  for (const HalfSpace<3>& p : shapes::box<3>({0, 0, 1}, {1, 1, 2}))
+    planes.push_back(p);
+  RegionIntegral<3> region;
+  EXPECT_FALSE(integrate_region<3>(planes, 6, 8, region));  // they lie on each other
+  Random random(3);
+  HalfSpaces<3> many = shapes::random_planes<3>(random, 2000, 1);  // hundreds of faces
+  const int faces_a = static_cast<int>(many.size());
+  for (const HalfSpace<3>& p : shapes::cube<3>(0.99))
+    many.push_back(p);
+  EXPECT_FALSE(integrate_region<3>(many, faces_a, 8, region));
+}
+
+// ---- the contact as a whole --------------------------------------------------------------------------------------
+
+// a block on another, its face turned out of the other's by `angle` about a random axis
+template <int Dim>
+void lay_on(Random& random, double angle, double depth, Overlapping<Dim>& o) {
+  o.a = shapes::block<Dim>(shapes::cube<Dim>(1));
+  o.b = shapes::block<Dim>(shapes::cube<Dim>(uniform(random, 0.4, 0.9)));
+  Spin<Dim> turn = Spin<Dim>::Zero();
+  if constexpr (Dim == 3) {
+    const double about = uniform(random, 0, 2 * std::numbers::pi);
+    turn = {angle * std::cos(about), angle * std::sin(about), 0};
+  } else {
+    turn[0] = angle;
+  }
+  Rotation<Dim> rotation;
+  if constexpr (Dim == 3) rotation = turned(rotation, {0, 0, uniform(random, 0, 1)});
+  const Matrix<Dim> axes = matrix(turned(rotation, turn));
+  Vector<Dim> up = Vector<Dim>::Unit(Dim - 1);
+  if (integer(random, 0, 1) == 0) up[0] = uniform(random, -0.6, 0.6);  // over the other's edge or not
+  const double away = distance_of_touching<Dim>(o.a, o.b, axes, up);
+  o.pair = {&o.a, &o.b, Matrix<Dim>::Identity(), axes, away * up - depth * Vector<Dim>::Unit(Dim - 1)};
+  o.contact = touch<Dim>(o.a, o.b, axes, o.pair.offset).contact;
+  ASSERT_TRUE(o.contact.touching());
+}
+
+// from flat on its face over every share of both energies to its edge or corner
+template <int Dim>
+void expect_one_energy() {
+  Random random(17);
+  int flat = 0, blended = 0, region = 0;
+  for (int i = 0; i < 400; ++i) {
+    Overlapping<Dim> o;
+    const double depth = power_of_ten(random, -4, -1.5);
+    lay_on(random, power_of_ten(random, -3, -0.2), depth, o);
+    PressedFace<Dim> face;
+    Contact<Dim> contact = o.contact;
+    press_face<Dim>(o.pair, contact, face);
+    ASSERT_GT(face.square, 0);
+    // which of both it is
+    RegionIntegral<Dim> r = region_of<Dim>(seen_planes(o), static_cast<int>(o.a.faces.size()), reach_of(o.pair));
+    FaceIntegral<Dim> f;
+    PressedPolygon polygon;
+    const bool faces = integrate_face<Dim>(
+        seen_planes(o), static_cast<int>(o.a.faces.size()), o.contact.geometry.face_a,
+        static_cast<int>(o.a.faces.size()) + o.contact.geometry.face_b, reach_of(o.pair), f, polygon);
+    const double ratio = faces ? r.square / f.square : 0;
+    if (std::abs(ratio - 1) <= 0.01) {
+      ++flat;
+      EXPECT_EQ(face.square, f.square);
+      EXPECT_TRUE(face.couple.isZero(0));
+    } else if (std::abs(ratio - 1) >= 0.03) {
+      ++region;
+      EXPECT_EQ(face.square, r.square);
+      EXPECT_FALSE(face.flat);
+    } else {
+      ++blended;
+      EXPECT_TRUE(face.flat);
+    }
+    // of faces an edge that is carried over the pressed face takes something with it (face_integral.hpp): at most the
+    // deepest overlap over the width
+    Eigen::Matrix<double, freedoms<Dim>, 1> w;
+    w << face.force, moment(contact.geometry.point, face.force) + face.couple;
+    const double worst = worst_difference<Dim>(o.pair, 1e-4 * depth, face.force.norm(), w, [&](const Pair<Dim>& pair) {
+      PressedFace<Dim> then;
+      Contact<Dim> c = o.contact;
+      press_face<Dim>(pair, c, then);
+      return then.square;
+    });
+    EXPECT_LT(worst, face.flat ? 0.05 : of_differences) << i << ", ratio " << ratio;
+  }
+  EXPECT_GT(flat, 20);
+  EXPECT_GT(blended, 3);
+  EXPECT_GT(region, 20);
+}
+
+TEST(PressedFace, IsOneEnergyFromFaceToCorner) {
+  expect_one_energy<2>();
+  expect_one_energy<3>();
+}
+
+}  // namespace
+}  // namespace voussoir

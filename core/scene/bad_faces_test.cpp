@@ -1,0 +1,68 @@
+// Mistakes about contacts that are carried as a whole (contact.face = "integrated").
+#include "core/testing/bad_scenes.hpp"
+
+namespace voussoir {
+namespace {
+
+using namespace bad_scenes;
+
+class BadFace : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadFace, IsToldInOneLine) {
+  expect_reported(GetParam());
+}
+
+const std::string damping = "[damping]\n", whole = "[contact]\nface = \"integrated\"\n";
+const std::string friction = "friction_deg = 40\n";
+
+// the key that only points use
+BadInput unused(const char* name, const std::string& key, const std::string& value, const char* phrase) {
+  return {name, damping, whole + key + " = \"" + value + "\" #!\n" + damping, "contact." + key + " = \"" + value + "\"",
+          phrase};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Face, BadFace,
+    testing::Values(BadInput{"unknown", damping, "[contact]\nface = \"whole\" #!\n" + damping,
+                             "contact.face = \"whole\"", "must be one of \"point\", \"integrated\""},
+                    BadInput{"number", damping, "[contact]\nface = 1 #!\n" + damping, "contact.face = 1", "text"},
+                    BadInput{"list", damping, "[contact]\nface = [\"integrated\"] #!\n" + damping, "contact.face",
+                             "text"},
+                    BadInput{"of_joint_properties", friction, friction + "face = \"integrated\" #!\n",
+                             "joint_properties.rock.face", "no such key"},
+                    unused("multipliers", "normal", "multipliers", "leave one of the two out"),
+                    unused("centroid", "point", "centroid", "carried as a whole"),
+                    unused("chebyshev", "point", "chebyshev", "where a contact acts at a point"),
+                    unused("central_path", "point", "central_path", "every joint of this scene"),
+                    unused("bracketing", "overlap", "bracketing", "how the depth is found")),
+    by_name);
+
+// no joint that could be integrated, and why
+BadInput none(const char* name, const std::string& properties, const char* phrase) {
+  return {name, friction, friction + properties + "[contact]\nface = \"integrated\" #!\n",
+          "contact.face = \"integrated\"", phrase};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    None, BadFace,
+    testing::Values(none("constant_stiffness", "constant_stiffness = true\n", "rock has constant_stiffness"),
+                    none("cohesion", "cohesion = 1e5\n", "rock has tension or cohesion"),
+                    none("tension", "tension = 1e5\n", "which a joint loses point by point"),
+                    none("law_of_stress", "normal_law = \"linear\"\nnormal_growth = 1e4\n",
+                         "depends on stress or slip"),
+                    none("softening", "friction_law = \"softening\"\nsoftening_drop = 0.1\nsoftening_slip_m = 0.01\n",
+                         "would change nothing")),
+    by_name);
+
+// one joint that can be is enough, and what chooses points then serves the others
+TEST(Faces, AreTakenBesidePoints) {
+  std::string text = good_scene;
+  text +=
+      "[[joint_properties]]\nname = \"tied\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e8\nfriction_deg = 40\n"
+      "cohesion = 1e5\n";
+  EXPECT_EQ(complaint_about(text, {"contact.face='integrated'", "contact.point='centroid'"}), "");
+  EXPECT_EQ(complaint_about(text, {"contact.face='integrated'", "joint_properties.rock.sub_contacts=4"}), "");
+}
+
+}  // namespace
+}  // namespace voussoir

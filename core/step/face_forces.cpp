@@ -1,0 +1,149 @@
+#include "core/step/face_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/law/elastic_coulomb.hpp"
+
+namespace voussoir {
+namespace {
+
+double about_normal(const Vector<3>& normal, const Spin<3>& spin) {
+  return normal.dot(spin);
+}
+double about_normal(const Vector<2>&, const Spin<2>&) {
+  return 0;
+}
+
+Spin<3> twist_moment(double twist, const Vector<3>& normal) {
+  return twist * normal;
+}
+Spin<2> twist_moment(double, const Vector<2>&) {
+  return Spin<2>::Zero();
+}
+
+// energy of the springs
+template <int Dim>
+double held(const JointState<Dim>& h, double shear_stiffness, double area, double polar) {
+  if (!(shear_stiffness > 0)) return 0;
+  double energy = 0;
+  if (area > 0) energy += 0.5 * h.shear_force.squaredNorm() / (shear_stiffness * area);
+  if (polar > 0) energy += 0.5 * h.twist * h.twist / (shear_stiffness * polar);
+  return energy;
+}
+
+// how the springs go on over another area, whose centre lies `apart` from where they had theirs
+template <int Dim>
+void change_area(const Vector<Dim>& normal, const Vector<Dim>& apart, double area, double polar, JointState<Dim>& h) {
+  if constexpr (Dim == 3) {
+    // turning moves the new centre; moments about it are others
+    const double turn = h.polar > 0 ? h.twist / h.polar : 0;
+    const Vector<3> across = normal.cross(apart);
+    if (area < h.area)
+      h.shear_force = area / h.area * h.shear_force + turn * area * across;
+    else
+      h.twist -= h.shear_force.dot(across);
+    if (!(polar > 0))
+      h.twist = 0;
+    else if (polar < h.polar)
+      h.twist *= polar / h.polar;
+  } else if (area < h.area) {
+    h.shear_force *= area / h.area;
+  }
+  h.area = area;
+  h.polar = polar;
+}
+
+// what Coulomb's friction leaves of shear and twist, and the energy that slip took
+template <int Dim>
+double slip(const PressedFace<Dim>& face, double shear_stiffness, double limit, const Vector<Dim>& shear_before,
+            double twist_before, JointState<Dim>& h) {
+  Vector<Dim> way = Vector<Dim>::Zero();
+  double turn = 0;
+  if constexpr (Dim == 3) {
+    if (face.polar > 0) {
+      const FaceSlip s = return_to_limit(face.polygon, limit, shear_stiffness * h.area, shear_stiffness * h.polar,
+                                         face.polygon.axes.transpose() * h.shear_force, h.twist);
+      way = face.polygon.axes * s.slip;
+      turn = s.turn;
+      if (way.isZero(0) && turn == 0) return 0;  // it holds
+      h.shear_force = face.polygon.axes * s.force;
+      h.twist = s.moment;
+      h.plastic_slip += way.norm();
+      return std::max(0.5 * (shear_before + h.shear_force).dot(way) + 0.5 * (twist_before + h.twist) * turn, 0.0);
+    }
+  }
+  const double trial = length_of<Dim>(h.shear_force);
+  if (!(trial > limit)) return 0;
+  way = (1 - limit / trial) / (shear_stiffness * h.area) * h.shear_force;
+  h.shear_force *= limit / trial;
+  h.plastic_slip += way.norm();
+  return std::max(0.5 * (shear_before + h.shear_force).dot(way), 0.0);
+}
+
+}  // namespace
+
+template <int Dim>
+FaceForce<Dim> face_force(const JointProperties& properties, double friction, double dashpot, double time_step,
+                          const PairMotion<Dim>& motion, const ContactGeometry<Dim>& geometry,
+                          const PressedFace<Dim>& face, JointState<Dim>& h) {
+  const double kn = properties.normal_stiffness, ks = properties.shear_stiffness, dt = time_step;
+  const Vector<Dim>& n = face.normal;
+  const Vector<Dim> velocity = motion.velocity_at(face.centre);
+  const double closing = -velocity.dot(n);
+  const Spin<Dim> spin = motion.spin_b - motion.spin_a;
+  FaceForce<Dim> answer;
+
+  // the slip of the step that led here; a new contact slips as long as it has been closed
+  Vector<Dim> way;
+  double turn = about_normal(n, spin) * dt, closing_before = 0;
+  if (!h.normal.isZero(0)) {
+    const Vector<Dim> before = motion.velocity_before_at(h.point, dt);
+    closing_before = -before.dot(h.normal);
+    const Vector<Dim> twice = velocity + before + closing_before * h.normal;
+    way = 0.5 * dt * (twice - twice.dot(n) * n);
+    const double was = held(h, ks, h.area, h.polar);
+    h.shear_force = carried(h.shear_force, h.normal, n, 0.5 * about_normal(n, motion.spin_a + motion.spin_b) * dt);
+    // where the old centre has gone, with both bodies
+    const Vector<Dim> gone = dt * (cross(motion.spin_a, h.point) + 0.5 * before);
+    change_area<Dim>(n, face.centre - h.point - gone, geometry.area, face.polar, h);
+    answer.lost_area = was - held(h, ks, h.area, h.polar);
+  } else {
+    const double closed = -motion.velocity_at(geometry.point).dot(geometry.normal) * dt;
+    const double since = closed > geometry.overlap ? geometry.overlap / closed : 1;
+    way = since * dt * (velocity + closing * n);
+    turn *= since;
+    h.area = geometry.area;
+    h.polar = face.polar;
+  }
+
+  const double spring = kn * face.force.norm(), pressed = std::max(spring + dashpot * closing, 0.0);
+  const Vector<Dim> shear_before = h.shear_force;
+  const double twist_before = h.twist;
+  h.shear_force -= ks * h.area * way;
+  if (h.polar > 0) h.twist -= ks * h.polar * turn;
+  if (ks > 0) {
+    answer.friction = slip(face, ks, friction * pressed, shear_before, twist_before, h);
+  } else {
+    h.shear_force.setZero();
+    h.twist = 0;
+  }
+
+  const Vector<Dim> of_springs = kn * face.force, at_centre = h.shear_force + (pressed - spring) * n;
+  answer.force = of_springs + at_centre;
+  answer.about =
+      moment(geometry.point, of_springs) + kn * face.couple + moment(face.centre, at_centre) + twist_moment(h.twist, n);
+  answer.elastic = 0.5 * kn * face.square + held(h, ks, h.area, h.polar);
+  answer.dashpots = 0.5 * (h.dashpot * closing_before + (pressed - spring) * closing) * dt;
+  h.normal = n;
+  h.point = face.centre;
+  h.dashpot = pressed - spring;
+  return answer;
+}
+
+template FaceForce<2> face_force<2>(const JointProperties&, double, double, double, const PairMotion<2>&,
+                                    const ContactGeometry<2>&, const PressedFace<2>&, JointState<2>&);
+template FaceForce<3> face_force<3>(const JointProperties&, double, double, double, const PairMotion<3>&,
+                                    const ContactGeometry<3>&, const PressedFace<3>&, JointState<3>&);
+
+}  // namespace voussoir

@@ -1,0 +1,320 @@
+// Contacts that are carried as a whole: pressed, rocked, turned and slid in closed form; what they hold and lose; same
+// bits over threads, skin and interruptions; no memory asked for.
+#include "core/step/face_forces.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/checkpoint/fields.hpp"
+#include "core/motion/time_step.hpp"
+#include "core/state_hash.hpp"
+#include "core/step.hpp"
+#include "core/step/contacts.hpp"
+#include "core/step/joint_forces.hpp"
+#include "core/step/loads.hpp"
+#include "core/step/neighbours.hpp"
+#include "core/testing/counted_allocations.hpp"
+#include "core/testing/models.hpp"
+
+namespace voussoir {
+namespace {
+
+using shapes::block_on_plate;
+using shapes::index_of;
+
+// the block of block_on_plate: 1 x 1 in plan, centroid 0.25 above its base
+constexpr double width = 1, height = 0.25;
+
+// asked for: elastic twist and rocking
+constexpr double exact = 1e-9;
+
+// a block pressed into the plate by `depth` under its middle and tilted by `angle`, without weight
+template <int Dim>
+struct Pressed {
+  Model<Dim> model;
+  Settings settings;
+  State<Dim> state;
+  int block;
+
+  explicit Pressed(double depth, double angle = 0, double friction = 40 * degree)
+      : model(block_on_plate<Dim>(0, friction)) {
+    model.gravity.setZero();
+    settings.contact.face = ContactFace::integrated;
+    settings.damping.local = 0;
+    block = index_of(model, "block");
+    state = initial_state(model);
+    Motion<Dim>& motion = state.motions[block];
+    // about the middle of the base
+    motion.displacement[0] = (Dim == 2 ? -1 : 1) * height * std::sin(angle);
+    motion.displacement[Dim - 1] = -depth + height * (std::cos(angle) - 1);
+    if constexpr (Dim == 2)
+      motion.rotation.angle = angle;
+    else
+      motion.rotation.quaternion = Eigen::AngleAxisd(angle, Vector<3>::UnitY());
+    answer();
+  }
+
+  void answer() {
+    find_neighbours(model, settings, state);
+    find_contacts(model, settings, state);
+    apply_joint_laws(model, settings, state);
+    sum_loads(model, settings, state);
+  }
+
+  // as if the step that led here had moved the block so, about the middle of its base
+  void answer_after(const Vector<Dim>& way, const Spin<Dim>& turn) {
+    constexpr double dt = 1e-3;
+    state.time_step = dt;
+    const Body<Dim>& body = model.bodies[block];
+    Motion<Dim>& motion = state.motions[block];
+    const Spin<Dim> spin = turn / dt;
+    motion.velocity = way / dt + cross(spin, Vector<Dim>(height * Vector<Dim>::Unit(Dim - 1)));
+    motion.angular_momentum = angular_momentum(body, motion.rotation, spin);
+    answer();
+    motion.velocity.setZero();
+    motion.angular_momentum.setZero();
+  }
+
+  const JointProperties& properties() const { return model.properties[0]; }
+  Vector<Dim> force() const { return state.loads[block].force; }
+  Spin<Dim> moment() const {  // about the middle of the base
+    const Load<Dim>& load = state.loads[block];
+    const Vector<Dim> arm = matrix(state.motions[block].rotation) * (height * Vector<Dim>::Unit(Dim - 1));
+    return load.moment + voussoir::moment(arm, load.force);
+  }
+};
+
+// springs of stiffness k per area under a base tilted by `angle`: what they carry where they are pressed
+struct Springs {
+  double force = 0, moment = 0;
+  Springs(double stiffness, double depth, double angle) {
+    const double low = std::max(-0.5 * width, -depth / angle), high = 0.5 * width;
+    const auto power = [&](int n) { return (std::pow(high, n + 1) - std::pow(low, n + 1)) / (n + 1); };
+    force = stiffness * (depth * power(0) + angle * power(1));
+    moment = stiffness * (depth * power(1) + angle * power(2));
+  }
+};
+
+template <int Dim>
+void expect_pressed_and_rocked() {
+  constexpr double tilt = 1e-6;
+  for (const double depth : {4 * tilt, 0.5 * tilt, 0.1 * tilt, -0.3 * tilt}) {
+    const Pressed<Dim> pressed(depth, tilt);
+    const Springs springs(pressed.properties().normal_stiffness, depth, tilt);
+    // positions of 0.25 m are rounded to 3e-17 m
+    EXPECT_NEAR(pressed.force()[Dim - 1], springs.force, exact * springs.force) << depth;
+    EXPECT_NEAR(-pressed.moment()[Dim == 2 ? 0 : 1], springs.moment, exact * springs.moment) << depth;
+  }
+}
+
+TEST(WholeFaces, ArePressedAndRockedInClosedForm) {
+  expect_pressed_and_rocked<2>();
+  expect_pressed_and_rocked<3>();
+}
+
+TEST(WholeFaces, TwistInClosedForm) {
+  constexpr double depth = 1e-4, angle = 1e-9;
+  Pressed<3> p(depth);
+  const double stiffness = p.properties().shear_stiffness * width * width * (width * width + width * width) / 12;
+  for (int i = 1; i <= 3; ++i) {
+    p.answer_after(Vector<3>::Zero(), {0, 0, angle});
+    EXPECT_NEAR(-p.moment()[2], i * stiffness * angle, exact * stiffness * angle) << i;
+    EXPECT_LT(p.force().head<2>().norm(), exact * stiffness * angle);
+  }
+}
+
+// µ k u ∫ r dA of a square, and past it; what friction took is the moment times the turn that slipped
+TEST(WholeFaces, HoldAndLoseTheirFrictionInTwist) {
+  constexpr double depth = 1e-4;
+  Pressed<3> p(depth);
+  const double pressure = p.properties().normal_stiffness * depth, mu = std::tan(40 * degree);
+  const double limit = mu * pressure * (2 * std::numbers::sqrt2 + 2 * std::asinh(1.0)) / 12 * width * width * width;
+  const double stiffness = p.properties().shear_stiffness / 6, turn = 3 * limit / stiffness;
+  p.answer_after(Vector<3>::Zero(), {0, 0, turn});
+  EXPECT_NEAR(-p.moment()[2], limit, 1e-6 * limit);
+  // from nothing to the limit: half of it on the way, over the turn that slipped
+  const double slipped = turn - limit / stiffness;
+  EXPECT_NEAR(p.state.energy.flows[Source::friction], 0.5 * limit * slipped, 1e-6 * limit * slipped);
+  p.answer_after(Vector<3>::Zero(), {0, 0, turn});
+  EXPECT_NEAR(p.state.energy.flows[Source::friction], 0.5 * limit * slipped + limit * turn, 1e-6 * limit * turn);
+}
+
+template <int Dim>
+void expect_slide() {
+  constexpr double depth = 1e-4;
+  Pressed<Dim> p(depth);
+  const double limit = std::tan(40 * degree) * p.properties().normal_stiffness * depth,
+               stiffness = p.properties().shear_stiffness;
+  const Vector<Dim> along = Vector<Dim>::Unit(0);
+  p.answer_after(0.5 * limit / stiffness * along, Spin<Dim>::Zero());
+  EXPECT_NEAR(-p.force()[0], 0.5 * limit, exact * limit);
+  EXPECT_EQ(p.state.energy.flows[Source::friction], 0);
+  p.answer_after(2 * limit / stiffness * along, Spin<Dim>::Zero());
+  EXPECT_NEAR(-p.force()[0], limit, exact * limit);
+  // 1.5 limits of the way slipped, from half the limit to all of it
+  EXPECT_NEAR(p.state.energy.flows[Source::friction], 0.75 * limit * 1.5 * limit / stiffness,
+              exact * limit * limit / stiffness);
+  EXPECT_NEAR(p.state.energy.elastic,
+              0.5 * p.properties().normal_stiffness * depth * depth + 0.5 * limit * limit / stiffness,
+              exact * limit * depth);
+}
+
+TEST(WholeFaces, SlideInClosedForm) {
+  expect_slide<2>();
+  expect_slide<3>();
+}
+
+// Sheared, then tilted until part of it opens, then laid flat: what is left of the shear is that of the area that
+// stayed, and the ledger has the rest.
+template <int Dim>
+void expect_lost_area() {
+  constexpr double depth = 1e-4, shear = 1e-6, tilt = 4e-4;
+  Pressed<Dim> p(depth);
+  p.answer_after(shear * Vector<Dim>::Unit(0), Spin<Dim>::Zero());
+  const double stiffness = p.properties().shear_stiffness;
+  const double held = 0.5 * stiffness * shear * shear;
+  Pressed<Dim> tilted(depth, tilt);  // pressed where depth + tilt x > 0: three quarters
+  p.state.motions = tilted.state.motions;
+  p.state.time_step = 0;
+  p.answer();
+  const double left = 0.5 + depth / tilt;
+  // the normal force's own part along x is half the tilt of it
+  const JointState<Dim>& h = p.state.contacts[0].history;
+  EXPECT_NEAR(h.shear_force.norm(), left * stiffness * shear, 1e-3 * stiffness * shear);
+  EXPECT_NEAR(h.area, left, 1e-3);
+  EXPECT_NEAR(p.state.energy.flows[Source::lost_area], (1 - left) * held, 1e-3 * held);
+  EXPECT_EQ(p.state.energy.flows[Source::friction], 0);
+}
+
+TEST(WholeFaces, GiveUpTheShearOfTheAreaTheyLose) {
+  expect_lost_area<2>();
+  expect_lost_area<3>();
+}
+
+// Pushed aside without spinning, the shear of a face that has lost a side acts at the middle of what is left, and a
+// twist's share in it with it.
+TEST(WholeFaces, CarryTheirStressWhenTheyLoseASide) {
+  JointState<3> h;
+  h.normal = {0, 0, 1};
+  h.area = 2;  // 2 along x, 1 along y
+  h.polar = 2 * (4 + 1) / 12.0;
+  h.shear_force = {0, 3, 0};
+  h.twist = 0.7;
+  // the half beyond x = 0 is left: 1 by 1 about (0.5, 0)
+  JointProperties properties{"joint", 1e9, 1e9, 60 * degree, false};
+  PressedFace<3> face;
+  face.flat = true;
+  face.normal = {0, 0, 1};
+  face.centre = {0.5, 0, 0};
+  face.force = {0, 0, 1};
+  face.polar = 1 / 6.0;
+  face.polygon.corners = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
+  face.polygon.axes << 1, 0, 0, 1, 0, 0;
+  face.polygon.overlap = 1;
+  ContactGeometry<3> geometry;
+  geometry.normal = face.normal;
+  geometry.point = face.centre;
+  geometry.area = 1;
+  geometry.overlap = 1;
+  const Spin<3> still = Spin<3>::Zero();
+  const PairMotion<3> motion{{0, 0, 1}, Vector<3>::Zero(), still, still, 1};
+  const double turn = h.twist / h.polar;
+  const FaceForce<3> f = face_force<3>(properties, std::tan(60 * degree), 0, 1e-3, motion, geometry, face, h);
+  // stress 3/2 along y and turn times the arm, over the square
+  EXPECT_NEAR(h.shear_force[1], 1.5 + turn * 0.5, 1e-14);
+  EXPECT_NEAR(h.shear_force[0], 0, 1e-14);
+  EXPECT_NEAR(h.twist, turn / 6, 1e-14);
+  const double before = 0.5 * (9 / 2.0 + 0.49 / (10 / 12.0)) / 1e9;
+  const double after = 0.5 * (h.shear_force.squaredNorm() + 6 * h.twist * h.twist) / 1e9;
+  EXPECT_NEAR(f.lost_area, before - after, 1e-12 * before);
+  EXPECT_GT(f.lost_area, 0);
+}
+
+// ---- over many steps ----------------------------------------------------------------------------------------------
+
+// what the ledger leaves open as a block rocks and twists on its face
+template <int Dim>
+double closure_of_rocking(const Spin<Dim>& spin, double fraction) {
+  Pressed<Dim> p(1e-4);
+  p.settings.time.fraction = fraction;
+  Motion<Dim>& motion = p.state.motions[p.block];
+  const Body<Dim>& body = p.model.bodies[p.block];
+  motion.angular_momentum = angular_momentum(body, motion.rotation, spin);
+  p.model.gravity[Dim - 1] = -p.force()[Dim - 1] / body.mass;
+  for (int i = 0; i < 2000; ++i)
+    step(p.model, p.settings, p.state);
+  EXPECT_EQ(p.state.counters.unconverged, 0);
+  return p.state.energy.relative_error();
+}
+
+TEST(WholeFaces, KeepTheirEnergyAsTheyRockAndTwist) {
+  EXPECT_LT(closure_of_rocking<2>(Spin<2>(0.01), 0.02), 1e-6);
+  EXPECT_LT(closure_of_rocking<3>(Spin<3>(0, 0.01, 0), 0.02), 1e-6);
+  EXPECT_LT(closure_of_rocking<3>(Spin<3>(0.005, 0.01, 0.02), 0.02), 1e-5);
+}
+
+// a block that comes to rest on a face does not turn on it for ever
+TEST(WholeFaces, EndATurnAboutTheirNormal) {
+  Pressed<3> p(1e-4);
+  const Body<3>& body = p.model.bodies[p.block];
+  p.model.gravity[2] = -p.force()[2] / body.mass;
+  p.state.motions[p.block].angular_momentum =
+      angular_momentum(body, p.state.motions[p.block].rotation, Spin<3>(0, 0, 5));
+  p.settings.damping.local = 0.3;
+  for (int i = 0; i < 4000; ++i)
+    step(p.model, p.settings, p.state);
+  EXPECT_LT(p.state.motions[p.block].angular_momentum.norm(), 1e-6 * 5 * body.mass);
+}
+
+State<3> pile(int threads, double skin, int steps, bool interrupted) {
+  const Model<3> model = shapes::model_of<3>(shapes::jointed_box());
+  Settings settings;
+  settings.contact.face = ContactFace::integrated;
+  settings.contact.skin = skin;
+  settings.threads = threads;
+  State<3> state = initial_state(model);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.bodies[b].fixed) state.motions[b].velocity = {2, 1.0 * static_cast<double>(b % 3), 3};
+  for (int i = 0; i < steps; ++i) {
+    step(model, settings, state);
+    if (interrupted && i % 37 == 5) {
+      std::stringstream bytes;
+      cereal::BinaryOutputArchive{bytes}(state);
+      State<3> read;
+      cereal::BinaryInputArchive{bytes}(read);
+      state = std::move(read);
+    }
+  }
+  EXPECT_EQ(state.counters.unconverged, 0);
+  return state;
+}
+
+TEST(WholeFaces, AreTheSameForAnyThreadsSkinAndInterruption) {
+  const Model<3> model = shapes::model_of<3>(shapes::jointed_box());
+  const std::string hash = state_hash(model, pile(1, 0.1, 400, false));
+  EXPECT_EQ(state_hash(model, pile(3, 0.1, 400, false)), hash);
+  EXPECT_EQ(state_hash(model, pile(1, 1, 400, false)), hash);
+  EXPECT_EQ(state_hash(model, pile(2, 0.1, 400, true)), hash);
+}
+
+TEST(WholeFaces, AskForNoMemory) {
+  const Model<3> model = shapes::model_of<3>(shapes::jointed_box());
+  Settings settings;
+  settings.contact.face = ContactFace::integrated;
+  settings.contact.skin = 3;
+  State<3> state = initial_state(model);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.bodies[b].fixed) state.motions[b].velocity = {2, 1.0 * static_cast<double>(b % 3), 3};
+  for (int i = 0; i < 100; ++i)
+    step(model, settings, state);
+  const long long made = allocations;
+  for (int i = 0; i < 200; ++i)
+    step(model, settings, state);
+  if (!allocations_are_counted) GTEST_SKIP() << "this build counts no allocations";
+  EXPECT_EQ(allocations - made, 0);
+}
+
+}  // namespace
+}  // namespace voussoir
