@@ -30,10 +30,6 @@ voussoir_test(unit.contact LABEL unit
     contact/multipliers_test.cpp contact/broad_phase_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
-voussoir_test(unit.faces LABEL unit
-  SOURCES contact/region_integral_test.cpp step/face_forces_test.cpp
-  LIBS voussoir_core voussoir_oracle_algebra cereal::cereal Boost::headers fmt::fmt)
-
 voussoir_test(unit.neighbours LABEL unit SOURCES step/neighbours_test.cpp LIBS voussoir_core Boost::headers)
 
 voussoir_test(unit.scene LABEL unit
@@ -88,6 +84,10 @@ voussoir_test(unit.certainty LONG LABEL unit
     contact/face_integral_test.cpp
     geometry/catalogue_test.cpp testing/pair_families.cpp testing/pair_judge.cpp
   LIBS voussoir_exact_referee Boost::headers fmt::fmt hwy::hwy)
+
+voussoir_test(unit.faces LABEL unit
+  SOURCES contact/region_integral_test.cpp step/face_forces_test.cpp
+  LIBS voussoir_exact_referee cereal::cereal Boost::headers fmt::fmt)
 
 voussoir_test(unit.newton LONG LABEL unit
   SOURCES step/newton_test.cpp step/newton_verdict_test.cpp optimise/block_solver_test.cpp

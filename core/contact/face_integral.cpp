@@ -33,7 +33,15 @@ struct MeanPlane {
     if constexpr (Dim == 3) axes.col(1) = normal.cross(axes.col(0));
     const double c = 0.5 * length;
     at_origin = ((a.offset + b.offset) - sum.dot(origin)) / c;
-    gradient = -(axes.transpose() * sum) / c;
+    gradient = -along(sum) / c;
+  }
+
+  // what of a vector lies in it
+  Eigen::Matrix<double, Dim - 1, 1> along(const Vector<Dim>& v) const {
+    Eigen::Matrix<double, Dim - 1, 1> y;
+    for (int k = 0; k < Dim - 1; ++k)
+      y[k] = axes.col(k).dot(v);
+    return y;
   }
 };
 
@@ -76,16 +84,35 @@ bool measure(const std::vector<Edge<1>>& edges, const MeanPlane<2>& mean, double
   return true;
 }
 
-// cuts a square about the origin by all edges
-void cut(const std::vector<Edge<2>>& edges, double half, std::vector<Vector<2>>& polygon) {
+// Cuts a square about a point by all edges, as clip_polygon does; most edges leave it as it is, which is seen first.
+void cut(const std::vector<Edge<2>>& edges, const Vector<2>& about, double half, std::vector<Vector<2>>& polygon) {
   static thread_local std::vector<Vector<2>> clipped;
+  static thread_local std::vector<double> left;
   polygon.clear();
   for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
     polygon.emplace_back(x * half, y * half);
   for (const Edge<2>& e : edges) {
-    clip_polygon(polygon, e.q, e.slack, clipped);
+    const double slack = e.slack - e.q.dot(about);
+    const std::size_t count = polygon.size();
+    left.resize(std::max(left.size(), count));
+    double least = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      left[k] = slack - e.q.dot(polygon[k]);
+      least = std::min(least, left[k]);
+    }
+    if (!(least < 0)) continue;
+    clipped.resize(2 * count);
+    std::size_t kept = 0;
+    for (std::size_t k = 0, before = count - 1; k < count; before = k++) {
+      if ((left[before] > 0 && left[k] < 0) || (left[before] < 0 && left[k] > 0)) {
+        const double way = left[before] / (left[before] - left[k]);
+        clipped[kept++] = polygon[before] + way * (polygon[k] - polygon[before]);
+      }
+      if (!(left[k] < 0)) clipped[kept++] = polygon[k];
+    }
+    clipped.resize(kept);
     std::swap(polygon, clipped);
-    if (polygon.size() < 3) return;
+    if (kept < 3) return;
   }
 }
 
@@ -93,12 +120,8 @@ bool measure(const std::vector<Edge<2>>& edges, const MeanPlane<3>& mean, double
              Sums<2>& sums) {
   double half = reach;
   Vector<2> shift = Vector<2>::Zero();  // of the square's middle
-  static thread_local std::vector<Edge<2>> moved;
   for (int i = 0; i < most_cuts; ++i) {
-    moved.clear();
-    for (const Edge<2>& e : edges)
-      moved.push_back({e.q, e.slack - e.q.dot(shift)});
-    cut(moved, half, polygon);
+    cut(edges, shift, half, polygon);
     if (polygon.size() < 3) return false;
     Vector<2> low = polygon[0], high = polygon[0];
     for (const Vector<2>& v : polygon) {
@@ -149,7 +172,7 @@ bool integrate_face(const HalfSpaces<Dim>& planes, int faces_a, int face_a, int 
   edges.clear();
   for (int i = 0; i < static_cast<int>(planes.size()); ++i)
     if (i != face_a && i != face_b)
-      edges.push_back({mean.axes.transpose() * planes[i].normal, -signed_distance(planes[i], mean.origin)});
+      edges.push_back({mean.along(planes[i].normal), -signed_distance(planes[i], mean.origin)});
   if (!mean.gradient.isZero(0))
     edges.push_back({-mean.gradient, mean.at_origin});
   else if (!(mean.at_origin > 0))

@@ -23,6 +23,9 @@ constexpr double cut_error = 1e-10;
 // and that often
 constexpr int most_cuts = 8;
 
+// of the simplex: a smaller region's corners are found again from their planes
+constexpr double small = 1e-3;
+
 // Planes as bits of a word: those of the parts from bit 0, the simplex's own behind them, t >= 0 last.
 using Planes = std::uint64_t;
 constexpr int base = 63, most_planes = 58;
@@ -30,6 +33,14 @@ constexpr Planes of_simplex = ((Planes{1} << base) - 1) & ~((Planes{1} << most_p
 
 constexpr Planes bit(int plane) {
   return Planes{1} << plane;
+}
+
+// whether so few planes are among these; counting them all takes longer without an instruction for it
+template <int Count>
+bool fewer_than(Planes planes) {
+  for (int k = 1; k < Count; ++k)
+    planes &= planes - 1;
+  return planes == 0;
 }
 
 template <int Dim>
@@ -41,7 +52,7 @@ struct Corner {
 };
 
 template <int Dim>
-struct Polytope4 {
+struct LiftedPolytope {
   std::vector<Corner<Dim>> corners, fresh;
   std::array<int, most_planes> plane;  // which one a bit stands for
 
@@ -70,8 +81,8 @@ struct Polytope4 {
   // whether two corners are the ends of an edge
   bool joined(const Corner<Dim>& a, const Corner<Dim>& b) const {
     const Planes both = a.on & b.on;
-    if (std::popcount(both) < Dim) return false;
-    if (std::popcount(a.on) == Dim + 1 || std::popcount(b.on) == Dim + 1) return true;
+    if (fewer_than<Dim>(both)) return false;
+    if (fewer_than<Dim + 2>(a.on) || fewer_than<Dim + 2>(b.on)) return true;  // one of them is of no more planes
     return std::ranges::none_of(corners,
                                 [&](const Corner<Dim>& c) { return &c != &a && &c != &b && (c.on & both) == both; });
   }
@@ -111,9 +122,9 @@ struct Polytope4 {
 // Corners are what their planes make them, not what the cuts on the way left: one step of Newton's method on the planes
 // of each. Where more than enough planes meet, or nearly depend on each other, it stays.
 template <int Dim>
-void sharpen(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, double half, Polytope4<Dim>& polytope) {
+void sharpen(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, double half, LiftedPolytope<Dim>& polytope) {
   for (Corner<Dim>& c : polytope.corners) {
-    if (std::popcount(c.on) != Dim + 1 || (c.on & of_simplex) != 0) continue;
+    if (!fewer_than<Dim + 2>(c.on) || (c.on & of_simplex) != 0) continue;
     Eigen::Matrix<double, Dim + 1, Dim + 1> rows;
     Eigen::Matrix<double, Dim + 1, 1> off;
     Planes left = c.on;
@@ -148,11 +159,12 @@ double way_round(double x, double y) {
 
 // ---- pieces of the surface between two facets --------------------------------------------------------------------
 
-// Its area as a vector, of either direction, with phi on it: ∫ phi dS, ∫ phi x dS, each over dS.
+// Its area as a vector, of either direction, and phi on it.
 template <int Dim>
 struct Piece {
   Vector<Dim> area = Vector<Dim>::Zero();
   double weight = 0;                        // ∫ phi dS
+  double square = 0;                        // ∫ phi² dS
   Vector<Dim> lever = Vector<Dim>::Zero();  // ∫ phi x dS
 };
 
@@ -167,94 +179,79 @@ Piece<2> measure(PieceCorners<2>& at, const Vector<2>&) {
   piece.area = perpendicular(Vector<2>(q.x - p.x));
   const double length = piece.area.norm();
   piece.weight = 0.5 * length * (p.t + q.t);
+  piece.square = length / 3 * (p.t * p.t + p.t * q.t + q.t * q.t);
   piece.lever = length / 6 * ((2 * p.t + q.t) * p.x + (p.t + 2 * q.t) * q.x);
   return piece;
+}
+
+void add_triangle(const Corner<3>& p, const Corner<3>& q, const Corner<3>& r, Piece<3>& piece) {
+  const Vector<3> triangle = 0.5 * (q.x - p.x).cross(r.x - p.x);
+  const double area = triangle.norm(), sum = p.t + q.t + r.t;
+  piece.area += triangle;
+  piece.weight += area / 3 * sum;
+  piece.square += area / 12 * (sum * sum + p.t * p.t + q.t * q.t + r.t * r.t);
+  piece.lever += area / 12 * ((sum + p.t) * p.x + (sum + q.t) * q.x + (sum + r.t) * r.x);
 }
 
 // `normal`: of any length, near the piece's own
 Piece<3> measure(PieceCorners<3>& at, const Vector<3>& normal) {
   Piece<3> piece;
   if (at.size() < 3) return piece;
-  const Vector<3> n = normal.normalized(), e = perpendicular(n), f = n.cross(e);
-  Vector<3> middle = Vector<3>::Zero();
-  for (const Corner<3>* c : at)
-    middle += c->x;
-  middle /= static_cast<double>(at.size());
-  static thread_local std::vector<std::pair<double, const Corner<3>*>> round;
-  round.clear();
-  for (const Corner<3>* c : at) {
-    const Vector<3> from = c->x - middle;
-    round.emplace_back(way_round(e.dot(from), f.dot(from)), c);
+  if (at.size() > 3) {
+    const Vector<3> n = normal.normalized(), e = perpendicular(n), f = n.cross(e);
+    Vector<3> middle = Vector<3>::Zero();
+    for (const Corner<3>* c : at)
+      middle += c->x;
+    middle /= static_cast<double>(at.size());
+    static thread_local std::vector<std::pair<double, const Corner<3>*>> round;
+    round.clear();
+    for (const Corner<3>* c : at) {
+      const Vector<3> from = c->x - middle;
+      round.emplace_back(way_round(e.dot(from), f.dot(from)), c);
+    }
+    std::ranges::sort(round, {}, [](const auto& r) { return r.first; });
+    for (std::size_t k = 0; k < at.size(); ++k)
+      at[k] = round[k].second;
   }
-  std::ranges::sort(round, {}, [](const auto& r) { return r.first; });
-  const Corner<3>& p = *round[0].second;
-  for (std::size_t k = 1; k + 1 < round.size(); ++k) {
-    const Corner<3>&q = *round[k].second, &r = *round[k + 1].second;
-    const Vector<3> triangle = 0.5 * (q.x - p.x).cross(r.x - p.x);
-    const double area = triangle.norm();
-    piece.area += triangle;
-    piece.weight += area / 3 * (p.t + q.t + r.t);
-    piece.lever +=
-        area / 12 * ((2 * p.t + q.t + r.t) * p.x + (p.t + 2 * q.t + r.t) * q.x + (p.t + q.t + 2 * r.t) * r.x);
-  }
+  for (std::size_t k = 1; k + 1 < at.size(); ++k)
+    add_triangle(*at[0], *at[k], *at[k + 1], piece);
   return piece;
 }
 
+// Points on the surface between two facets are the centres of balls in the region that touch both planes; what lies
+// straight below them, towards either plane, fills the region. So the energy is a sum over all pairs of planes,
+//
+//   ∫ phi dV = Σ |a_i - a_j|/2 ∫ phi² dS,
+//
+// where |a_i - a_j|/2 is the cosine between the surface and either plane; the force is one over those of two parts.
 template <int Dim>
-struct Facet {
-  int bit, plane;  // plane: -1 of t >= 0
-  Vector<Dim> inside = Vector<Dim>::Zero();
-  double volume = 0;
-};
-
-template <int Dim>
-void sum_up(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, int faces_a, const Polytope4<Dim>& polytope,
+void sum_up(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, int faces_a, const LiftedPolytope<Dim>& polytope,
             RegionIntegral<Dim>& region) {
-  static thread_local std::vector<Facet<Dim>> facets;
   static thread_local PieceCorners<Dim> at;
-  facets.clear();
   Planes used = 0;
   for (const Corner<Dim>& c : polytope.corners)
     used |= c.on;
-  for (int k = 0; k < most_planes; ++k)
-    if ((used & bit(k)) != 0) facets.push_back({k, polytope.plane[k]});
-  facets.push_back({base, -1});
-  for (Facet<Dim>& f : facets) {
-    int count = 0;
-    for (const Corner<Dim>& c : polytope.corners)
-      if ((c.on & bit(f.bit)) != 0) {
-        f.inside += c.x;
-        ++count;
-      }
-    f.inside /= std::max(count, 1);
-  }
-
+  used &= bit(most_planes) - 1;
   region = {};
   double weight = 0;
   Vector<Dim> lever = Vector<Dim>::Zero(), whole = Vector<Dim>::Zero();
-  for (std::size_t i = 0; i < facets.size(); ++i)
-    for (std::size_t j = i + 1; j < facets.size(); ++j) {
-      Facet<Dim>&f = facets[i], &g = facets[j];
-      const Planes both = bit(f.bit) | bit(g.bit);
+  for (Planes i = used; i != 0; i &= i - 1)
+    for (Planes j = i & (i - 1); j != 0; j &= j - 1) {
+      const Planes both = (i & -i) | (j & -j);
       at.clear();
       for (const Corner<Dim>& c : polytope.corners)
         if ((c.on & both) == both) at.push_back(&c);
       if (at.size() < Dim) continue;
-      const Vector<Dim> apart =
-          g.plane < 0 ? planes[f.plane].normal : Vector<Dim>(planes[f.plane].normal - planes[g.plane].normal);
-      if (apart.isZero(0)) continue;
+      const int p = polytope.plane[std::countr_zero(i)], q = polytope.plane[std::countr_zero(j)];
+      const Vector<Dim> apart = planes[p].normal - planes[q].normal;
       const Piece<Dim> piece = measure(at, apart);
-      const auto cone = [&](Facet<Dim>& facet) {
-        facet.volume += std::abs(piece.area.dot(at[0]->x - facet.inside)) / Dim;
-      };
-      cone(f);
-      if (g.plane >= 0) cone(g);
-      if (g.plane < 0 || (f.plane < faces_a) == (g.plane < faces_a)) continue;
-      // from the first part to the second
+      region.square += 2 * apart.norm() * piece.square;
+      if ((p < faces_a) == (q < faces_a)) continue;
       const double length = piece.area.norm();
       if (!(length > 0)) continue;
-      const Vector<Dim> out = f.plane < faces_a ? apart : Vector<Dim>(-apart);
-      const Vector<Dim> n = (piece.area.dot(out) > 0 ? 1 : -1) / length * piece.area;
+      // from the first part to the second
+      const bool along = (piece.area.dot(apart) > 0) == (p < faces_a);
+      const Vector<Dim> n = (along ? 1 : -1) / length * piece.area;
       region.force += 2 * piece.weight * n;
       region.moment += 2 * moment(piece.lever, n);
       whole += length * n;
@@ -262,9 +259,6 @@ void sum_up(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, int faces_a
       lever += piece.lever;
     }
   if (!(weight > 0)) return;
-  for (const Facet<Dim>& f : facets)
-    if (f.plane >= 0) region.square += (planes[f.plane].offset - planes[f.plane].normal.dot(shift)) * f.volume;
-  region.square *= 4.0 / (Dim + 1);
   region.pressure = lever / weight;
   for (const Corner<Dim>& c : polytope.corners)
     region.spread = std::max(region.spread, (c.x - region.pressure).squaredNorm());
@@ -277,9 +271,9 @@ void sum_up(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, int faces_a
 
 template <int Dim>
 bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region) {
-  static thread_local Polytope4<Dim> polytope;
+  static thread_local LiftedPolytope<Dim> polytope;
   static thread_local std::vector<std::pair<double, int>> order;  // nearest first: the others soon cut nothing
-  double half = reach;
+  double half = reach, extent = 0;
   Vector<Dim> shift = Vector<Dim>::Zero();
   for (int pass = 0; pass < most_cuts; ++pass) {
     order.clear();
@@ -295,7 +289,7 @@ bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, 
       high = high.cwiseMax(c.x);
       middle += c.x;
     }
-    const double extent = (high - low).maxCoeff();
+    extent = (high - low).maxCoeff();
     if (!(extent > 0)) return false;
     const Vector<Dim> centre = middle / static_cast<double>(polytope.corners.size());
     if (extent * lost_corners >= half) {
@@ -307,7 +301,7 @@ bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, 
     shift += centre;
     half = 2 * extent;
   }
-  sharpen(planes, shift, half, polytope);
+  if (extent < small * half) sharpen(planes, shift, half, polytope);
   sum_up(planes, shift, faces_a, polytope, region);
   return region.square > 0 && region.area > 0;
 }
