@@ -14,6 +14,9 @@
 
 namespace voussoir::cases {
 
+// carries every joint of a scene as a whole that can be: constant stiffness per area, no bond
+inline const std::string whole_faces = "contact.face=integrated";
+
 // Runs <case>/<scene> and demands that it reached its goals.
 inline SceneRun run(const std::string& scene, const std::vector<std::string>& overrides = {}, int threads = 1) {
   SceneRun done = run_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides, threads);

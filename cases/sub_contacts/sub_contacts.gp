@@ -1,10 +1,10 @@
-# how far a face on n x n points is from the distributed joint, and what a contact then costs in a step
+# how far a face on n x n points is from the distributed joint, and what a contact then costs in a step; dashed: a whole face
 load style
-set terminal svg size 980,430 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
+set terminal svg size 980,460 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
     linewidth 1 enhanced
 set output out
 set logscale xy
-set multiplot layout 1,2 margins 0.09,0.98,0.15,0.86 spacing 0.1
+set multiplot layout 1,2 margins 0.09,0.98,0.14,0.79 spacing 0.1
 set xlabel 'points along a face'
 set xtics (1, 2, 4, 8, 16)
 set xrange [0.85:19]
@@ -19,5 +19,7 @@ set ylabel 'a contact in a step, this run (µs)'
 set yrange [0.3:100]
 set format y '%g'
 plot 'square.csv' using 'along':(column('nanoseconds')/1000) with linespoints lt 1 title 'square, n × n points', \
-     'strip.csv' using 'along':(column('nanoseconds')/1000) with linespoints lt 2 title 'in the plane, n points'
+     'strip.csv' using 'along':(column('nanoseconds')/1000) with linespoints lt 2 title 'in the plane, n points', \
+     'whole.csv' using 'along':(column('square')/1000) with lines lt 1 dt 2 title 'square, whole face', \
+     'whole.csv' using 'along':(column('strip')/1000) with lines lt 2 dt 2 title 'in the plane, whole face'
 unset multiplot
