@@ -12,4 +12,5 @@ second_order(x) = 2e-3 * x**2
 plot 'balance.csv' using 'fraction':'published' with linespoints lt 1 title 'published normal', \
      '' using 'fraction':'multipliers' with linespoints lt 2 title 'multipliers of the program', \
      '' using 'fraction':'central_path' with linespoints lt 3 title 'on the central path', \
+     '' using 'fraction':'whole' with linespoints lt 4 title 'whole contacts, at worst', \
      second_order(x) with lines dt 2 lc rgb '#808080' title 'second order'
