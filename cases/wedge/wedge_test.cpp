@@ -52,6 +52,15 @@ TEST(Wedge, BisectionFindsTheClosedForm) {
       value(scene, "critical_friction"), cost(scene));
 }
 
+TEST(Wedge, OnWholeFacesItIsTheSame) {
+  CaseReport report("wedge");
+  const SceneRun scene = run("scene.toml", {whole_faces});
+  report.record(angle_check("critical friction, whole faces", Kind::exact, "Hoek & Bray (1974)",
+                            *reference::critical_friction(thesis_wedge) / degree, 0.05,
+                            "as on points: faces carry no moments where rotations are restrained"),
+                value(scene, "critical_friction"), cost(scene));
+}
+
 // A block on elastic joints holds a little longer, the more so the stiffer its joints are in shear.
 TEST(Wedge, StiffShearFollowsTheElasticPlasticPath) {
   CaseReport report("wedge");
@@ -128,39 +137,49 @@ TEST(Wedge, EqualStiffness) {
                 value(scene, "critical_friction"), cost(scene));
 }
 
-// A wedge that may turn: its faces carried by n x n points. The closed form knows no moments; the bounds are those of a
-// rigid wedge of six freedoms on four points a face.
-void let_it_turn(CaseReport& report, int along, double restrained) {
-  const SceneRun scene = run("free_rotation.toml", {fmt::format("joint_properties.rock.sub_contacts={}", along)});
+// what carries the faces
+struct Carried {
+  std::string name, override_of_scene;
+};
+Carried on_points(int along) {
+  return {along == 1 ? "1 point a face" : fmt::format("{0} x {0} points a face", along),
+          fmt::format("joint_properties.rock.sub_contacts={}", along)};
+}
+
+// A wedge that may turn. The closed form knows no moments; the bounds are those of a rigid wedge of six freedoms on
+// four points a face.
+void let_it_turn(CaseReport& report, const Carried& carried, double restrained) {
+  const SceneRun scene = run("free_rotation.toml", {carried.override_of_scene});
   const double angle = value(scene, "critical_friction");
   const double turn =
       std::hypot(value(scene, "wedge_rotation_x"), value(scene, "wedge_rotation_y"), value(scene, "wedge_rotation_z"));
-  const std::string points = along == 1 ? "1 point a face" : fmt::format("{0} x {0} points a face", along);
-  const std::string name = "critical friction, free rotation, " + points;
-  if (along == 1)
+  const std::string name = "critical friction, free rotation, " + carried.name;
+  if (carried.name == on_points(1).name)
     report.report(name, "deg", angle, "one point carries no moment: no target (cases.md)", cost(scene));
   else
     report.record(angle_check(name, Kind::limit, "rigid wedge of six freedoms, four points a face", restrained - 0.15,
                               0.15, "0.0 to 0.3 below the restrained wedge, whatever the slope face"),
                   angle, cost(scene));
   const std::string note = "at the last stable angle";
-  report.report("rotation, " + points, "deg", turn, note);
-  report.report("tilt of the contact normal on A, " + points, "deg", value(scene, "A_normal_tilt"), note);
-  report.report("tilt of the contact normal on B, " + points, "deg", value(scene, "B_normal_tilt"), note);
+  report.report("rotation, " + carried.name, "deg", turn, note);
+  report.report("tilt of the contact normal on A, " + carried.name, "deg", value(scene, "A_normal_tilt"), note);
+  report.report("tilt of the contact normal on B, " + carried.name, "deg", value(scene, "B_normal_tilt"), note);
 }
 
 TEST(Wedge, HoldsToALowerAngleWhereItMayTurn) {
-  CaseReport report("wedge", {"critical friction, free rotation, 2 x 2 points a face"});
+  CaseReport report("wedge", {"critical friction, free rotation, 2 x 2 points a face",
+                              "critical friction, free rotation, whole faces"});
   const double restrained = value(run("equal_stiffness.toml"), "critical_friction");
   for (const int along : {1, 2, 4})
-    let_it_turn(report, along, restrained);
+    let_it_turn(report, on_points(along), restrained);
+  let_it_turn(report, {"whole faces", whole_faces}, restrained);
 }
 
 TEST(WedgeLong, HoldsToALowerAngleWhereItMayTurnOnManyPoints) {
   CaseReport report("wedge");
   const double restrained = value(run("equal_stiffness.toml"), "critical_friction");
   for (const int along : {3, 8, 16})
-    let_it_turn(report, along, restrained);
+    let_it_turn(report, on_points(along), restrained);
 }
 
 // Where the wedge lies and which way it faces cannot matter.
