@@ -61,6 +61,8 @@ TEST(RoofWedge, FallsWhereJointRelaxationSays) {
   } const variants[] = {{"critical friction", "scene.toml", {}, regular()},
                         {"critical friction, g = 10 m/s2", "scene.toml", {"gravity=[0,0,-10]"}, regular(10)},
                         {"critical friction, free to turn, 16 points a face", "free.toml", {}, regular()},
+                        {"critical friction, whole faces", "scene.toml", {whole_faces}, regular()},
+                        {"critical friction, free to turn, whole faces", "free.toml", {whole_faces}, regular()},
                         {"critical friction, ks = kn/5", "soft_shear.toml", {}, regular(9.81, 2e6)}};
   for (const auto& v : variants) {
     const SceneRun run = cases::run(v.scene, v.overrides);
@@ -180,15 +182,20 @@ void judge_pressure(CaseReport& report, const std::string& name, const SceneRun&
 TEST(RoofWedge, FallsAtTheStressThatArrivesFromTheSides) {
   CaseReport report("roofwedge", {"critical friction, stress from the sides"});
   const std::vector<std::string> turning{"restrain.blocks.rotation=false"};
-  std::vector<std::string> on_points = turning;
+  std::vector<std::string> on_points = turning, on_whole_faces = turning;
   on_points.push_back("joint_properties.rock.sub_contacts=4");
-  const SceneRun run = press(applied), free = press(applied, 1, stiffness, on_points);
+  on_whole_faces.push_back(whole_faces);
+  const SceneRun run = press(applied), free = press(applied, 1, stiffness, on_points),
+                 whole = press(applied, 1, stiffness, on_whole_faces);
   judge_pressure(report, "", run);
   check(report, "critical friction, stress from the sides", slip_deg(under_stress(arrived_stress(run))), tight,
         why_of_arrived, value(run, "critical_friction"), run);
   judge_pressure(report, ", blocks free to turn on 16 points a face", free);
   check(report, "critical friction, stress from the sides, blocks free to turn on 16 points a face",
         slip_deg(under_stress(arrived_stress(free))), tight, why_of_arrived, value(free, "critical_friction"), free);
+  judge_pressure(report, ", blocks free to turn on whole faces", whole);
+  check(report, "critical friction, stress from the sides, blocks free to turn on whole faces",
+        slip_deg(under_stress(arrived_stress(whole))), tight, why_of_arrived, value(whole, "critical_friction"), whole);
 
   // where a face carries no moment, or gives way by millimetres, what arrives is another stress
   const auto tell = [&](const std::string& name, const SceneRun& other) {
