@@ -195,27 +195,36 @@ std::string brief_status(const json& failure) {
   return fmt::format("**{}**", status.substr(0, status.find(':')));
 }
 
-// every sweep over how many points carry a joint face
+// every sweep over how many points carry a joint face, or whether it is carried as a whole
 std::string points_table(const std::vector<CaseStudy>& studies) {
-  const auto is_one = [](const json& row) { return row.at("key").get<std::string>().ends_with(".sub_contacts"); };
+  const auto is_whole = [](const json& row) {
+    return row.at("key") == "contact.face" && row.at("value") == "integrated";
+  };
+  const auto is_one = [&](const json& row) {
+    return is_whole(row) || row.at("key").get<std::string>().ends_with(".sub_contacts");
+  };
+  const auto points = [&](const json& row) {
+    return is_whole(row) ? "whole face" : row.at("value").get<std::string>();
+  };
   std::string rows;
   for (const CaseStudy& entry : studies) {
     for (const json& row : entry.study.at("failed"))
       if (is_one(row))
         rows += fmt::format("| {} | {} | {} | {} | | | |\n", link(entry), row.at("sweep").get<std::string>(),
-                            row.at("value").get<std::string>(), brief_status(row));
+                            points(row), brief_status(row));
     for (const json& point : entry.study.at("points"))
       if (is_one(point))
         rows += fmt::format("| {} | {} | {} | {} | {} | {} | {:.2g} |\n", link(entry),
-                            point.at("sweep").get<std::string>(), point.at("value").get<std::string>(),
+                            point.at("sweep").get<std::string>(), points(point),
                             percent(point.at("relative_error_upper")), point.at("contact_evaluations").get<long long>(),
                             point.at("steps").get<long long>(), point.at("seconds").get<double>());
   }
   if (rows.empty()) return "";
   return "### Points along a joint face\n\nWith one point a face resists neither spin nor, as a face does, rocking. "
          "What "
-         "more of them give, and what they cost: a contact evaluation is counted once however many points carry the "
-         "face, so their price shows in the seconds.\n\n"
+         "more of them give, what the whole face gives over which the joint is integrated (`contact.face`), and what "
+         "they cost: a contact evaluation is counted once however many points carry the face, so their price shows in "
+         "the seconds.\n\n"
          "| case | sweep | points along a face | error with error bar | contact evaluations | steps | seconds |\n"
          "|---|---|--:|--:|--:|--:|--:|\n" +
          rows + "\n";

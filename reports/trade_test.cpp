@@ -48,11 +48,17 @@ TEST(Trade, ListsThePointsAlongAFace) {
   const std::string lines =
       "default,,,,angle,30,0,deg,ok,100,10,1\n"
       "points,joint_properties.rock.sub_contacts,1,1,angle,,,deg,no bracket,100,10,1\n"
-      "points,joint_properties.rock.sub_contacts,2,1,angle,30.3,0,deg,ok,100,11,1.5\n";
+      "points,joint_properties.rock.sub_contacts,2,1,angle,30.3,0,deg,ok,100,11,1.5\n"
+      "whole faces,contact.face,integrated,,angle,30.03,0,deg,ok,100,12,0.5\n"
+      "whole faces,contact.face,point,,angle,30.6,0,deg,ok,100,12,0.5\n";
   const std::string page = trade_markdown({made("slope", lines)});
   EXPECT_NE(page.find("| [slope](../slope/README.md) | points | 1 | **no bracket** |"), std::string::npos) << page;
   EXPECT_NE(page.find("| [slope](../slope/README.md) | points | 2 | 1 % | 100 | 11 | 1.5 |"), std::string::npos)
       << page;
+  EXPECT_NE(page.find("| [slope](../slope/README.md) | whole faces | whole face | 0.1 % | 100 | 12 | 0.5 |"),
+            std::string::npos)
+      << page;
+  EXPECT_EQ(page.find("| whole faces | point |"), std::string::npos) << page;
   EXPECT_EQ(trade_markdown({made("flight", flight)}).find("Points along"), std::string::npos);
 }
 
