@@ -219,6 +219,13 @@ TEST(Slump, IsLostByDistinctElements) {
   draw_collapse(collapse, judge_collapse(report, "DEM", collapse));
 }
 
+TEST(Slump, IsLostByDistinctElementsOnWholeFaces) {
+  CaseReport report("slump", {"critical friction, DEM, whole faces"});
+  judge_collapse(report, "DEM, whole faces",
+                 run_to_collapse<2>("scene.toml",
+                                    {"stage.critical.to_deg=15.2", "stage.critical.tolerance_deg=0.4", whole_faces}));
+}
+
 // What relaxation alone cannot decide: the slide goes far before it rests, or flutters. The angles are 0.37 degrees
 // above the reference, where the slope is known to stand, and 0.23 below it, where it is known to fall.
 void judge_hard_search(const std::string& name, const std::vector<std::string>& overrides) {
