@@ -1,6 +1,4 @@
 // Jointed beam: six blocks between abutments under rising gravity, against the chain of rigid blocks.
-#include "reference/jointedbeam/jointedbeam.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -10,121 +8,11 @@
 #include <variant>
 #include <vector>
 
-#include "cases/case_tools.hpp"
-#include "cases/recorded_run.hpp"
+#include "cases/jointedbeam/beam_run.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir::cases {
 namespace {
-
-using reference::BeamBlock;
-using reference::BeamJoint;
-using reference::BeamState;
-using reference::CellClosure;
-using reference::JointedBeam;
-using reference::Point;
-using verification::CaseReport;
-using verification::Check;
-using verification::Kind;
-
-const std::string chain_source = "chain of rigid blocks, reference/jointedbeam";
-const std::vector<double> judged{10, 20, 30, 40};  // g
-
-// as scene.toml and half.toml state them
-JointedBeam full_block() {
-  return {};
-}
-JointedBeam half_block() {
-  JointedBeam beam;
-  beam.height = beam.abutment_height = 0.023;
-  return beam;
-}
-// m, both abutments together, as the scenes move them in
-constexpr double full_closure = 2 * 1.98494e-3 * 0.005, half_closure = 2 * 3.97018e-3 * 0.005;
-
-JointedBeam with_cells(JointedBeam beam, int cells, CellClosure closure = CellClosure::mean) {
-  beam.joint.cells = cells;
-  beam.joint.closure = closure;
-  return beam;
-}
-
-// ---- the run as the chain would tell it
-// ----------------------------------------------------------------------------
-
-// of one joint: forces per metre of width are summed, the resultant acts at their pressure's centre
-BeamJoint joint_of(const Model<2>& model, const State<2>& state, std::size_t place, double width) {
-  const Contact<2>& c = state.contacts[place];
-  const int a = model.parts[c.part_a].body;
-  const Vector<2>& n = c.geometry.normal;
-  Vector<2> at = c.geometry.point;
-  if (c.cells > 0) {
-    at.setZero();
-    double pressure = 0;
-    for (const SubContact<2>& s : subs_of(state, place)) {
-      at += s.force.dot(n) * s.point;
-      pressure += s.force.dot(n);
-    }
-    at /= pressure;
-  }
-  at += model.origin + model.bodies[a].reference + state.motions[a].displacement;
-  BeamJoint joint;
-  joint.point = {at[0], at[1]};
-  joint.force = {c.force[0] * width, c.force[1] * width};
-  joint.normal = c.force.dot(n) * width;
-  joint.shear = c.force.dot(perpendicular(n)) * width;
-  return joint;
-}
-
-// m, downwards, of the block's right (1) or left (-1) face at mid-height
-double sunk(const BeamBlock& block, double length, int side) {
-  return -block.displacement.y - 0.5 * length * side * std::sin(block.rotation);
-}
-
-BeamState describe(const JointedBeam& beam, const Model<2>& model, const State<2>& state) {
-  BeamState s;
-  s.gravity = state.schedule.gravity_factor;
-  for (std::size_t b = 1; b + 1 < model.bodies.size(); ++b) {
-    const Motion<2>& m = state.motions[b];
-    s.blocks.push_back({{m.displacement[0], m.displacement[1]}, m.rotation.angle});
-  }
-  for (std::size_t i = 0; i < state.contacts.size(); ++i)
-    if (state.contacts[i].touching()) s.joints.push_back(joint_of(model, state, i, beam.width));
-  if (!s.joints.empty()) s.thrust = s.joints.front().force.x;
-  s.deflection = 0.5 * (sunk(s.blocks[2], beam.length, 1) + sunk(s.blocks[3], beam.length, -1));
-  return s;
-}
-
-struct BeamRun {
-  std::vector<BeamState> held;  // at the ends of the stages that came to rest
-  double lost = 0;              // g: the stage that did not; 0: all did
-  Results results;
-};
-
-BeamRun run_beam(const JointedBeam& beam, const std::string& scene, const std::vector<std::string>& overrides = {}) {
-  const RecordedRun<2> recorded = record<2>(scene, overrides, Demand::no_failure);
-  std::vector<BeamState> states;
-  for (const State<2>& state : recorded.frames)
-    states.push_back(describe(beam, recorded.model(), state));
-  BeamRun run{{}, 0, recorded.run.results};
-  for (std::size_t i = 0; i < run.results.stages.size(); ++i) {
-    if (run.results.stages[i].kind != "settle") continue;
-    if (run.results.stages[i].ended == "equilibrium")
-      run.held.push_back(states.at(i));
-    else
-      run.lost = states.at(i).gravity;
-  }
-  return run;
-}
-
-const BeamState& at_gravity(const std::vector<BeamState>& states, double gravity) {
-  for (const BeamState& s : states)
-    if (std::abs(s.gravity - gravity) < 1e-9) return s;
-  throw std::out_of_range("no equilibrium at " + std::to_string(gravity) + " g");
-}
-
-verification::Cost cost(const BeamRun& run) {
-  return {run.results.counters.contact_evaluations, run.results.seconds};
-}
 
 // ---- data for the figures
 // ------------------------------------------------------------------------------------------
@@ -208,24 +96,6 @@ std::vector<double> from_to(double from, double to, double step) {
   for (double v = from; v < to + 0.5 * step; v += step)
     values.push_back(v);
   return values;
-}
-
-// ---- checks -------------------------------------------------------------------------------------------------------
-
-void record_thrust(CaseReport& report, const std::string& name, const BeamState& expected, const BeamState& found,
-                   double tolerance, const std::string& because, verification::Cost cost = {}) {
-  report.record({"thrust, " + name, "N", Kind::exact, chain_source, expected.thrust, {0, tolerance}, because},
-                found.thrust, cost);
-}
-void record_deflection(CaseReport& report, const std::string& name, const BeamState& expected, const BeamState& found,
-                       double tolerance, const std::string& because, verification::Cost cost = {}) {
-  report.record(
-      {"mid-span deflection, " + name, "m", Kind::exact, chain_source, expected.deflection, {0, tolerance}, because},
-      found.deflection, cost);
-}
-
-std::string text(double gravity) {
-  return std::to_string(static_cast<int>(gravity)) + " g";
 }
 
 TEST(JointedBeam, OfFullBlocksIsTheChain) {
@@ -344,50 +214,6 @@ TEST(JointedBeam, DeviatesOnOnePointAsItsChainDoes) {
     }
     write_build_up("full_" + v.point + ".csv", beam, run.held);
   }
-}
-
-// Faces carried as a whole are the distributed joint until some of it slips. At 89 degrees cells of the chain still
-// slip at the edge of the pressure, by 5e-4 of the deflection; at 89.99 none does.
-TEST(JointedBeam, OnWholeFacesIsTheChainOfDistributedJointsThatDoNotSlip) {
-  CaseReport report("jointedbeam");
-  JointedBeam beam = full_block();
-  beam.joint.friction.angle = 89.99 * degree;
-  const std::vector<BeamState> chain = raise_gravity(beam, judged, full_closure);
-  const std::string no_slip = "joint_properties.rock.friction_deg=89";
-  const BeamRun whole = run_beam(beam, "scene.toml", {no_slip, whole_faces}),
-                one_point = run_beam(beam, "scene.toml", {no_slip, "joint_properties.rock.sub_contacts=1"});
-  ASSERT_EQ(whole.lost, 0) << whole.results.message;
-  for (const double gravity : judged) {
-    const std::string name = "whole faces, no slip, " + text(gravity);
-    const std::string because =
-        "both integrate the same pressure, 1e-5 by the chain's cells and steps, rest to 1e-6; the whole face's shear "
-        "stress is even, the chain's where a joint opens is not";
-    record_thrust(report, name, at_gravity(chain, gravity), at_gravity(whole.held, gravity), 5e-5, because,
-                  cost(whole));
-    record_deflection(report, name, at_gravity(chain, gravity), at_gravity(whole.held, gravity), 5e-4, because);
-  }
-  const auto evaluations = [](const BeamRun& run) {
-    return static_cast<double>(run.results.counters.contact_evaluations);
-  };
-  report.record({"contact evaluations, whole faces over one point a face",
-                 "1",
-                 Kind::limit,
-                 "what was asked of the time",
-                 0,
-                 {2.5, 0, verification::Bound::at_most},
-                 "a count: what a contact costs is measured in cases/sub_contacts"},
-                evaluations(whole) / evaluations(one_point), cost(whole));
-  for (const auto& [name, run] : {std::pair("whole faces", &whole), {"one point a face", &one_point}})
-    report.report(std::string("steps, no slip, ") + name, "1", static_cast<double>(run->results.counters.steps),
-                  "from the closing of the abutments to 40 g", cost(*run));
-
-  // with the scene's 40 degrees the chain's joints slip locally, whole faces do not
-  const BeamState slipping = at_gravity(raise_gravity(full_block(), judged, full_closure), 40),
-                  found = at_gravity(run_beam(full_block(), "scene.toml", {whole_faces}).held, 40);
-  const std::string note = "against distributed joints, parts of which slip; a whole face slips as a whole or not";
-  report.report("error of thrust, whole faces, 40 degrees, 40 g", "1", found.thrust / slipping.thrust - 1, note);
-  report.report("error of deflection, whole faces, 40 degrees, 40 g", "1", found.deflection / slipping.deflection - 1,
-                note);
 }
 
 TEST(JointedBeam, OfHalfBlocksIsLostAsTheChainIs) {

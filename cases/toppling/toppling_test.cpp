@@ -226,17 +226,13 @@ SceneRun judge_columns(const std::string& which, const std::vector<std::string>&
 }
 
 TEST(SteppedColumns, ColumnsOnASteppedBaseFallWhereLimitEquilibriumSays) {
-  const std::vector<std::string> in_short{"stage.critical.from_deg=40", "stage.critical.to_deg=36",
-                                          "stage.critical.tolerance_deg=0.51"};
-  std::vector<std::string> whole = in_short;
-  whole.push_back(whole_faces);
-  judge_columns("", in_short);
-  judge_columns(", whole faces", whole);
+  judge_columns("", {"stage.critical.from_deg=40", "stage.critical.to_deg=36", "stage.critical.tolerance_deg=0.51"});
 }
 
 // the scene as it stands
 TEST(SteppedColumnsLong, ColumnsOnASteppedBaseFallByTheWholeSearch) {
   judge_columns(", whole search", {});
+  judge_columns(", whole search on whole faces", {whole_faces});
 }
 
 }  // namespace
