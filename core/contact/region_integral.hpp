@@ -32,7 +32,7 @@ struct RegionIntegral {
 
 // Integrates over the overlap. `planes`: of both parts, the first `faces_a` the first one's, seen from a point in the
 // overlap; `reach`, m: no point of the overlap lies farther from there along any axis. False where there is no overlap
-// with a volume, or where more than 58 planes bound it. Corners are right to 1e-12 of the region's
+// with a volume, or where more than 58 planes bound it. Corners are right to 1e-11 of the region's
 // extent, and so, times the extent over the thickness, is everything; moment and place of the extent.
 template <int Dim>
 bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region);
