@@ -7,6 +7,7 @@
 
 #include "core/potential/surface.hpp"
 #include "core/testing/potential_pairs.hpp"
+#include "core/testing/potential_referee.hpp"
 
 namespace voussoir {
 namespace {
@@ -94,6 +95,38 @@ TEST(PotentialContact, OfACornerOnAFaceWithoutSpheres) {
       EXPECT_NEAR(c.value, std::pow(gap / (r_a + r_b), 2) - 1, 1e-14 / std::min(r_a, r_b));
       EXPECT_NEAR(c.ratio, r_a / r_b, 1e-9 * c.ratio);
     }
+}
+
+// Face on face, r 1e-4 of the size, k = 0.01: the spheres push the point along the faces until it lies, to rounding, on
+// the plane of a side, and there λ still has to change. A beam on its abutment from the case `potential_particles`.
+TEST(PotentialContact, APlaneThatHoldsThePointIsNotPassedWhenTheRatioChanges) {
+  const PotentialShape<2> abutment{{{{-1, 0}, 0.068997688629031162},
+                                    {{0, -1}, 0.068997699782780697},
+                                    {{0, 1}, 0.93099769978309821},
+                                    {{1, 0}, 0.068997688629031134}},
+                                   2.3e-6,
+                                   0.01,
+                                   0.50473825209168366,
+                                   {0, 0.43100000000015881}};
+  const PotentialShape<2> beam{{{{-1, 0}, 0.11499769883883276},
+                                {{0, -1}, 0.022997689569126997},
+                                {{0, 1}, 0.022997689569126997},
+                                {{1, 6.123233995736766e-17}, 0.022997698838873936}},
+                               2.3e-6,
+                               0.01,
+                               0.072731772575803308,
+                               {-0.045999999999979412, 0}};
+  PotentialPair<2> pair{&abutment, &beam, {}, {0.18399999959328758, 0.43099998141697304}};
+  pair.rotation << 0.99999999999999467, 1.0313114255855637e-07, -1.0313114255855637e-07, 0.99999999999999467;
+  PotentialWorkspace<2> workspace;
+  const PotentialStart<2> before{{0.068999999188445696, 0.4081011607426171}, 0.99509193396233508};
+  for (const PotentialStart<2>& start : {PotentialStart<2>{}, before}) {
+    const PotentialContact<2> c = resolve<2>(pair, PotentialQuery::overlap, workspace, start);
+    ASSERT_EQ(c.status, PotentialStatus::touching);
+    const referee::Verdict<2> truth = referee::judge<2>(pair, c.point, c.ratio, 1e-20);
+    ASSERT_TRUE(truth.proven);
+    EXPECT_LE(truth.distance_to(c.point), 1e-16);
+  }
 }
 
 TEST(PotentialContact, OneCentreOnTheOtherHasNoNormal) {
