@@ -24,8 +24,8 @@ namespace {
 constexpr int rounds = 5;                 // of which the median counts
 constexpr std::size_t outside_pairs = 4;  // Ipopt's
 constexpr double sphericity = 0.01;
-constexpr double overlap = 1e-4;                             // of the size
-constexpr std::array<double, 3> radii = {1e-5, 1e-2, 1e-1};  // of the size; the first a tenth of the overlaps
+constexpr double overlap = 1e-4;                                   // of the size
+constexpr std::array<double, 4> radii = {1e-5, 1e-3, 1e-2, 1e-1};  // of the size; the first a tenth of the overlaps
 constexpr int bisections = 50;
 constexpr double first_part = 0.01;  // of the overlap
 
