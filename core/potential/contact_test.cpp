@@ -129,6 +129,77 @@ TEST(PotentialContact, APlaneThatHoldsThePointIsNotPassedWhenTheRatioChanges) {
   }
 }
 
+// Squares (cubes) face on face, side by side by some of their length, turned so far that the contact has come to one
+// side of the second one's face and lies, to rounding, on the plane of that side: there the second derivative jumps.
+template <int Dim>
+struct TurnedOnItsSide {
+  PotentialShape<Dim> cube;
+  PotentialPair<Dim> pair;
+  double depth;
+  PotentialWorkspace<Dim> workspace;
+
+  TurnedOnItsSide(shapes::Random& random) {
+    cube.corner_radius = shapes::power_of_ten(random, -4, -1) / 2;
+    cube.sphericity = shapes::power_of_ten(random, -2, -0.05);
+    cube.planes = shapes::cube<Dim>(0.5 - cube.corner_radius);
+    cube.sphere_radius = enclosing_radius<Dim>(cube.planes, cube.corner_radius, Vector<Dim>::Zero());
+    pair = {&cube, &cube};
+    pair.offset[1] = shapes::uniform(random, 0.2, 0.8);
+    depth = shapes::power_of_ten(random, -4, 0) * cube.corner_radius;
+  }
+  void turn(double angle) {
+    pair.rotation.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(angle).toRotationMatrix();
+    PlacedPotential<Dim> turned;
+    place<Dim>(cube, pair.rotation, Vector<Dim>::Zero(), turned);
+    const Vector<Dim> ahead = Vector<Dim>::Unit(0);
+    pair.offset[0] = find_support<Dim>(placed<Dim>(cube), ahead, workspace.ray).point[0] -
+                     find_support<Dim>(turned, -ahead, workspace.ray).point[0] - depth;
+  }
+  // how far the contact lies beyond the second one's plane towards -y
+  double beyond_side(double angle) {
+    turn(angle);
+    const PotentialContact<Dim> c = resolve<Dim>(pair, PotentialQuery::least, workspace);
+    double slack = 0;
+    for (std::size_t i = 0; i < cube.planes.size(); ++i)
+      if (cube.planes[i].normal[1] < 0) slack = signed_distance<Dim>(workspace.b.planes[i], c.point);
+    return slack;
+  }
+};
+
+template <int Dim>
+void expect_answers_where_a_plane_begins() {
+  shapes::Random random(292);
+  int found = 0;
+  for (int i = 0; i < 40; ++i) {
+    TurnedOnItsSide<Dim> c(random);
+    double inside = 0, outside = 0.2;
+    if (c.beyond_side(outside) < 0) outside = -outside;
+    if (c.beyond_side(outside) < 0) continue;
+    ++found;
+    for (int k = 0; k < 50; ++k) {
+      const double middle = (inside + outside) / 2;
+      (c.beyond_side(middle) > 0 ? outside : inside) = middle;
+    }
+    PotentialStart<Dim> before;
+    for (const double factor : {1 - 1e-3, 1 - 1e-9, 1.0, 1 + 1e-9}) {
+      c.turn(factor * inside);
+      for (const PotentialStart<Dim>& start : {PotentialStart<Dim>{}, before}) {
+        const PotentialContact<Dim> one = resolve<Dim>(c.pair, PotentialQuery::least, c.workspace, start);
+        ASSERT_NE(one.status, PotentialStatus::no_answer) << i << " " << factor;
+        const referee::Verdict<Dim> truth = referee::judge<Dim>(c.pair, one.point, one.ratio, 1e-26);
+        ASSERT_TRUE(truth.proven) << i << " " << factor;
+        EXPECT_LE(truth.distance_to(one.point), 1e-9) << i << " " << factor;
+        before = {one.point, one.ratio};
+      }
+    }
+  }
+  EXPECT_GT(found, 30);
+}
+TEST(PotentialContact, HasAnAnswerWhereAPlaneBegins) {
+  expect_answers_where_a_plane_begins<2>();
+  expect_answers_where_a_plane_begins<3>();
+}
+
 TEST(PotentialContact, OneCentreOnTheOtherHasNoNormal) {
   PotentialWorkspace<3> workspace;
   const PotentialShape<3> a = sphere<3>(1), b = sphere<3>(0.5);
