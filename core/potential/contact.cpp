@@ -175,11 +175,14 @@ class Search {
       // a sign from a point that had only just passed a plane was wrong if the bracket shuts before the end
       if (std::isfinite(high) && high - low <= shut * high) low = 0, high = infinity;
       const bool descended = at.decrement <= fraction * mismatch;
-      if (foreseen == 0 && descended && change_ratio(at, low, high, contact))
+      if (foreseen == 0 && descended && change_ratio(at, low, high, contact)) {
         fraction /= 2;
-      else if (!descend(at, contact) && (descended || at.decrement + mismatch_of(at) <= last_gap * (terms - 1) ||
-                                         !change_ratio(at, low, high, contact)))
-        return finish(at, contact, slopes);
+      } else if (!descend(at, contact)) {
+        // Held by planes, the point shows only rounding in the bounds; Q itself says how much is left.
+        const double left = at.decrement + mismatch_of(at), q = 2 + at.a.value + at.b.value;
+        if (descended || left <= last_gap * q || !change_ratio(at, low, high, contact))
+          return finish(at, contact, slopes);
+      }
     }
     contact.status = PotentialStatus::no_answer;
   }
