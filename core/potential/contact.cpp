@@ -16,8 +16,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int iteration_limit = 400;
 
 // The descent for one λ ends where what is left of it is this fraction of what the next λ will gain; with every change
-// of λ half as much, so that the last ones are exact.
-constexpr double inner_fraction = 0.1;
+// of λ half as much, so that the last ones are exact; not less than what rounding lets a descent reach.
+constexpr double inner_fraction = 0.1, least_inner_fraction = 1e-8;
 
 // and the sign of f_A - f_B counts as that at the sum's least point only where far less is left
 constexpr double sure_fraction = 1e-4;
@@ -176,7 +176,7 @@ class Search {
       if (std::isfinite(high) && high - low <= shut * high) low = 0, high = infinity;
       const bool descended = at.decrement <= fraction * mismatch;
       if (foreseen == 0 && descended && change_ratio(at, low, high, contact)) {
-        fraction /= 2;
+        fraction = std::max(fraction / 2, least_inner_fraction);
       } else if (!descend(at, contact)) {
         // Held by planes, the point shows only rounding in the bounds; Q itself says how much is left.
         const double left = at.decrement + mismatch_of(at), q = 2 + at.a.value + at.b.value;
