@@ -88,7 +88,7 @@ void find_nearest_faces(const Pair<Dim>& pair, Contact<Dim>& contact, HalfSpaces
 }
 
 template <int Dim>
-void press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Dim>& contact, PressedFace<Dim>& face) {
+bool press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Dim>& contact, PressedFace<Dim>& face) {
   const Vector<Dim> seen_from = contact.proof.point;
   const int faces_a = static_cast<int>(pair.a->faces.size());
   const double reach = 4 * std::min(pair.a->radius, pair.b->radius);
@@ -106,6 +106,7 @@ void press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Di
     face.couple.setZero();
     face.square = face.polar = face.gyration2 = 0;
     face.polygon.corners.clear();
+    return true;
   };
   const int face_a = g.face_a, face_b = faces_a + g.face_b;
   const bool faces = -planes[face_a].normal.dot(planes[face_b].normal) > lie_on_each_other &&
@@ -114,7 +115,12 @@ void press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Di
   RegionIntegral<Dim> r;
   const bool surely_flat = faces && deepest(f, face.polygon) < flat_overlap * width_of(f, face.polygon);
   if (!surely_flat) {
-    const bool region = integrate_region<Dim>(planes, faces_a, reach, r);
+    const RegionStatus status = integrate_region<Dim>(planes, faces_a, reach, r);
+    const bool region = status == RegionStatus::ok;
+    if (status == RegionStatus::too_many_planes) {
+      without_pressure();
+      return false;
+    }
     if (!region && !faces) return without_pressure();
     if (region) share = faces ? blend(r.square / f.square) : Blend{0, 1};
   }
@@ -155,11 +161,12 @@ void press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Di
     turn_axes(pair.axes, face.polygon);
   else
     face.polygon.corners.clear();
+  return true;
 }
 
 template void find_nearest_faces<2>(const Pair<2>&, Contact<2>&, HalfSpaces<2>&);
 template void find_nearest_faces<3>(const Pair<3>&, Contact<3>&, HalfSpaces<3>&);
-template void press_face<2>(const Pair<2>&, const HalfSpaces<2>&, Contact<2>&, PressedFace<2>&);
-template void press_face<3>(const Pair<3>&, const HalfSpaces<3>&, Contact<3>&, PressedFace<3>&);
+template bool press_face<2>(const Pair<2>&, const HalfSpaces<2>&, Contact<2>&, PressedFace<2>&);
+template bool press_face<3>(const Pair<3>&, const HalfSpaces<3>&, Contact<3>&, PressedFace<3>&);
 
 }  // namespace voussoir

@@ -36,8 +36,8 @@ void find_nearest_faces(const Pair<Dim>& pair, Contact<Dim>& contact, HalfSpaces
 
 // Needs what that has found. The geometry becomes that of the whole: the centre of pressure, the force's direction, the
 // area, and the mean overlap, which times k and the area is the force; the faces stay. Where nothing presses, area,
-// overlap and force are zero.
+// overlap and force are zero. False: more planes bound the overlap than integrate_region takes.
 template <int Dim>
-void press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Dim>& contact, PressedFace<Dim>& face);
+bool press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Dim>& contact, PressedFace<Dim>& face);
 
 }  // namespace voussoir

@@ -51,7 +51,7 @@ struct Corner {
   double slack;  // of the plane that cuts
 };
 
-enum class CutResult { as_it_was, smaller, nothing_left };
+enum class CutResult { as_it_was, smaller, nothing_left, no_bit_left };
 
 template <int Dim>
 struct LiftedPolytope {
@@ -108,7 +108,7 @@ struct LiftedPolytope {
     }
     if (!(least < 0)) return CutResult::as_it_was;
     const int own = std::countr_one(used);
-    if (own >= most_planes) return CutResult::nothing_left;
+    if (own >= most_planes) return CutResult::no_bit_left;
     plane[own] = number;
     fresh.clear();
     for (Corner<Dim>& in : corners) {
@@ -280,7 +280,7 @@ void sum_up(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, int faces_a
 }  // namespace
 
 template <int Dim>
-bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region) {
+RegionStatus integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region) {
   static thread_local LiftedPolytope<Dim> polytope;
   static thread_local std::vector<std::pair<double, int>> order;  // nearest first: the others soon cut nothing
   double half = reach, extent = 0;
@@ -295,7 +295,8 @@ bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, 
     for (const auto& [offset, i] : order) {
       if (offset >= reached) break;
       const CutResult result = polytope.cut({planes[i].normal, offset}, i);
-      if (result == CutResult::nothing_left) return false;
+      if (result == CutResult::nothing_left) return RegionStatus::empty;
+      if (result == CutResult::no_bit_left) return RegionStatus::too_many_planes;
       if (result == CutResult::as_it_was && std::isinf(reached)) reached = polytope.reach();
     }
     Vector<Dim> low = polytope.corners[0].x, high = low, middle = Vector<Dim>::Zero();
@@ -305,7 +306,7 @@ bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, 
       middle += c.x;
     }
     extent = (high - low).maxCoeff();
-    if (!(extent > 0)) return false;
+    if (!(extent > 0)) return RegionStatus::empty;
     const Vector<Dim> centre = middle / static_cast<double>(polytope.corners.size());
     if (extent * lost_corners >= half) {
       for (Corner<Dim>& c : polytope.corners)
@@ -318,10 +319,10 @@ bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, 
   }
   if (extent < small * half) sharpen(planes, shift, half, polytope);
   sum_up(planes, shift, faces_a, polytope, region);
-  return region.square > 0 && region.area > 0;
+  return region.square > 0 && region.area > 0 ? RegionStatus::ok : RegionStatus::empty;
 }
 
-template bool integrate_region<2>(const HalfSpaces<2>&, int, double, RegionIntegral<2>&);
-template bool integrate_region<3>(const HalfSpaces<3>&, int, double, RegionIntegral<3>&);
+template RegionStatus integrate_region<2>(const HalfSpaces<2>&, int, double, RegionIntegral<2>&);
+template RegionStatus integrate_region<3>(const HalfSpaces<3>&, int, double, RegionIntegral<3>&);
 
 }  // namespace voussoir

@@ -67,7 +67,7 @@ double reach_of(const Pair<Dim>& pair) {
 template <int Dim>
 RegionIntegral<Dim> region_of(const HalfSpaces<Dim>& planes, int faces_a, double reach) {
   RegionIntegral<Dim> region;
-  EXPECT_TRUE(integrate_region<Dim>(planes, faces_a, reach, region));
+  EXPECT_EQ(integrate_region<Dim>(planes, faces_a, reach, region), RegionStatus::ok);
   return region;
 }
 
@@ -338,13 +338,13 @@ TEST(RegionIntegral, SaysWhereThereIsNone) {
   for (const HalfSpace<3>& p : shapes::box<3>({0, 0, 1}, {1, 1, 2}))
     planes.push_back(p);
   RegionIntegral<3> region;
-  EXPECT_FALSE(integrate_region<3>(planes, 6, 8, region));  // they lie on each other
+  EXPECT_EQ(integrate_region<3>(planes, 6, 8, region), RegionStatus::empty);  // they lie on each other
   Random random(3);
   HalfSpaces<3> many = shapes::random_planes<3>(random, 2000, 1);  // hundreds of faces
   const int faces_a = static_cast<int>(many.size());
   for (const HalfSpace<3>& p : shapes::cube<3>(0.99))
     many.push_back(p);
-  EXPECT_FALSE(integrate_region<3>(many, faces_a, 8, region));
+  EXPECT_EQ(integrate_region<3>(many, faces_a, 8, region), RegionStatus::too_many_planes);
 }
 
 // ---- the contact as a whole --------------------------------------------------------------------------------------

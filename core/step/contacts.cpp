@@ -109,13 +109,15 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
     Contact<Dim>* const c = contacts[i];
     const std::size_t place = c - state.contacts.data();
     const long long bonds = c->bond_due ? whole_bonds(state, place) : 0;
-    if (c->unanswered()) ++tally.unconverged;
     if (c->touching()) {
       const bool whole = choose_joint(model, settings.contact, waiting.pairs[i], *c, planes);
       const int along = model.properties[c->properties].sub_contacts;
       if (whole) [[unlikely]] {
-        press_face<Dim>(waiting.pairs[i], planes, *c, state.faces[place]);
         c->cells = 0;
+        if (!press_face<Dim>(waiting.pairs[i], planes, *c, state.faces[place])) {
+          c->status = ContactStatus::no_face;
+          ++tally.unconverged;
+        }
       } else if (const int cells = sub_contact_count<Dim>(along); cells > 0) {
         divide<Dim>(waiting.pairs[i], along, *c, std::span(state.subs).subspan(place * stride, cells));
       } else {
@@ -124,6 +126,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
       if (bonds > 0 && whole_bonds(state, place) < bonds) c->bond_due = false;
       continue;
     }
+    if (c->unanswered()) ++tally.unconverged;
     if (bonds > 0 || (c->status == ContactStatus::separated && c->proof.margin > gap)) c->bond_due = false;
     if (waiting.touched[i]) {
       c->near_until = 0;  // only its boxes were looked at
