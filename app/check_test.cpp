@@ -70,6 +70,23 @@ TEST_F(Check, PrintsLawsStrengthsAndSubContacts) {
   says(ground + box("stone", 0, 0) + rock + settle, "one point a face");
 }
 
+TEST_F(Check, PrintsHowEachJointIsCarried) {
+  const std::string whole = "[contact]\nface = \"integrated\"\n";
+  const std::string stone = ground + box("stone", 0, 0) + rock;
+  says(stone + whole + settle, "each contact as a whole, integrated");
+  says(stone + "sub_contacts = 3\n" + whole + settle, "integrated (sub_contacts = 3 is not used)");
+  silent(stone + settle, "as a whole");
+  const auto beside = [&](const std::string& laws) {
+    return stone +
+           "[[joint_properties]]\nname = \"other\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e8\nfriction_deg = "
+           "30\n" +
+           laws + whole + settle;
+  };
+  says(beside("cohesion = 1e5\n"), "not integrated: it can be bonded");
+  says(beside("constant_stiffness = true\n"), "not integrated: constant_stiffness knows no area");
+  says(beside("normal_law = \"linear\"\nnormal_growth = 7e4\n"), "not integrated: its laws differ from point to point");
+}
+
 TEST_F(Check, PrintsWhatLiesInWater) {
   const std::string lake = "[[water]]\nname = \"lake\"\n";
   const std::string scene = ground + box("stone", 0, 0) + rock + lake + "level = 0.25\n" + settle;
@@ -134,6 +151,8 @@ TEST_F(Check, WarnsWhenAStageRemovesTheLastFreeBlock) {
 TEST_F(Check, WarnsOfPilesOnOnePointAFace) {
   const std::string pile = ground + box("one", 0, 0) + box("two", 0, 0.99999) + box("three", 0, 1.99998) + rock;
   says(pile + settle, "3 free blocks rest on one another on one point a face");
+  says(pile + settle, "set contact.face = \"integrated\", or joint_properties.");
+  silent(pile + "[contact]\nface = \"integrated\"\n" + settle, "one another on one point");
   silent(pile + "sub_contacts = 2\n" + settle, "one another on one point");
   silent(pile + settle + "[[restrain]]\nall = true\nrotation = true\n", "one another on one point");
 }

@@ -1,8 +1,9 @@
-// Contacts of potential particles: our solver cold and warm, Ipopt on the same program, and libccd's GJK+EPA on the
-// polyhedra of the same planes; µs of processor time per pair, by polyhedron type and radius, all on the same pairs in
-// one run. The particles' planes lie r inside the polyhedra's, so that their faces coincide. Corners recede as r grows:
-// the pairs of the contact benchmark are moved along their line of centres until the rounded bodies overlap by 1e-4 of
-// the size, as the polyhedra did; the polyhedra then overlap by that and by what the corners receded.
+// Contacts of potential particles: our solver cold and warm, Ipopt on the same program, and on the polyhedra of the
+// same planes the half-space kernel, cold and pair by pair, and libccd's GJK+EPA; µs of processor time per pair, by
+// polyhedron type and radius, all on the same pairs in one run. The particles' planes lie r inside the polyhedra's, so
+// that their faces coincide. Corners recede as r grows: the pairs of the contact benchmark are moved along their line
+// of centres until the rounded bodies overlap by 1e-4 of the size, as the polyhedra did; the polyhedra then overlap by
+// that and by what the corners receded.
 #include <fmt/format.h>
 #include <time.h>
 
@@ -24,8 +25,8 @@ namespace {
 constexpr int rounds = 5;                 // of which the median counts
 constexpr std::size_t outside_pairs = 4;  // Ipopt's
 constexpr double sphericity = 0.01;
-constexpr double overlap = 1e-4;                             // of the size
-constexpr std::array<double, 3> radii = {1e-5, 1e-2, 1e-1};  // of the size; the first a tenth of the overlaps
+constexpr double overlap = 1e-4;                                   // of the size
+constexpr std::array<double, 4> radii = {1e-5, 1e-3, 1e-2, 1e-1};  // of the size; the first a tenth of the overlaps
 constexpr int bisections = 50;
 constexpr double first_part = 0.01;  // of the overlap
 
@@ -35,9 +36,11 @@ double processor_us() {
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-double median_us(std::size_t pairs, const std::function<void()>& resolve) {
+double median_us(
+    std::size_t pairs, const std::function<void()>& resolve, const std::function<void()>& restore = [] {}) {
   std::vector<double> times;
   for (int i = 0; i < rounds; ++i) {
+    restore();
     const double begin = processor_us();
     resolve();
     times.push_back((processor_us() - begin) / static_cast<double>(pairs));
@@ -95,6 +98,17 @@ Pairs rounded_pairs(Shape type, double radius) {
   return pairs;
 }
 
+// of the polyhedra, by the method that finds the overlap
+void print_sharp(const std::vector<Method>& methods, const char* name, const Workload& work) {
+  for (const Method& method : methods) {
+    if (method.name != name || method.stage != "overlap") continue;
+    const std::shared_ptr<Prepared> prepared = method.prepare(work);
+    const std::size_t pairs = work.pairs.size();
+    fmt::print(",{:.2f}", median_us(
+                              pairs, [&] { prepared->resolve(0, pairs); }, [&] { prepared->restore(0, pairs); }));
+  }
+}
+
 void print_row(Shape shape, double radius) {
   const Pairs pairs = rounded_pairs(shape, radius);
   const Workload& work = pairs.sharp;
@@ -130,12 +144,9 @@ void print_row(Shape shape, double radius) {
                  solve_cone_program<3>(pairs.now[i], ConeReading::linked);
              }));
 #endif
+  print_sharp(own_methods(), single_cold, work);
 #ifdef VOUSSOIR_PEER_CCD
-  for (const Method& method : ccd_methods())
-    if (method.name == ccd_epa) {
-      const std::shared_ptr<Prepared> epa = method.prepare(work);
-      fmt::print(",{:.2f}", median_us(pairs.now.size(), [&] { epa->resolve(0, pairs.now.size()); }));
-    }
+  print_sharp(ccd_methods(), ccd_epa, work);
 #endif
   fmt::print("\n");
   std::fflush(stdout);  // a row takes a minute on a busy machine
@@ -150,6 +161,7 @@ int main() {
 #ifdef VOUSSOIR_PEER_IPOPT
   fmt::print(",ipopt_us");
 #endif
+  fmt::print(",half_space_us");
 #ifdef VOUSSOIR_PEER_CCD
   fmt::print(",ccd_epa_us");
 #endif

@@ -16,7 +16,8 @@ enum class ContactStatus {
   lp_not_converged,      // the LP hit its iteration limit
   centre_not_converged,  // Newton hit its limit or met a singular system
   no_normal,             // neither potential nor multipliers gave a direction
-  no_face                // a search along the normal met no face: an unbounded part
+  no_face  // a search along the normal met no face: an unbounded part; or so many planes bound the overlap that it
+           // cannot be integrated (region_integral)
 };
 
 // where and how two parts overlap, relative to the centroid of the first part's body, world axes

@@ -86,34 +86,44 @@ bool measure(const std::vector<Edge<1>>& edges, const MeanPlane<2>& mean, double
 
 // Cuts a square about a point by all edges, as clip_polygon does; most edges leave it as it is, which is seen first.
 void cut(const std::vector<Edge<2>>& edges, const Vector<2>& about, double half, std::vector<Vector<2>>& polygon) {
-  static thread_local std::vector<Vector<2>> clipped;
-  static thread_local std::vector<double> left;
-  polygon.clear();
-  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
-    polygon.emplace_back(x * half, y * half);
+  // each edge adds a corner at most
+  static thread_local std::vector<Vector<2>> own[2];
+  static thread_local std::vector<double> own_left;
+  const std::size_t most = edges.size() + 5;
+  if (own_left.size() < most) {
+    own[0].resize(most);
+    own[1].resize(most);
+    own_left.resize(most);
+  }
+  Vector<2>*is = own[0].data(), *then = own[1].data();
+  double* const left = own_left.data();
+  std::size_t count = 4;
+  is[0] = {-half, -half};
+  is[1] = {half, -half};
+  is[2] = {half, half};
+  is[3] = {-half, half};
   for (const Edge<2>& e : edges) {
-    const double slack = e.slack - e.q.dot(about);
-    const std::size_t count = polygon.size();
-    left.resize(std::max(left.size(), count));
+    const double qx = e.q[0], qy = e.q[1], slack = e.slack - (qx * about[0] + qy * about[1]);
+    if (slack >= half * (std::abs(qx) + std::abs(qy))) continue;  // beyond the square
     double least = 0;
     for (std::size_t k = 0; k < count; ++k) {
-      left[k] = slack - e.q.dot(polygon[k]);
+      left[k] = slack - (qx * is[k][0] + qy * is[k][1]);
       least = std::min(least, left[k]);
     }
     if (!(least < 0)) continue;
-    clipped.resize(2 * count);
     std::size_t kept = 0;
-    for (std::size_t k = 0, before = count - 1; k < count; before = k++) {
-      if ((left[before] > 0 && left[k] < 0) || (left[before] < 0 && left[k] > 0)) {
+    for (std::size_t k = 0, before = count - 1; k < count && kept + 1 < most; before = k++) {
+      if (left[before] * left[k] < 0) {
         const double way = left[before] / (left[before] - left[k]);
-        clipped[kept++] = polygon[before] + way * (polygon[k] - polygon[before]);
+        then[kept++] = is[before] + way * (is[k] - is[before]);
       }
-      if (!(left[k] < 0)) clipped[kept++] = polygon[k];
+      if (!(left[k] < 0)) then[kept++] = is[k];
     }
-    clipped.resize(kept);
-    std::swap(polygon, clipped);
-    if (kept < 3) return;
+    std::swap(is, then);
+    count = kept;
+    if (count < 3) break;
   }
+  polygon.assign(is, is + count);
 }
 
 bool measure(const std::vector<Edge<2>>& edges, const MeanPlane<3>& mean, double reach, std::vector<Vector<2>>& polygon,

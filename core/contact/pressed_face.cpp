@@ -14,6 +14,10 @@ namespace {
 // and the polygon's is the answer (a test draws pairs of faces).
 constexpr double flat_overlap = 0.005;
 
+// Cosine of 8 degrees. Faces farther from parallel do not lie on each other: at an angle t they meet in a wedge, whose
+// energies differ by t/2 over the sine of its far end, which is more than 3 %.
+constexpr double lie_on_each_other = 0.99026806874157036;
+
 // where the energies' ratio is so far from 1, all is the face's, or all the region's
 constexpr double all_face = 0.01, all_region = 0.03;
 
@@ -70,32 +74,53 @@ Spin<3> turned_moment(const Matrix<3>& axes, const Spin<3>& moment) {
 }  // namespace
 
 template <int Dim>
-void press_face(const Pair<Dim>& pair, Contact<Dim>& contact, PressedFace<Dim>& face) {
-  static thread_local HalfSpaces<Dim> planes;
+void find_nearest_faces(const Pair<Dim>& pair, Contact<Dim>& contact, HalfSpaces<Dim>& planes) {
+  assemble<Dim>(pair, contact.proof.point, planes);
+  const int faces_a = static_cast<int>(pair.a->faces.size());
+  const auto nearest = [&](int first, int last) {
+    int face = first;
+    for (int i = first + 1; i < last; ++i)
+      if (planes[i].offset < planes[face].offset) face = i;
+    return face - first;
+  };
+  contact.geometry.face_a = nearest(0, faces_a);
+  contact.geometry.face_b = nearest(faces_a, static_cast<int>(planes.size()));
+}
+
+template <int Dim>
+bool press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Dim>& contact, PressedFace<Dim>& face) {
   const Vector<Dim> seen_from = contact.proof.point;
   const int faces_a = static_cast<int>(pair.a->faces.size());
   const double reach = 4 * std::min(pair.a->radius, pair.b->radius);
-  assemble<Dim>(pair, seen_from, planes);
 
   FaceIntegral<Dim> f;
   ContactGeometry<Dim>& g = contact.geometry;
   const auto without_pressure = [&] {
     g.area = g.overlap = 0;
     face.flat = false;
+    g.normal = pair.axes * planes[g.face_a].normal;
+    g.point = pair.axes * seen_from;
     face.normal = g.normal;
     face.centre = g.point;
     face.force.setZero();
     face.couple.setZero();
     face.square = face.polar = face.gyration2 = 0;
     face.polygon.corners.clear();
+    return true;
   };
-  const bool faces =
-      g.face_a >= 0 && integrate_face<Dim>(planes, faces_a, g.face_a, faces_a + g.face_b, reach, f, face.polygon);
+  const int face_a = g.face_a, face_b = faces_a + g.face_b;
+  const bool faces = -planes[face_a].normal.dot(planes[face_b].normal) > lie_on_each_other &&
+                     integrate_face<Dim>(planes, faces_a, face_a, face_b, reach, f, face.polygon);
   Blend share{1, 0};
   RegionIntegral<Dim> r;
   const bool surely_flat = faces && deepest(f, face.polygon) < flat_overlap * width_of(f, face.polygon);
   if (!surely_flat) {
-    const bool region = integrate_region<Dim>(planes, faces_a, reach, r);
+    const RegionStatus status = integrate_region<Dim>(planes, faces_a, reach, r);
+    const bool region = status == RegionStatus::ok;
+    if (status == RegionStatus::too_many_planes) {
+      without_pressure();
+      return false;
+    }
     if (!region && !faces) return without_pressure();
     if (region) share = faces ? blend(r.square / f.square) : Blend{0, 1};
   }
@@ -136,9 +161,12 @@ void press_face(const Pair<Dim>& pair, Contact<Dim>& contact, PressedFace<Dim>& 
     turn_axes(pair.axes, face.polygon);
   else
     face.polygon.corners.clear();
+  return true;
 }
 
-template void press_face<2>(const Pair<2>&, Contact<2>&, PressedFace<2>&);
-template void press_face<3>(const Pair<3>&, Contact<3>&, PressedFace<3>&);
+template void find_nearest_faces<2>(const Pair<2>&, Contact<2>&, HalfSpaces<2>&);
+template void find_nearest_faces<3>(const Pair<3>&, Contact<3>&, HalfSpaces<3>&);
+template bool press_face<2>(const Pair<2>&, const HalfSpaces<2>&, Contact<2>&, PressedFace<2>&);
+template bool press_face<3>(const Pair<3>&, const HalfSpaces<3>&, Contact<3>&, PressedFace<3>&);
 
 }  // namespace voussoir

@@ -28,11 +28,16 @@ struct PressedFace {
   PressedPolygon polygon;                    // flat, in space
 };
 
-// Of a touching pair; needs a point in the overlap (contact.proof.point) and, where two faces lie on each other, which
-// (contact.geometry). The geometry becomes that of the whole: the centre of pressure, the force's direction, the area,
-// and the mean overlap, which times k and the area is the force; the faces stay. Where nothing presses, area, overlap
-// and force are zero.
+// The faces of a touching pair that may lie on each other: of each part the one nearest to a point in the overlap, its
+// analytic centre (contact.proof.point), into contact.geometry. `planes`: of both parts as seen from there, the first
+// part's first.
 template <int Dim>
-void press_face(const Pair<Dim>& pair, Contact<Dim>& contact, PressedFace<Dim>& face);
+void find_nearest_faces(const Pair<Dim>& pair, Contact<Dim>& contact, HalfSpaces<Dim>& planes);
+
+// Needs what that has found. The geometry becomes that of the whole: the centre of pressure, the force's direction, the
+// area, and the mean overlap, which times k and the area is the force; the faces stay. Where nothing presses, area,
+// overlap and force are zero. False: more planes bound the overlap than integrate_region takes.
+template <int Dim>
+bool press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Dim>& contact, PressedFace<Dim>& face);
 
 }  // namespace voussoir

@@ -24,7 +24,7 @@ constexpr double cut_error = 1e-10;
 constexpr int most_cuts = 8;
 
 // of the simplex: a smaller region's corners are found again from their planes
-constexpr double small = 1e-3;
+constexpr double small = 1e-4;
 
 // Planes as bits of a word: those of the parts from bit 0, the simplex's own behind them, t >= 0 last.
 using Planes = std::uint64_t;
@@ -50,6 +50,8 @@ struct Corner {
   Planes on;     // that pass through it
   double slack;  // of the plane that cuts
 };
+
+enum class CutResult { as_it_was, smaller, nothing_left, no_bit_left };
 
 template <int Dim>
 struct LiftedPolytope {
@@ -87,8 +89,16 @@ struct LiftedPolytope {
                                 [&](const Corner<Dim>& c) { return &c != &a && &c != &b && (c.on & both) == both; });
   }
 
-  // What of it lies in {a·x + t <= d}; false where nothing does, or where there is no bit left.
-  bool cut(const HalfSpace<Dim>& p, int number) {
+  // no corner lies beyond a plane of either part that is as far from the origin
+  double reach() const {
+    double reach = 0;
+    for (const Corner<Dim>& c : corners)
+      reach = std::max(reach, c.x.norm() + c.t);
+    return reach;
+  }
+
+  // What of it lies in {a·x + t <= d}. Nothing may be left, or no bit.
+  CutResult cut(const HalfSpace<Dim>& p, int number) {
     double least = 0;
     Planes used = 0;
     for (Corner<Dim>& c : corners) {
@@ -96,9 +106,9 @@ struct LiftedPolytope {
       least = std::min(least, c.slack);
       used |= c.on;
     }
-    if (!(least < 0)) return true;
+    if (!(least < 0)) return CutResult::as_it_was;
     const int own = std::countr_one(used);
-    if (own >= most_planes) return false;
+    if (own >= most_planes) return CutResult::no_bit_left;
     plane[own] = number;
     fresh.clear();
     for (Corner<Dim>& in : corners) {
@@ -115,7 +125,7 @@ struct LiftedPolytope {
       }
     }
     std::swap(corners, fresh);
-    return corners.size() > Dim + 1;
+    return corners.size() > Dim + 1 ? CutResult::smaller : CutResult::nothing_left;
   }
 };
 
@@ -270,7 +280,7 @@ void sum_up(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, int faces_a
 }  // namespace
 
 template <int Dim>
-bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region) {
+RegionStatus integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region) {
   static thread_local LiftedPolytope<Dim> polytope;
   static thread_local std::vector<std::pair<double, int>> order;  // nearest first: the others soon cut nothing
   double half = reach, extent = 0;
@@ -281,8 +291,14 @@ bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, 
       order.emplace_back(planes[i].offset - planes[i].normal.dot(shift), i);
     std::ranges::sort(order);
     polytope.begin(half);
-    for (const auto& [offset, i] : order)
-      if (!polytope.cut({planes[i].normal, offset}, i)) return false;
+    double reached = std::numeric_limits<double>::infinity();  // no corner lies beyond a plane so far off
+    for (const auto& [offset, i] : order) {
+      if (offset >= reached) break;
+      const CutResult result = polytope.cut({planes[i].normal, offset}, i);
+      if (result == CutResult::nothing_left) return RegionStatus::empty;
+      if (result == CutResult::no_bit_left) return RegionStatus::too_many_planes;
+      if (result == CutResult::as_it_was && std::isinf(reached)) reached = polytope.reach();
+    }
     Vector<Dim> low = polytope.corners[0].x, high = low, middle = Vector<Dim>::Zero();
     for (const Corner<Dim>& c : polytope.corners) {
       low = low.cwiseMin(c.x);
@@ -290,7 +306,7 @@ bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, 
       middle += c.x;
     }
     extent = (high - low).maxCoeff();
-    if (!(extent > 0)) return false;
+    if (!(extent > 0)) return RegionStatus::empty;
     const Vector<Dim> centre = middle / static_cast<double>(polytope.corners.size());
     if (extent * lost_corners >= half) {
       for (Corner<Dim>& c : polytope.corners)
@@ -303,10 +319,10 @@ bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, 
   }
   if (extent < small * half) sharpen(planes, shift, half, polytope);
   sum_up(planes, shift, faces_a, polytope, region);
-  return region.square > 0 && region.area > 0;
+  return region.square > 0 && region.area > 0 ? RegionStatus::ok : RegionStatus::empty;
 }
 
-template bool integrate_region<2>(const HalfSpaces<2>&, int, double, RegionIntegral<2>&);
-template bool integrate_region<3>(const HalfSpaces<3>&, int, double, RegionIntegral<3>&);
+template RegionStatus integrate_region<2>(const HalfSpaces<2>&, int, double, RegionIntegral<2>&);
+template RegionStatus integrate_region<3>(const HalfSpaces<3>&, int, double, RegionIntegral<3>&);
 
 }  // namespace voussoir

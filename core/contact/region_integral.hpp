@@ -30,11 +30,13 @@ struct RegionIntegral {
   double spread = 0;  // m²: largest distance, squared, of the surface from `pressure`
 };
 
+enum class RegionStatus { ok, empty, too_many_planes };
+
 // Integrates over the overlap. `planes`: of both parts, the first `faces_a` the first one's, seen from a point in the
-// overlap; `reach`, m: no point of the overlap lies farther from there along any axis. False where there is no overlap
-// with a volume, or where more than 58 planes bound it. Corners are right to 1e-12 of the region's
-// extent, and so, times the extent over the thickness, is everything; moment and place of the extent.
+// overlap; `reach`, m: no point of the overlap lies farther from there along any axis. Empty where there is no overlap
+// with a volume; at most 58 planes may bound it. Corners are right to 1e-11 of the region's extent, and so, times the
+// extent over the thickness, is everything; moment and place of the extent.
 template <int Dim>
-bool integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region);
+RegionStatus integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region);
 
 }  // namespace voussoir

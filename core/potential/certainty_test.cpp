@@ -1,6 +1,10 @@
 // Random pairs: two solvers that share nothing but the function, and a proof in 113 bits over both.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
 #ifdef VOUSSOIR_HAS_IPOPT
 #include "core/potential/ipopt.hpp"
 #endif
@@ -19,15 +23,14 @@ constexpr double value_tolerance = 1e-10;  // of f + 1, of which f loses the rou
 constexpr double proof_gap = 1e-26;
 
 struct Tally {
-  int pairs = 0, without_answer = 0, undecided = 0, asked_outside = 0, outside_failed = 0, outside_off = 0;
+  int pairs = 0, without_answer = 0, undecided = 0, asked_outside = 0, outside_unsure = 0, disagreed = 0;
   double point_off = 0, value_off = 0;  // at worst, m and of f + 1
   long long iterations = 0;
   int most_iterations = 0;
 };
 
 template <int Dim>
-void expect_proven(const shapes::PotentialCase<Dim>& c, const PotentialContact<Dim>& found, int index, Tally& tally) {
-  const referee::Verdict<Dim> truth = referee::judge<Dim>(c.pair(), found.point, found.ratio, proof_gap);
+void expect_proven(const referee::Verdict<Dim>& truth, const PotentialContact<Dim>& found, int index, Tally& tally) {
   ASSERT_TRUE(truth.proven) << index;
   ASSERT_LE(truth.point_error, point_tolerance / 10) << index;
   ASSERT_LE(truth.distance_to(found.point), point_tolerance) << index;
@@ -52,66 +55,85 @@ void expect_proven(const shapes::PotentialCase<Dim>& c, const PotentialContact<D
 }
 
 #ifdef VOUSSOIR_HAS_IPOPT
-// Where Ipopt is off, the proof above has shown which of the two is: it is counted, and must stay rare.
+// Where the error that Ipopt reports is above this, its answer may be off by more than the point's tolerance, and
+// judges nothing: with this as its tolerance its points were off by up to 3.5e-9, with 1e-16 by 3.5e-13.
+constexpr double outside_error = 1e-12;
+
+// Where the two disagree both are held against the proven point, so that it is seen which of them is off.
 template <int Dim>
-void ask_outside(const shapes::PotentialCase<Dim>& c, const PotentialContact<Dim>& found, Tally& tally) {
+void ask_outside(const shapes::PotentialCase<Dim>& c, const referee::Verdict<Dim>& truth,
+                 const PotentialContact<Dim>& found, int index, Tally& tally) {
   const ConeAnswer<Dim> other = solve_cone_program<Dim>(c.pair(), ConeReading::linked);
   ++tally.asked_outside;
-  if (!other.solved) {
-    ++tally.outside_failed;
+  if (!other.solved || other.error > outside_error) {
+    ++tally.outside_unsure;
     return;
   }
   const double value = std::max(other.value_a, other.value_b), terms = 1 + std::max(0.0, found.value + 1);
-  tally.outside_off +=
-      (other.point - found.point).norm() > point_tolerance || std::abs(value - found.value) > value_tolerance * terms;
+  const double apart = (other.point - found.point).norm();
+  if (apart <= point_tolerance && std::abs(value - found.value) <= value_tolerance * terms) return;
+  ++tally.disagreed;
+  const auto above = [&](const Vector<Dim>& point) {
+    return static_cast<double>(referee::larger_value<Dim>(c.pair(), point) - truth.bound);
+  };
+  std::cout << "pair " << index << " of dimension " << Dim << ": " << apart << " m apart; from the proven point "
+            << truth.distance_to(found.point) << " (ours), " << truth.distance_to(other.point)
+            << " (Ipopt's); above the proven value " << above(found.point) << " (ours), " << above(other.point)
+            << " (Ipopt's); Ipopt reports an error of " << other.error << '\n';
 }
 #endif
 
+// those of the seed's pairs from `first` on
 template <int Dim>
-Tally judge_pairs(int pairs, [[maybe_unused]] int outside, unsigned seed) {
+void judge_pairs(unsigned seed, int first, int pairs) {
   shapes::Random random(seed);
   PotentialWorkspace<Dim> workspace;
   Tally tally;
-  for (int i = 0; i < pairs && !testing::Test::HasFatalFailure(); ++i) {
+  for (int i = 0; i < first + pairs && !testing::Test::HasFatalFailure(); ++i) {
     const shapes::PotentialCase<Dim> c = shapes::random_potential_case<Dim>(random, 0.01);
+    if (i < first) continue;
     const PotentialContact<Dim> found = resolve<Dim>(c.pair(), PotentialQuery::least, workspace);
     ++tally.pairs;
     tally.without_answer += found.status == PotentialStatus::no_answer;
     tally.undecided += found.status == PotentialStatus::undecided;
-    expect_proven<Dim>(c, found, i, tally);
+    const referee::Verdict<Dim> truth = referee::judge<Dim>(c.pair(), found.point, found.ratio, proof_gap);
+    expect_proven<Dim>(truth, found, i, tally);
     tally.iterations += found.iterations;
     tally.most_iterations = std::max(tally.most_iterations, found.iterations);
 #ifdef VOUSSOIR_HAS_IPOPT
-    if (i < outside) ask_outside<Dim>(c, found, tally);
+    ask_outside<Dim>(c, truth, found, i, tally);
 #endif
   }
   testing::Test::RecordProperty("dimension", Dim);
   testing::Test::RecordProperty("undecided", tally.undecided);
   testing::Test::RecordProperty("asked_outside", tally.asked_outside);
-  testing::Test::RecordProperty("outside_off", tally.outside_off);
+  testing::Test::RecordProperty("outside_unsure", tally.outside_unsure);
+  testing::Test::RecordProperty("disagreed", tally.disagreed);
   testing::Test::RecordProperty("point_off", std::to_string(1e16 * tally.point_off) + "e-16");
   testing::Test::RecordProperty("value_off", std::to_string(1e16 * tally.value_off) + "e-16");
   testing::Test::RecordProperty("mean_iterations", std::to_string(static_cast<double>(tally.iterations) / tally.pairs));
   testing::Test::RecordProperty("most_iterations", tally.most_iterations);
   EXPECT_EQ(tally.without_answer, 0);
-  EXPECT_EQ(tally.outside_failed, 0);
-  // Ipopt ends where its own error measure is below 1e-12: across faces that are nearly parallel its point is then off
-  // by up to some 1e-8. One pair in a hundred is more than was ever seen.
-  EXPECT_LE(100 * tally.outside_off, std::max(tally.asked_outside, 100));
-  return tally;
+  EXPECT_EQ(tally.disagreed, 0);
+  EXPECT_LE(1000 * tally.outside_unsure, tally.asked_outside);
 }
 
 TEST(PotentialCertainty, RandomPairs) {
-  judge_pairs<2>(500, 40, 1);
-  judge_pairs<3>(500, 40, 2);
+  judge_pairs<2>(1, 0, 500);
+  judge_pairs<3>(2, 0, 500);
 }
 
-TEST(PotentialCertaintyLong, RandomPairsInThePlane) {
-  judge_pairs<2>(100000, 5000, 11);
+// 100,000 of each dimension, in parts; Ipopt takes five minutes for one
+class PotentialCertaintyLong : public testing::TestWithParam<int> {};
+constexpr int part = 10000;
+
+TEST_P(PotentialCertaintyLong, RandomPairsInThePlane) {
+  judge_pairs<2>(11, GetParam() * part, part);
 }
-TEST(PotentialCertaintyLong, RandomPairsInSpace) {
-  judge_pairs<3>(100000, 5000, 12);
+TEST_P(PotentialCertaintyLong, RandomPairsInSpace) {
+  judge_pairs<3>(12, GetParam() * part, part);
 }
+INSTANTIATE_TEST_SUITE_P(Parts, PotentialCertaintyLong, testing::Range(0, 10));
 
 // k down to 0, where the least point need not be unique: the value alone, and both decisions. The referee needs some
 // curvature: what k = 1e-16 changes in the value is below 1e-14. Where the inner bodies overlap and k is below 1e-6,

@@ -16,8 +16,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int iteration_limit = 400;
 
 // The descent for one λ ends where what is left of it is this fraction of what the next λ will gain; with every change
-// of λ half as much, so that the last ones are exact.
-constexpr double inner_fraction = 0.1;
+// of λ half as much, so that the last ones are exact; not less than what rounding lets a descent reach.
+constexpr double inner_fraction = 0.1, least_inner_fraction = 1e-8;
 
 // and the sign of f_A - f_B counts as that at the sum's least point only where far less is left
 constexpr double sure_fraction = 1e-4;
@@ -155,29 +155,34 @@ class Search {
       : a_(a), b_(b), reach_a_(workspace.a), reach_b_(workspace.b), ray_(workspace.ray) {}
 
   // stops as soon as what is asked is proven
-  void solve(const PotentialStart<Dim>& start, PotentialQuery query, PotentialContact<Dim>& contact) {
+  void solve(const PotentialStart<Dim>& start, PotentialQuery query, PotentialContact<Dim>& contact,
+             Slopes<Dim>& slopes) {
     contact.point = start.point;
     contact.ratio = start.ratio;
     double low = 0, high = infinity;  // of the ratio, as far as the signs of f_A - f_B show
     double fraction = inner_fraction;
     int foreseen = 0;
     while (contact.iterations < iteration_limit) {
-      const Place<Dim> at = look(contact);
+      Place<Dim> at = look(contact);
       if (is_decided(query, contact)) return judge(contact);
       const double terms = 3 + at.a.value + at.b.value;
-      const double mismatch = std::abs(at.q_a - at.q_b) * std::min(at.lambda, 1 - at.lambda);
+      const double mismatch = mismatch_of(at);
       // Where no sphere curves the sum the bound is blunt, and what Newton's step foresees counts instead; twice,
       // because a point that has only just passed a plane sees none of what lies behind it.
       foreseen = at.decrement + mismatch <= last_gap * terms ? foreseen + 1 : 0;
-      if (contact.value - contact.bound <= last_gap * terms || foreseen > 1) return finish(at, contact);
+      if (contact.value - contact.bound <= last_gap * terms || foreseen > 1) return finish(at, contact, slopes);
       if (at.decrement <= sure_fraction * mismatch) (at.q_a > at.q_b ? low : high) = contact.ratio;
       // a sign from a point that had only just passed a plane was wrong if the bracket shuts before the end
       if (std::isfinite(high) && high - low <= shut * high) low = 0, high = infinity;
       const bool descended = at.decrement <= fraction * mismatch;
-      if (foreseen == 0 && descended && change_ratio(at, low, high, contact))
-        fraction /= 2;
-      else if (!descend(at, contact) && (descended || !change_ratio(at, low, high, contact)))
-        return finish(at, contact);
+      if (foreseen == 0 && descended && change_ratio(at, low, high, contact)) {
+        fraction = std::max(fraction / 2, least_inner_fraction);
+      } else if (!descend(at, contact)) {
+        // Held by planes, the point shows only rounding in the bounds; Q itself says how much is left.
+        const double left = at.decrement + mismatch_of(at), q = 2 + at.a.value + at.b.value;
+        if (descended || left <= last_gap * q || !change_ratio(at, low, high, contact))
+          return finish(at, contact, slopes);
+      }
     }
     contact.status = PotentialStatus::no_answer;
   }
@@ -245,6 +250,11 @@ class Search {
     return at;
   }
 
+  // what another ratio will gain where Newton's step leads
+  static double mismatch_of(const Place<Dim>& at) {
+    return std::abs(at.q_a - at.q_b) * std::min(at.lambda, 1 - at.lambda);
+  }
+
   void certify(const Place<Dim>& at, PotentialContact<Dim>& contact) {
     contact.value = std::max(at.a.value, at.b.value);
     contact.bound = bound_below(at, contact.point, contact.value);
@@ -260,6 +270,12 @@ class Search {
     at.gradient = at.lambda * at.a.gradient + of_b * at.b.gradient;
     at.hessian = at.lambda * at.a.hessian + of_b * at.b.hessian;
     at.spheres = 2 * (at.lambda * a_.sphere_weight + of_b * b_.sphere_weight);
+    foresee(at);
+    return at;
+  }
+
+  // Newton's step by the Hessian, and where it leads
+  static void foresee(Place<Dim>& at) {
     Eigen::Matrix<double, Dim, 2> right;
     right << at.gradient, at.a.gradient - at.b.gradient;
     const Eigen::Matrix<double, Dim, 2> solution = newton_solutions<Dim>(at.hessian, at.spheres, right);
@@ -268,7 +284,6 @@ class Search {
     at.decrement = -at.gradient.dot(at.newton);
     at.q_a = 1 + at.a.value + at.a.gradient.dot(at.newton);
     at.q_b = 1 + at.b.value + at.b.gradient.dot(at.newton);
-    return at;
   }
 
   // No point has a lower max(f_A, f_B) than this. Three ways to bound what the sum's slope may still gain: by the
@@ -282,12 +297,13 @@ class Search {
     return std::max(at.sum - gain, -1.0);  // no f is lower
   }
 
-  // false: rounding leaves no step
-  bool descend(const Place<Dim>& at, PotentialContact<Dim>& contact) {
+  // False: rounding leaves no step. Planes that hold the point then count where the ratio changes: it would pass them.
+  bool descend(Place<Dim>& at, PotentialContact<Dim>& contact) {
     const WeightedPotentials<Dim> sum{{&a_, &b_}, {at.lambda, 1 / (1 + contact.ratio)}};
     const Vector<Dim> step = descent_step<Dim>(sum, contact.point, at.gradient, at.hessian, at.spheres, ray_);
     const bool moves = contact.point + step != contact.point;
     contact.point += step;
+    if (!moves) foresee(at);
     return moves;
   }
 
@@ -307,7 +323,8 @@ class Search {
   }
 
   // Newton's method on both conditions at once, as long as its steps grow shorter and the bounds do not part
-  void finish(Place<Dim> at, PotentialContact<Dim>& contact) {
+  void finish(Place<Dim> at, PotentialContact<Dim>& contact, Slopes<Dim>& slopes) {
+    slopes = {at.a.gradient, at.b.gradient};
     double previous = infinity;
     for (int i = 0; i < last_steps; ++i) {
       const Vector<Dim> difference = at.a.gradient - at.b.gradient;
@@ -324,6 +341,7 @@ class Search {
       at = look(next);
       if (next.value - next.bound > contact.value - contact.bound + next.rounding) break;
       contact = next;
+      slopes = {at.a.gradient, at.b.gradient};
     }
     judge(contact);
   }
@@ -405,11 +423,8 @@ PotentialContact<Dim> resolve(const PotentialPair<Dim>& pair, PotentialQuery que
   NearPlanes<Dim> planes(pair, workspace);
   Slopes<Dim> slopes;
   if (!near ||
-      !Search<Dim>(workspace, workspace.near_a, workspace.near_b).refine(start, query, planes, contact, slopes)) {
-    Search<Dim>(workspace).solve(start, query, contact);
-    slopes = {derivatives<Dim>(workspace.a, contact.point).gradient,
-              derivatives<Dim>(workspace.b, contact.point).gradient};
-  }
+      !Search<Dim>(workspace, workspace.near_a, workspace.near_b).refine(start, query, planes, contact, slopes))
+    Search<Dim>(workspace).solve(start, query, contact, slopes);
   if (query == PotentialQuery::overlap && contact.status == PotentialStatus::touching)
     find_overlap<Dim>(slopes, planes, energy_scale<Dim>(*pair.a) + energy_scale<Dim>(*pair.b), workspace, contact);
   return contact;

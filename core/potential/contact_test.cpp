@@ -7,6 +7,7 @@
 
 #include "core/potential/surface.hpp"
 #include "core/testing/potential_pairs.hpp"
+#include "core/testing/potential_referee.hpp"
 
 namespace voussoir {
 namespace {
@@ -94,6 +95,109 @@ TEST(PotentialContact, OfACornerOnAFaceWithoutSpheres) {
       EXPECT_NEAR(c.value, std::pow(gap / (r_a + r_b), 2) - 1, 1e-14 / std::min(r_a, r_b));
       EXPECT_NEAR(c.ratio, r_a / r_b, 1e-9 * c.ratio);
     }
+}
+
+// Face on face, r 1e-4 of the size, k = 0.01: the spheres push the point along the faces until it lies, to rounding, on
+// the plane of a side, and there λ still has to change. A beam on its abutment from the case `potential_particles`.
+TEST(PotentialContact, APlaneThatHoldsThePointIsNotPassedWhenTheRatioChanges) {
+  const PotentialShape<2> abutment{{{{-1, 0}, 0.068997688629031162},
+                                    {{0, -1}, 0.068997699782780697},
+                                    {{0, 1}, 0.93099769978309821},
+                                    {{1, 0}, 0.068997688629031134}},
+                                   2.3e-6,
+                                   0.01,
+                                   0.50473825209168366,
+                                   {0, 0.43100000000015881}};
+  const PotentialShape<2> beam{{{{-1, 0}, 0.11499769883883276},
+                                {{0, -1}, 0.022997689569126997},
+                                {{0, 1}, 0.022997689569126997},
+                                {{1, 6.123233995736766e-17}, 0.022997698838873936}},
+                               2.3e-6,
+                               0.01,
+                               0.072731772575803308,
+                               {-0.045999999999979412, 0}};
+  PotentialPair<2> pair{&abutment, &beam, {}, {0.18399999959328758, 0.43099998141697304}};
+  pair.rotation << 0.99999999999999467, 1.0313114255855637e-07, -1.0313114255855637e-07, 0.99999999999999467;
+  PotentialWorkspace<2> workspace;
+  const PotentialStart<2> before{{0.068999999188445696, 0.4081011607426171}, 0.99509193396233508};
+  for (const PotentialStart<2>& start : {PotentialStart<2>{}, before}) {
+    const PotentialContact<2> c = resolve<2>(pair, PotentialQuery::overlap, workspace, start);
+    ASSERT_EQ(c.status, PotentialStatus::touching);
+    const referee::Verdict<2> truth = referee::judge<2>(pair, c.point, c.ratio, 1e-20);
+    ASSERT_TRUE(truth.proven);
+    EXPECT_LE(truth.distance_to(c.point), 1e-16);
+  }
+}
+
+// Squares (cubes) face on face, side by side by some of their length, turned so far that the contact has come to one
+// side of the second one's face and lies, to rounding, on the plane of that side: there the second derivative jumps.
+template <int Dim>
+struct TurnedOnItsSide {
+  PotentialShape<Dim> cube;
+  PotentialPair<Dim> pair;
+  double depth;
+  PotentialWorkspace<Dim> workspace;
+
+  TurnedOnItsSide(shapes::Random& random) {
+    cube.corner_radius = shapes::power_of_ten(random, -4, -1) / 2;
+    cube.sphericity = shapes::power_of_ten(random, -2, -0.05);
+    cube.planes = shapes::cube<Dim>(0.5 - cube.corner_radius);
+    cube.sphere_radius = enclosing_radius<Dim>(cube.planes, cube.corner_radius, Vector<Dim>::Zero());
+    pair = {&cube, &cube};
+    pair.offset[1] = shapes::uniform(random, 0.2, 0.8);
+    depth = shapes::power_of_ten(random, -4, 0) * cube.corner_radius;
+  }
+  void turn(double angle) {
+    pair.rotation.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(angle).toRotationMatrix();
+    PlacedPotential<Dim> turned;
+    place<Dim>(cube, pair.rotation, Vector<Dim>::Zero(), turned);
+    const Vector<Dim> ahead = Vector<Dim>::Unit(0);
+    pair.offset[0] = find_support<Dim>(placed<Dim>(cube), ahead, workspace.ray).point[0] -
+                     find_support<Dim>(turned, -ahead, workspace.ray).point[0] - depth;
+  }
+  // how far the contact lies beyond the second one's plane towards -y
+  double beyond_side(double angle) {
+    turn(angle);
+    const PotentialContact<Dim> c = resolve<Dim>(pair, PotentialQuery::least, workspace);
+    double slack = 0;
+    for (std::size_t i = 0; i < cube.planes.size(); ++i)
+      if (cube.planes[i].normal[1] < 0) slack = signed_distance<Dim>(workspace.b.planes[i], c.point);
+    return slack;
+  }
+};
+
+template <int Dim>
+void expect_answers_where_a_plane_begins() {
+  shapes::Random random(292);
+  int found = 0;
+  for (int i = 0; i < 40; ++i) {
+    TurnedOnItsSide<Dim> c(random);
+    double inside = 0, outside = 0.2;
+    if (c.beyond_side(outside) < 0) outside = -outside;
+    if (c.beyond_side(outside) < 0) continue;
+    ++found;
+    for (int k = 0; k < 50; ++k) {
+      const double middle = (inside + outside) / 2;
+      (c.beyond_side(middle) > 0 ? outside : inside) = middle;
+    }
+    PotentialStart<Dim> before;
+    for (const double factor : {1 - 1e-3, 1 - 1e-9, 1.0, 1 + 1e-9}) {
+      c.turn(factor * inside);
+      for (const PotentialStart<Dim>& start : {PotentialStart<Dim>{}, before}) {
+        const PotentialContact<Dim> one = resolve<Dim>(c.pair, PotentialQuery::least, c.workspace, start);
+        ASSERT_NE(one.status, PotentialStatus::no_answer) << i << " " << factor;
+        const referee::Verdict<Dim> truth = referee::judge<Dim>(c.pair, one.point, one.ratio, 1e-26);
+        ASSERT_TRUE(truth.proven) << i << " " << factor;
+        EXPECT_LE(truth.distance_to(one.point), 1e-9) << i << " " << factor;
+        before = {one.point, one.ratio};
+      }
+    }
+  }
+  EXPECT_GT(found, 30);
+}
+TEST(PotentialContact, HasAnAnswerWhereAPlaneBegins) {
+  expect_answers_where_a_plane_begins<2>();
+  expect_answers_where_a_plane_begins<3>();
 }
 
 TEST(PotentialContact, OneCentreOnTheOtherHasNoNormal) {

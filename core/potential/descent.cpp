@@ -161,12 +161,11 @@ Eigen::Matrix<double, Dim, 2> newton_solutions(const Matrix<Dim>& hessian, doubl
 
 template <int Dim>
 Vector<Dim> descent_step(const WeightedPotentials<Dim>& sum, const Vector<Dim>& point, const Vector<Dim>& gradient,
-                         const Matrix<Dim>& hessian, double spheres, RayScratch& scratch) {
-  Matrix<Dim> held = hessian;
+                         Matrix<Dim>& hessian, double spheres, RayScratch& scratch) {
   for (int i = 0; i <= 2 * Dim; ++i) {
-    const Vector<Dim> direction = newton_solution<Dim>(held, spheres, gradient);
+    const Vector<Dim> direction = newton_solution<Dim>(hessian, spheres, gradient);
     const double length = step_along<Dim>(sum, point, direction, scratch);
-    if (length >= 1 || !hold_planes<Dim>(sum, point, length, scratch, held)) return length * direction;
+    if (length >= 1 || !hold_planes<Dim>(sum, point, length, scratch, hessian)) return length * direction;
   }
   return Vector<Dim>::Zero();  // planes on all sides
 }
@@ -208,7 +207,7 @@ LeastPoint<Dim> find_least_point(const WeightedPotentials<Dim>& sum, const Vecto
   template Eigen::Matrix<double, Dim, 2> newton_solutions<Dim>(const Matrix<Dim>&, double,                       \
                                                                const Eigen::Matrix<double, Dim, 2>&);            \
   template Vector<Dim> descent_step<Dim>(const WeightedPotentials<Dim>&, const Vector<Dim>&, const Vector<Dim>&, \
-                                         const Matrix<Dim>&, double, RayScratch&);                               \
+                                         Matrix<Dim>&, double, RayScratch&);                                     \
   template LeastPoint<Dim> find_least_point<Dim>(const WeightedPotentials<Dim>&, const Vector<Dim>&, RayScratch&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

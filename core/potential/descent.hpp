@@ -37,10 +37,10 @@ Eigen::Matrix<double, Dim, 2> newton_solutions(const Matrix<Dim>& hessian, doubl
 // A step down from the point, given the sum's derivatives there: along Newton's direction, as far as 1 where that
 // brings the slope of h well down, otherwise to where the slope vanishes. Along a line the slope is a rising chain of
 // straight pieces, so that its zero is found. A plane through the point itself, which the step would only just not
-// pass, counts in the Hessian, so that the step runs along it. Zero: rounding leaves no step.
+// pass, is counted in the given Hessian, so that the step runs along it. Zero: rounding leaves no step.
 template <int Dim>
 Vector<Dim> descent_step(const WeightedPotentials<Dim>& sum, const Vector<Dim>& point, const Vector<Dim>& gradient,
-                         const Matrix<Dim>& hessian, double spheres, RayScratch& scratch);
+                         Matrix<Dim>& hessian, double spheres, RayScratch& scratch);
 
 template <int Dim>
 struct LeastPoint {

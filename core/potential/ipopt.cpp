@@ -1,12 +1,14 @@
 #include "core/potential/ipopt.hpp"
 
 #include <IpIpoptApplication.hpp>
+#include <IpIpoptCalculatedQuantities.hpp>
 #include <IpSolveStatistics.hpp>
 #include <IpTNLP.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "core/floating_point_traps.hpp"
@@ -17,7 +19,8 @@ namespace {
 using Ipopt::Index;
 using Ipopt::Number;
 
-constexpr double ipopt_tolerance = 1e-12;  // values are about 1
+// Its error as it measures it; values are about 1. What rounding leaves above the first ends at the second.
+constexpr double ipopt_tolerance = 1e-15, acceptable_tolerance = 1e-12;
 constexpr int ipopt_limit = 500;
 constexpr Number unbounded = 2e19;  // Ipopt's infinity
 
@@ -39,6 +42,7 @@ class ConeProgram : public Ipopt::TNLP {
         roots_(reading == ConeReading::unlinked),
         start_(start) {}
   const Vector<Dim>& solution() const { return solution_; }
+  double error() const { return error_; }
 
   bool get_nlp_info(Index& variables, Index& constraints, Index& jacobian, Index& hessian,
                     IndexStyleEnum& style) override {
@@ -158,8 +162,9 @@ class ConeProgram : public Ipopt::TNLP {
 
   void finalize_solution(Ipopt::SolverReturn, Index, const Number* x, const Number*, const Number*, Index,
                          const Number*, const Number*, Number, const Ipopt::IpoptData*,
-                         Ipopt::IpoptCalculatedQuantities*) override {
+                         Ipopt::IpoptCalculatedQuantities* quantities) override {
     std::copy(x, x + Dim, solution_.data());
+    error_ = quantities->curr_nlp_error();
   }
 
  private:
@@ -169,6 +174,7 @@ class ConeProgram : public Ipopt::TNLP {
   std::array<Side<Dim>, 2> sides_;
   bool linked_, roots_;
   Vector<Dim> start_, solution_ = Vector<Dim>::Zero();
+  double error_ = std::numeric_limits<double>::infinity();
 };
 
 Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application() {
@@ -178,6 +184,7 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application() {
   options->SetStringValue("sb", "yes");
   options->SetIntegerValue("max_iter", ipopt_limit);
   options->SetNumericValue("tol", ipopt_tolerance);
+  options->SetNumericValue("acceptable_tol", acceptable_tolerance);
   options->SetNumericValue("bound_relax_factor", 0);
   options->SetStringValue("mu_strategy", "adaptive");
   if (application->Initialize("") != Ipopt::Solve_Succeeded) return nullptr;
@@ -209,6 +216,7 @@ ConeAnswer<Dim> solve_cone_program(const PotentialPair<Dim>& pair, ConeReading r
                   status == Ipopt::Search_Direction_Becomes_Too_Small;
   if (IsValid(application->Statistics())) answer.iterations = application->Statistics()->IterationCount();
   answer.point = program->solution();
+  answer.error = program->error();
   answer.value_a = value<Dim>(sides[0].potential, answer.point);
   answer.value_b = value<Dim>(sides[1].potential, answer.point);
   return answer;

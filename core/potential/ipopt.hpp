@@ -20,6 +20,7 @@ struct ConeAnswer {
   bool solved = false;
   Vector<Dim> point = Vector<Dim>::Zero();  // frame of the first body, m
   double value_a = 0, value_b = 0;          // f_A and f_B at the point
+  double error = 0;                         // of the optimality conditions, as Ipopt reports it
   int iterations = 0;
 };
 

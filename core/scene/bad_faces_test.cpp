@@ -57,11 +57,14 @@ INSTANTIATE_TEST_SUITE_P(
 // one joint that can be is enough, and what chooses points then serves the others
 TEST(Faces, AreTakenBesidePoints) {
   std::string text = good_scene;
+  EXPECT_EQ(complaint_about(text, {"contact.face='integrated'", "joint_properties.rock.sub_contacts=4"}), "");
+  const std::string joint = "point = [0, 0, 0]\n";
+  text.replace(text.find(joint), joint.size(), joint + "properties = \"tied\"\n");
   text +=
       "[[joint_properties]]\nname = \"tied\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e8\nfriction_deg = 40\n"
-      "cohesion = 1e5\n";
+      "cohesion = 1e5\n[[joint_properties]]\nname = \"default\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e8\n"
+      "friction_deg = 40\n";
   EXPECT_EQ(complaint_about(text, {"contact.face='integrated'", "contact.point='centroid'"}), "");
-  EXPECT_EQ(complaint_about(text, {"contact.face='integrated'", "joint_properties.rock.sub_contacts=4"}), "");
 }
 
 }  // namespace

@@ -26,6 +26,35 @@ bool needs_area(const Model<Dim>& model, const ContactSettings& settings) {
   });
 }
 
+// how far contacts are resolved: those that are carried as a whole need no more than a point in the overlap
+template <int Dim>
+QueryLevel level_of(const Model<Dim>& model, const ContactSettings& settings) {
+  const auto whole = [&](const JointProperties& p) { return carried_whole(settings, p); };
+  if (!model.properties.empty() && std::ranges::all_of(model.properties, whole)) return QueryLevel::point;
+  return needs_area(model, settings) ? QueryLevel::area : QueryLevel::overlap;
+}
+
+// The joint of a contact, and how it is carried; true: as a whole, by the faces nearest to its point, with the planes
+// of both parts.
+template <int Dim>
+bool choose_joint(const Model<Dim>& model, const ContactSettings& settings, const Pair<Dim>& pair, Contact<Dim>& c,
+                  HalfSpaces<Dim>& planes) {
+  const auto choose = [&] {
+    c.joint = joint_of(model, c);
+    c.properties = c.joint == no_joint ? model.default_properties : model.joints[c.joint].properties;
+    return carried_whole(settings, model.properties[c.properties]);
+  };
+  if (settings.face == ContactFace::integrated && c.proof.kind == ProofKind::interior_point) [[unlikely]] {
+    const auto [was_a, was_b] = std::pair(c.geometry.face_a, c.geometry.face_b);
+    find_nearest_faces<Dim>(pair, c, planes);
+    if (choose()) return true;
+    c.geometry.face_a = was_a;
+    c.geometry.face_b = was_b;
+  }
+  choose();
+  return false;
+}
+
 // nor do its sub-contacts count any more
 template <int Dim>
 void forget(Contact<Dim>& contact) {
@@ -75,18 +104,20 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
   const std::span contacts = std::span(waiting.contacts).first(waiting.count);
   resolve_pairs<Dim>(model, settings.contact, std::span(waiting.pairs).first(waiting.count), contacts, tally.kernel);
   const std::size_t stride = state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
+  static thread_local HalfSpaces<Dim> planes;
   for (int i = 0; i < waiting.count; ++i) {
     Contact<Dim>* const c = contacts[i];
     const std::size_t place = c - state.contacts.data();
     const long long bonds = c->bond_due ? whole_bonds(state, place) : 0;
-    if (c->unanswered()) ++tally.unconverged;
     if (c->touching()) {
-      c->joint = joint_of(model, *c);
-      c->properties = c->joint == no_joint ? model.default_properties : model.joints[c->joint].properties;
+      const bool whole = choose_joint(model, settings.contact, waiting.pairs[i], *c, planes);
       const int along = model.properties[c->properties].sub_contacts;
-      if (carried_whole(settings.contact, model.properties[c->properties])) [[unlikely]] {
-        press_face<Dim>(waiting.pairs[i], *c, state.faces[place]);
+      if (whole) [[unlikely]] {
         c->cells = 0;
+        if (!press_face<Dim>(waiting.pairs[i], planes, *c, state.faces[place])) {
+          c->status = ContactStatus::no_face;
+          ++tally.unconverged;
+        }
       } else if (const int cells = sub_contact_count<Dim>(along); cells > 0) {
         divide<Dim>(waiting.pairs[i], along, *c, std::span(state.subs).subspan(place * stride, cells));
       } else {
@@ -95,6 +126,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
       if (bonds > 0 && whole_bonds(state, place) < bonds) c->bond_due = false;
       continue;
     }
+    if (c->unanswered()) ++tally.unconverged;
     if (bonds > 0 || (c->status == ContactStatus::separated && c->proof.margin > gap)) c->bond_due = false;
     if (waiting.touched[i]) {
       c->near_until = 0;  // only its boxes were looked at
@@ -160,7 +192,7 @@ void add(Counters& total, const Tally& tally) {
 template <int Dim>
 void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
                    const FoundContacts<Dim>& found) {
-  const QueryLevel level = needs_area(model, settings.contact) ? QueryLevel::area : QueryLevel::overlap;
+  const QueryLevel level = level_of(model, settings.contact);
   const double gap = closed_gap(model);
   cache_poses(model, settings.threads, state);
   count_travels(model, settings, state);

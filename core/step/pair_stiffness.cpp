@@ -154,6 +154,7 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
   static thread_local MovedContacts<Dim> after;
   static thread_local std::vector<SubContact<Dim>> cells;
   static thread_local PressedFace<Dim> pressed;
+  static thread_local HalfSpaces<Dim> planes;
   after.find(model, settings, state, batch, counters);
 
   cells.resize(stride_of(state));
@@ -187,7 +188,10 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
         divide<Dim>(after.pairs[i * F + f], along, then_contact, std::span(cells).first(count));
         subs = std::span(cells).first(then_contact.cells);
       }
-      if (whole) press_face<Dim>(after.pairs[i * F + f], then_contact, pressed);
+      if (whole) {
+        find_nearest_faces<Dim>(after.pairs[i * F + f], then_contact, planes);
+        press_face<Dim>(after.pairs[i * F + f], planes, then_contact, pressed);
+      }
       const PairWrench<Dim> wrench = joint_wrench<Dim>(model, settings, state, then_contact, subs,
                                                        whole ? &pressed : nullptr, then, history, sub_histories);
       p.stiffness.col(f) = (p.wrench - wrench) / step;
@@ -313,7 +317,9 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
     const int count = sub_contact_count<Dim>(properties.sub_contacts);
     if (carried_whole(settings.contact, properties)) {
       PressedFace<Dim> face;
-      press_face<Dim>(pairs[j], c, face);
+      HalfSpaces<Dim> planes;
+      find_nearest_faces<Dim>(pairs[j], c, planes);
+      press_face<Dim>(pairs[j], planes, c, face);
       stand(history, face.centre, c.geometry.area);
       history.normal = face.normal;
       history.polar = face.polar;

@@ -45,7 +45,9 @@ struct QuadPotential {
     }
   }
 
-  Quad look(const QuadPoint<Dim>& x, QuadPoint<Dim>& gradient, std::array<QuadPoint<Dim>, Dim>& hessian) const {
+  // planes up to `near` inside count in the Hessian
+  Quad look(const QuadPoint<Dim>& x, QuadPoint<Dim>& gradient, std::array<QuadPoint<Dim>, Dim>& hessian,
+            Quad near = 0) const {
     Quad f = -1;
     for (int i = 0; i < Dim; ++i) {
       const Quad arm = x[i] - centre[i];
@@ -58,13 +60,14 @@ struct QuadPotential {
       Quad slack = -offsets[p];
       for (int i = 0; i < Dim; ++i)
         slack += normals[p][i] * x[i];
-      if (slack <= 0) continue;
-      f += plane_weight * slack * slack;
-      for (int i = 0; i < Dim; ++i) {
-        gradient[i] += 2 * plane_weight * slack * normals[p][i];
+      if (slack <= -near) continue;
+      for (int i = 0; i < Dim; ++i)
         for (int j = 0; j < Dim; ++j)
           hessian[i][j] += 2 * plane_weight * normals[p][i] * normals[p][j];
-      }
+      if (slack <= 0) continue;
+      f += plane_weight * slack * slack;
+      for (int i = 0; i < Dim; ++i)
+        gradient[i] += 2 * plane_weight * slack * normals[p][i];
     }
     return f;
   }
@@ -84,6 +87,18 @@ struct Verdict {
     return std::sqrt(sum);
   }
 };
+
+// max(f_A, f_B)
+template <int Dim>
+Quad larger_value(const PotentialPair<Dim>& pair, const Vector<Dim>& point) {
+  QuadPoint<Dim> x, gradient;
+  std::array<QuadPoint<Dim>, Dim> hessian;
+  for (int i = 0; i < Dim; ++i)
+    x[i] = point[i];
+  const QuadPotential<Dim> a(*pair.a, Matrix<Dim>::Identity(), Vector<Dim>::Zero());
+  const QuadPotential<Dim> b(*pair.b, pair.rotation, pair.offset);
+  return std::max(a.look(x, gradient, hessian), b.look(x, gradient, hessian));
+}
 
 // (H, difference; differenceᵀ, 0) (dx, dλ) = right, by elimination with pivoting
 template <int Size>
@@ -114,7 +129,8 @@ bool solve(std::array<std::array<Quad, Size>, Size> m, std::array<Quad, Size>& r
 // Needs k > 0 of one of the two. Newton's method on both conditions from the given point and ratio; the proof is the
 // gap between max(f_A, f_B) at the point and the weighted sum's least value, which strong convexity bounds.
 template <int Dim>
-Verdict<Dim> judge(const PotentialPair<Dim>& pair, const Vector<Dim>& start, double ratio, double asked_gap) {
+Verdict<Dim> judge(const PotentialPair<Dim>& pair, const Vector<Dim>& start, double ratio, double asked_gap,
+                   double near) {
   const QuadPotential<Dim> a(*pair.a, Matrix<Dim>::Identity(), Vector<Dim>::Zero()),
       b(*pair.b, pair.rotation, pair.offset);
   Verdict<Dim> verdict;
@@ -125,7 +141,7 @@ Verdict<Dim> judge(const PotentialPair<Dim>& pair, const Vector<Dim>& start, dou
   for (int step = 0; step < 40; ++step) {
     QuadPoint<Dim> ga, gb;
     std::array<QuadPoint<Dim>, Dim> ha, hb;
-    const Quad fa = a.look(x, ga, ha), fb = b.look(x, gb, hb);
+    const Quad fa = a.look(x, ga, ha, near), fb = b.look(x, gb, hb, near);
     std::array<std::array<Quad, Dim + 1>, Dim + 1> m{};
     std::array<Quad, Dim + 1> right{};
     Quad slope = 0;
@@ -159,6 +175,14 @@ Verdict<Dim> judge(const PotentialPair<Dim>& pair, const Vector<Dim>& start, dou
   }
   verdict.proven = best_gap <= Quad(asked_gap);
   return verdict;
+}
+
+// Where Newton's method passes a plane on which double precision has put the point, the plane is held.
+template <int Dim>
+Verdict<Dim> judge(const PotentialPair<Dim>& pair, const Vector<Dim>& start, double ratio, double asked_gap) {
+  constexpr double held = 1e-15;  // m; sizes are about 1
+  const Verdict<Dim> verdict = judge<Dim>(pair, start, ratio, asked_gap, 0);
+  return verdict.proven ? verdict : judge<Dim>(pair, start, ratio, asked_gap, held);
 }
 
 }  // namespace voussoir::referee

@@ -1,4 +1,4 @@
-// Six lively models for comparing builds: everything slides, turns, parts and meets again, so that one different
+// Eight lively models for comparing builds: everything slides, turns, parts and meets again, so that one different
 // rounding anywhere soon shows in every digit.
 #pragma once
 
@@ -102,6 +102,14 @@ inline Scene<3> smooth_tumble() {
   scene.model.properties[0].constant_stiffness = true;
   scene.settings.contact.point = ContactPoint::central_path;
   scene.settings.contact.normal = ContactNormal::multipliers;
+  return scene;
+}
+
+// both with their contacts carried as a whole: from faces over edges to corners and back
+template <int Dim>
+Scene<Dim> carried_whole_in(Scene<Dim> scene, const char* name) {
+  scene.name = name;
+  scene.settings.contact.face = ContactFace::integrated;
   return scene;
 }
 

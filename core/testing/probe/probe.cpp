@@ -1,4 +1,4 @@
-// Prints the state hash of six models every hundred steps. Built with different compilers and flags, run with
+// Prints the state hash of eight models every hundred steps. Built with different compilers and flags, run with
 // different numbers of threads, it must print the same lines.
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -103,4 +103,6 @@ int main(int argc, char** argv) {
   run(probe::smooth_tumble(), options);
   run(probe::flooded_tumble(), options);
   run(probe::flooded_wall(), options);
+  run(probe::carried_whole_in(probe::tumble(), "whole_tumble"), options);
+  run(probe::carried_whole_in(probe::wall(), "whole_wall"), options);
 }
