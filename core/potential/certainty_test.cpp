@@ -55,8 +55,7 @@ void expect_proven(const referee::Verdict<Dim>& truth, const PotentialContact<Di
 }
 
 #ifdef VOUSSOIR_HAS_IPOPT
-// Where the error that Ipopt reports is above this, its answer may be off by more than the point's tolerance, and
-// judges nothing: with this as its tolerance its points were off by up to 3.5e-9, with 1e-16 by 3.5e-13.
+// An answer whose error Ipopt reports above this, which it would not call acceptable either, judges nothing.
 constexpr double outside_error = 1e-12;
 
 // Where the two disagree both are held against the proven point, so that it is seen which of them is off.
@@ -123,7 +122,7 @@ TEST(PotentialCertainty, RandomPairs) {
   judge_pairs<3>(2, 0, 500);
 }
 
-// 100,000 of each dimension, in parts; Ipopt takes five minutes for one
+// 100,000 of each dimension, in parts of which each takes Ipopt some minutes: --gtest_filter=*CertaintyLong*Space/3
 class PotentialCertaintyLong : public testing::TestWithParam<int> {};
 constexpr int part = 10000;
 

@@ -129,6 +129,42 @@ TEST(PotentialContact, APlaneThatHoldsThePointIsNotPassedWhenTheRatioChanges) {
   }
 }
 
+// Inner bodies that overlap, so that λ is found in many changes: what is asked of the descent between them halves each
+// time, and is at last more than rounding allows. Pair 23842 of those in the long test, without the planes that do not
+// matter.
+TEST(PotentialContact, ADescentIsNotAskedForMoreThanRoundingAllows) {
+  const PotentialShape<3> a{
+      {{{1, 0, 0}, 1},
+       {{-1, 0, 0}, 1},
+       {{0, -1, 0}, 0.37156352854501928},
+       {{0, 0, -1}, 0.063155847927303513},
+       {{0.0019484921520787353, 0.18400838749799539, 0.98292274198368235}, 0.061278076185279931},
+       {{-0.03323706829998254, -0.016854667612518789, -0.99930536747807652}, 0.054019393405831298}},
+      0.0010621773734259083,
+      0.065420170014490631,
+      1.2489529903987535};
+  const PotentialShape<3> b{
+      {{{-1, 0, 0}, 1},
+       {{0, 1, 0}, 0.69787948481279749},
+       {{0, 0, 1}, 0.08542290080102756},
+       {{0.73238549979389966, 0.017695618217658284, -0.68066022712329433}, 0.38839484821565501},
+       {{-0.32377168731925487, -0.7315602215520115, 0.59999294723622743}, 0.45248368002250416},
+       {{-0.041765930584278535, -0.049874389345790276, -0.99788183284886678}, 0.073911247917144152}},
+      0.00075511124587342464,
+      0.065113821756985366,
+      1.4281180549737869};
+  PotentialPair<3> pair{&a, &b, {}, {-1.4468415468662863, -1.3218054226147631, -0.62634410788117689}};
+  pair.rotation << 0.22776258654039316, 0.94336058867622041, 0.24123640667379581,  //
+      -0.77167091083682715, 0.32596914267192445, -0.5461392893703878,              //
+      -0.59384190618437471, -0.061765020506639401, 0.80220749977865635;
+  PotentialWorkspace<3> workspace;
+  const PotentialContact<3> c = resolve<3>(pair, PotentialQuery::least, workspace);
+  ASSERT_EQ(c.status, PotentialStatus::touching);
+  const referee::Verdict<3> truth = referee::judge<3>(pair, c.point, c.ratio, 1e-26);
+  ASSERT_TRUE(truth.proven);
+  EXPECT_LE(truth.distance_to(c.point), 1e-14);
+}
+
 // Squares (cubes) face on face, side by side by some of their length, turned so far that the contact has come to one
 // side of the second one's face and lies, to rounding, on the plane of that side: there the second derivative jumps.
 template <int Dim>
