@@ -73,7 +73,8 @@ void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>
 }
 
 // Critical damping of the present motion, 1/s, by Rayleigh's quotient: K v is what the forces of contacts and water
-// lost over the last step, but for what water that rises or falls has imposed; what excavated rock still holds is imposed. Sums in the order of the bodies.
+// lost over the last step, but for what water that rises or falls has imposed; what excavated rock still holds is
+// imposed. Sums in the order of the bodies.
 template <int Dim>
 double critical_damping(const Model<Dim>& model, State<Dim>& state) {
   Relaxation<Dim>& r = state.relaxation;
