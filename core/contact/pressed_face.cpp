@@ -46,18 +46,19 @@ double deepest(const FaceIntegral<3>&, const PressedPolygon& polygon) {
   return most;
 }
 
-// g and its derivative
+// g and its derivative; `flat`: not all is the region's
 struct Blend {
   double value, slope;
+  bool flat;
 };
 Blend blend(double ratio) {
   const double off = std::abs(ratio - 1);
-  if (off >= all_region) return {ratio, 1};
-  if (off <= all_face) return {1, 0};
+  if (off >= all_region) return {ratio, 1, false};
+  if (off <= all_face) return {1, 0, true};
   constexpr double span = all_region - all_face;
   const double s = (all_region - off) / span, h = s * s * (3 - 2 * s);
   const double h_slope = 6 * s * (1 - s) / span * (ratio > 1 ? -1 : 1);
-  return {ratio + h * (1 - ratio), 1 - h + h_slope * (1 - ratio)};
+  return {ratio + h * (1 - ratio), 1 - h + h_slope * (1 - ratio), true};
 }
 
 void turn_axes(const Matrix<2>&, PressedPolygon&) {}
@@ -111,7 +112,7 @@ bool press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Di
   const int face_a = g.face_a, face_b = faces_a + g.face_b;
   const bool faces = -planes[face_a].normal.dot(planes[face_b].normal) > lie_on_each_other &&
                      integrate_face<Dim>(planes, faces_a, face_a, face_b, reach, f, face.polygon);
-  Blend share{1, 0};
+  Blend share{1, 0, true};
   RegionIntegral<Dim> r;
   const bool surely_flat = faces && deepest(f, face.polygon) < flat_overlap * width_of(f, face.polygon);
   if (!surely_flat) {
@@ -122,9 +123,9 @@ bool press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Di
       return false;
     }
     if (!region && !faces) return without_pressure();
-    if (region) share = faces ? blend(r.square / f.square) : Blend{0, 1};
+    if (region) share = faces ? blend(r.square / f.square) : Blend{0, 1, false};
   }
-  face.flat = faces && share.slope != 1;
+  face.flat = share.flat;
   Vector<Dim> force = Vector<Dim>::Zero(), point = r.pressure;
   Spin<Dim> about = Spin<Dim>::Zero();
   face.square = r.square;

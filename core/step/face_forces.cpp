@@ -24,11 +24,11 @@ Spin<2> twist_moment(double, const Vector<2>&) {
 
 // energy of the springs
 template <int Dim>
-double held(const JointState<Dim>& h, double shear_stiffness, double area, double polar) {
+double held(const JointState<Dim>& h, double shear_stiffness) {
   if (!(shear_stiffness > 0)) return 0;
   double energy = 0;
-  if (area > 0) energy += 0.5 * h.shear_force.squaredNorm() / (shear_stiffness * area);
-  if (polar > 0) energy += 0.5 * h.twist * h.twist / (shear_stiffness * polar);
+  if (h.area > 0) energy += 0.5 * h.shear_force.squaredNorm() / (shear_stiffness * h.area);
+  if (h.polar > 0) energy += 0.5 * h.twist * h.twist / (shear_stiffness * h.polar);
   return energy;
 }
 
@@ -102,12 +102,12 @@ FaceForce<Dim> face_force(const JointProperties& properties, double friction, do
     closing_before = -before.dot(h.normal);
     const Vector<Dim> twice = velocity + before + closing_before * h.normal;
     way = 0.5 * dt * (twice - twice.dot(n) * n);
-    const double was = held(h, ks, h.area, h.polar);
+    const double was = held(h, ks);
     h.shear_force = carried(h.shear_force, h.normal, n, 0.5 * about_normal(n, motion.spin_a + motion.spin_b) * dt);
     // where the old centre has gone, with both bodies
     const Vector<Dim> gone = dt * (cross(motion.spin_a, h.point) + 0.5 * before);
     change_area<Dim>(n, face.centre - h.point - gone, geometry.area, face.polar, h);
-    answer.lost_area = was - held(h, ks, h.area, h.polar);
+    answer.lost_area = was - held(h, ks);
   } else {
     const double closed = -motion.velocity_at(geometry.point).dot(geometry.normal) * dt;
     const double since = closed > geometry.overlap ? geometry.overlap / closed : 1;
@@ -133,7 +133,7 @@ FaceForce<Dim> face_force(const JointProperties& properties, double friction, do
   answer.force = of_springs + at_centre;
   answer.about =
       moment(geometry.point, of_springs) + kn * face.couple + moment(face.centre, at_centre) + twist_moment(h.twist, n);
-  answer.elastic = 0.5 * kn * face.square + held(h, ks, h.area, h.polar);
+  answer.elastic = 0.5 * kn * face.square + held(h, ks);
   answer.dashpots = 0.5 * (h.dashpot * closing_before + (pressed - spring) * closing) * dt;
   h.normal = n;
   h.point = face.centre;

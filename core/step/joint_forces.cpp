@@ -89,6 +89,16 @@ JointForce<Dim> answer_of_laws(const JointProperties& properties, double frictio
   return answer;
 }
 
+// A contact's normal dashpot over the root of its normal stiffness per area, N s/m; `fraction` of the contact's mass
+// goes with this area. Between two immobile bodies there is nothing to damp.
+template <int Dim>
+[[gnu::always_inline]] inline double dashpot_of(const Settings& settings, const State<Dim>& state,
+                                                const PairMotion<Dim>& motion, double area, double fraction = 1) {
+  return settings.damping.viscous_ratio > 0 && motion.inverse_mass > 0 && !state.relaxation.under_way
+             ? 2 * settings.damping.viscous_ratio * std::sqrt(area / motion.inverse_mass * fraction)
+             : 0;
+}
+
 // Force on the second body; the history continues. Inlined by force: the call and what it passes would cost a plain
 // joint some percent of its law (benchmarks/price_of_laws.sh).
 template <int Dim>
@@ -134,11 +144,7 @@ template <int Dim>
     k.slip = since * dt * (velocity + k.closing_speed * n);
   }
 
-  // the dashpot over the root of the normal stiffness; between two immobile bodies there is nothing to damp
-  const double damping = settings.damping.viscous_ratio > 0 && motion.inverse_mass > 0 && !state.relaxation.under_way
-                             ? 2 * settings.damping.viscous_ratio *
-                                   std::sqrt(k.area * k.stiffness_factor / motion.inverse_mass * at.fraction)
-                             : 0;
+  const double damping = dashpot_of(settings, state, motion, k.area * k.stiffness_factor, at.fraction);
   const JointForce<Dim> answer =
       properties.laws.is_plain()
           ? plain_answer<Dim>(properties, friction.coefficient, damping, k, history)
@@ -151,14 +157,6 @@ template <int Dim>
   history.dashpot = answer.dashpot;
   history.area = k.area;
   return answer.force;
-}
-
-// the contact's normal dashpot over the root of its normal stiffness per area; between two immobile bodies there is
-// nothing to damp
-template <int Dim>
-double dashpot_of(const Settings& settings, const State<Dim>& state, const PairMotion<Dim>& motion, double area) {
-  if (!(settings.damping.viscous_ratio > 0) || !(motion.inverse_mass > 0) || state.relaxation.under_way) return 0;
-  return 2 * settings.damping.viscous_ratio * std::sqrt(area / motion.inverse_mass);
 }
 
 // The joint of a contact that is carried as a whole. Not inlined: what a scene does not ask for shall not lengthen its
