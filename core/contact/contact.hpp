@@ -28,7 +28,8 @@ struct ContactGeometry {
   double overlap = 0;                        // m, positive
   double area = 0;                           // m² (2-D: m, unit thickness); 0 when no law asked for it
   double stiffness_factor = 1;               // fraction of a constant normal stiffness that acts (ContactNormal)
-  int face_a = -1, face_b = -1;  // the faces that end the searches along the normal, or lean on each other most
+  // the faces that end the searches along the normal, or lean on each other most, or are nearest to the point
+  int face_a = -1, face_b = -1;
 };
 
 enum class ProofKind {

@@ -34,25 +34,16 @@ QueryLevel level_of(const Model<Dim>& model, const ContactSettings& settings) {
   return needs_area(model, settings) ? QueryLevel::area : QueryLevel::overlap;
 }
 
-// The joint of a contact, and how it is carried; true: as a whole, by the faces nearest to its point, with the planes
-// of both parts.
+// The joint of a contact, and how it is carried; true: as a whole, with the planes of both parts. Where some are, the
+// faces nearest to its point say which joint it is, of every contact.
 template <int Dim>
 bool choose_joint(const Model<Dim>& model, const ContactSettings& settings, const Pair<Dim>& pair, Contact<Dim>& c,
                   HalfSpaces<Dim>& planes) {
-  const auto choose = [&] {
-    c.joint = joint_of(model, c);
-    c.properties = c.joint == no_joint ? model.default_properties : model.joints[c.joint].properties;
-    return carried_whole(settings, model.properties[c.properties]);
-  };
-  if (settings.face == ContactFace::integrated && c.proof.kind == ProofKind::interior_point) [[unlikely]] {
-    const auto [was_a, was_b] = std::pair(c.geometry.face_a, c.geometry.face_b);
+  if (settings.face == ContactFace::integrated && c.proof.kind == ProofKind::interior_point) [[unlikely]]
     find_nearest_faces<Dim>(pair, c, planes);
-    if (choose()) return true;
-    c.geometry.face_a = was_a;
-    c.geometry.face_b = was_b;
-  }
-  choose();
-  return false;
+  c.joint = joint_of(model, c);
+  c.properties = c.joint == no_joint ? model.default_properties : model.joints[c.joint].properties;
+  return carried_whole(settings, model.properties[c.properties]);
 }
 
 // nor do its sub-contacts count any more

@@ -299,6 +299,39 @@ TEST(WholeFaces, AreTheSameForAnyThreadsSkinAndInterruption) {
   EXPECT_EQ(state_hash(model, pile(2, 0.1, 400, true)), hash);
 }
 
+// Beside joints that can be bonded: which face of a corner says whose joint a contact is, whether it is carried as a
+// whole follows from that, and such a contact is pressed in the same step.
+TEST(WholeFaces, AreThoseOfTheirJointBesideOthers) {
+  Model<3> model = shapes::model_of<3>(shapes::jointed_box());
+  model.properties.push_back({"tied", 1e9, 5e8, 35 * degree, false});
+  model.properties[1].laws.bond = true;
+  model.joints.push_back({"tied", model.joints[0].plane, 1});
+  for (Body<3>& body : model.bodies)
+    for (Polytope<3>& part : body.parts)
+      for (std::size_t f = 0; f < part.joints.size(); ++f)
+        part.joints[f] = static_cast<int>(f % 2);
+  Settings settings;
+  settings.contact.face = ContactFace::integrated;
+  State<3> state = initial_state(model);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.bodies[b].fixed) state.motions[b].velocity = {2, 1.0 * static_cast<double>(b % 3), 3};
+  int whole = 0, tied = 0;
+  for (int i = 0; i < 400; ++i) {
+    step(model, settings, state);
+    for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+      const Contact<3>& c = state.contacts[k];
+      if (!c.touching()) continue;
+      (c.properties == 0 ? whole : tied) += 1;
+      EXPECT_EQ(c.properties, c.joint == no_joint ? 0 : model.joints[c.joint].properties);
+      if (c.properties == 0) {
+        EXPECT_NEAR(state.faces[k].force.norm(), c.geometry.overlap * c.geometry.area, 1e-9 * c.geometry.area) << i;
+      }
+    }
+  }
+  EXPECT_GT(whole, 1000);
+  EXPECT_GT(tied, 1000);
+}
+
 TEST(WholeFaces, AskForNoMemory) {
   const Model<3> model = shapes::model_of<3>(shapes::jointed_box());
   Settings settings;
