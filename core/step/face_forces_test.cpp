@@ -11,56 +11,26 @@
 #include "core/motion/time_step.hpp"
 #include "core/state_hash.hpp"
 #include "core/step.hpp"
-#include "core/step/contacts.hpp"
-#include "core/step/joint_forces.hpp"
-#include "core/step/loads.hpp"
-#include "core/step/neighbours.hpp"
 #include "core/testing/counted_allocations.hpp"
-#include "core/testing/models.hpp"
+#include "core/testing/pressed_block.hpp"
 
 namespace voussoir {
 namespace {
 
-using shapes::block_on_plate;
-using shapes::index_of;
-
-// the block of block_on_plate: 1 x 1 in plan, centroid 0.25 above its base
-constexpr double width = 1, height = 0.25;
+using pressed::height, pressed::width, pressed::Springs;
 
 // asked for: elastic twist and rocking
 constexpr double exact = 1e-9;
 
-// a block pressed into the plate by `depth` under its middle and tilted by `angle`, without weight
+// its joint carried as a whole
 template <int Dim>
-struct Pressed {
-  Model<Dim> model;
-  Settings settings;
-  State<Dim> state;
-  int block;
+struct Pressed : pressed::Block<Dim> {
+  using pressed::Block<Dim>::model, pressed::Block<Dim>::state, pressed::Block<Dim>::block;
 
-  explicit Pressed(double depth, double angle = 0, double friction = 40 * degree)
-      : model(block_on_plate<Dim>(0, friction)) {
-    model.gravity.setZero();
-    settings.contact.face = ContactFace::integrated;
-    settings.damping.local = 0;
-    block = index_of(model, "block");
-    state = initial_state(model);
-    Motion<Dim>& motion = state.motions[block];
-    // about the middle of the base
-    motion.displacement[0] = (Dim == 2 ? -1 : 1) * height * std::sin(angle);
-    motion.displacement[Dim - 1] = -depth + height * (std::cos(angle) - 1);
-    if constexpr (Dim == 2)
-      motion.rotation.angle = angle;
-    else
-      motion.rotation.quaternion = Eigen::AngleAxisd(angle, Vector<3>::UnitY());
-    answer();
-  }
-
-  void answer() {
-    find_neighbours(model, settings, state);
-    find_contacts(model, settings, state);
-    apply_joint_laws(model, settings, state);
-    sum_loads(model, settings, state);
+  explicit Pressed(double depth, double angle = 0) {
+    this->settings.contact.face = ContactFace::integrated;
+    this->settings.damping.local = 0;
+    this->press(depth, angle);
   }
 
   // as if the step that led here had moved the block so, about the middle of its base
@@ -72,29 +42,14 @@ struct Pressed {
     const Spin<Dim> spin = turn / dt;
     motion.velocity = way / dt + cross(spin, Vector<Dim>(height * Vector<Dim>::Unit(Dim - 1)));
     motion.angular_momentum = angular_momentum(body, motion.rotation, spin);
-    answer();
+    this->answer();
     motion.velocity.setZero();
     motion.angular_momentum.setZero();
   }
 
   const JointProperties& properties() const { return model.properties[0]; }
-  Vector<Dim> force() const { return state.loads[block].force; }
-  Spin<Dim> moment() const {  // about the middle of the base
-    const Load<Dim>& load = state.loads[block];
-    const Vector<Dim> arm = matrix(state.motions[block].rotation) * (height * Vector<Dim>::Unit(Dim - 1));
-    return load.moment + voussoir::moment(arm, load.force);
-  }
-};
-
-// springs of stiffness k per area under a base tilted by `angle`: what they carry where they are pressed
-struct Springs {
-  double force = 0, moment = 0;
-  Springs(double stiffness, double depth, double angle) {
-    const double low = std::max(-0.5 * width, -depth / angle), high = 0.5 * width;
-    const auto power = [&](int n) { return (std::pow(high, n + 1) - std::pow(low, n + 1)) / (n + 1); };
-    force = stiffness * (depth * power(0) + angle * power(1));
-    moment = stiffness * (depth * power(1) + angle * power(2));
-  }
+  Vector<Dim> force() const { return this->load(); }
+  Spin<Dim> moment() const { return this->moment_of_base(); }
 };
 
 template <int Dim>

@@ -7,11 +7,8 @@
 #include "core/law/joint_law.hpp"
 #include "core/motion/time_step.hpp"
 #include "core/step.hpp"
-#include "core/step/contacts.hpp"
 #include "core/step/joint_forces.hpp"
-#include "core/step/loads.hpp"
-#include "core/step/neighbours.hpp"
-#include "core/testing/models.hpp"
+#include "core/testing/pressed_block.hpp"
 
 namespace voussoir {
 namespace {
@@ -19,67 +16,22 @@ namespace {
 using shapes::block_on_plate;
 using shapes::index_of;
 
-// the block of block_on_plate: 1 x 1 in plan, centroid 0.25 above its base
-constexpr double width = 1, height = 0.25;
+using pressed::height, pressed::width, pressed::Springs;
+
 constexpr double tilt = 1e-6;  // rad
 
 // the contact's normal lies between the two faces', half the tilt from each
 constexpr double tilt_tolerance = 3e-6;
 
-// a block pressed into the plate by `depth` under its middle and tilted by `angle`, at rest and without weight
+// its joint carried by `along` points along each direction of the face
 template <int Dim>
-struct Pressed {
-  Model<Dim> model = block_on_plate<Dim>(0, 40 * degree);
-  Settings settings;
-  State<Dim> state;
-  int block, plate;
-
+struct Pressed : pressed::Block<Dim> {
   Pressed(int along, double depth, double angle) {
-    model.gravity.setZero();
-    model.properties[0].sub_contacts = along;
-    block = index_of(model, "block");
-    plate = index_of(model, "plate");
-    state = initial_state(model);
-    Motion<Dim>& motion = state.motions[block];
-    // about the middle of the base
-    motion.displacement[0] = -height * std::sin(angle);
-    motion.displacement[Dim - 1] = -depth + height * (std::cos(angle) - 1);
-    if constexpr (Dim == 2) {
-      motion.displacement[0] = -height * std::sin(angle);
-      motion.rotation.angle = angle;
-    } else {
-      motion.displacement[0] = height * std::sin(angle);
-      motion.rotation.quaternion = Eigen::AngleAxisd(angle, Vector<3>::UnitY());
-    }
-    answer();
+    this->model.properties[0].sub_contacts = along;
+    this->press(depth, angle);
   }
-
-  void answer() {
-    find_neighbours(model, settings, state);
-    find_contacts(model, settings, state);
-    apply_joint_laws(model, settings, state);
-    sum_loads(model, settings, state);
-  }
-
-  double force() const { return state.loads[block].force[Dim - 1]; }
-  // about the middle of the base, against the tilt
-  double moment() const {
-    const Load<Dim>& load = state.loads[block];
-    const Vector<Dim> arm = matrix(state.motions[block].rotation) * (height * Vector<Dim>::Unit(Dim - 1));
-    return -(load.moment + voussoir::moment(arm, load.force))[Dim == 2 ? 0 : 1];
-  }
-};
-
-// springs of stiffness k per area under a base tilted by `angle`: what they carry where they are pressed
-struct Springs {
-  double force = 0, moment = 0;
-  Springs(double stiffness, double depth, double angle) {
-    // overlap depth + angle·x over -1/2 < x < 1/2; where it is negative nothing is carried
-    const double low = std::max(-0.5 * width, -depth / angle), high = 0.5 * width;
-    const auto power = [&](int n) { return (std::pow(high, n + 1) - std::pow(low, n + 1)) / (n + 1); };
-    force = stiffness * (depth * power(0) + angle * power(1));
-    moment = stiffness * (depth * power(1) + angle * power(2));
-  }
+  double force() const { return this->load()[Dim - 1]; }
+  double moment() const { return -this->moment_of_base()[Dim == 2 ? 0 : 1]; }  // against the tilt
 };
 
 template <int Dim>
