@@ -39,6 +39,8 @@ struct FaceIntegral {
   Vector<Dim> pressure = Vector<Dim>::Zero();  // its centre, m
   double square = 0;                           // ∫ u² dA, m⁴: E is half of it, times k
   double polar = 0;                            // ∫ |y - centre|² dA, m⁴: the twisting stiffness over ks
+  Vector<Dim> force = Vector<Dim>::Zero();     // on the second part, over k, m^Dim
+  Spin<Dim> moment = Spin<Dim>::Zero();        // about the origin of the planes, over k, m^(Dim + 1)
 };
 
 // Integrates over the contact polygon of one face of each part. `planes`: of both parts, the first `faces_a` the first

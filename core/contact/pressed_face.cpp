@@ -6,20 +6,22 @@
 #include "core/contact/face_integral.hpp"
 #include "core/contact/pair_geometry.hpp"
 #include "core/contact/region_integral.hpp"
+#include "core/law/elastic_coulomb.hpp"
 
 namespace voussoir {
 namespace {
 
-// Where the largest overlap is less than this fraction of the contact polygon's width, both energies agree within 1 %
-// and the polygon's is the answer (a test draws pairs of faces).
-constexpr double flat_overlap = 0.005;
+// Where the largest overlap is less than this fraction of the contact polygon's width, both energies agree within
+// all_face and the polygon's is the answer (a test draws pairs of faces).
+constexpr double flat_overlap = 0.02;
 
-// Cosine of 8 degrees. Faces farther from parallel do not lie on each other: at an angle t they meet in a wedge, whose
-// energies differ by t/2 over the sine of its far end, which is more than 3 %.
-constexpr double lie_on_each_other = 0.99026806874157036;
+// Cosine of 25 degrees. Faces farther from parallel do not lie on each other: at an angle t they meet in a wedge, whose
+// energies differ by t/2 over the sine of its far end, which is more than all_region.
+constexpr double lie_on_each_other = 0.90630778703664996;
 
-// where the energies' ratio is so far from 1, all is the face's, or all the region's
-constexpr double all_face = 0.01, all_region = 0.03;
+// Where the energies' ratio is so far from 1, all is the face's, or all the region's. Of two faces that meet at a blunt
+// edge the one that lies nearer to the other part's counts, until both lie alike: there the ratio is 3/4 or less.
+constexpr double all_face = 0.07, all_region = 0.2;
 
 // How much of a face presses, m: of a polygon twice the area over the perimeter, at most half its least width.
 double width_of(const FaceIntegral<2>& face, const PressedPolygon&) {
@@ -61,9 +63,13 @@ Blend blend(double ratio) {
   return {ratio + h * (1 - ratio), 1 - h + h_slope * (1 - ratio), true};
 }
 
-void turn_axes(const Matrix<2>&, PressedPolygon&) {}
-void turn_axes(const Matrix<3>& axes, PressedPolygon& polygon) {
-  polygon.axes = (axes * polygon.axes).eval();
+// the polygon's axes in the world, laid normal to the force
+void turn_axes(const Matrix<2>&, const Vector<2>&, const Vector<2>&, PressedPolygon&) {}
+void turn_axes(const Matrix<3>& axes, const Vector<3>& mean_normal, const Vector<3>& normal, PressedPolygon& polygon) {
+  for (int k = 0; k < 2; ++k) {
+    const Vector<3> axis = axes * polygon.axes.col(k);
+    polygon.axes.col(k) = carried(axis, mean_normal, normal, 0.0);
+  }
 }
 Spin<2> turned_moment(const Matrix<2>&, const Spin<2>& moment) {
   return moment;
@@ -134,8 +140,8 @@ bool press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Di
   face.polar = 0;
   if (face.flat) {
     const double part = share.slope == 0 ? 1 : share.value - r.square / f.square * share.slope;
-    force = part * f.volume * f.normal;
-    about = moment(f.pressure, force);
+    force = part * f.force;
+    about = part * f.moment;
     face.square = share.value * f.square;
     point = f.pressure;
     area = f.area;
@@ -154,12 +160,11 @@ bool press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Di
   g.area = area;
   g.stiffness_factor = 1;
   face.force = pair.axes * force;
-  face.couple = share.slope == 0 ? Spin<Dim>(Spin<Dim>::Zero())
-                                 : turned_moment(pair.axes, Spin<Dim>(about - moment(point, force)));
-  face.normal = face.flat ? Vector<Dim>(pair.axes * f.normal) : g.normal;
+  face.couple = turned_moment(pair.axes, Spin<Dim>(about - moment(point, force)));
+  face.normal = g.normal;
   face.centre = face.flat ? Vector<Dim>(pair.axes * (seen_from + f.centre)) : g.point;
   if (face.flat)
-    turn_axes(pair.axes, face.polygon);
+    turn_axes(pair.axes, pair.axes * f.normal, g.normal, face.polygon);
   else
     face.polygon.corners.clear();
   return true;

@@ -94,24 +94,27 @@ FaceForce<Dim> face_force(const JointProperties& properties, double friction, do
   const Spin<Dim> spin = motion.spin_b - motion.spin_a;
   FaceForce<Dim> answer;
 
-  // the slip of the step that led here; a new contact slips as long as it has been closed
-  Vector<Dim> way;
+  // The slip of the step that led here, half of it where the contact was and half where it is, so that the old force and
+  // the new take half of the work each; a new contact slips as long as it has been closed.
+  Vector<Dim> way = velocity + closing * n;
   double turn = about_normal(n, spin) * dt, closing_before = 0;
   if (!h.normal.isZero(0)) {
     const Vector<Dim> before = motion.velocity_before_at(h.point, dt);
     closing_before = -before.dot(h.normal);
-    const Vector<Dim> twice = velocity + before + closing_before * h.normal;
-    way = 0.5 * dt * (twice - twice.dot(n) * n);
-    const double was = held(h, ks);
-    h.shear_force = carried(h.shear_force, h.normal, n, 0.5 * about_normal(n, motion.spin_a + motion.spin_b) * dt);
+    const double turned = 0.5 * about_normal(n, motion.spin_a + motion.spin_b) * dt;
+    way = 0.5 * dt * (way + carried(Vector<Dim>(before + closing_before * h.normal), h.normal, n, turned));
+    turn = 0.5 * (turn + about_normal(h.normal, spin) * dt);
+    const double was = held(h, ks), twist = h.twist;
+    const Vector<Dim> shear = carried(h.shear_force, h.normal, n, turned);
+    h.shear_force = shear;
     // where the old centre has gone, with both bodies
     const Vector<Dim> gone = dt * (cross(motion.spin_a, h.point) + 0.5 * before);
     change_area<Dim>(n, face.centre - h.point - gone, geometry.area, face.polar, h);
-    answer.lost_area = was - held(h, ks);
+    answer.lost_area = was - held(h, ks) - 0.5 * ((shear - h.shear_force).dot(way) + (twist - h.twist) * turn);
   } else {
     const double closed = -motion.velocity_at(geometry.point).dot(geometry.normal) * dt;
     const double since = closed > geometry.overlap ? geometry.overlap / closed : 1;
-    way = since * dt * (velocity + closing * n);
+    way *= since * dt;
     turn *= since;
     h.area = geometry.area;
     h.polar = face.polar;
