@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "core/contact/pair_geometry.hpp"
 
@@ -45,23 +46,63 @@ struct MeanPlane {
   }
 };
 
-// what of the plane a side plane leaves: q·y <= slack
+// What of the mean plane a side plane leaves: q·y <= slack. |q| is the sine between both.
 template <int Flat>
 struct Edge {
   Eigen::Matrix<double, Flat, 1> q;
   double slack;
-  int plane;  // -1: the pressed edge
+  int plane;
 };
+constexpr int pressed_edge = -1;  // where the overlap ends
 
-// what lies along an edge of the segment or polygon, over |q|, which is the sine between both planes
+// calls `with` for each of them
+template <int Dim, class With>
+[[gnu::always_inline]] inline void each_edge(const HalfSpaces<Dim>& planes, int face_a, int face_b,
+                                             const MeanPlane<Dim>& mean, With with) {
+  const auto axes = mean.axes;
+  const Vector<Dim> origin = mean.origin;
+  const HalfSpace<Dim>* const first = planes.data();
+  const int count = static_cast<int>(planes.size());
+  for (int i = 0; i < count; ++i) {
+    if (i == face_a || i == face_b) continue;
+    Edge<Dim - 1> e;
+    for (int k = 0; k < Dim - 1; ++k)
+      e.q[k] = axes.col(k).dot(first[i].normal);
+    e.slack = -signed_distance(first[i], origin);
+    e.plane = i;
+    with(e);
+  }
+  with(Edge<Dim - 1>{-mean.gradient, mean.at_origin, pressed_edge});
+}
+
+// Side planes of both parts are flush that lie less than this many overlaps apart: about as far as shear springs shift
+// blocks before they slip, the friction times kn over ks. And less than this part of the pressed width; and within five
+// degrees of parallel (1 - cos²).
+constexpr double flush_overlaps = 10, flush_width = 0.02, flush_sine2 = 0.0076;
+
+// What lies along an edge of the segment or polygon, over |q|. Where a plane of the other part is flush, both share it:
+// half each where they coincide.
 template <int Flat>
 struct Border {
   int plane;
+  int twin = -1;                         // the other one
+  double twins = 0;                      // its share
+  double sine2;                          // |q|²
   double square;                         // ∫ u² ds
   Eigen::Matrix<double, Flat, 1> lever;  // ∫ u² y ds
 };
 template <int Flat>
 using Borders = std::vector<Border<Flat>>;
+
+// With a plane that lies `behind` it, m, of `within`, m; `sine2` of the angle between both. Where it ends, it fades.
+template <int Flat>
+void share_with(int plane, double behind, double within, double sine2, Border<Flat>& border) {
+  if (!(behind < within && sine2 < flush_sine2)) return;
+  const double share = std::min(0.5 * (1 - behind / within), 0.5) * (1 - sine2 / flush_sine2);
+  if (!(share > border.twins)) return;
+  border.twin = plane;
+  border.twins = share;
+}
 
 // The sums over a segment or polygon, coordinates of the mean plane. Of the overlap from its values in the corners: on
 // a needle that presses along one side, its second moment across is lost in the one along.
@@ -72,25 +113,26 @@ struct Sums {
   Eigen::Matrix<double, Flat, 1> lean = Eigen::Matrix<double, Flat, 1>::Zero();  // ∫ u (y - centre) dA
 };
 
-bool measure(const std::vector<Edge<1>>& edges, const MeanPlane<2>& mean, double reach, std::vector<Vector<2>>&,
-             Sums<1>& sums, Borders<1>& borders) {
+bool measure(const HalfSpaces<2>& planes, int faces_a, int face_a, int face_b, const MeanPlane<2>& mean, double reach,
+             std::vector<Vector<2>>&, Sums<1>& sums, Borders<1>& borders) {
   double low = -reach, high = reach;
-  const Edge<1>*lowest = nullptr, *highest = nullptr;
-  for (const Edge<1>& e : edges) {
+  bool open = false;
+  Edge<1> lowest{Eigen::Matrix<double, 1, 1>(1), 0, pressed_edge}, highest = lowest;
+  each_edge(planes, face_a, face_b, mean, [&](const Edge<1>& e) {
     if (e.q[0] == 0) {
-      if (e.slack < 0) return false;
-      continue;
+      open |= e.slack < 0;
+      return;
     }
     const double at = e.slack / e.q[0];
     if (e.q[0] > 0 && at < high) {
       high = at;
-      highest = &e;
+      highest = e;
     } else if (e.q[0] < 0 && at > low) {
       low = at;
-      lowest = &e;
+      lowest = e;
     }
-  }
-  if (!(high > low)) return false;
+  });
+  if (open || !(high > low)) return false;
   const double p = std::max(mean.at_origin + mean.gradient[0] * low, 0.0),
                q = std::max(mean.at_origin + mean.gradient[0] * high, 0.0);
   sums.area = high - low;
@@ -100,127 +142,185 @@ bool measure(const std::vector<Edge<1>>& edges, const MeanPlane<2>& mean, double
   sums.square = sums.area / 3 * (p * p + p * q + q * q);
   sums.lean = sums.polar * mean.gradient;
   borders.clear();
-  const auto add = [&](const Edge<1>* e, double y, double u) {
-    if (e == nullptr || e->plane < 0) return;
-    const double square = u * u / std::abs(e->q[0]);
-    borders.push_back({e->plane, square, Eigen::Matrix<double, 1, 1>(square * y)});
+  const auto add = [&](const Edge<1>& e, double y, double u) {
+    if (e.plane == pressed_edge) return;
+    const double square = u * u / std::abs(e.q[0]);
+    Border<1> border{e.plane, -1, 0, e.q[0] * e.q[0], square, Eigen::Matrix<double, 1, 1>(square * y)};
+    each_edge(planes, face_a, face_b, mean, [&](const Edge<1>& other) {
+      if (other.plane == pressed_edge || (other.plane < faces_a) == (e.plane < faces_a) || other.q[0] * e.q[0] <= 0)
+        return;
+      share_with(other.plane, other.slack / std::abs(other.q[0]) - (other.q[0] > 0 ? y : -y),
+                 std::min(flush_overlaps * u, flush_width * sums.area), 0, border);
+    });
+    borders.push_back(border);
   };
   add(lowest, low, p);
   add(highest, high, q);
   return true;
 }
 
-// of a polygon; the edge that ends in it is of `plane`
-struct CutCorner {
-  Vector<2> y;
-  const Edge<2>* edge;  // null: the square's
+// A square about a point, cut by all edges as clip_polygon does; most leave it as it is, which is seen first.
+struct CutPolygon {
+  struct Corner {
+    double x, y;
+    int edge;  // the cut that made the edge which ends in it; -1: the square's
+  };
+  std::vector<Corner> own[2];
+  std::vector<double> left;
+  std::vector<Edge<2>> cuts;  // and what passes by no farther than `near`
+  Corner* corners = nullptr;
+  std::size_t count = 0;
+  double reach = 0;  // of every corner along both axes, from the point
+  double near = 0;   // m: farther behind no plane is flush
+
+  [[gnu::always_inline]] void cut(const Edge<2>& e, const Vector<2>& about, Corner*& then) {
+    const double qx = e.q[0], qy = e.q[1], slack = e.slack - (qx * about[0] + qy * about[1]);
+    if (slack >= reach * (std::abs(qx) + std::abs(qy)) + near) return;  // it passes beyond all corners
+    Corner* const is = corners;
+    double* const over = left.data();
+    const std::size_t before_cut = count;
+    double least = near;
+    for (std::size_t k = 0; k < before_cut; ++k) {
+      over[k] = slack - (qx * is[k].x + qy * is[k].y);
+      least = std::min(least, over[k]);
+    }
+    if (!(least < near)) return;
+    const int own_cut = static_cast<int>(cuts.size());
+    cuts.push_back(e);
+    if (!(least < 0)) return;
+    Corner* kept = then;
+    double farthest = 0;
+    std::size_t k_before = before_cut - 1;
+    for (std::size_t k = 0; k < before_cut; k_before = k++) {
+      const double here = over[k], there = over[k_before];
+      if (here < 0) {
+        if (!(there > 0)) continue;
+      } else if (!(there < 0 && here > 0)) {
+        *kept++ = {is[k].x, is[k].y, there < 0 ? own_cut : is[k].edge};
+        continue;
+      }
+      const double way = there / (there - here), x = is[k_before].x, y = is[k_before].y;
+      *kept++ = {x + way * (is[k].x - x), y + way * (is[k].y - y), here < 0 ? is[k].edge : own_cut};
+      if (!(here < 0)) *kept++ = is[k];
+    }
+    for (const Corner* c = then; c != kept; ++c)
+      farthest = std::max({farthest, std::abs(c->x), std::abs(c->y)});
+    reach = farthest;
+    near = 2 * flush_width * reach;
+    count = kept - then;
+    std::swap(corners, then);
+    if (count < 3) count = 0;
+  }
+
+  void cut_all(const HalfSpaces<3>& planes, int face_a, int face_b, const MeanPlane<3>& mean, const Vector<2>& about,
+               double half) {
+    // each edge adds a corner at most; of a polygon that rounding has bent, one more
+    const std::size_t most = 2 * planes.size() + 8;
+    if (left.size() < most) {
+      own[0].resize(most);
+      own[1].resize(most);
+      left.resize(most);
+    }
+    cuts.clear();
+    corners = own[0].data();
+    Corner* then = own[1].data();
+    corners[0] = {-half, -half, -1};
+    corners[1] = {half, -half, -1};
+    corners[2] = {half, half, -1};
+    corners[3] = {-half, half, -1};
+    count = 4;
+    reach = half;
+    near = 2 * flush_width * reach;
+    each_edge(planes, face_a, face_b, mean, [&](const Edge<2>& e) {
+      if (count > 0) cut(e, about, then);
+    });
+  }
 };
 
-// Cuts a square about a point by all edges, as clip_polygon does; most edges leave it as it is, which is seen first.
-void cut(const std::vector<Edge<2>>& edges, const Vector<2>& about, double half, std::vector<CutCorner>& polygon) {
-  // each edge adds a corner at most
-  static thread_local std::vector<CutCorner> own[2];
-  static thread_local std::vector<double> own_left;
-  const std::size_t most = edges.size() + 5;
-  if (own_left.size() < most) {
-    own[0].resize(most);
-    own[1].resize(most);
-    own_left.resize(most);
-  }
-  CutCorner *is = own[0].data(), *then = own[1].data();
-  double* const left = own_left.data();
-  std::size_t count = 4;
-  is[0] = {{-half, -half}, nullptr};
-  is[1] = {{half, -half}, nullptr};
-  is[2] = {{half, half}, nullptr};
-  is[3] = {{-half, half}, nullptr};
-  for (const Edge<2>& e : edges) {
-    const double qx = e.q[0], qy = e.q[1], slack = e.slack - (qx * about[0] + qy * about[1]);
-    if (slack >= half * (std::abs(qx) + std::abs(qy))) continue;  // beyond the square
-    double least = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      left[k] = slack - (qx * is[k].y[0] + qy * is[k].y[1]);
-      least = std::min(least, left[k]);
-    }
-    if (!(least < 0)) continue;
-    std::size_t kept = 0;
-    for (std::size_t k = 0, before = count - 1; k < count && kept + 1 < most; before = k++) {
-      if (left[before] * left[k] < 0) {
-        const double way = left[before] / (left[before] - left[k]);
-        then[kept++] = {is[before].y + way * (is[k].y - is[before].y), left[k] < 0 ? is[k].edge : &e};
-      }
-      if (!(left[k] < 0)) {
-        then[kept] = is[k];
-        if (left[k] == 0 && left[before] < 0) then[kept].edge = &e;
-        ++kept;
-      }
-    }
-    std::swap(is, then);
-    count = kept;
-    if (count < 3) break;
-  }
-  polygon.assign(is, is + count);
-}
-
-bool measure(const std::vector<Edge<2>>& edges, const MeanPlane<3>& mean, double reach,
+bool measure(const HalfSpaces<3>& planes, int faces_a, int face_a, int face_b, const MeanPlane<3>& mean, double reach,
              std::vector<Vector<2>>& corners, Sums<2>& sums, Borders<2>& borders) {
-  static thread_local std::vector<CutCorner> polygon;
-  double half = reach;
+  static thread_local CutPolygon own;
+  CutPolygon& polygon = own;
+  double half = reach, extent = 0;
   Vector<2> shift = Vector<2>::Zero();  // of the square's middle
   for (int i = 0; i < most_cuts; ++i) {
-    cut(edges, shift, half, polygon);
-    if (polygon.size() < 3) return false;
-    Vector<2> low = polygon[0].y, high = low;
-    for (const CutCorner& c : polygon) {
-      low = low.cwiseMin(c.y);
-      high = high.cwiseMax(c.y);
+    polygon.cut_all(planes, face_a, face_b, mean, shift, half);
+    if (polygon.count < 3) return false;
+    Vector<2> low(polygon.corners[0].x, polygon.corners[0].y), high = low;
+    for (std::size_t k = 1; k < polygon.count; ++k) {
+      const Vector<2> y(polygon.corners[k].x, polygon.corners[k].y);
+      low = low.cwiseMin(y);
+      high = high.cwiseMax(y);
     }
-    const double extent = (high - low).maxCoeff();
+    extent = (high - low).maxCoeff();
     if (!(extent > 0)) return false;
     if (extent * lost_digits >= half) break;
     shift += 0.5 * (low + high);
     half = extent;
   }
-  const double here = mean.at_origin + mean.gradient.dot(shift);
-  const auto overlap = [&](const Vector<2>& y) { return std::max(here + mean.gradient.dot(y), 0.0); };
-  Vector<2> moment = Vector<2>::Zero(), pressed = Vector<2>::Zero();  // from the first corner
-  double second = 0;
-  const Vector<2> first = polygon[0].y;
-  const double p = overlap(first);
-  Vector<2> v = polygon[1].y - first;
-  double q = overlap(polygon[1].y);
-  borders.clear();
-  const auto add_border = [&](const Edge<2>* e, const Vector<2>& from, const Vector<2>& to, double u, double w) {
-    if (e == nullptr || e->plane < 0) return;
-    const double over = std::sqrt((to - from).squaredNorm() / e->q.squaredNorm()), uu = u * u, uw = u * w, ww = w * w;
-    borders.push_back({e->plane, over / 3 * (uu + uw + ww),
-                       over / 12 * ((3 * uu + 2 * uw + ww) * from + (uu + 2 * uw + 3 * ww) * to)});
+  const double here = mean.at_origin + mean.gradient.dot(shift), slope_x = mean.gradient[0], slope_y = mean.gradient[1];
+  const double first_x = polygon.corners[0].x, first_y = polygon.corners[0].y;
+  const auto overlap = [&](const CutPolygon::Corner& c) {
+    return std::max(here + (slope_x * c.x + slope_y * c.y), 0.0);
   };
-  add_border(polygon[1].edge, Vector<2>::Zero(), v, p, q);
-  for (std::size_t k = 2; k < polygon.size(); ++k) {
-    const Vector<2> w = polygon[k].y - first;
-    const double area = 0.5 * (v[0] * w[1] - v[1] * w[0]), r = overlap(polygon[k].y);
-    sums.area += area;
-    sums.volume += area / 3 * (p + q + r);
-    sums.square += area / 6 * (p * p + q * q + r * r + p * q + q * r + r * p);
-    second += area / 6 * (v.squaredNorm() + w.squaredNorm() + v.dot(w));
-    moment += area / 3 * (v + w);
-    pressed += area / 12 * ((p + 2 * q + r) * v + (p + q + 2 * r) * w);
-    add_border(polygon[k].edge, v, w, q, r);
-    v = w;
+  borders.clear();
+  const auto add_border = [&](int edge, double from_x, double from_y, double to_x, double to_y, double u, double w) {
+    if (edge < 0 || polygon.cuts[edge].plane == pressed_edge) return;
+    const double dx = to_x - from_x, dy = to_y - from_y, sine2 = polygon.cuts[edge].q.squaredNorm();
+    const double over = std::sqrt((dx * dx + dy * dy) / sine2), uu = u * u, uw = u * w, ww = w * w;
+    const double from = over / 12 * (3 * uu + 2 * uw + ww), to = over / 12 * (uu + 2 * uw + 3 * ww);
+    Border<2> border{
+        polygon.cuts[edge].plane, -1, 0, sine2, from + to, {from * from_x + to * to_x, from * from_y + to * to_y}};
+    const bool of_a = border.plane < faces_a;
+    const double x = shift[0] + first_x + 0.5 * (from_x + to_x), y = shift[1] + first_y + 0.5 * (from_y + to_y);
+    for (const Edge<2>& other : polygon.cuts) {
+      if (other.plane == pressed_edge || (other.plane < faces_a) == of_a) continue;
+      const Vector<2>&q1 = polygon.cuts[edge].q, &q2 = other.q;
+      if (!(q1.dot(q2) > 0)) continue;
+      const double across = q1[0] * q2[1] - q1[1] * q2[0], squares = sine2 * q2.squaredNorm();
+      if (!(across * across < flush_sine2 * squares)) continue;
+      share_with(other.plane, (other.slack - (q2[0] * x + q2[1] * y)) / q2.norm(),
+                 std::min(0.5 * flush_overlaps * (u + w), flush_width * extent), across * across / squares, border);
+    }
+    borders.push_back(border);
+  };
+  // places from the first corner
+  double area = 0, volume = 0, square = 0, second = 0, moment_x = 0, moment_y = 0, pressed_x = 0, pressed_y = 0;
+  const double p = overlap(polygon.corners[0]);
+  double vx = polygon.corners[1].x - first_x, vy = polygon.corners[1].y - first_y, q = overlap(polygon.corners[1]);
+  add_border(polygon.corners[1].edge, 0, 0, vx, vy, p, q);
+  for (std::size_t k = 2; k < polygon.count; ++k) {
+    const CutPolygon::Corner& c = polygon.corners[k];
+    const double wx = c.x - first_x, wy = c.y - first_y, r = overlap(c);
+    const double triangle = 0.5 * (vx * wy - vy * wx), sum = p + q + r;
+    area += triangle;
+    volume += triangle / 3 * sum;
+    square += triangle / 6 * (p * p + q * q + r * r + p * q + q * r + r * p);
+    second += triangle / 6 * (vx * vx + vy * vy + wx * wx + wy * wy + vx * wx + vy * wy);
+    moment_x += triangle / 3 * (vx + wx);
+    moment_y += triangle / 3 * (vy + wy);
+    pressed_x += triangle / 12 * ((sum + q) * vx + (sum + r) * wx);
+    pressed_y += triangle / 12 * ((sum + q) * vy + (sum + r) * wy);
+    add_border(c.edge, vx, vy, wx, wy, q, r);
+    vx = wx;
+    vy = wy;
     q = r;
   }
-  add_border(polygon[0].edge, v, Vector<2>::Zero(), q, p);
-  if (!(sums.area > 0)) return false;
-  const Vector<2> from_corner = moment / sums.area, middle = first + from_corner, origin = shift + first;
-  sums.polar = second - moment.dot(from_corner);
-  sums.lean = pressed - sums.volume * from_corner;
-  corners.clear();
-  for (const CutCorner& c : polygon)
-    corners.push_back(c.y - middle);
+  add_border(polygon.corners[0].edge, vx, vy, 0, 0, q, p);
+  if (!(area > 0)) return false;
+  const Vector<2> first(first_x, first_y), from_first(moment_x / area, moment_y / area), middle = first + from_first;
+  sums.area = area;
+  sums.volume = volume;
+  sums.square = square;
+  sums.polar = second - (moment_x * from_first[0] + moment_y * from_first[1]);
+  sums.lean = Vector<2>(pressed_x, pressed_y) - volume * from_first;
+  sums.centre = shift + middle;
+  corners.resize(polygon.count);
+  for (std::size_t k = 0; k < polygon.count; ++k)
+    corners[k] = {polygon.corners[k].x - middle[0], polygon.corners[k].y - middle[1]};
+  const Vector<2> origin = shift + first;
   for (Border<2>& b : borders)
     b.lever += b.square * origin;
-  sums.centre = shift + middle;
   return true;
 }
 
@@ -235,20 +335,12 @@ bool integrate_face(const HalfSpaces<Dim>& planes, int faces_a, int face_a, int 
   const MeanPlane<Dim> mean(a, b);
   const Vector<Dim> sum = a.normal + b.normal;
   const double c = 0.5 * (a.normal - b.normal).norm();
-  static thread_local std::vector<Edge<Flat>> edges;
-  edges.clear();
-  for (int i = 0; i < static_cast<int>(planes.size()); ++i)
-    if (i != face_a && i != face_b)
-      edges.push_back({mean.along(planes[i].normal), -signed_distance(planes[i], mean.origin), i});
-  if (!mean.gradient.isZero(0))
-    edges.push_back({-mean.gradient, mean.at_origin, -1});
-  else if (!(mean.at_origin > 0))
-    return false;
-
+  if (mean.gradient.isZero(0) && !(mean.at_origin > 0)) return false;
   Sums<Flat> sums;
   static thread_local Borders<Flat> borders;
   polygon.corners.clear();
-  if (!measure(edges, mean, reach, polygon.corners, sums, borders) || !(sums.volume > 0)) return false;
+  if (!measure(planes, faces_a, face_a, face_b, mean, reach, polygon.corners, sums, borders) || !(sums.volume > 0))
+    return false;
   face.normal = mean.normal;
   face.area = sums.area;
   face.centre = mean.origin + mean.axes * sums.centre;
@@ -258,9 +350,20 @@ bool integrate_face(const HalfSpaces<Dim>& planes, int faces_a, int face_a, int 
   face.polar = sums.polar;
   face.force = sums.volume * mean.normal;
   face.moment = moment(face.pressure, face.force) - 0.25 * sums.square / (c * c) * moment(b.normal, a.normal);
+  face.least_sine2 = 1;
+  face.flush = false;
+  // what of its square an edge pulls with, as either part's plane
+  const auto pull_of = [&](int plane) {
+    const Vector<Dim>& normal = planes[plane].normal;
+    return Vector<Dim>(0.125 / c * normal.dot(mean.normal) * sum + (plane < faces_a ? -0.25 : 0.25) * normal);
+  };
   for (const Border<Flat>& e : borders) {
-    const HalfSpace<Dim>& side = planes[e.plane];
-    const Vector<Dim> pull = 0.125 * side.normal.dot(mean.normal) / c * sum + (e.plane < faces_a ? -0.25 : 0.25) * side.normal;
+    face.least_sine2 = std::min(face.least_sine2, e.sine2);
+    Vector<Dim> pull = pull_of(e.plane);
+    if (e.twin >= 0) {
+      pull = (1 - e.twins) * pull + e.twins * pull_of(e.twin);
+      face.flush = true;
+    }
     face.force -= e.square * pull;
     face.moment -= moment(Vector<Dim>(e.square * mean.origin + mean.axes * e.lever), pull);
   }

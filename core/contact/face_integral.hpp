@@ -6,19 +6,20 @@
 // where a·y = d_a and b·y = d_b are the faces. The contact polygon P is what lies inside of all other planes of both
 // parts on the mean plane, and where u >= 0. With k, Pa/m, energy and force on the second part are
 //
-//   E = ½ k ∫ u² dA,   F = n k ∫ u dA,   acting at the centre of pressure ∫ u y dA / ∫ u dA.
+//   E = ½ k ∫ u² dA,   F = n k ∫ u dA and more,   n k ∫ u dA at the centre of pressure ∫ u y dA / ∫ u dA.
 //
-// What F is the derivative of. As the second part moves by w and turns by t about the origin, faces all but parallel,
+// They are the derivative of E in every motion of the second part, edges included. Besides n k ∫ u dA, an edge of P
+// that a side plane s of either part makes gains or loses what is under stress there, and the mean plane turns and
+// shifts with the faces: with q the sine between s and the mean plane and ± for the second and the first part,
 //
-//   dE = -F·w - M·t + k/4 (∮_B - ∮_A) u² ν·(w + t × y) ds,   M = ∫ k u y × n dA
+//   F = k n ∫ u dA - k/4 Σ 1/q ∮ u² p ds,   p = (s·n) (a + b) / |a - b| ± s,
+//   M = k ∫ u y × n dA - k (b × a)/|a - b|² ∫ u² dA - k/4 Σ 1/q ∮ u² y × p ds.
 //
-// with A and B the polygon's edges that either part makes, and ν their outward normals in the mean plane: there the
-// polygon gains or loses what is under stress. The pressed edge, where u = 0, adds nothing. The edges' term is not
-// answered by a force: it would push a block off its neighbour's edge, would change its sign where both edges are
-// flush, and is at most u over the width of the face, of the normal force. So force and moment are the exact derivative
-// of E in every motion that carries no edge over a pressed face, and what an edge takes with it is E's own difference.
-// Side planes that are not normal to the mean plane move its edges as the faces approach, which is left out likewise:
-// a fraction of u over the width times the cotangent of their slope.
+// So a block on a wider one is pushed along the wider one's normal, however it leans, where the mean plane's leans by
+// half as much. Blocks whose edges are flush, as in masonry, push each other along the mean plane's normal: there E has
+// a crest, and which edge stands out by how little would decide to whose side force goes. Within ten overlaps, about
+// what shear springs shift them by, both share the edge; that much of E's derivative, u over the width of the face, is
+// left out.
 #pragma once
 
 #include "core/geometry/half_space.hpp"
@@ -39,6 +40,8 @@ struct FaceIntegral {
   Vector<Dim> pressure = Vector<Dim>::Zero();  // its centre, m
   double square = 0;                           // ∫ u² dA, m⁴: E is half of it, times k
   double polar = 0;                            // ∫ |y - centre|² dA, m⁴: the twisting stiffness over ks
+  double least_sine2 = 1;                      // squared sine of the least angle to a side plane that bounds it
+  bool flush = false;                          // an edge is both parts'
   Vector<Dim> force = Vector<Dim>::Zero();     // on the second part, over k, m^Dim
   Spin<Dim> moment = Spin<Dim>::Zero();        // about the origin of the planes, over k, m^(Dim + 1)
 };

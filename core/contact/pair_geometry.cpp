@@ -35,13 +35,16 @@ Vector<Dim> potential_direction(std::span<const HalfSpace<Dim>> faces, const Vec
 
 template <int Dim>
 void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>& planes) {
-  planes.clear();
+  planes.resize(pair.a->faces.size() + pair.b->faces.size());
+  HalfSpace<Dim>* plane = planes.data();
   for (const HalfSpace<Dim>& f : pair.a->faces)
-    planes.push_back(moved_origin<Dim>(f, origin));
+    *plane++ = moved_origin<Dim>(f, origin);
   const Vector<Dim> shift = origin - pair.offset;
+  const Matrix<Dim> rotation = pair.rotation;
   for (const HalfSpace<Dim>& f : pair.b->faces) {
-    const Vector<Dim> normal = pair.rotation * f.normal;
-    planes.push_back({normal, f.offset - normal.dot(shift)});
+    plane->normal.noalias() = rotation * f.normal;
+    plane->offset = f.offset - plane->normal.dot(shift);
+    ++plane;
   }
 }
 

@@ -2,7 +2,7 @@
 // at one point. Where two faces lie on each other, exactly over their contact polygon (face_integral.hpp); elsewhere by
 // the depth of the overlap (region_integral.hpp). Between both energies, E_f and E_r, r = E_r / E_f,
 //
-//   E = E_f g(r),   g = 1 within 1 % of r = 1, g = r beyond 3 %, a cubic without a kink between,
+//   E = E_f g(r),   g = 1 within 7 % of r = 1, g = r beyond 20 %, a cubic without a kink between,
 //
 // so that a face that rocks onto its edge, and on to its corner, meets one energy, whose derivative the force is:
 // F = (g - r g') F_f + g' F_r, and the moment likewise.
@@ -39,5 +39,11 @@ void find_nearest_faces(const Pair<Dim>& pair, Contact<Dim>& contact, HalfSpaces
 // overlap and force are zero. False: more planes bound the overlap than integrate_region takes.
 template <int Dim>
 bool press_face(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Dim>& contact, PressedFace<Dim>& face);
+
+// The same without the kernel, of a contact that was pressed before: where its faces still lie on each other, wide
+// against how deep they press, no others can. False, and nothing is said, where that is not so. Its proof is then the
+// centre of the polygon, inside of all planes by more than rounding.
+template <int Dim>
+bool press_as_before(const Pair<Dim>& pair, Contact<Dim>& contact, PressedFace<Dim>& face);
 
 }  // namespace voussoir

@@ -354,20 +354,23 @@ template <int Dim>
 void lay_on(Random& random, double angle, double depth, Overlapping<Dim>& o) {
   o.a = shapes::block<Dim>(shapes::cube<Dim>(1));
   o.b = shapes::block<Dim>(shapes::cube<Dim>(uniform(random, 0.4, 0.9)));
+  const int place = integer(random, 0, 4);  // over the other's edge or not, or flush with it
+  if (place == 4) angle *= 1e-2;
   Spin<Dim> turn = Spin<Dim>::Zero();
+  Rotation<Dim> rotation;
   if constexpr (Dim == 3) {
     const double about = uniform(random, 0, 2 * std::numbers::pi);
     turn = {angle * std::cos(about), angle * std::sin(about), 0};
+    if (place < 4) rotation = turned(rotation, {0, 0, uniform(random, 0, 1)});
   } else {
     turn[0] = angle;
   }
-  Rotation<Dim> rotation;
-  if constexpr (Dim == 3) rotation = turned(rotation, {0, 0, uniform(random, 0, 1)});
   const Matrix<Dim> axes = matrix(turned(rotation, turn));
   Vector<Dim> up = Vector<Dim>::Unit(Dim - 1);
-  if (integer(random, 0, 1) == 0) up[0] = uniform(random, -0.6, 0.6);  // over the other's edge or not
+  if (place < 2) up[0] = uniform(random, -0.6, 0.6);
   const double away = distance_of_touching<Dim>(o.a, o.b, axes, up);
   o.pair = {&o.a, &o.b, Matrix<Dim>::Identity(), axes, away * up - depth * Vector<Dim>::Unit(Dim - 1)};
+  if (place == 4) o.pair.offset[0] += 1 - o.b.faces[0].offset;
   o.contact = touch<Dim>(o.a, o.b, axes, o.pair.offset).contact;
   ASSERT_TRUE(o.contact.touching());
 }
@@ -376,8 +379,8 @@ void lay_on(Random& random, double angle, double depth, Overlapping<Dim>& o) {
 template <int Dim>
 void expect_one_energy() {
   Random random(17);
-  int flat = 0, blended = 0, region = 0;
-  for (int i = 0; i < 400; ++i) {
+  int flat = 0, flush = 0, blended = 0, region = 0;
+  for (int i = 0; i < 500; ++i) {
     Overlapping<Dim> o;
     const double depth = power_of_ten(random, -4, -1.5);
     lay_on(random, power_of_ten(random, -3, -0.2), depth, o);
@@ -396,7 +399,7 @@ void expect_one_energy() {
         static_cast<int>(o.a.faces.size()) + o.contact.geometry.face_b, reach_of(o.pair), f, polygon);
     const double ratio = faces ? r.square / f.square : 0;
     if (std::abs(ratio - 1) <= 0.07) {
-      ++flat;
+      ++(f.flush ? flush : flat);
       EXPECT_EQ(face.square, f.square);
     } else if (std::abs(ratio - 1) >= 0.2) {
       ++region;
@@ -415,10 +418,12 @@ void expect_one_energy() {
       press_face<Dim>(pair, planes, c, then);
       return then.square;
     });
-    EXPECT_LT(worst, of_differences) << i << ", ratio " << ratio;
+    // of flush edges E's derivative is shared out (face_integral.hpp): at most the deepest overlap over the width
+    EXPECT_LT(worst, face.flat && f.flush ? 0.05 : of_differences) << i << ", ratio " << ratio;
   }
   EXPECT_GT(flat, 20);
-  EXPECT_GT(blended, 3);
+  EXPECT_GT(flush, 20);
+  EXPECT_GT(blended, 20);
   EXPECT_GT(region, 20);
 }
 

@@ -72,16 +72,27 @@ struct Tally {
   long long unconverged = 0;
 };
 
-// contacts that are to be resolved together
+// Contacts that are to be resolved together, and, pressed already, those whose faces lie on each other as before.
 template <int Dim>
 struct Waiting {
   int count = 0;
   std::array<Pair<Dim>, pairs_together> pairs;
   std::array<Contact<Dim>*, pairs_together> contacts;
   std::array<bool, pairs_together> touched;  // before
+  int looked_at = 0;
+  std::array<Contact<Dim>*, pairs_together> all;
 
-  void add(const Model<Dim>& model, const State<Dim>& state, QueryLevel level, Contact<Dim>& c) {
-    set_pair(model, state, c.part_a, c.part_b, level, pairs[count]);
+  void add(const Model<Dim>& model, const Settings& settings, State<Dim>& state, QueryLevel level, Contact<Dim>& c,
+           KernelCounters& counters) {
+    Pair<Dim>& pair = pairs[count];
+    set_pair(model, state, c.part_a, c.part_b, level, pair);
+    all[looked_at++] = &c;
+    if (c.touching() && carried_whole(settings.contact, model.properties[c.properties])) [[unlikely]] {
+      if (press_as_before<Dim>(pair, c, state.faces[&c - state.contacts.data()])) {
+        ++counters.evaluations;
+        return;
+      }
+    }
     contacts[count] = &c;
     touched[count] = c.touching();
     ++count;
@@ -139,8 +150,8 @@ void find_contacts_of(const Model<Dim>& model, const Settings& settings, State<D
   static thread_local Waiting<Dim> waiting;
   const auto resolve_waiting = [&] {
     resolve(model, settings, state, gap, waiting, tally);
-    if (found) found(group, std::span(waiting.contacts).first(waiting.count));
-    waiting.count = 0;
+    if (found) found(group, std::span(waiting.all).first(waiting.looked_at));
+    waiting.count = waiting.looked_at = 0;
   };
   const std::size_t first = group * summed_together, last = std::min(first + summed_together, state.contacts.size());
   for (std::size_t i = first; i < last; ++i) {
@@ -155,10 +166,10 @@ void find_contacts_of(const Model<Dim>& model, const Settings& settings, State<D
       ++tally.kernel.motion_skips;
       continue;
     }
-    waiting.add(model, state, level, c);
-    if (waiting.count == pairs_together) resolve_waiting();
+    waiting.add(model, settings, state, level, c, tally.kernel);
+    if (waiting.looked_at == pairs_together) resolve_waiting();
   }
-  if (waiting.count > 0) resolve_waiting();
+  if (waiting.looked_at > 0) resolve_waiting();
 }
 
 void add(Counters& total, const Tally& tally) {

@@ -94,8 +94,8 @@ FaceForce<Dim> face_force(const JointProperties& properties, double friction, do
   const Spin<Dim> spin = motion.spin_b - motion.spin_a;
   FaceForce<Dim> answer;
 
-  // The slip of the step that led here, half of it where the contact was and half where it is, so that the old force and
-  // the new take half of the work each; a new contact slips as long as it has been closed.
+  // The slip of the step that led here, half of it where the contact was and half where it is, so that the old force
+  // and the new take half of the work each; a new contact slips as long as it has been closed.
   Vector<Dim> way = velocity + closing * n;
   double turn = about_normal(n, spin) * dt, closing_before = 0;
   if (!h.normal.isZero(0)) {
