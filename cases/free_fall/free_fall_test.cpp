@@ -28,6 +28,12 @@ std::string text_of(const std::filesystem::path& path) {
   return text.str();
 }
 
+// a stiffness per area, at a point and as a whole
+const std::vector<std::string> per_area{"joint_properties.rock.constant_stiffness=false",
+                                        "joint_properties.rock.normal_stiffness=2e9",
+                                        "joint_properties.rock.shear_stiffness=1e9"};
+const std::vector<std::string> whole_contacts{per_area[0], per_area[1], per_area[2], whole_faces};
+
 std::filesystem::path write_scene(const std::string& file, const std::string& text) {
   const std::filesystem::path path = verification::case_output("free_fall") / file;
   std::ofstream(path, std::ios::binary) << text;
@@ -164,11 +170,7 @@ TEST(FreeFall, TheEnergyBalanceClosesWithTheSquareOfTheStep) {
   };
   const std::vector<std::string> multipliers{"contact.normal=multipliers", "contact.point=chebyshev"},
       central_path{"contact.normal=multipliers", "contact.point=central_path",
-                   fmt::format("contact.smoothing={}", smoothing)},
-      per_area{"joint_properties.rock.constant_stiffness=false", "joint_properties.rock.normal_stiffness=2e9",
-               "joint_properties.rock.shear_stiffness=1e9"};
-  std::vector<std::string> whole = per_area;
-  whole.push_back(whole_faces);
+                   fmt::format("contact.smoothing={}", smoothing)};
 
   std::vector<std::vector<double>> open(5);
   for (const double fraction : {1.0, 0.5, 0.2}) {
@@ -185,7 +187,7 @@ TEST(FreeFall, TheEnergyBalanceClosesWithTheSquareOfTheStep) {
     if (fraction < 1) most = std::min(fraction == 0.2 ? energy_balanced : most, open[4].front());
     const Limit of_region{most, "a potential: the depth of the overlap region, or the overlap of two faces",
                           "what was asked of the case; a shorter step leaves less than the limit does"};
-    open[4].push_back(left_open("whole contacts", whole, fraction, of_region, When::worst));
+    open[4].push_back(left_open("whole contacts", whole_contacts, fraction, of_region, When::worst));
   }
   left_open("a point with stiffness per area", per_area, 1, {});
   write_csv("free_fall", "balance.csv", {"fraction", "published", "multipliers", "central_path", "whole"}, open);
@@ -203,6 +205,16 @@ TEST(FreeFallLong, EveryShapeFalls) {
     check(report, ", " + shape + ", on the central path", let_fall(scene, plan, conservative_contacts),
           Balance::checked, Rest::optional);
   }
+}
+
+// the shape whose blocks swing on a point
+TEST(FreeFallLong, DodecahedraRestOnWholeContacts) {
+  CaseReport report("free_fall");
+  FallPlan plan;
+  plan.kinds = {3};
+  const std::filesystem::path scene =
+      write_scene("dodecahedra_whole.toml", fall_scene(plan, "Two hundred dodecahedra on whole contacts"));
+  check(report, ", dodecahedra on whole contacts", let_fall(scene, plan, whole_contacts), Balance::checked);
 }
 
 }  // namespace
