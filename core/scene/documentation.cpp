@@ -129,13 +129,22 @@ std::string when_text(const KeyRow& row) {
   return text;
 }
 
+// a bar would end the cell
+std::string within_a_table(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
 std::string row_text(const KeyRow& row) {
   std::string meaning = when_text(row) + std::string(row.meaning);
   if (!row.breaks.empty()) meaning += ". *" + std::string(row.breaks) + "*";
   if (!row.example.empty()) meaning += ". Example: `" + std::string(row.example) + "`";
-  std::replace(meaning.begin(), meaning.end(), '|', '/');
   return "| `" + std::string(row.key) + "` | " + allowed_text(row) + " | " + std::string(row.unit) + " | " +
-         default_text(row) + " | " + meaning + " |\n";
+         default_text(row) + " | " + within_a_table(meaning) + " |\n";
 }
 
 // where in a file the keys of a group stand: [domain], [[stage.fix]]
