@@ -14,11 +14,22 @@ namespace voussoir {
 // failed: a numerical failure (a contact without an answer, a non-finite force)
 enum class Outcome { done, incomplete, failed };
 
+// by how much a value moved as one thing was varied, in its unit
+struct BudgetLine {
+  std::string varied, change;  // "stiffness", "4 times"
+  double shift = 0;            // the value then, minus the value
+  double left = 0;             // what that says is left open: extrapolated, where an order is known
+  bool sensitivity = false;    // the scene calls it measured: told, but no error
+};
+
 struct Value {
   double value = 0;
-  std::string unit;                 // "deg", "m", "1" …
-  std::optional<double> error_bar;  // same unit: half width of what the method leaves open
-  std::string rule;                 // how it was found; may be empty
+  std::string unit;                     // "deg", "m", "1" …
+  std::optional<double> error_bar;      // same unit: half width of what is left open by what it `covers`
+  std::string rule;                     // how it was found; may be empty
+  std::string covers = "bracket";       // or "budget": the search's bracket alone, or all that the budget varied
+  std::optional<double> bracket = {};   // with a budget: what the search alone leaves open
+  std::vector<BudgetLine> budget = {};  // by size
 };
 
 struct StageResult {
@@ -81,6 +92,7 @@ struct Results {
   std::string state_hash;             // of the last state (core/state_hash.hpp)
   std::vector<std::string> warnings;  // one line each: what the run itself showed to be doubtful
   double seconds = 0;                 // wall clock
+  long long budget_evaluations = 0;   // contact evaluations of the budget's runs
 
   const Value* find(const std::string& name) const {
     for (const auto& [key, value] : values)

@@ -129,6 +129,9 @@ void add_run(CLI::App& program, RunArguments& arguments, Action& action) {
           "folder of a run of the same blocks and first stages that kept its end: begin there, with the results "
           "of the whole run")
       ->check(plain_text());
+  command->add_flag("--budget", arguments.budget,
+                    "vary what was chosen, one thing at a time, in runs beside the answer: every value then says what "
+                    "moves it, and its error bar covers that (accuracy.budget)");
   add_overwrite(command, arguments.overwrite);
   command->add_flag("--quiet", arguments.quiet, "no progress and no summary");
   command->callback([&] { action = [&] { return run_command(arguments); }; });

@@ -40,6 +40,7 @@ struct RunArguments {
   std::filesystem::path begin;  // folder of another run, at whose end this one begins; empty: at the start
   std::string until;            // the stage after which it ends, its state kept; empty: the last
   bool keep = false;            // the state at the end
+  bool budget = false;          // as if the scene stated accuracy.budget
   bool overwrite = false;
   bool quiet = false;
 };

@@ -7,6 +7,7 @@
 #include "app/bad_input.hpp"
 #include "app/begin_run.hpp"
 #include "app/commands/commands.hpp"
+#include "app/commands/error_budget.hpp"
 #include "app/commands/plausibility.hpp"
 #include "app/commands/progress_line.hpp"
 #include "app/interruption.hpp"
@@ -49,7 +50,17 @@ std::string value_text(const Value& value) {
   if (!std::isfinite(value.value)) return "not a finite number" + unit;
   if (!value.error_bar || *value.error_bar <= 0) return fmt::format("{:.6g}{}", value.value, unit);
   const int places = std::clamp(1 - static_cast<int>(std::floor(std::log10(*value.error_bar))), 0, 15);
-  return fmt::format("{:.{}f} ± {:.{}f}{}", value.value, places, *value.error_bar, places, unit);
+  return fmt::format("{:.{}f} ± {:.{}f}{}, {}", value.value, places, *value.error_bar, places, unit,
+                     value.covers == "bracket" ? "the bracket alone" : "all that the budget varied");
+}
+
+void print_budget(const Value& value) {
+  constexpr double told = 0.01;  // of the bar; results.json has all
+  for (const BudgetLine& line : value.budget) {
+    if (!line.sensitivity && !(std::abs(line.left) >= told * value.error_bar.value_or(0) && line.left != 0)) continue;
+    fmt::print("      {:+.2g} {} with {}, {}: {}\n", line.shift, value.unit == "1" ? "" : value.unit, line.varied,
+               line.change, line.sensitivity ? "measured, no error" : fmt::format("{:+.2g} is left", line.left));
+  }
 }
 
 void print_summary(const LoadedScene& scene, const Results& results, const fs::path& folder) {
@@ -58,8 +69,10 @@ void print_summary(const LoadedScene& scene, const Results& results, const fs::p
   std::size_t width = 0;
   for (const auto& [name, value] : results.values)
     width = std::max(width, name.size());
-  for (const auto& [name, value] : results.values)
+  for (const auto& [name, value] : results.values) {
     fmt::print("  {:<{}}  {}{}\n", name, width, value_text(value), value.rule.empty() ? "" : "  (" + value.rule + ")");
+    print_budget(value);
+  }
   for (const StageResult& stage : results.stages)
     fmt::print("  stage {}: {} after {} steps, {:.4g} s simulated\n", stage.name, stage.ended, stage.steps, stage.time);
   if (const auto& bonds = results.bonds)
@@ -68,6 +81,9 @@ void print_summary(const LoadedScene& scene, const Results& results, const fs::p
   const Counters& counters = results.counters;
   fmt::print("  {} steps, {} contact evaluations, {}\n", counters.steps, counters.contact_evaluations,
              duration_text(results.seconds));
+  if (results.budget_evaluations > 0)
+    fmt::print("  error budget: {} contact evaluations, {:.2g} times the answer's\n", results.budget_evaluations,
+               static_cast<double>(results.budget_evaluations) / static_cast<double>(counters.contact_evaluations));
   fmt::print("results: {}\n", folder.string());
 }
 
@@ -174,8 +190,13 @@ ExitCode carry_out_prepared(const LoadedScene& scene, const Prepared<Dim>& prepa
   }
 
   // results.json comes last: where it is, everything is
-  const Results& results = progress.results;
+  Results& results = progress.results;
   write_tables(job.folder, progress);
+  if (wants_budget(scene) && results.outcome == Outcome::done &&
+      !add_budget(scene, job.folder, job.options.threads, job.quiet, results)) {
+    tell("voussoir: interrupted in the error budget: continue with 'voussoir resume {}'\n", job.folder.string());
+    return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + interruption());
+  }
   write_results_json(job.folder / "results.json", results, record_of(scene, job.options));
   remove_checkpoints(job.folder);
   if (!job.quiet) {
@@ -251,7 +272,9 @@ ExitCode run_command(const RunArguments& arguments) {
   if (arguments.checkpoint_seconds) options.checkpoint_seconds = *arguments.checkpoint_seconds;
   options.until = arguments.until;
   options.keep = arguments.keep || !arguments.until.empty();
-  LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides, options.threads);
+  std::vector<std::string> overrides = arguments.scene.overrides;
+  if (arguments.budget) overrides.push_back("accuracy.budget=true");
+  LoadedScene scene = load_scene(arguments.scene.scene, overrides, options.threads);
   end_with(options.until, scene);
   require_sane_size(scene.text, arguments.scene.scene.string() + " with all that it names");  // for it is read again
   options.scene_hash = scene.hash;
@@ -260,11 +283,13 @@ ExitCode run_command(const RunArguments& arguments) {
 
   std::vector<fs::path> inputs = scene.files;
   std::optional<AnyProgress> begun = begun_at(arguments.begin, scene, inputs);
-  scene.stated.reset();
+  if (!wants_budget(scene)) scene.stated.reset();
 
   // the folder is ours alone, and says what is run before the first step
   const fs::path folder = results_folder(arguments);
-  const ClaimedFolder claim(folder, run_outputs(), inputs, arguments.overwrite);
+  Outputs outputs = run_outputs();
+  if (wants_budget(scene)) outputs.folders = budget_folders(scene);
+  const ClaimedFolder claim(folder, outputs, inputs, arguments.overwrite);
   if (begun) begin_in(folder, scene.hash, *begun);
   begun.reset();
   write_file(folder / "scene.toml", scene.text);

@@ -241,7 +241,8 @@ void serialize(Archive& archive, StageRecord& r) {
 
 template <class Archive>
 void serialize(Archive& archive, Value& v) {
-  auto& [value, unit, error_bar, rule] = v;
+  // a budget is made after the last checkpoint
+  auto& [value, unit, error_bar, rule, covers, bracket, budget] = v;
   archive(value, unit, error_bar, rule);
 }
 
@@ -273,7 +274,7 @@ void serialize(Archive& archive, LiningRow& l) {
 template <class Archive>
 void serialize(Archive& archive, Results& r) {
   auto& [outcome, message, values, stages, history, bolts_carried, linings_carried, counters, bonds, energy, state_hash,
-         warnings, seconds] = r;
+         warnings, seconds, budget_evaluations] = r;
   archive(outcome, message, values, stages, history, bolts_carried, linings_carried, counters, bonds, energy,
           state_hash, warnings, seconds);
 }

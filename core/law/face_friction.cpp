@@ -15,9 +15,12 @@ constexpr double far_pole = 32;
 // it
 constexpr double on_the_line = 1e-30;
 
-// The direction of slip is found when the trial lies off its plane's normal by no more than this, over the limit force.
-constexpr double along_the_normal = 1e-11;
+// The direction of slip is found when the trial lies off its plane's normal by no more than this, over the limit force:
+// the kept force lies on the surface and is off along it by as much. Below what far poles are known to, Newton's method
+// would go on without an end.
+constexpr double along_the_normal = 1e-8;
 constexpr int newton_limit = 60;
+constexpr double shortest_step = 1e-3;  // of Newton's
 
 // What friction does against a slip, and how that changes with the slip (v, w): the second derivative of the
 // dissipation, ∫ p/|s| j jᵀ with s the slip at a point, t its direction, j = (ẑ × t, t·y).
@@ -203,7 +206,7 @@ bool nearest(const LimitSurface& surface, const Vector<3>& trial, Vector<3>& nor
     if (!(way.dot(gradient) > 0) || !way.allFinite()) way = gradient;
     if (way.norm() > 1) way.normalize();
     bool better = false;
-    for (double length = 1; length > along_the_normal && !better; length *= 0.5) {
+    for (double length = 1; length > shortest_step && !better; length *= 0.5) {
       const Vector<3> other = (normal + length * (tangent * way)).normalized();
       const LimitSurface::Point there = surface.point(other);
       const double then = other.dot(trial - there.at);

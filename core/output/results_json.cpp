@@ -28,7 +28,17 @@ Json values_json(const Results& results, NumberWriter& number) {
     Json& entry = values[name];
     entry["value"] = number(value.value, name);
     entry["unit"] = value.unit;
-    if (value.error_bar) entry["error_bar"] = number(*value.error_bar, name + ".error_bar");
+    if (value.error_bar) {
+      entry["error_bar"] = number(*value.error_bar, name + ".error_bar");
+      entry["covers"] = value.covers;
+    }
+    if (value.bracket) entry["bracket"] = number(*value.bracket, name + ".bracket");
+    for (const BudgetLine& line : value.budget)
+      entry["budget"].push_back({{"varied", line.varied},
+                                 {"change", line.change},
+                                 {"shift", number(line.shift, name + ".shift")},
+                                 {"left", number(line.left, name + ".left")},
+                                 {"sensitivity", line.sensitivity}});
     if (!value.rule.empty()) entry["rule"] = value.rule;
   }
   return values;
@@ -145,6 +155,7 @@ std::string results_json(const Results& results, const RunRecord& record) {
   json["stages"] = stages;
   json["energy"] = energy;
   json["counters"] = counters_json(results.counters);
+  if (results.budget_evaluations > 0) json["budget"] = {{"contact_evaluations", results.budget_evaluations}};
   if (results.bonds) json["bonds"] = bonds_json(*results.bonds);
   json["state_hash"] = results.state_hash;
   json["timing"] = {{"seconds", std::isfinite(results.seconds) ? Json(results.seconds) : Json()},

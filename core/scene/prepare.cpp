@@ -440,7 +440,8 @@ Prepared<Dim> prepare(const Scene& scene) {
   Prepared<Dim> prepared;
   Model<Dim>& model = prepared.model;
   prepared.title = scene.title;
-  if (const Node* accuracy = scene.tree->find("accuracy")) prepared.accuracy_level = accuracy->find("level")->text;
+  if (const Node* accuracy = scene.tree->find("accuracy"))
+    if (const Node* level = accuracy->find("level")) prepared.accuracy_level = level->text;
   prepared.settings = scene.settings;
   prepared.output = scene.output;
 

@@ -7,10 +7,13 @@ namespace voussoir::keys {
 // clang-format off
 KeyTable accuracy_keys() {
   return {"accuracy", {
-    {.key = "level", .type = choice, .example = "\"balanced\"", .required = true,
+    {.key = "level", .type = choice, .example = "\"balanced\"",
      .choices = {accuracy_levels.begin(), accuracy_levels.end()},
      .meaning = "sets what the scene leaves out, tolerances, ramps, rest and "
          "time step, as the cases' studies found it for an error of 5 %, 1 % or 0.1 %, of critical angles from 15 deg on"},
+    {.key = "budget", .type = boolean, .example = "true", .meaning = "after the answer, runs vary what was chosen, stiffness, ramp, "
+         "time step, rest, damping, points a face and the like, one at a time: every value then says what moves it, and "
+         "its error bar covers that, not the search's bracket alone", .breaks = "costs several times the answer"},
   }};
 }
 // clang-format on

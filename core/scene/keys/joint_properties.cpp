@@ -23,6 +23,9 @@ KeyTable joint_property_keys() {
      .mistake = friction_mistake},
     {.key = "constant_stiffness", .members = {in(&JointProperties::constant_stiffness)}, .example = "true",
      .meaning = "the stiffness is in N/m whatever the contact area, which then is never computed"},
+    {.key = "measured", .type = boolean, .example = "true",
+     .meaning = "the stiffness is the rock's: an error budget (accuracy.budget) then tells by how much it moves a value, "
+         "but does not take that for an error"},
     {.key = "sub_contacts", .members = {in(&JointProperties::sub_contacts)}, .range = {1, 64}, .example = "4",
      .meaning = "points that carry a joint face, along each of its directions (4: 4 in 2-D, 4 x 4 in 3-D); 1: the "
          "contact point alone",

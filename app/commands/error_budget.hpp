@@ -1,0 +1,30 @@
+// The error budget of a run, `[accuracy] budget = true`: what the program chose, and the scene's author with it, is
+// varied one thing at a time, each in a run of its own beside the answer, and every value says by how much it moved.
+// Searches look near the answer's bracket first, which costs a fraction of it.
+//
+//   bar = bracket + max(bracket of the others, 1.25 sqrt(Σ left²))
+//
+// (half brackets). `left` is what a shift says is still open: where an order p is known and the thing was refined by a
+// factor f, Richardson's shift f^p / (f^p - 1), with Roache's margin of 1.25 on it. A search that finds the answer's
+// own bracket has not moved.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/run_scene.hpp"
+
+namespace voussoir {
+
+bool wants_budget(const LoadedScene& scene);
+
+// the folders of its runs, below that of the answer
+std::vector<std::string> budget_folders(const LoadedScene& scene);
+
+// Carries the runs out, or what is missing of them, in `folder`, where scene.toml stands, and gives the values their
+// budgets and bars. What cannot be varied is told in the warnings. False: a signal stopped it; what is done is kept.
+bool add_budget(const LoadedScene& scene, const std::filesystem::path& folder, int threads, bool quiet,
+                Results& results);
+
+}  // namespace voussoir
