@@ -191,10 +191,11 @@ StudyRun run_of(const Variation& v, const fs::path& scene, const std::vector<std
 void combine(double other, Value& value) {
   value.bracket = value.error_bar;
   const double own = value.error_bar.value_or(0);
-  double squares = 0;
+  double squares = own * own + other * other;
   for (const BudgetLine& line : value.budget)
-    if (!line.sensitivity && std::abs(line.shift) > rounding * own) squares += line.left * line.left;
-  value.error_bar = own + std::max(other, margin * std::sqrt(squares));
+    if (!line.sensitivity && std::abs(line.shift) > rounding * own)
+      squares += margin * margin * line.left * line.left;
+  value.error_bar = std::sqrt(squares);
   value.covers = "budget";
 }
 

@@ -2,7 +2,7 @@
 // varied one thing at a time, each in a run of its own beside the answer, and every value says by how much it moved.
 // Searches look near the answer's bracket first, which costs a fraction of it.
 //
-//   bar = bracket + max(bracket of the others, 1.25 sqrt(Σ left²))
+//   bar² = bracket² + bracket of the others² + Σ (1.25 left)²
 //
 // (half brackets). `left` is what a shift says is still open: where an order p is known and the thing was refined by a
 // factor f, Richardson's shift f^p / (f^p - 1), with Roache's margin of 1.25 on it. A search that finds the answer's

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cases/case_tools.hpp"
+#include "cases/wedge/wedge_scene.hpp"
 #include "core/accuracy.hpp"
 #include "reference/wedge/wedge.hpp"
 #include "reference/wedge/wedge_path.hpp"
@@ -21,15 +22,6 @@ using verification::Kind;
 
 // joints and slope face as scene.toml states them
 constexpr double face_dip = 70, face_dip_direction = 182, face_height = 1;
-
-reference::Wedge wedge(double dip_a, double direction_a, double dip_b, double direction_b) {
-  reference::Wedge w;
-  w.a.dip = dip_a * degree;
-  w.a.dip_direction = direction_a * degree;
-  w.b.dip = dip_b * degree;
-  w.b.dip_direction = direction_b * degree;
-  return w;
-}
 
 const reference::Wedge thesis_wedge = wedge(40, 130, 60, 220);
 
@@ -205,18 +197,6 @@ TEST(Wedge, TurnedAndMoved) {
   report.record(angle_check("critical friction, moved by 1e6 m", Kind::exact, "identity: translation", here, 0.01,
                             "one bracket: coordinates are taken from the domain's centre"),
                 value(scene, "critical_friction"), cost(scene));
-}
-
-std::vector<std::string> overrides(const reference::Wedge& w) {
-  const reference::WedgeSolution solution = reference::solve_wedge(w);
-  // a face that dips steeply along the line lets the line daylight
-  const double dip = std::min(85.0, solution.line_plunge / degree + 30);
-  return {fmt::format("joints.A.dip={:.17g}", w.a.dip / degree),
-          fmt::format("joints.A.dip_direction={:.17g}", w.a.dip_direction / degree),
-          fmt::format("joints.B.dip={:.17g}", w.b.dip / degree),
-          fmt::format("joints.B.dip_direction={:.17g}", w.b.dip_direction / degree),
-          fmt::format("domain.planes.slope face.dip={:.17g}", dip),
-          fmt::format("domain.planes.slope face.dip_direction={:.17g}", solution.line_trend / degree)};
 }
 
 // how many wedges of each kind to draw

@@ -1,0 +1,144 @@
+// Error budgets as users meet them: what they vary, what the bar is made of, what a measured stiffness is, and where
+// there is none.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "app/testing/program.hpp"
+
+namespace voussoir {
+namespace {
+
+using program::expect_one_line;
+
+const std::string incline = R"(dimension = 2
+density = 2000
+gravity = [0, -10]
+[domain]
+box = { min = [-1, -1], max = [1, 1] }
+[[joints]]
+name = "A"
+dip = 30
+dip_direction = 90
+point = [0, 0]
+[[joint_properties]]
+name = "rock"
+normal_stiffness = 1e8
+shear_stiffness = 1e7
+friction_deg = 60
+sub_contacts = 4
+[[fix]]
+below = ["A"]
+[output]
+frames = false
+)";
+
+const std::string search = R"([[stage]]
+name = "settle"
+kind = "settle"
+[[stage]]
+name = "critical"
+kind = "reduce"
+from_deg = 60
+to_deg = 10
+tolerance_deg = 0.1
+)";
+
+class Budget : public program::Program {
+ protected:
+  void run_well(const std::string& arguments) const {
+    const program::Ended ended = run(arguments);
+    ASSERT_EQ(ended.code, 0) << arguments << ": " << ended.err;
+  }
+  nlohmann::json value(const std::string& where, const std::string& name) const {
+    return results(where)["values"][name];
+  }
+};
+
+std::set<std::string> varied(const nlohmann::json& value) {
+  std::set<std::string> names;
+  for (const auto& line : value["budget"])
+    names.insert(line["varied"]);
+  return names;
+}
+
+// the block slides where friction is as steep as the joint: the closed form
+TEST_F(Budget, CoversTheClosedFormAndSaysWhatItIsMadeOf) {
+  write("plane.toml", incline + search);
+  run_well("run plane.toml --budget --out b");
+  const nlohmann::json angle = value("b", "critical_friction");
+  const double found = angle["value"], bar = angle["error_bar"], bracket = angle["bracket"];
+  EXPECT_EQ(angle["covers"], "budget");
+  EXPECT_LE(std::abs(found - 30), bar);
+  EXPECT_LT(bracket, bar);
+  EXPECT_LT(bar, 1);
+  for (const char* name : {"normal stiffness", "ramp", "failure displacement"})
+    EXPECT_TRUE(varied(angle).contains(name)) << name;
+  // the rule: each line with its order, the largest first
+  double squares = bracket * bracket, before = 1e300;
+  for (const auto& line : angle["budget"]) {
+    const double left = line["left"], shift = line["shift"];
+    if (line["varied"] == "failure displacement") {
+      EXPECT_NEAR(left, 2 * shift, 1e-12);
+    }
+    if (line["varied"] == "normal stiffness") {
+      EXPECT_NEAR(left, 1.5 * shift, 1e-12);
+    }
+    EXPECT_LE(std::abs(left), before);
+    before = std::abs(left);
+    squares += 1.25 * 1.25 * left * left;
+  }
+  EXPECT_GE(bar * bar, squares * (1 - 1e-9));
+  EXPECT_GT(results("b")["budget"]["contact_evaluations"], 0);
+  // asked for in the scene it is the same, and again over the folder too
+  write("asks.toml", incline + search + "[accuracy]\nbudget = true\n");
+  run_well("run asks.toml --out c --quiet");
+  EXPECT_EQ(value("c", "critical_friction"), angle);
+  run_well("run plane.toml --budget --out b --overwrite --quiet");
+  EXPECT_EQ(value("b", "critical_friction"), angle);
+}
+
+TEST_F(Budget, WithoutOneTheBarIsNamedForWhatItIs) {
+  write("plane.toml", incline + search);
+  const program::Ended ended = run("run plane.toml --out b");
+  EXPECT_NE(ended.out.find("the bracket alone"), std::string::npos) << ended.out;
+  const nlohmann::json angle = value("b", "critical_friction");
+  EXPECT_EQ(angle["covers"], "bracket");
+  EXPECT_FALSE(angle.contains("budget"));
+  EXPECT_FALSE(results("b").contains("budget"));
+  EXPECT_FALSE(program::fs::exists(folder_ / "b/budget"));
+}
+
+// A settlement is the overlap: by a stiffness that was chosen all of it is an error, by a measured one it is the
+// answer.
+TEST_F(Budget, TakesAMeasuredStiffnessForPhysics) {
+  run_well("run " + cubes_ + "--budget --out chosen --quiet");
+  const nlohmann::json chosen = value("chosen", "top_displacement_z");
+  const double settled = chosen["value"];
+  EXPECT_LT(settled, 0);
+  EXPECT_GE(chosen["error_bar"].get<double>(), std::abs(settled));
+  EXPECT_LT(chosen["error_bar"].get<double>(), 1.5 * std::abs(settled));
+  run_well("run " + cubes_ + "--budget --out measured --quiet --set joint_properties.rock.measured=true");
+  const nlohmann::json measured = value("measured", "top_displacement_z");
+  EXPECT_LT(measured["error_bar"].get<double>(), 0.01 * std::abs(settled));
+  bool told = false;
+  for (const auto& line : measured["budget"])
+    if (line["sensitivity"]) {
+      told = true;
+      EXPECT_EQ(line["varied"], "stiffness of rock");
+      EXPECT_NEAR(line["shift"].get<double>(), settled / 1.1 - settled, 1e-3 * std::abs(settled));
+    }
+  EXPECT_TRUE(told);
+}
+
+TEST_F(Budget, WhatItIsAskedForIsChecked) {
+  write("plane.toml", incline + search + "[accuracy]\nbudget = 3\n");
+  expect_one_line(run("run plane.toml --out b"), 2, "accuracy.budget");
+  write("bare.toml", incline + search + "[accuracy]\n");
+  run_well("run bare.toml --out b --quiet");
+  run_well("check plane.toml --set accuracy.budget=true");
+}
+
+}  // namespace
+}  // namespace voussoir
