@@ -193,8 +193,7 @@ void combine(double other, Value& value) {
   const double own = value.error_bar.value_or(0);
   double squares = own * own + other * other;
   for (const BudgetLine& line : value.budget)
-    if (!line.sensitivity && std::abs(line.shift) > rounding * own)
-      squares += margin * margin * line.left * line.left;
+    if (!line.sensitivity && std::abs(line.shift) > rounding * own) squares += margin * margin * line.left * line.left;
   value.error_bar = std::sqrt(squares);
   value.covers = "budget";
 }
