@@ -191,7 +191,8 @@ struct CutPolygon {
     Corner* kept = then;
     double farthest = 0;
     std::size_t k_before = before_cut - 1;
-    for (std::size_t k = 0; k < before_cut; k_before = k++) {
+    const Corner* const room = then + left.size() - 1;
+    for (std::size_t k = 0; k < before_cut && kept < room; k_before = k++) {
       const double here = over[k], there = over[k_before];
       if (here < 0) {
         if (!(there > 0)) continue;
@@ -214,7 +215,7 @@ struct CutPolygon {
 
   void cut_all(const HalfSpaces<3>& planes, int face_a, int face_b, const MeanPlane<3>& mean, const Vector<2>& about,
                double half) {
-    // each edge adds a corner at most; of a polygon that rounding has bent, one more
+    // each edge adds a corner at most; a polygon that rounding has bent may ask for more, and is left without
     const std::size_t most = 2 * planes.size() + 8;
     if (left.size() < most) {
       own[0].resize(most);
