@@ -99,6 +99,20 @@ TEST_F(Budget, CoversTheClosedFormAndSaysWhatItIsMadeOf) {
   EXPECT_EQ(value("b", "critical_friction"), angle);
 }
 
+// the second search has the name of its stage; each is looked at near its own answer
+TEST_F(Budget, OfTwoSearchesCoversBoth) {
+  std::string again = search;
+  again.replace(again.find("\"critical\""), 10, "\"again\"");
+  write("twice.toml", incline + search + again.substr(again.find("[[stage]]", 1)));
+  run_well("run twice.toml --budget --out b --quiet");
+  for (const char* name : {"critical_friction", "again_critical_friction"}) {
+    const nlohmann::json angle = value("b", name);
+    EXPECT_EQ(angle["covers"], "budget") << name;
+    EXPECT_LE(std::abs(angle["value"].get<double>() - 30), angle["error_bar"].get<double>()) << name;
+    EXPECT_TRUE(varied(angle).contains("normal stiffness")) << name;
+  }
+}
+
 TEST_F(Budget, WithoutOneTheBarIsNamedForWhatItIs) {
   write("plane.toml", incline + search);
   const program::Ended ended = run("run plane.toml --out b");
@@ -138,6 +152,8 @@ TEST_F(Budget, WhatItIsAskedForIsChecked) {
   write("bare.toml", incline + search + "[accuracy]\n");
   run_well("run bare.toml --out b --quiet");
   run_well("check plane.toml --set accuracy.budget=true");
+  expect_one_line(run("run bare.toml --budget --until settle --out c"), 2, "--until: a budget's runs");
+  expect_one_line(run("run bare.toml --budget --begin b --out c"), 2, "--begin: a budget's runs");
 }
 
 }  // namespace

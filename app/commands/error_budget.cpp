@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "app/child_process.hpp"
@@ -39,6 +40,7 @@ struct Variation {
   std::vector<std::string> overrides;
   double refined = 1, order = 0;  // by the factor f, where shift f^p / (f^p - 1) is left; order 0: the shift itself is
   bool sensitivity = false;
+  std::string folder = {};  // tells scene and program apart from all others, so that what is there is the same run
 
   double left_by(double shift) const {
     if (order == 0) return shift;
@@ -56,25 +58,39 @@ bool states(const Node& node, std::string_view key) {
   return found && found->kind == Node::Kind::boolean && found->boolean;
 }
 
+// a stage that searches, and the path of its keys
+struct Search {
+  const ReducePlan& plan;
+  std::string path, stage;
+};
+
+template <int Dim>
+std::vector<Search> searches_of(const LoadedScene& scene, const Prepared<Dim>& prepared) {
+  const std::vector<Subject> stages = children({scene.stated->tree.get(), ""}, "stage");
+  std::vector<Search> searches;
+  for (std::size_t k = 0; k < prepared.stages.size(); ++k)
+    if (const auto* plan = std::get_if<ReducePlan>(&prepared.stages[k].plan))
+      searches.push_back({*plan, item_path("stage", *stages[k].node, k), prepared.stages[k].name});
+  return searches;
+}
+
 // What is varied: each by itself, and what moves few answers together first, then by itself where that moved something.
 struct Variations {
   std::vector<Variation> alone, together;
+  Variation all;  // of `together` at once
 };
 
 template <int Dim>
 Variations variations_of(const LoadedScene& scene, const Prepared<Dim>& prepared) {
-  const Subject top{scene.stated->tree.get(), ""};
   const Settings& settings = prepared.settings;
   Variations all;
 
   std::vector<std::string> ramps, failures;
-  for (std::size_t k = 0; k < prepared.stages.size(); ++k) {
-    const auto* plan = std::get_if<ReducePlan>(&prepared.stages[k].plan);
-    if (!plan) continue;
-    const std::string path = item_path("stage", *children(top, "stage")[k].node, k);
-    if (plan->method == ReductionMethod::bisection || plan->method == ReductionMethod::steps)
-      ramps.push_back(fmt::format("{}={}", key_path(path, "ramp_steps"), 2 * std::max(plan->ramp_steps, 1LL)));
-    failures.push_back(set(path, "failure_displacement", failure_displacement_of(prepared.model, *plan) / 2));
+  for (const Search& search : searches_of(scene, prepared)) {
+    const ReducePlan& plan = search.plan;
+    if (plan.method == ReductionMethod::bisection || plan.method == ReductionMethod::steps)
+      ramps.push_back(fmt::format("{}={}", key_path(search.path, "ramp_steps"), 2 * std::max(plan.ramp_steps, 1LL)));
+    failures.push_back(set(search.path, "failure_displacement", failure_displacement_of(prepared.model, plan) / 2));
   }
 
   // Overlaps go with 1/k, and what they do to geometry with them. A search is moved more by the shear that settlement
@@ -121,31 +137,27 @@ Variations variations_of(const LoadedScene& scene, const Prepared<Dim>& prepared
                             {set("contact", "potential_radius", settings.contact.potential_radius / 2)},
                             2,
                             1});
+
+  all.all = {"", "together", {}};
+  for (const Variation& v : all.together) {
+    all.all.name += (all.all.name.empty() ? "" : ", ") + v.name;
+    all.all.overrides.insert(all.all.overrides.end(), v.overrides.begin(), v.overrides.end());
+  }
+  const std::string run = folder_name(scene.hash + fingerprint(program_bytes()));
+  const auto name_folder = [&](Variation& v, std::string name) {
+    std::ranges::replace(name, ' ', '_');
+    std::erase_if(name, [](char c) { return !(std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'); });
+    v.folder = name + "-" + run;
+  };
+  for (std::vector<Variation>* some : {&all.alone, &all.together})
+    for (Variation& v : *some)
+      name_folder(v, v.name);
+  name_folder(all.all, all.all.change);
   return all;
 }
 
 Variations variations_of(const LoadedScene& scene) {
   return std::visit([&](const auto& prepared) { return variations_of(scene, prepared); }, scene.prepared);
-}
-
-// of what is varied together
-Variation all_of(const std::vector<Variation>& together) {
-  Variation all{"", "together", {}};
-  for (const Variation& v : together) {
-    all.name += (all.name.empty() ? "" : ", ") + v.name;
-    all.overrides.insert(all.overrides.end(), v.overrides.begin(), v.overrides.end());
-  }
-  return all;
-}
-
-// tells scene and program apart from all others, so that what is there is the same run
-std::string folder_of(const LoadedScene& scene, const Variation& v) {
-  std::string name =
-      (v.change == "together" ? "together" : v.name) + "-" + fingerprint(scene.hash + fingerprint(program_bytes()));
-  std::ranges::replace(name, ':', '-');
-  std::ranges::replace(name, ' ', '_');
-  std::erase_if(name, [](char c) { return !(std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'); });
-  return name;
 }
 
 constexpr const char* wide = "_wide";  // of a search that begins as the answer's did
@@ -154,26 +166,23 @@ constexpr const char* wide = "_wide";  // of a search that begins as the answer'
 template <int Dim>
 std::vector<std::string> near(const LoadedScene& scene, const Prepared<Dim>& prepared, const Results& results) {
   std::vector<std::string> overrides;
-  const Subject top{scene.stated->tree.get(), ""};
-  int searches = 0;
-  for (const StagePlan& stage : prepared.stages)
-    searches += std::holds_alternative<ReducePlan>(stage.plan);
-  if (searches != 1) return overrides;  // the values of several have the names of their stages
-  for (std::size_t k = 0; k < prepared.stages.size(); ++k) {
-    const auto* plan = std::get_if<ReducePlan>(&prepared.stages[k].plan);
-    if (!plan || plan->method != ReductionMethod::bisection) continue;
-    const bool angle = plan->searched == Searched::friction;
-    const Value* found = results.find(angle ? "critical_friction" : "factor_of_safety");
-    if (!found || !found->error_bar) continue;
+  std::set<std::string> names;
+  for (const Search& search : searches_of(scene, prepared)) {
+    const ReducePlan& plan = search.plan;
+    if (plan.method != ReductionMethod::bisection) return {};
+    const bool angle = plan.searched == Searched::friction;
+    // the first to find one has the bare name
+    std::string name = angle ? "critical_friction" : "factor_of_safety";
+    if (!names.insert(name).second) name = search.stage + "_" + name;
+    const Value* found = results.find(name);
+    if (!found || !found->error_bar) return {};
     const double unit = angle ? degree : 1, half = *found->error_bar;
-    const double from = (angle ? plan->from : plan->factor.from) / unit,
-                 to = (angle ? plan->to : plan->factor.to) / unit;
+    const double from = (angle ? plan.from : plan.factor.from) / unit, to = (angle ? plan.to : plan.factor.to) / unit;
     const double below = found->value - (2 * brackets_below + 1) * half,
                  above = found->value + (2 * brackets_above + 1) * half;
-    if (below < std::min(from, to) || above > std::max(from, to)) continue;
-    const std::string path = item_path("stage", *children(top, "stage")[k].node, k);
-    overrides.push_back(set(path, angle ? "from_deg" : "from_factor", angle ? above : below));
-    overrides.push_back(set(path, angle ? "to_deg" : "to_factor", angle ? below : above));
+    if (below < std::min(from, to) || above > std::max(from, to)) return {};
+    overrides.push_back(set(search.path, angle ? "from_deg" : "from_factor", angle ? above : below));
+    overrides.push_back(set(search.path, angle ? "to_deg" : "to_factor", angle ? below : above));
   }
   return overrides;
 }
@@ -209,11 +218,11 @@ std::vector<std::string> budget_folders(const LoadedScene& scene) {
   const Variations all = variations_of(scene);
   std::vector<Variation> variations = all.alone;
   variations.insert(variations.end(), all.together.begin(), all.together.end());
-  variations.push_back(all_of(all.together));
+  variations.push_back(all.all);
   std::vector<std::string> folders;
   for (const Variation& v : variations)
     for (const char* kind : {"", wide})
-      folders.push_back("budget/" + folder_of(scene, v) + kind);
+      folders.push_back("budget/" + v.folder + kind);
   return folders;
 }
 
@@ -233,14 +242,15 @@ struct Runs {
     std::vector<std::string> names;
     std::vector<StudyRun> runs, again;
     for (const Variation& v : variations) {
-      names.push_back(folder_of(scene, v));
+      names.push_back(v.folder);
       runs.push_back(run_of(v, folder / "scene.toml", closer, names.back()));
     }
     if (carry_out_runs(runs, options).interrupted) return {};
     // a search that found nothing near begins where the answer's began
     for (std::size_t k = 0; k < variations.size(); ++k) {
       evaluations += found(names[k], "").contact_evaluations;
-      if (closer.empty() || searched.empty() || found(names[k], searched.front()).result) continue;
+      const auto has = [&](const std::string& name) { return found(names[k], name).result.has_value(); };
+      if (closer.empty() || std::ranges::all_of(searched, has)) continue;
       names[k] += wide;
       again.push_back(run_of(variations[k], folder / "scene.toml", {}, names[k]));
     }
@@ -292,7 +302,7 @@ bool add_budget(const LoadedScene& scene, const fs::path& folder, int threads, b
     if (value.error_bar) runs.searched.push_back(name);
 
   std::vector<Variation> variations = all.alone;
-  variations.push_back(all_of(all.together));
+  variations.push_back(all.all);
   std::optional<std::vector<std::string>> names = runs.carry_out(variations);
   if (!names) return false;
   if (!runs.moved_nothing(names->back(), results)) {

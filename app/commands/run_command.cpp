@@ -275,6 +275,10 @@ ExitCode run_command(const RunArguments& arguments) {
   std::vector<std::string> overrides = arguments.scene.overrides;
   if (arguments.budget) overrides.push_back("accuracy.budget=true");
   LoadedScene scene = load_scene(arguments.scene.scene, overrides, options.threads);
+  if (wants_budget(scene) && !(arguments.until.empty() && arguments.begin.empty()))
+    throw BadInput(fmt::format(
+        "{}: a budget's runs go from the start to the last stage; leave it out, or --budget and accuracy.budget",
+        arguments.until.empty() ? "--begin" : "--until"));
   end_with(options.until, scene);
   require_sane_size(scene.text, arguments.scene.scene.string() + " with all that it names");  // for it is read again
   options.scene_hash = scene.hash;

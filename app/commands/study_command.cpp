@@ -53,12 +53,6 @@ std::string shown(const std::string& value) {
   return value.starts_with('"') ? value.substr(1, value.size() - 2) : value;
 }
 
-std::string folder_name(const std::string& what) {
-  std::string name = fingerprint(what);
-  std::replace(name.begin(), name.end(), ':', '-');
-  return name;
-}
-
 // what a run shares with all that are the same up to the end of a stage, what they record included
 std::string shared_text(const StudyPlan& plan, const Sweep& sweep, const Scene& scene) {
   std::vector<std::string> names;

@@ -20,6 +20,7 @@
 #include "app/message.hpp"
 #include "app/run_folder.hpp"
 #include "core/output/atomic_file.hpp"
+#include "core/output/fingerprint.hpp"
 
 namespace voussoir {
 namespace {
@@ -181,6 +182,12 @@ class Runs {
 };
 
 }  // namespace
+
+std::string folder_name(const std::string& what) {
+  std::string name = fingerprint(what);
+  std::replace(name.begin(), name.end(), ':', '-');
+  return name;
+}
 
 RunsEnded carry_out_runs(const std::vector<StudyRun>& study, const RunsOptions& options) {
   prepare_folder(options.folder);

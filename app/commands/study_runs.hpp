@@ -19,6 +19,9 @@ struct StudyRun {
   std::filesystem::path begin = {};  // the folder of the run at whose end it begins; empty: at the start
 };
 
+// of a run, from the text of all that makes it what it is
+std::string folder_name(const std::string& what);
+
 struct RunsOptions {
   std::filesystem::path folder;  // holds a folder for every run
   int jobs = 1;                  // at the same time
