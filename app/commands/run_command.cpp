@@ -192,7 +192,7 @@ ExitCode carry_out_prepared(const LoadedScene& scene, const Prepared<Dim>& prepa
   // results.json comes last: where it is, everything is
   Results& results = progress.results;
   write_tables(job.folder, progress);
-  if (wants_budget(scene) && results.outcome == Outcome::done &&
+  if (wants_budget(scene) && results.outcome != Outcome::failed &&
       !add_budget(scene, job.folder, job.options.threads, job.quiet, results)) {
     tell("voussoir: interrupted in the error budget: continue with 'voussoir resume {}'\n", job.folder.string());
     return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + interruption());
