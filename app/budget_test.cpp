@@ -147,6 +147,45 @@ TEST_F(Budget, TakesAMeasuredStiffnessForPhysics) {
   EXPECT_TRUE(told);
 }
 
+// refined until its bar is as asked: by brackets first, which cost nothing to judge, then by what a budget says
+TEST_F(Budget, AnErrorThatIsAskedForIsReached) {
+  write("plane.toml", incline + search);
+  run_well("run plane.toml --quiet --out b --set 'accuracy.error=\"0.02 deg\"'");
+  const nlohmann::json angle = value("b", "critical_friction");
+  EXPECT_LE(angle["error_bar"].get<double>(), 0.02);
+  EXPECT_LE(std::abs(angle["value"].get<double>() - 30), angle["error_bar"].get<double>());
+  EXPECT_EQ(angle["covers"], "budget");
+  const nlohmann::json rounds = results("b")["accuracy"];
+  ASSERT_GE(rounds.size(), 2u);
+  EXPECT_TRUE(rounds[0]["settings"].empty());
+  EXPECT_NE(rounds[0]["told"].get<std::string>().find("by brackets alone"), std::string::npos) << rounds;
+  EXPECT_EQ(rounds.back()["told"], "as asked");
+  EXPECT_FALSE(rounds.back()["settings"].empty());
+  // one that is met at once takes one round, and what a scene leaves out is set
+  std::string loose = search;
+  loose.erase(loose.find("tolerance_deg"), std::string("tolerance_deg = 0.1\n").size());
+  write("loose.toml", incline + loose + "[accuracy]\nerror = \"5 %\"\n");
+  run_well("run loose.toml --quiet --out c");
+  EXPECT_EQ(results("c")["accuracy"].size(), 1u);
+  EXPECT_LE(value("c", "critical_friction")["error_bar"].get<double>(), 1.5);
+  run_well("run loose.toml --quiet --out d --set accuracy.budget=false");
+  EXPECT_EQ(value("d", "critical_friction")["covers"], "bracket");
+}
+
+TEST_F(Budget, AnErrorThatCannotBeAskedForIsRefused) {
+  write("plane.toml", incline + search);
+  for (const char* text : {"", "3", "1 percent", "0 %", "-1 deg", "60 %", "nan %", "50 deg"})
+    expect_one_line(run(fmt::format("run plane.toml --out b --set 'accuracy.error=\"{}\"'", text)), 2,
+                    "accuracy.error");
+  const std::string asked = "[accuracy]\nerror = \"0.1 deg\"\n";
+  write("settles.toml", incline + search.substr(0, search.find("[[stage]]", 1)) + asked);
+  expect_one_line(run("run settles.toml --out b"), 2, "there is none");
+  std::string steps = search;
+  steps.replace(steps.find("tolerance_deg = 0.1"), 19, "method = \"steps\"\nstep_deg = 1");
+  write("steps.toml", incline + steps + asked);
+  expect_one_line(run("run steps.toml --out b"), 2, "stage.critical must have method");
+}
+
 TEST_F(Budget, WhatItIsAskedForIsChecked) {
   write("plane.toml", incline + search + "[accuracy]\nbudget = 3\n");
   expect_one_line(run("run plane.toml --out b"), 2, "accuracy.budget");

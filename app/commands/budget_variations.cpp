@@ -6,10 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "app/child_process.hpp"
-#include "app/commands/study_runs.hpp"
 #include "core/contact/carried_whole.hpp"
-#include "core/output/fingerprint.hpp"
 #include "core/reduction/reduction.hpp"
 #include "core/scene/scene.hpp"
 
@@ -56,7 +53,7 @@ void add_stiffness(const std::shared_ptr<const Scene>& scene, bool searches, std
              return Overrides{set(s.subject.path, "normal_stiffness", times * s.properties.normal_stiffness),
                               set(s.subject.path, "shear_stiffness", times * s.properties.shear_stiffness)};
            },
-           true});
+           "", true});
   if (stiffnesses(properties, 1, 1).empty()) return;
   if (!searches) {
     variations.push_back(
@@ -68,8 +65,10 @@ void add_stiffness(const std::shared_ptr<const Scene>& scene, bool searches, std
   // normal springs have some of both.
   variations.push_back({"normal stiffness", "a quarter", 0.25, 0.75,
                         [scene](double f) { return stiffnesses(scene->properties, f, 1); }});
-  variations.push_back(
-      {"shear stiffness", "a ninth", 9, 0.5, [scene](double f) { return stiffnesses(scene->properties, 1, 1 / f); }});
+  // by the ratio of both, which stiffer normal springs lower as well: they leave the way to the limit of friction as it
+  // is
+  variations.push_back({"shear stiffness", "a ninth", 9, 0.5,
+                        [scene](double f) { return stiffnesses(scene->properties, 1, 1 / f); }, "normal stiffness"});
 }
 
 template <int Dim>
@@ -131,6 +130,12 @@ double Variation::left_by(double shift) const {
   return shift * gain / (gain - 1);
 }
 
+double square_of(const BudgetLine& line) {
+  // of what an extrapolation leaves (Roache's grid convergence index, order known)
+  constexpr double margin = 1.25;
+  return line.sensitivity ? 0 : margin * margin * line.left * line.left;
+}
+
 std::string set(const std::string& path, std::string_view key, double value) {
   return fmt::format("{}={:.17g}", key_path(path, key), value);
 }
@@ -173,16 +178,6 @@ Variations variations_of(const LoadedScene& scene) {
         overrides.push_back(text);
     return overrides;
   };
-  const std::string run = folder_name(scene.hash + fingerprint(program_bytes()));
-  const auto name_folder = [&](Variation& v, std::string name) {
-    std::ranges::replace(name, ' ', '_');
-    std::erase_if(name, [](char c) { return !(std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'); });
-    v.folder = name + "-" + run;
-  };
-  for (std::vector<Variation>* some : {&all.alone, &all.together})
-    for (Variation& v : *some)
-      name_folder(v, v.name);
-  name_folder(all.all, all.all.change);
   return all;
 }
 

@@ -15,8 +15,8 @@ struct Variation {
   double refined = 1;        // so many times finer than the scene; below 1: coarser
   double order = 0;          // the power of it that errors go with; 0: not known, and the shift itself is left
   std::function<std::vector<std::string>(double)> by = {};  // overrides that make it so many times finer
+  std::string refined_by = {};  // another one's name: what it leaves open that one closes, by the same factor
   bool sensitivity = false;                                 // measured: told, but no error
-  std::string folder = {};  // tells scene and program apart from all others, so that what is there is the same run
 
   std::vector<std::string> overrides() const { return by(refined); }
   // f^p / (f^p - 1) of a shift (Richardson), in the unit of the shift
@@ -30,6 +30,9 @@ struct Variations {
 };
 
 Variations variations_of(const LoadedScene& scene);
+
+// what a line adds to the square of a bar, its unit squared
+double square_of(const BudgetLine& line);
 
 // a stage that searches, and the path of its keys
 struct Search {

@@ -5,12 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <thread>
 
+#include "app/child_process.hpp"
+#include "app/commands/accuracy_on_order.hpp"
 #include "app/commands/budget_variations.hpp"
 #include "app/commands/study_found.hpp"
 #include "app/commands/study_runs.hpp"
+#include "core/accuracy.hpp"
+#include "core/output/fingerprint.hpp"
 #include "core/reduction/reduction.hpp"
+#include "core/scene/accuracy_target.hpp"
 #include "core/scene/scene.hpp"
 #include "text/angle.hpp"
 
@@ -18,9 +24,6 @@ namespace voussoir {
 namespace {
 
 namespace fs = std::filesystem;
-
-// of what an extrapolation leaves (Roache's grid convergence index, order known)
-constexpr double margin = 1.25;
 
 // A search first looks through so many brackets of the answer's size, the answer's own among them: where nothing moves
 // it ends with the same one.
@@ -51,13 +54,19 @@ std::vector<std::string> near(const LoadedScene& scene, const Results& results) 
   return overrides;
 }
 
-StudyRun run_of(const Variation& v, const fs::path& scene, const std::vector<std::string>& closer,
-                const std::string& name) {
-  StudyRun run{scene, v.overrides(), {}, {scene}, name};
-  run.overrides.insert(run.overrides.end(), closer.begin(), closer.end());
-  run.overrides.push_back("accuracy.budget=false");
-  run.overrides.push_back("output.frames=false");
+StudyRun run_of(const Variation& v, const fs::path& scene, const std::vector<std::string>& settings,
+                const std::vector<std::string>& closer, const std::string& name) {
+  StudyRun run{scene, settings, {}, {scene}, name};
+  for (const std::vector<std::string>& more : {v.overrides(), closer, {"accuracy.budget=false", "output.frames=false"}})
+    run.overrides.insert(run.overrides.end(), more.begin(), more.end());
   return run;
+}
+
+std::string folder_of(const Variation& v, const std::string& run) {
+  std::string name = v.change == "together" ? v.change : v.name;
+  std::ranges::replace(name, ' ', '_');
+  std::erase_if(name, [](char c) { return !(std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'); });
+  return name + "-" + run;
 }
 
 // the bar of one value, from the lines of its budget; `other`: the largest half bracket among the variations
@@ -66,16 +75,29 @@ void combine(double other, Value& value) {
   const double own = value.error_bar.value_or(0);
   double squares = own * own + other * other;
   for (const BudgetLine& line : value.budget)
-    if (!line.sensitivity && std::abs(line.shift) > rounding * own) squares += margin * margin * line.left * line.left;
+    if (std::abs(line.shift) > rounding * own) squares += square_of(line);
   value.error_bar = std::sqrt(squares);
   value.covers = "budget";
+}
+
+// a promise of [accuracy] level that a budget does not bear out
+void judge_level(const LoadedScene& scene, const std::string& name, const Value& value,
+                 std::vector<std::string>& warnings) {
+  const Node* accuracy = scene.stated->tree->find("accuracy");
+  const Node* level = accuracy ? accuracy->find("level") : nullptr;
+  if (!level || !value.error_bar) return;
+  const auto found = std::ranges::find(accuracy_levels, level->text);
+  const double promised = accuracy_promises[found - accuracy_levels.begin()];
+  if (*value.error_bar > promised * std::abs(value.value))
+    warnings.push_back(fmt::format("accuracy.level = \"{}\" promises {:g} %; the budget leaves {:.2g} % of {} open",
+                                   level->text, 100 * promised, 100 * *value.error_bar / std::abs(value.value), name));
 }
 
 }  // namespace
 
 bool wants_budget(const LoadedScene& scene) {
   const Node* accuracy = scene.stated ? scene.stated->tree->find("accuracy") : nullptr;
-  return accuracy && states(*accuracy, "budget");
+  return accuracy && (states(*accuracy, "budget") || accuracy_target(*scene.stated->tree));
 }
 
 std::vector<std::string> budget_folders(const LoadedScene& scene) {
@@ -83,18 +105,27 @@ std::vector<std::string> budget_folders(const LoadedScene& scene) {
   std::vector<Variation> variations = all.alone;
   variations.insert(variations.end(), all.together.begin(), all.together.end());
   variations.push_back(all.all);
+  const int rounds = accuracy_target(*scene.stated->tree) ? most_rounds : 1;
   std::vector<std::string> folders;
-  for (const Variation& v : variations)
-    for (const char* kind : {"", wide})
-      folders.push_back("budget/" + v.folder + kind);
+  for (int round = 0; round < rounds; ++round) {
+    const std::string run = budget_runs(scene, round, {}).name;
+    for (const Variation& v : variations)
+      for (const char* kind : {"", wide})
+        folders.push_back("budget/" + folder_of(v, run) + kind);
+  }
   return folders;
+}
+
+BudgetRuns budget_runs(const LoadedScene& stated, int round, const std::vector<std::string>& settings) {
+  const std::string run = folder_name(stated.hash + fingerprint(program_bytes()));
+  return {round == 0 ? run : fmt::format("{}-{}", run, round + 1), settings};
 }
 
 namespace {
 
 // the budget's runs, in their folder beside the answer
 struct Runs {
-  const LoadedScene& scene;
+  BudgetRuns of;
   fs::path folder;
   RunsOptions options;
   std::vector<std::string> closer;    // overrides that let searches look near the answer
@@ -106,8 +137,8 @@ struct Runs {
     std::vector<std::string> names;
     std::vector<StudyRun> runs, again;
     for (const Variation& v : variations) {
-      names.push_back(v.folder);
-      runs.push_back(run_of(v, folder / "scene.toml", closer, names.back()));
+      names.push_back(folder_of(v, of.name));
+      runs.push_back(run_of(v, folder / "scene.toml", of.settings, closer, names.back()));
     }
     if (carry_out_runs(runs, options).interrupted) return {};
     // a search that found nothing near begins where the answer's began
@@ -116,7 +147,7 @@ struct Runs {
       const auto has = [&](const std::string& name) { return found(names[k], name).result.has_value(); };
       if (closer.empty() || std::ranges::all_of(searched, has)) continue;
       names[k] += wide;
-      again.push_back(run_of(variations[k], folder / "scene.toml", {}, names[k]));
+      again.push_back(run_of(variations[k], folder / "scene.toml", of.settings, {}, names[k]));
     }
     if (!again.empty() && carry_out_runs(again, options).interrupted) return {};
     for (const StudyRun& run : again)
@@ -148,7 +179,11 @@ struct Runs {
 
 }  // namespace
 
-bool add_budget(const LoadedScene& scene, const fs::path& folder, int threads, bool quiet, Results& results) {
+bool add_budget(const LoadedScene& scene, const BudgetRuns& of, const fs::path& folder, int threads, bool quiet,
+                Results& results) {
+  const bool searches = !searches_of(scene).empty();
+  if (searches && std::ranges::none_of(results.values, [](const auto& v) { return v.second.error_bar.has_value(); }))
+    return true;  // nothing was found that could have a budget
   const Variations all = variations_of(scene);
   const fs::path runs_folder = folder / "budget";
   fs::create_directories(runs_folder);
@@ -157,7 +192,7 @@ bool add_budget(const LoadedScene& scene, const fs::path& folder, int threads, b
   options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / threads);
   options.threads = threads;
   options.quiet = quiet;
-  Runs runs{scene, folder, options, near(scene, results), {}};
+  Runs runs{of, folder, options, near(scene, results), {}};
   for (const auto& [name, value] : results.values)
     if (value.error_bar) runs.searched.push_back(name);
 
@@ -175,6 +210,7 @@ bool add_budget(const LoadedScene& scene, const fs::path& folder, int threads, b
   }
   results.budget_evaluations = runs.evaluations;
 
+  std::set<std::string> untold;
   for (auto& [name, value] : results.values) {
     if (!runs.is_judged(name)) continue;
     double other = 0;
@@ -182,8 +218,9 @@ bool add_budget(const LoadedScene& scene, const fs::path& folder, int threads, b
       const Variation& v = variations[k];
       const RunFound then = runs.found((*names)[k], name);
       if (!then.result) {
-        results.warnings.push_back(
-            fmt::format("the budget of {} knows nothing of {}, {}: {}", name, v.name, v.change, then.status));
+        if (untold.insert(v.name).second)
+          results.warnings.push_back(
+              fmt::format("the budget of {} knows nothing of {}, {}: {}", name, v.name, v.change, then.status));
         continue;
       }
       const double shift = then.result->value - value.value;
@@ -191,6 +228,7 @@ bool add_budget(const LoadedScene& scene, const fs::path& folder, int threads, b
       value.budget.push_back({v.name, v.change, shift, v.left_by(shift), v.sensitivity});
     }
     if (!value.budget.empty()) combine(other, value);
+    judge_level(scene, name, value, results.warnings);
     std::ranges::stable_sort(value.budget, std::greater{}, [](const BudgetLine& l) { return std::abs(l.left); });
   }
   return true;
