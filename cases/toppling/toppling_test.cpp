@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "cases/budget_trial.hpp"
 #include "cases/case_tools.hpp"
 #include "reference/small/block_on_joint.hpp"
 #include "reference/small/small.hpp"
@@ -319,6 +320,15 @@ TEST(SteppedColumns, ColumnsOnASteppedBaseFallWhereLimitEquilibriumSays) {
 TEST(SteppedColumnsLong, ColumnsOnASteppedBaseFallByTheWholeSearch) {
   judge_columns(", whole search", {});
   judge_columns(", whole search on whole faces", {whole_faces});
+}
+
+TEST(SteppedColumnsLong, BudgetEnclosesLimitEquilibrium) {
+  CaseReport report("toppling");
+  judge_budget(report, "toppling", "limit equilibrium (Goodman & Bray 1976)",
+               {"columns on steps",
+                std::filesystem::path(VOUSSOIR_CASE_DIR) / "columns.toml",
+                {},
+                to_degrees(reference::stepped_columns_friction({}))});
 }
 
 }  // namespace
