@@ -16,7 +16,7 @@ struct Variation {
   double order = 0;          // the power of it that errors go with; 0: not known, and the shift itself is left
   std::function<std::vector<std::string>(double)> by = {};  // overrides that make it so many times finer
   std::string refined_by = {};  // another one's name: what it leaves open that one closes, by the same factor
-  bool sensitivity = false;                                 // measured: told, but no error
+  bool sensitivity = false;     // measured: told, but no error
 
   std::vector<std::string> overrides() const { return by(refined); }
   // f^p / (f^p - 1) of a shift (Richardson), in the unit of the shift

@@ -85,7 +85,7 @@ void judge_level(const LoadedScene& scene, const std::string& name, const Value&
                  std::vector<std::string>& warnings) {
   const Node* accuracy = scene.stated->tree->find("accuracy");
   const Node* level = accuracy ? accuracy->find("level") : nullptr;
-  if (!level || !value.error_bar) return;
+  if (!level || value.covers != "budget") return;
   const auto found = std::ranges::find(accuracy_levels, level->text);
   const double promised = accuracy_promises[found - accuracy_levels.begin()];
   if (*value.error_bar > promised * std::abs(value.value))
@@ -105,6 +105,7 @@ std::vector<std::string> budget_folders(const LoadedScene& scene) {
   std::vector<Variation> variations = all.alone;
   variations.insert(variations.end(), all.together.begin(), all.together.end());
   variations.push_back(all.all);
+  variations.push_back({"search", ""});
   const int rounds = accuracy_target(*scene.stated->tree) ? most_rounds : 1;
   std::vector<std::string> folders;
   for (int round = 0; round < rounds; ++round) {
@@ -130,6 +131,7 @@ struct Runs {
   RunsOptions options;
   std::vector<std::string> closer;    // overrides that let searches look near the answer
   std::vector<std::string> searched;  // the values that searches found; without any all are looked at
+  std::string path;                   // the run that varies nothing but where its searches begin; may be empty
   long long evaluations = 0;
 
   // the run of each variation that says something; nothing: interrupted
@@ -158,6 +160,7 @@ struct Runs {
   RunFound found(const std::string& run, const std::string& quantity) const {
     StudyPlan plan;
     plan.quantity = quantity;
+    plan.wide_brackets = true;
     const fs::path at = options.folder / run;
     return fs::exists(at / "results.json") ? found_in(at, plan) : RunFound{.status = "no results"};
   }
@@ -165,15 +168,36 @@ struct Runs {
   // what monitors say at the end of a search depends on which of its trials was the last
   bool is_judged(const std::string& name) const { return searched.empty() || std::ranges::count(searched, name) > 0; }
 
+  // What a run is held against: a search that began near the answer came there by another path.
+  double unvaried(const std::string& run, const std::string& name, const Value& answer) const {
+    if (path.empty() || run.ends_with(wide)) return answer.value;
+    return found(path, name).result->value;
+  }
+
   // whether a run has every value that is judged, and each is what it was
   bool moved_nothing(const std::string& run, const Results& results) const {
     return std::ranges::all_of(results.values, [&](const auto& entry) {
       const auto& [name, value] = entry;
       if (!is_judged(name)) return true;
       const RunFound then = found(run, name);
-      return then.result &&
-             std::abs(then.result->value - value.value) <= rounding * value.error_bar.value_or(std::abs(value.value));
+      return then.result && std::abs(then.result->value - unvaried(run, name, value)) <=
+                                rounding * value.error_bar.value_or(std::abs(value.value));
     });
+  }
+
+  // Where runs that began near the answer moved, one that varies nothing else tells them what the path did. False:
+  // interrupted.
+  bool try_path(const std::vector<std::string>& names, const Results& results) {
+    const auto moved = [&](const std::string& run) { return !run.ends_with(wide) && !moved_nothing(run, results); };
+    if (closer.empty() || std::ranges::none_of(names, moved)) return true;
+    const Variation nothing{"search", "begun near the answer", 1, 0, [](double) { return std::vector<std::string>(); }};
+    const std::string run = folder_of(nothing, of.name);
+    if (carry_out_runs({run_of(nothing, folder / "scene.toml", of.settings, closer, run)}, options).interrupted)
+      return false;
+    evaluations += found(run, "").contact_evaluations;
+    if (std::ranges::all_of(searched, [&](const std::string& name) { return found(run, name).result.has_value(); }))
+      path = run;
+    return true;
   }
 };
 
@@ -192,14 +216,14 @@ bool add_budget(const LoadedScene& scene, const BudgetRuns& of, const fs::path& 
   options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / threads);
   options.threads = threads;
   options.quiet = quiet;
-  Runs runs{of, folder, options, near(scene, results), {}};
+  Runs runs{of, folder, options, near(scene, results), {}, {}};
   for (const auto& [name, value] : results.values)
     if (value.error_bar) runs.searched.push_back(name);
 
   std::vector<Variation> variations = all.alone;
   variations.push_back(all.all);
   std::optional<std::vector<std::string>> names = runs.carry_out(variations);
-  if (!names) return false;
+  if (!names || !runs.try_path(*names, results)) return false;
   if (!runs.moved_nothing(names->back(), results)) {
     const std::optional<std::vector<std::string>> each = runs.carry_out(all.together);
     if (!each) return false;
@@ -223,9 +247,13 @@ bool add_budget(const LoadedScene& scene, const BudgetRuns& of, const fs::path& 
               fmt::format("the budget of {} knows nothing of {}, {}: {}", name, v.name, v.change, then.status));
         continue;
       }
-      const double shift = then.result->value - value.value;
+      const double shift = then.result->value - runs.unvaried((*names)[k], name, value);
       other = std::max(other, then.result->error_bar.value_or(0));
       value.budget.push_back({v.name, v.change, shift, v.left_by(shift), v.sensitivity});
+    }
+    if (!runs.path.empty()) {
+      const double shift = runs.found(runs.path, name).result->value - value.value;
+      value.budget.push_back({"search", "begun near the answer", shift, shift, false});
     }
     if (!value.budget.empty()) combine(other, value);
     judge_level(scene, name, value, results.warnings);

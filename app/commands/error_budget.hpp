@@ -1,7 +1,8 @@
 // The error budget of a run, `[accuracy] budget = true`: what the program chose, and the scene's author with it, is
 // varied one thing at a time (budget_variations.hpp), each in a run of its own beside the answer, and every value says
 // by how much it moved.
-// Searches look near the answer's bracket first, which costs a fraction of it.
+// Searches look near the answer's bracket first, which costs a fraction of it; where they move, one that varies nothing
+// else tells what of it the other path did.
 //
 //   bar² = bracket² + bracket of the others² + Σ (1.25 left)²
 //
