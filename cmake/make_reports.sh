@@ -50,7 +50,8 @@ for out in "$reports"/studies/*/; do
   [ -e "$source/cases/$(basename "$out")/study.toml" ] || rm -rf "$out"
 done
 if [ -d "$reports/studies" ]; then
-  "$build/reports/voussoir_study_report" compare --studies "$reports/studies" --style "$source/reports" ||
+  "$build/reports/voussoir_study_report" compare --studies "$reports/studies" \
+      --cases "$build/cases" --style "$source/reports" ||
       failures+=("comparison of the studies")
 fi
 

@@ -78,8 +78,9 @@ std::string manual(const Folders& folders, const Verdicts& verdicts, const fs::p
           "</section>\n";
   for (const CaseStatus& status : verdicts.cases)
     text += case_page(folders, verdicts, status, missing);
-  return text + trade_page(folders, missing) + text_page(folders, "slope_cost", "what-a-slope-costs") + kernel_page(folders, missing) +
-         text_page(folders, "water", "what-water-means") + scene_keys(keys, missing) + "</main>\n</body></html>\n";
+  return text + trade_page(folders, missing) + text_page(folders, "slope_cost", "what-a-slope-costs") +
+         kernel_page(folders, missing) + text_page(folders, "water", "what-water-means") + scene_keys(keys, missing) +
+         "</main>\n</body></html>\n";
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/bars.hpp"
 #include "reports/study_report.hpp"
 #include "reports/trade.hpp"
 #include "verification/verdict_file.hpp"
@@ -75,7 +76,18 @@ void report(const fs::path& study_file, const fs::path& reference_file, const fs
 }
 
 // all studies in a folder beside each other
-void compare(const fs::path& folder, const fs::path& style_folder) {
+std::vector<voussoir::reports::BudgetSet> budget_sets(const fs::path& cases) {
+  std::vector<voussoir::reports::BudgetSet> sets;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(cases, error))
+    if (fs::exists(entry.path() / "budget.csv"))
+      sets.push_back(
+          voussoir::reports::read_budget_set(entry.path().filename().string(), read_text(entry.path() / "budget.csv")));
+  std::sort(sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return sets;
+}
+
+void compare(const fs::path& folder, const fs::path& case_outputs, const fs::path& style_folder) {
   using namespace voussoir::reports;
   std::vector<CaseStudy> studies;
   for (const auto& entry : fs::directory_iterator(folder))
@@ -84,6 +96,15 @@ void compare(const fs::path& folder, const fs::path& style_folder) {
           {entry.path().filename().string(), nlohmann::json::parse(read_text(entry.path() / "study.json"))});
   std::sort(studies.begin(), studies.end(), [](const CaseStudy& a, const CaseStudy& b) { return a.name < b.name; });
   write_atomically(folder / "trade.csv", trade_csv(studies));
+  const std::vector<BudgetSet> sets = budget_sets(case_outputs);
+  write_atomically(folder / "bars.csv", bars_csv(sets));
+  if (!style_folder.empty() && !sets.empty()) {
+    std::string cases;
+    for (const BudgetSet& set : sets)
+      cases += (cases.empty() ? "" : "|") + set.name;
+    run_draw({(style_folder / "draw.sh").string(), (style_folder / "bars.gp").string(), (folder / "bars.svg").string(),
+              "data=" + (folder / "bars.csv").string(), "cases=" + cases});
+  }
   if (!style_folder.empty()) {
     std::string cases;
     for (const std::string& name : compared_cases(studies))
@@ -91,7 +112,7 @@ void compare(const fs::path& folder, const fs::path& style_folder) {
     run_draw({(style_folder / "draw.sh").string(), (style_folder / "trade.gp").string(),
               (folder / "trade.svg").string(), "data=" + (folder / "trade.csv").string(), "cases=" + cases});
   }
-  write_atomically(folder / "trade.md", trade_markdown(studies));
+  write_atomically(folder / "trade.md", trade_markdown(studies) + bars_markdown(sets, studies));
   fmt::print("{} studies compared: {}\n", studies.size(), (folder / "trade.md").string());
 }
 
@@ -100,7 +121,7 @@ void compare(const fs::path& folder, const fs::path& style_folder) {
 int main(int argc, char** argv) {
   CLI::App app{"Joins study.csv with reference.json: error against cost, Pareto front, recommendation."};
   app.require_subcommand(1);
-  fs::path study_file, reference_file, out, style_folder, folder;
+  fs::path study_file, reference_file, out, style_folder, folder, case_outputs;
   CLI::App* one = app.add_subcommand("case", "the report on one case's study");
   one->add_option("--study", study_file, "what `voussoir study` wrote")->required();
   one->add_option("--reference", reference_file, "reference.json of the case's test")->required();
@@ -108,6 +129,7 @@ int main(int argc, char** argv) {
   CLI::App* all = app.add_subcommand("compare", "all cases beside each other");
   all->add_option("--studies", folder, "folder that holds a folder for every case; trade.md, .csv and .svg go there")
       ->required();
+  all->add_option("--cases", case_outputs, "folder of what the cases' tests wrote, in which budget.csv are looked for");
   for (CLI::App* command : {one, all})
     command->add_option("--style", style_folder, "folder with draw.sh and *.gp; without it no figure is drawn");
   CLI11_PARSE(app, argc, argv);
@@ -116,7 +138,7 @@ int main(int argc, char** argv) {
     if (one->parsed())
       report(study_file, reference_file, style_folder, out);
     else
-      compare(folder, style_folder);
+      compare(folder, case_outputs, style_folder);
     return 0;
   } catch (const std::exception& problem) {
     fmt::print(stderr, "voussoir_study_report: {}\n", problem.what());

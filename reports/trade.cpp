@@ -51,12 +51,6 @@ std::string link(const CaseStudy& entry) {
   return fmt::format("[{0}](../{0}/README.md)", entry.name);
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 // "0.5 (median; 0.1 in wedge, 3 in slump)"
 std::string summary(const std::vector<Named>& list) {
   const auto by_value = [](const Named& a, const Named& b) { return a.value < b.value; };
@@ -284,6 +278,12 @@ std::string ways_table(const std::vector<CaseStudy>& studies) {
 }
 
 }  // namespace
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 ? values.at(half) : 0.5 * (values.at(half - 1) + values.at(half));
+}
 
 std::vector<std::string> compared_cases(const std::vector<CaseStudy>& studies) {
   std::vector<std::string> names;

@@ -19,6 +19,9 @@ std::string trade_csv(const std::vector<CaseStudy>& studies);
 // Names of the cases in trade_csv, in its order.
 std::vector<std::string> compared_cases(const std::vector<CaseStudy>& studies);
 
+// of some; throws std::out_of_range of none
+double median(std::vector<double> values);
+
 // The page "What accuracy costs": tables, and sentences that read them. The figure is trade.svg.
 std::string trade_markdown(const std::vector<CaseStudy>& studies);
 

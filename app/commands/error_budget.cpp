@@ -138,16 +138,19 @@ struct Runs {
   std::optional<std::vector<std::string>> carry_out(const std::vector<Variation>& variations) {
     std::vector<std::string> names;
     std::vector<StudyRun> runs, again;
+    // what a stiffness that was measured moves is far from the answer
+    const std::vector<std::string> from_its_begin;
     for (const Variation& v : variations) {
-      names.push_back(folder_of(v, of.name));
-      runs.push_back(run_of(v, folder / "scene.toml", of.settings, closer, names.back()));
+      names.push_back(folder_of(v, of.name) + (v.sensitivity ? wide : ""));
+      runs.push_back(
+          run_of(v, folder / "scene.toml", of.settings, v.sensitivity ? from_its_begin : closer, names.back()));
     }
     if (carry_out_runs(runs, options).interrupted) return {};
     // a search that found nothing near begins where the answer's began
     for (std::size_t k = 0; k < variations.size(); ++k) {
       evaluations += found(names[k], "").contact_evaluations;
       const auto has = [&](const std::string& name) { return found(names[k], name).result.has_value(); };
-      if (closer.empty() || std::ranges::all_of(searched, has)) continue;
+      if (closer.empty() || names[k].ends_with(wide) || std::ranges::all_of(searched, has)) continue;
       names[k] += wide;
       again.push_back(run_of(variations[k], folder / "scene.toml", of.settings, {}, names[k]));
     }
