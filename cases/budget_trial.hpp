@@ -45,9 +45,7 @@ struct BudgetPromise {
   int very_few = 10;
 };
 
-inline BudgetFound read_budget(const std::filesystem::path& results_file) {
-  std::ifstream file(results_file);
-  const nlohmann::json results = nlohmann::json::parse(file);
+inline BudgetFound read_budget(const nlohmann::json& results) {
   BudgetFound found;
   found.message = results.at("message");
   const double answer = results.at("counters").at("contact_evaluations");
@@ -69,22 +67,32 @@ inline BudgetFound read_budget(const std::filesystem::path& results_file) {
   return found;
 }
 
-inline std::string budget_command(const BudgetScene& scene, const std::filesystem::path& out) {
-  std::string command = fmt::format("'{}' run '{}' --budget --overwrite --quiet --out '{}' --set output.frames=false",
-                                    VOUSSOIR_PROGRAM, scene.scene.string(), out.string());
+inline std::string run_command(const BudgetScene& scene, const std::string& option, const std::filesystem::path& out) {
+  std::string command = fmt::format("'{}' run '{}' {} --overwrite --quiet --out '{}' --set output.frames=false",
+                                    VOUSSOIR_PROGRAM, scene.scene.string(), option, out.string());
   for (const std::string& set : scene.overrides)
     command += fmt::format(" --set '{}'", set);
   return command;
 }
 
-inline BudgetFound with_budget(const BudgetScene& scene, const std::string& case_name) {
+inline nlohmann::json results_with(const BudgetScene& scene, const std::string& option, const std::string& case_name) {
   const std::filesystem::path out = verification::case_output(case_name) / "budget";
   std::filesystem::remove(out / "results.json");
-  const std::string command = budget_command(scene, out);
+  const std::string command = run_command(scene, option, out);
   const int ended = std::system(command.c_str());
   // 1: all was written, but a goal was not reached
   if (!WIFEXITED(ended) || WEXITSTATUS(ended) > 1) throw std::runtime_error("failed: " + command);
-  return read_budget(out / "results.json");
+  std::ifstream file(out / "results.json");
+  return nlohmann::json::parse(file);
+}
+
+// with one more override
+inline nlohmann::json results_of(const BudgetScene& scene, const std::string& more, const std::string& case_name) {
+  return results_with(scene, fmt::format("--set '{}'", more), case_name);
+}
+
+inline BudgetFound with_budget(const BudgetScene& scene, const std::string& case_name) {
+  return read_budget(results_with(scene, "--budget", case_name));
 }
 
 // what came out, a line; with what it takes to see it again where that is not as asked
@@ -95,7 +103,8 @@ inline void tell_budget(const BudgetScene& scene, const BudgetFound& found) {
   else
     fmt::print("{}: {:.4f} deg, off by {:+.4f}, bar {:.4f}, bracket {:.4f}, {:.2g} times the cost, {} evaluations{}\n",
                scene.label, found.value, off, found.bar, found.bracket, found.cost, found.evaluations, found.lines);
-  if (!found.found || std::abs(off) > found.bar) fmt::print("  not enclosed: {}\n", budget_command(scene, "out"));
+  if (!found.found || std::abs(off) > found.bar)
+    fmt::print("  not enclosed: {}\n", run_command(scene, "--budget", "out"));
   std::fflush(stdout);
 }
 
