@@ -297,7 +297,8 @@ void add_study_parts(CLI::App* study, AllStudyArguments& all, Action& action) {
 }
 
 void add_study(CLI::App& program, AllStudyArguments& all, Action& action) {
-  CLI::App* command = program.add_subcommand("study", "run a scene with one setting changed at a time");
+  CLI::App* command = program.add_subcommand(
+      "study", "run a scene with settings changed: one at a time, in every combination, or at random");
   StudyArguments& arguments = all.study;
   add_plan(command, arguments);
   add_work(command, arguments.jobs, arguments.threads, arguments.time_limit, arguments.quiet);

@@ -123,8 +123,10 @@ std::string shade(double fraction) {
 }
 
 std::string rectangle(double x, double y, double wide, double high, const std::string& fill) {
-  return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n", x, y, wide,
-                     high, fill);
+  return fmt::format(
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" "
+      "shape-rendering=\"crispEdges\"/>\n",
+      x, y, wide, high, fill);
 }
 
 std::string cross(double x, double y, double half) {
