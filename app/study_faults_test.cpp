@@ -107,6 +107,18 @@ TEST_F(StudyFaults, ARowHasOneWorkerAtATime) {
   EXPECT_EQ(table("out"), whole);
 }
 
+TEST_F(StudyFaults, AWorkerThatIsAskedToStopGoesOnLater) {
+  const std::string whole = whole_table(), out = planned("out");
+  Process worker = start({.arguments = {"study", "run", out, "--jobs", "2"}});
+  ASSERT_TRUE(wait_until([&] { return !children_of(worker.pid()).empty(); }));
+  worker.send(SIGTERM);
+  expect_one_line(worker.wait(), 128 + SIGTERM, "the same command continues with what is done in '" + out + "'");
+  EXPECT_EQ(study({"status", out}).out.find("failed"), std::string::npos) << "an interruption is no failure";
+  EXPECT_EQ(study({"run", out}).code, 0);
+  EXPECT_EQ(study({"gather", out}).code, 0);
+  EXPECT_EQ(table("out"), whole);
+}
+
 TEST_F(StudyFaults, AByteThatDiffersFromThePlanIsRefused) {
   const std::string out = planned("out");
   std::mt19937 random(31);

@@ -29,12 +29,13 @@ fs::path runs_of(const fs::path& folder, const PlannedRow& row) {
   return folder / "runs" / row.run.name;
 }
 
-// all that two computers must agree on, the clock and the name of the program not; empty where it cannot be read
+// All that two computers must agree on: not the clock, the program's name, and warnings, which name the folder. Empty
+// where it cannot be read.
 std::string agreed_bits(const fs::path& folder, const RunFound& found) {
   try {
     nlohmann::json results = nlohmann::json::parse(read_file(folder / "results.json", largest_results));
-    results.erase("timing");
-    results.erase("program");
+    for (const char* key : {"timing", "program", "warnings"})
+      results.erase(key);
     return results.dump() + (found.result ? fmt::format(" {}", found.result->value) : "");
   } catch (const std::exception&) {
     return "";

@@ -172,7 +172,9 @@ std::string study_documentation() {
 # Studies
 
 `voussoir study study.toml --out folder` runs a scene as it is and with one setting changed at a time, with
-every combination of some, or with settings drawn at random.
+every combination of some, or with settings drawn at random. In parts, for many processes and machines: `voussoir study plan
+study.toml --out folder`, then `voussoir study run folder` as often as is wanted, with `--rows` or `--chunk`, `voussoir study
+status folder`, and `voussoir study gather folder`.
 
 ```toml
 scene = "scene.toml"
