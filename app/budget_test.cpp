@@ -73,23 +73,24 @@ TEST_F(Budget, CoversTheClosedFormAndSaysWhatItIsMadeOf) {
   EXPECT_LE(std::abs(found - 30), bar);
   EXPECT_LT(bracket, bar);
   EXPECT_LT(bar, 1);
-  for (const char* name : {"normal stiffness", "ramp", "failure displacement"})
+  for (const char* name : {"normal stiffness", "shear stiffness"})
     EXPECT_TRUE(varied(angle).contains(name)) << name;
   // the rule: each line with its order, the largest first
   double squares = bracket * bracket, before = 1e300;
   for (const auto& line : angle["budget"]) {
     const double left = line["left"], shift = line["shift"];
-    if (line["varied"] == "failure displacement") {
-      EXPECT_NEAR(left, 2 * shift, 1e-12);
+    if (line["varied"] == "shear stiffness") {
+      EXPECT_NEAR(left, 1.5 * shift, 1e-12);
     }
     if (line["varied"] == "normal stiffness") {
-      EXPECT_NEAR(left, 1.5 * shift, 1e-12);
+      EXPECT_NEAR(left, -shift / (std::pow(4, 0.75) - 1), 1e-12);
     }
     EXPECT_LE(std::abs(left), before);
     before = std::abs(left);
     squares += 1.25 * 1.25 * left * left;
   }
   EXPECT_GE(bar * bar, squares * (1 - 1e-9));
+  EXPECT_LE(bar * bar, (squares + 4 * bracket * bracket) * (1 + 1e-9)) << "and the brackets of the others";
   EXPECT_GT(results("b")["budget"]["contact_evaluations"], 0);
   // asked for in the scene it is the same, and again over the folder too
   write("asks.toml", incline + search + "[accuracy]\nbudget = true\n");
@@ -97,6 +98,20 @@ TEST_F(Budget, CoversTheClosedFormAndSaysWhatItIsMadeOf) {
   EXPECT_EQ(value("c", "critical_friction"), angle);
   run_well("run plane.toml --budget --out b --overwrite --quiet");
   EXPECT_EQ(value("b", "critical_friction"), angle);
+}
+
+// the second search has the name of its stage; each is looked at near its own answer
+TEST_F(Budget, OfTwoSearchesCoversBoth) {
+  std::string again = search;
+  again.replace(again.find("\"critical\""), 10, "\"again\"");
+  write("twice.toml", incline + search + again.substr(again.find("[[stage]]", 1)));
+  run_well("run twice.toml --budget --out b --quiet");
+  for (const char* name : {"critical_friction", "again_critical_friction"}) {
+    const nlohmann::json angle = value("b", name);
+    EXPECT_EQ(angle["covers"], "budget") << name;
+    EXPECT_LE(std::abs(angle["value"].get<double>() - 30), angle["error_bar"].get<double>()) << name;
+    EXPECT_TRUE(varied(angle).contains("normal stiffness")) << name;
+  }
 }
 
 TEST_F(Budget, WithoutOneTheBarIsNamedForWhatItIs) {
@@ -132,12 +147,53 @@ TEST_F(Budget, TakesAMeasuredStiffnessForPhysics) {
   EXPECT_TRUE(told);
 }
 
+// refined until its bar is as asked: by brackets first, which cost nothing to judge, then by what a budget says
+TEST_F(Budget, AnErrorThatIsAskedForIsReached) {
+  write("plane.toml", incline + search);
+  run_well("run plane.toml --quiet --out b --set 'accuracy.error=\"0.02 deg\"'");
+  const nlohmann::json angle = value("b", "critical_friction");
+  EXPECT_LE(angle["error_bar"].get<double>(), 0.02);
+  EXPECT_LE(std::abs(angle["value"].get<double>() - 30), angle["error_bar"].get<double>());
+  EXPECT_EQ(angle["covers"], "budget");
+  const nlohmann::json rounds = results("b")["accuracy"];
+  ASSERT_GE(rounds.size(), 2u);
+  EXPECT_TRUE(rounds[0]["settings"].empty());
+  EXPECT_NE(rounds[0]["told"].get<std::string>().find("by brackets alone"), std::string::npos) << rounds;
+  EXPECT_EQ(rounds.back()["told"], "as asked");
+  EXPECT_FALSE(rounds.back()["settings"].empty());
+  // one that is met at once takes one round, and what a scene leaves out is set
+  std::string loose = search;
+  loose.erase(loose.find("tolerance_deg"), std::string("tolerance_deg = 0.1\n").size());
+  write("loose.toml", incline + loose + "[accuracy]\nerror = \"5 %\"\n");
+  run_well("run loose.toml --quiet --out c");
+  EXPECT_EQ(results("c")["accuracy"].size(), 1u);
+  EXPECT_LE(value("c", "critical_friction")["error_bar"].get<double>(), 1.5);
+  run_well("run loose.toml --quiet --out d --set accuracy.budget=false");
+  EXPECT_EQ(value("d", "critical_friction")["covers"], "bracket");
+}
+
+TEST_F(Budget, AnErrorThatCannotBeAskedForIsRefused) {
+  write("plane.toml", incline + search);
+  for (const char* text : {"", "3", "1 percent", "0 %", "-1 deg", "60 %", "nan %", "50 deg"})
+    expect_one_line(run(fmt::format("run plane.toml --out b --set 'accuracy.error=\"{}\"'", text)), 2,
+                    "accuracy.error");
+  const std::string asked = "[accuracy]\nerror = \"0.1 deg\"\n";
+  write("settles.toml", incline + search.substr(0, search.find("[[stage]]", 1)) + asked);
+  expect_one_line(run("run settles.toml --out b"), 2, "there is none");
+  std::string steps = search;
+  steps.replace(steps.find("tolerance_deg = 0.1"), 19, "method = \"steps\"\nstep_deg = 1");
+  write("steps.toml", incline + steps + asked);
+  expect_one_line(run("run steps.toml --out b"), 2, "stage.critical must have method");
+}
+
 TEST_F(Budget, WhatItIsAskedForIsChecked) {
   write("plane.toml", incline + search + "[accuracy]\nbudget = 3\n");
   expect_one_line(run("run plane.toml --out b"), 2, "accuracy.budget");
   write("bare.toml", incline + search + "[accuracy]\n");
   run_well("run bare.toml --out b --quiet");
   run_well("check plane.toml --set accuracy.budget=true");
+  expect_one_line(run("run bare.toml --budget --until settle --out c"), 2, "--until: a budget's runs");
+  expect_one_line(run("run bare.toml --budget --begin b --out c"), 2, "--begin: a budget's runs");
 }
 
 }  // namespace

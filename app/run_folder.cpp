@@ -56,6 +56,13 @@ void remark_build(const fs::path& path, const std::string& bytes, std::vector<st
                                   build_name()));
 }
 
+std::vector<AccuracyRound> rounds_of(const nlohmann::json& json) {
+  std::vector<AccuracyRound> rounds;
+  for (const nlohmann::json& round : json)
+    rounds.push_back({round.at("settings"), round.at("told"), round.at("contact_evaluations")});
+  return rounds;
+}
+
 }  // namespace
 
 void write_options(const fs::path& folder, const RunOptions& options) {
@@ -68,7 +75,9 @@ void write_options(const fs::path& folder, const RunOptions& options) {
                                        {"checkpoint_seconds", options.checkpoint_seconds},
                                        {"until", options.until},
                                        {"keep", options.keep},
-                                       {"warnings", options.warnings}};
+                                       {"warnings", options.warnings},
+                                       {"rounds", rounds_json(options.rounds)},
+                                       {"settings", options.settings}};
   write_file(folder / "run.json", json.dump(2) + "\n");
 }
 
@@ -78,9 +87,15 @@ RunOptions read_options(const fs::path& folder) {
     const nlohmann::json json = nlohmann::json::parse(content_of(path, largest_options));
     if (json.at("schema") != "voussoir.run" || json.at("schema_version") != options_version)
       throw BadInput(fmt::format("'{}' was written by another version of this program", path.string()));
-    const RunOptions options{
-        json.at("scene_hash"),   json.at("threads"),        json.at("checkpoint_steps"), json.at("checkpoint_seconds"),
-        json.value("until", ""), json.value("keep", false), json.at("warnings")};
+    const RunOptions options{json.at("scene_hash"),
+                             json.at("threads"),
+                             json.at("checkpoint_steps"),
+                             json.at("checkpoint_seconds"),
+                             json.value("until", ""),
+                             json.value("keep", false),
+                             json.at("warnings"),
+                             rounds_of(json.value("rounds", nlohmann::json::array())),
+                             json.value("settings", std::vector<std::string>())};
     if (options.threads < 1 || options.threads > most_threads || options.checkpoint_steps < 0 ||
         !(options.checkpoint_seconds >= 0))
       throw BadInput(

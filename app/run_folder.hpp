@@ -17,6 +17,7 @@
 #include "app/bad_input.hpp"
 #include "app/claimed_folder.hpp"
 #include "core/checkpoint/checkpoint.hpp"
+#include "core/output/results_json.hpp"
 
 namespace voussoir {
 
@@ -24,11 +25,13 @@ namespace voussoir {
 struct RunOptions {
   std::string scene_hash;  // LoadedScene::hash
   int threads = 1;
-  long long checkpoint_steps = 0;     // between checkpoints; 0: steps do not matter
-  double checkpoint_seconds = 300;    // wall clock between checkpoints; 0: time does not matter
-  std::string until;                  // the stage after which the run ends; empty: the last
-  bool keep = false;                  // the state at the end
-  std::vector<std::string> warnings;  // what looked implausible in the scene as it was given, with its lines
+  long long checkpoint_steps = 0;          // between checkpoints; 0: steps do not matter
+  double checkpoint_seconds = 300;         // wall clock between checkpoints; 0: time does not matter
+  std::string until;                       // the stage after which the run ends; empty: the last
+  bool keep = false;                       // the state at the end
+  std::vector<std::string> warnings;       // what looked implausible in the scene as it was given, with its lines
+  std::vector<AccuracyRound> rounds = {};  // that are done
+  std::vector<std::string> settings = {};  // overrides of scene.toml in the round under way
 };
 
 // throws OutputError

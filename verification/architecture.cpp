@@ -86,7 +86,7 @@ const std::vector<Order> orders{
       {"node"},
       {"key_row"},
       {"scene_text", "scene_spec"},
-      {"keys", "toml_text"},
+      {"keys", "toml_text", "accuracy_target"},
       {"check_keys"},
       {"accuracy_level", "overrides", "scene_files", "read_plane", "particles"},
       {"bodies"},

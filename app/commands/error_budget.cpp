@@ -5,24 +5,25 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "app/child_process.hpp"
+#include "app/commands/accuracy_on_order.hpp"
+#include "app/commands/budget_variations.hpp"
 #include "app/commands/study_found.hpp"
 #include "app/commands/study_runs.hpp"
-#include "core/contact/carried_whole.hpp"
+#include "core/accuracy.hpp"
 #include "core/output/fingerprint.hpp"
 #include "core/reduction/reduction.hpp"
-#include "core/scene/scene_spec.hpp"
+#include "core/scene/accuracy_target.hpp"
+#include "core/scene/scene.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
 
 namespace fs = std::filesystem;
-
-// of what an extrapolation leaves (Roache's grid convergence index, order known)
-constexpr double margin = 1.25;
 
 // A search first looks through so many brackets of the answer's size, the answer's own among them: where nothing moves
 // it ends with the same one.
@@ -31,160 +32,41 @@ constexpr int brackets_below = 1, brackets_above = 2;
 // of a half bracket: what rounding moves an angle by is no shift
 constexpr double rounding = 1e-6;
 
-// a measured stiffness is varied by this, to be told as a sensitivity
-constexpr double sensitivity_change = 1.1;
-
-struct Variation {
-  std::string name, change;  // "stiffness", "4 times"
-  std::vector<std::string> overrides;
-  double refined = 1, order = 0;  // by the factor f, where shift f^p / (f^p - 1) is left; order 0: the shift itself is
-  bool sensitivity = false;
-
-  double left_by(double shift) const {
-    if (order == 0) return shift;
-    const double gain = std::pow(refined, order);
-    return shift * gain / (gain - 1);
-  }
-};
-
-std::string set(const std::string& path, std::string_view key, double value) {
-  return fmt::format("{}={:.17g}", key_path(path, key), value);
-}
-
-bool states(const Node& node, std::string_view key) {
-  const Node* found = node.find(key);
-  return found && found->kind == Node::Kind::boolean && found->boolean;
-}
-
-// What is varied: each by itself, and what moves few answers together first, then by itself where that moved something.
-struct Variations {
-  std::vector<Variation> alone, together;
-};
-
-template <int Dim>
-Variations variations_of(const LoadedScene& scene, const Prepared<Dim>& prepared) {
-  const Subject top{scene.stated->tree.get(), ""};
-  const Settings& settings = prepared.settings;
-  Variations all;
-
-  std::vector<std::string> ramps, failures;
-  for (std::size_t k = 0; k < prepared.stages.size(); ++k) {
-    const auto* plan = std::get_if<ReducePlan>(&prepared.stages[k].plan);
-    if (!plan) continue;
-    const std::string path = item_path("stage", *children(top, "stage")[k].node, k);
-    if (plan->method == ReductionMethod::bisection || plan->method == ReductionMethod::steps)
-      ramps.push_back(fmt::format("{}={}", key_path(path, "ramp_steps"), 2 * std::max(plan->ramp_steps, 1LL)));
-    failures.push_back(set(path, "failure_displacement", failure_displacement_of(prepared.model, *plan) / 2));
-  }
-
-  // Overlaps go with 1/k, and what they do to geometry with them. A search is moved more by the shear that settlement
-  // locks in, by a power of ks/kn below one: then kn alone is raised, for softer in shear blocks would move by more
-  // than the search takes for failure; what ks leaves open the failure displacement tells.
-  const bool searches = !failures.empty();
-  const double stiffer = searches ? 9 : 4;
-  Variation stiffness{
-      searches ? "normal stiffness" : "stiffness", fmt::format("{:g} times", stiffer), {}, stiffer, searches ? 0.5 : 1};
-  Variation points{"points", "twice as many along a face", {}, 2, 2};
-  for (const PropertiesSpec& spec : scene.stated->properties) {
-    const JointProperties& p = spec.properties;
-    const auto multiply = [&](double normal, double shear, std::vector<std::string>& overrides) {
-      overrides.push_back(set(spec.subject.path, "normal_stiffness", normal * p.normal_stiffness));
-      overrides.push_back(set(spec.subject.path, "shear_stiffness", shear * p.shear_stiffness));
-    };
-    if (states(*spec.subject.node, "measured")) {
-      all.alone.push_back({"stiffness of " + p.name, fmt::format("{:g} times", sensitivity_change), {}, 1, 0, true});
-      multiply(sensitivity_change, sensitivity_change, all.alone.back().overrides);
-    } else {
-      multiply(stiffer, searches ? 1 : stiffer, stiffness.overrides);
-    }
-    if (!p.constant_stiffness && !carried_whole(settings.contact, p) && 2 * p.sub_contacts <= 64)
-      points.overrides.push_back(fmt::format("{}={}", key_path(spec.subject.path, "sub_contacts"), 2 * p.sub_contacts));
-  }
-  for (const Variation& v : {stiffness, Variation{"ramp", "twice slower", ramps, 2, 1},
-                             Variation{"failure displacement", "half", failures, 2, 1}})
-    if (!v.overrides.empty()) all.alone.push_back(v);
-
-  all.together.push_back({"rest",
-                          "a quarter of equilibrium.unbalanced",
-                          {set("equilibrium", "unbalanced", settings.equilibrium.unbalanced / 4)},
-                          4,
-                          1});
-  if (!settings.time.step)
-    all.together.push_back({"time step", "half", {set("time", "fraction", settings.time.fraction / 2)}, 2, 1});
-  if (settings.damping.local > 0)
-    all.together.push_back({"damping", "half", {set("damping", "local", settings.damping.local / 2)}, 1, 0});
-  if (!points.overrides.empty()) all.together.push_back(points);
-  const auto at_points = [&](const PropertiesSpec& p) { return !carried_whole(settings.contact, p.properties); };
-  if (settings.contact.normal == ContactNormal::potential && std::ranges::any_of(scene.stated->properties, at_points))
-    all.together.push_back({"potential radius",
-                            "half",
-                            {set("contact", "potential_radius", settings.contact.potential_radius / 2)},
-                            2,
-                            1});
-  return all;
-}
-
-Variations variations_of(const LoadedScene& scene) {
-  return std::visit([&](const auto& prepared) { return variations_of(scene, prepared); }, scene.prepared);
-}
-
-// of what is varied together
-Variation all_of(const std::vector<Variation>& together) {
-  Variation all{"", "together", {}};
-  for (const Variation& v : together) {
-    all.name += (all.name.empty() ? "" : ", ") + v.name;
-    all.overrides.insert(all.overrides.end(), v.overrides.begin(), v.overrides.end());
-  }
-  return all;
-}
-
-// tells scene and program apart from all others, so that what is there is the same run
-std::string folder_of(const LoadedScene& scene, const Variation& v) {
-  std::string name =
-      (v.change == "together" ? "together" : v.name) + "-" + fingerprint(scene.hash + fingerprint(program_bytes()));
-  std::ranges::replace(name, ':', '-');
-  std::ranges::replace(name, ' ', '_');
-  std::erase_if(name, [](char c) { return !(std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'); });
-  return name;
-}
-
 constexpr const char* wide = "_wide";  // of a search that begins as the answer's did
 
 // overrides that let the searches of a scene look near what the answer found
-template <int Dim>
-std::vector<std::string> near(const LoadedScene& scene, const Prepared<Dim>& prepared, const Results& results) {
+std::vector<std::string> near(const LoadedScene& scene, const Results& results) {
   std::vector<std::string> overrides;
-  const Subject top{scene.stated->tree.get(), ""};
-  int searches = 0;
-  for (const StagePlan& stage : prepared.stages)
-    searches += std::holds_alternative<ReducePlan>(stage.plan);
-  if (searches != 1) return overrides;  // the values of several have the names of their stages
-  for (std::size_t k = 0; k < prepared.stages.size(); ++k) {
-    const auto* plan = std::get_if<ReducePlan>(&prepared.stages[k].plan);
-    if (!plan || plan->method != ReductionMethod::bisection) continue;
-    const bool angle = plan->searched == Searched::friction;
-    const Value* found = results.find(angle ? "critical_friction" : "factor_of_safety");
-    if (!found || !found->error_bar) continue;
-    const double unit = angle ? degree : 1, half = *found->error_bar;
-    const double from = (angle ? plan->from : plan->factor.from) / unit,
-                 to = (angle ? plan->to : plan->factor.to) / unit;
+  for (const Search& search : searches_of(scene)) {
+    const ReducePlan& plan = search.plan;
+    if (plan.method != ReductionMethod::bisection) return {};
+    const Value* found = results.find(search.value);
+    if (!found || !found->error_bar) return {};
+    const double unit = search.angle() ? degree : 1, half = *found->error_bar;
+    const double from = (search.angle() ? plan.from : plan.factor.from) / unit,
+                 to = (search.angle() ? plan.to : plan.factor.to) / unit;
     const double below = found->value - (2 * brackets_below + 1) * half,
                  above = found->value + (2 * brackets_above + 1) * half;
-    if (below < std::min(from, to) || above > std::max(from, to)) continue;
-    const std::string path = item_path("stage", *children(top, "stage")[k].node, k);
-    overrides.push_back(set(path, angle ? "from_deg" : "from_factor", angle ? above : below));
-    overrides.push_back(set(path, angle ? "to_deg" : "to_factor", angle ? below : above));
+    if (below < std::min(from, to) || above > std::max(from, to)) return {};
+    overrides.push_back(set(search.path, search.angle() ? "from_deg" : "from_factor", search.angle() ? above : below));
+    overrides.push_back(set(search.path, search.angle() ? "to_deg" : "to_factor", search.angle() ? below : above));
   }
   return overrides;
 }
 
-StudyRun run_of(const Variation& v, const fs::path& scene, const std::vector<std::string>& closer,
-                const std::string& name) {
-  StudyRun run{scene, v.overrides, {}, {scene}, name};
-  run.overrides.insert(run.overrides.end(), closer.begin(), closer.end());
-  run.overrides.push_back("accuracy.budget=false");
-  run.overrides.push_back("output.frames=false");
+StudyRun run_of(const Variation& v, const fs::path& scene, const std::vector<std::string>& settings,
+                const std::vector<std::string>& closer, const std::string& name) {
+  StudyRun run{scene, settings, {}, {scene}, name};
+  for (const std::vector<std::string>& more : {v.overrides(), closer, {"accuracy.budget=false", "output.frames=false"}})
+    run.overrides.insert(run.overrides.end(), more.begin(), more.end());
   return run;
+}
+
+std::string folder_of(const Variation& v, const std::string& run) {
+  std::string name = v.change == "together" ? v.change : v.name;
+  std::ranges::replace(name, ' ', '_');
+  std::erase_if(name, [](char c) { return !(std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'); });
+  return name + "-" + run;
 }
 
 // the bar of one value, from the lines of its budget; `other`: the largest half bracket among the variations
@@ -193,39 +75,63 @@ void combine(double other, Value& value) {
   const double own = value.error_bar.value_or(0);
   double squares = own * own + other * other;
   for (const BudgetLine& line : value.budget)
-    if (!line.sensitivity && std::abs(line.shift) > rounding * own) squares += margin * margin * line.left * line.left;
+    if (std::abs(line.shift) > rounding * own) squares += square_of(line);
   value.error_bar = std::sqrt(squares);
   value.covers = "budget";
+}
+
+// a promise of [accuracy] level that a budget does not bear out
+void judge_level(const LoadedScene& scene, const std::string& name, const Value& value,
+                 std::vector<std::string>& warnings) {
+  const Node* accuracy = scene.stated->tree->find("accuracy");
+  const Node* level = accuracy ? accuracy->find("level") : nullptr;
+  if (!level || value.covers != "budget") return;
+  const auto found = std::ranges::find(accuracy_levels, level->text);
+  const double promised = accuracy_promises[found - accuracy_levels.begin()];
+  if (*value.error_bar > promised * std::abs(value.value))
+    warnings.push_back(fmt::format("accuracy.level = \"{}\" promises {:g} %; the budget leaves {:.2g} % of {} open",
+                                   level->text, 100 * promised, 100 * *value.error_bar / std::abs(value.value), name));
 }
 
 }  // namespace
 
 bool wants_budget(const LoadedScene& scene) {
   const Node* accuracy = scene.stated ? scene.stated->tree->find("accuracy") : nullptr;
-  return accuracy && states(*accuracy, "budget");
+  return accuracy && (states(*accuracy, "budget") || accuracy_target(*scene.stated->tree));
 }
 
 std::vector<std::string> budget_folders(const LoadedScene& scene) {
   const Variations all = variations_of(scene);
   std::vector<Variation> variations = all.alone;
   variations.insert(variations.end(), all.together.begin(), all.together.end());
-  variations.push_back(all_of(all.together));
+  variations.push_back(all.all);
+  variations.push_back({"search", ""});
+  const int rounds = accuracy_target(*scene.stated->tree) ? most_rounds : 1;
   std::vector<std::string> folders;
-  for (const Variation& v : variations)
-    for (const char* kind : {"", wide})
-      folders.push_back("budget/" + folder_of(scene, v) + kind);
+  for (int round = 0; round < rounds; ++round) {
+    const std::string run = budget_runs(scene, round, {}).name;
+    for (const Variation& v : variations)
+      for (const char* kind : {"", wide})
+        folders.push_back("budget/" + folder_of(v, run) + kind);
+  }
   return folders;
+}
+
+BudgetRuns budget_runs(const LoadedScene& stated, int round, const std::vector<std::string>& settings) {
+  const std::string run = folder_name(stated.hash + fingerprint(program_bytes()));
+  return {round == 0 ? run : fmt::format("{}-{}", run, round + 1), settings};
 }
 
 namespace {
 
 // the budget's runs, in their folder beside the answer
 struct Runs {
-  const LoadedScene& scene;
+  BudgetRuns of;
   fs::path folder;
   RunsOptions options;
   std::vector<std::string> closer;    // overrides that let searches look near the answer
   std::vector<std::string> searched;  // the values that searches found; without any all are looked at
+  std::string path;                   // the run that varies nothing but where its searches begin; may be empty
   long long evaluations = 0;
 
   // the run of each variation that says something; nothing: interrupted
@@ -233,16 +139,17 @@ struct Runs {
     std::vector<std::string> names;
     std::vector<StudyRun> runs, again;
     for (const Variation& v : variations) {
-      names.push_back(folder_of(scene, v));
-      runs.push_back(run_of(v, folder / "scene.toml", closer, names.back()));
+      names.push_back(folder_of(v, of.name));
+      runs.push_back(run_of(v, folder / "scene.toml", of.settings, closer, names.back()));
     }
     if (carry_out_runs(runs, options).interrupted) return {};
     // a search that found nothing near begins where the answer's began
     for (std::size_t k = 0; k < variations.size(); ++k) {
       evaluations += found(names[k], "").contact_evaluations;
-      if (closer.empty() || searched.empty() || found(names[k], searched.front()).result) continue;
+      const auto has = [&](const std::string& name) { return found(names[k], name).result.has_value(); };
+      if (closer.empty() || std::ranges::all_of(searched, has)) continue;
       names[k] += wide;
-      again.push_back(run_of(variations[k], folder / "scene.toml", {}, names[k]));
+      again.push_back(run_of(variations[k], folder / "scene.toml", of.settings, {}, names[k]));
     }
     if (!again.empty() && carry_out_runs(again, options).interrupted) return {};
     for (const StudyRun& run : again)
@@ -253,6 +160,7 @@ struct Runs {
   RunFound found(const std::string& run, const std::string& quantity) const {
     StudyPlan plan;
     plan.quantity = quantity;
+    plan.wide_brackets = true;
     const fs::path at = options.folder / run;
     return fs::exists(at / "results.json") ? found_in(at, plan) : RunFound{.status = "no results"};
   }
@@ -260,21 +168,46 @@ struct Runs {
   // what monitors say at the end of a search depends on which of its trials was the last
   bool is_judged(const std::string& name) const { return searched.empty() || std::ranges::count(searched, name) > 0; }
 
+  // What a run is held against: a search that began near the answer came there by another path.
+  double unvaried(const std::string& run, const std::string& name, const Value& answer) const {
+    if (path.empty() || run.ends_with(wide)) return answer.value;
+    return found(path, name).result->value;
+  }
+
   // whether a run has every value that is judged, and each is what it was
   bool moved_nothing(const std::string& run, const Results& results) const {
     return std::ranges::all_of(results.values, [&](const auto& entry) {
       const auto& [name, value] = entry;
       if (!is_judged(name)) return true;
       const RunFound then = found(run, name);
-      return then.result &&
-             std::abs(then.result->value - value.value) <= rounding * value.error_bar.value_or(std::abs(value.value));
+      return then.result && std::abs(then.result->value - unvaried(run, name, value)) <=
+                                rounding * value.error_bar.value_or(std::abs(value.value));
     });
+  }
+
+  // Where runs that began near the answer moved, one that varies nothing else tells them what the path did. False:
+  // interrupted.
+  bool try_path(const std::vector<std::string>& names, const Results& results) {
+    const auto moved = [&](const std::string& run) { return !run.ends_with(wide) && !moved_nothing(run, results); };
+    if (closer.empty() || std::ranges::none_of(names, moved)) return true;
+    const Variation nothing{"search", "begun near the answer", 1, 0, [](double) { return std::vector<std::string>(); }};
+    const std::string run = folder_of(nothing, of.name);
+    if (carry_out_runs({run_of(nothing, folder / "scene.toml", of.settings, closer, run)}, options).interrupted)
+      return false;
+    evaluations += found(run, "").contact_evaluations;
+    if (std::ranges::all_of(searched, [&](const std::string& name) { return found(run, name).result.has_value(); }))
+      path = run;
+    return true;
   }
 };
 
 }  // namespace
 
-bool add_budget(const LoadedScene& scene, const fs::path& folder, int threads, bool quiet, Results& results) {
+bool add_budget(const LoadedScene& scene, const BudgetRuns& of, const fs::path& folder, int threads, bool quiet,
+                Results& results) {
+  const bool searches = !searches_of(scene).empty();
+  if (searches && std::ranges::none_of(results.values, [](const auto& v) { return v.second.error_bar.has_value(); }))
+    return true;  // nothing was found that could have a budget
   const Variations all = variations_of(scene);
   const fs::path runs_folder = folder / "budget";
   fs::create_directories(runs_folder);
@@ -283,18 +216,14 @@ bool add_budget(const LoadedScene& scene, const fs::path& folder, int threads, b
   options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / threads);
   options.threads = threads;
   options.quiet = quiet;
-  Runs runs{scene,
-            folder,
-            options,
-            std::visit([&](const auto& prepared) { return near(scene, prepared, results); }, scene.prepared),
-            {}};
+  Runs runs{of, folder, options, near(scene, results), {}, {}};
   for (const auto& [name, value] : results.values)
     if (value.error_bar) runs.searched.push_back(name);
 
   std::vector<Variation> variations = all.alone;
-  variations.push_back(all_of(all.together));
+  variations.push_back(all.all);
   std::optional<std::vector<std::string>> names = runs.carry_out(variations);
-  if (!names) return false;
+  if (!names || !runs.try_path(*names, results)) return false;
   if (!runs.moved_nothing(names->back(), results)) {
     const std::optional<std::vector<std::string>> each = runs.carry_out(all.together);
     if (!each) return false;
@@ -305,6 +234,7 @@ bool add_budget(const LoadedScene& scene, const fs::path& folder, int threads, b
   }
   results.budget_evaluations = runs.evaluations;
 
+  std::set<std::string> untold;
   for (auto& [name, value] : results.values) {
     if (!runs.is_judged(name)) continue;
     double other = 0;
@@ -312,15 +242,21 @@ bool add_budget(const LoadedScene& scene, const fs::path& folder, int threads, b
       const Variation& v = variations[k];
       const RunFound then = runs.found((*names)[k], name);
       if (!then.result) {
-        results.warnings.push_back(
-            fmt::format("the budget of {} knows nothing of {}, {}: {}", name, v.name, v.change, then.status));
+        if (untold.insert(v.name).second)
+          results.warnings.push_back(
+              fmt::format("the budget of {} knows nothing of {}, {}: {}", name, v.name, v.change, then.status));
         continue;
       }
-      const double shift = then.result->value - value.value;
+      const double shift = then.result->value - runs.unvaried((*names)[k], name, value);
       other = std::max(other, then.result->error_bar.value_or(0));
       value.budget.push_back({v.name, v.change, shift, v.left_by(shift), v.sensitivity});
     }
+    if (!runs.path.empty()) {
+      const double shift = runs.found(runs.path, name).result->value - value.value;
+      value.budget.push_back({"search", "begun near the answer", shift, shift, false});
+    }
     if (!value.budget.empty()) combine(other, value);
+    judge_level(scene, name, value, results.warnings);
     std::ranges::stable_sort(value.budget, std::greater{}, [](const BudgetLine& l) { return std::abs(l.left); });
   }
   return true;

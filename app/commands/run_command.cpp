@@ -6,6 +6,7 @@
 
 #include "app/bad_input.hpp"
 #include "app/begin_run.hpp"
+#include "app/commands/accuracy_on_order.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/error_budget.hpp"
 #include "app/commands/plausibility.hpp"
@@ -41,6 +42,7 @@ RunRecord record_of(const LoadedScene& scene, const RunOptions& options) {
   record.input_hash = scene.hash;
   record.features = features();
   record.threads = options.threads;
+  record.rounds = options.rounds;
   return record;
 }
 
@@ -63,7 +65,8 @@ void print_budget(const Value& value) {
   }
 }
 
-void print_summary(const LoadedScene& scene, const Results& results, const fs::path& folder) {
+void print_summary(const LoadedScene& scene, const Results& results, const RunOptions& options,
+                   const fs::path& folder) {
   const std::string message = results.message.empty() ? "" : ": " + results.message;
   fmt::print("{}{}{}\n", scene.title.empty() ? "" : scene.title + " - ", outcome_name(results.outcome), message);
   std::size_t width = 0;
@@ -81,6 +84,9 @@ void print_summary(const LoadedScene& scene, const Results& results, const fs::p
   const Counters& counters = results.counters;
   fmt::print("  {} steps, {} contact evaluations, {}\n", counters.steps, counters.contact_evaluations,
              duration_text(results.seconds));
+  for (std::size_t k = 0; k + 1 < options.rounds.size(); ++k)
+    fmt::print("  round {}: {} contact evaluations; {}\n", k + 1, options.rounds[k].contact_evaluations,
+               options.rounds[k].told);
   if (results.budget_evaluations > 0)
     fmt::print("  error budget: {} contact evaluations, {:.2g} times the answer's\n", results.budget_evaluations,
                static_cast<double>(results.budget_evaluations) / static_cast<double>(counters.contact_evaluations));
@@ -174,9 +180,36 @@ WrittenSeries cut_back_to(const Progress<Dim>& progress, const fs::path& folder)
   return written;
 }
 
-// begins or continues, and writes the results
+// The budget of an answer, unless its bracket alone is wider than what is asked, and what to make finer for the next
+// one. False: a signal stopped it.
+bool judge_accuracy(const LoadedScene& stated, const LoadedScene& scene, RunJob& job, Results& results,
+                    std::optional<Refinement>& next) {
+  if (!wants_budget(scene) || results.outcome == Outcome::failed) return true;
+  const int round = static_cast<int>(job.options.rounds.size());
+  const std::optional<AccuracyTarget> target = wanted_accuracy(scene);
+  if (!(target && brackets_too_wide(scene, *target, results) && round + 1 < most_rounds) &&
+      !add_budget(scene, budget_runs(stated, round, job.options.settings), job.folder, job.options.threads, job.quiet,
+                  results))
+    return false;
+  if (!target) return true;
+  next = refinement(scene, *target, round + 1, results);
+  const long long evaluations = results.counters.contact_evaluations + results.budget_evaluations;
+  job.options.rounds.push_back({job.options.settings, next ? next->told : "as asked", evaluations});
+  if (!next) {
+    if (results.outcome != Outcome::done) job.options.rounds.back().told = results.message;
+    return true;
+  }
+  if (!job.quiet)
+    tell("voussoir: {}; about {:.2g} steps, {}\n", next->told, next->cost * static_cast<double>(results.counters.steps),
+         duration_text(next->cost * results.seconds));
+  job.options.settings.insert(job.options.settings.end(), next->overrides.begin(), next->overrides.end());
+  return true;
+}
+
+// begins or continues, and writes the results; nothing: a finer answer is to follow
 template <int Dim>
-ExitCode carry_out_prepared(const LoadedScene& scene, const Prepared<Dim>& prepared, const RunJob& job) {
+std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const LoadedScene& scene,
+                                           const Prepared<Dim>& prepared, RunJob& job) {
   std::vector<std::string> remarks;
   Progress<Dim> progress = last_progress(job.folder, prepared, scene.hash, remarks);
   print_warnings(remarks);
@@ -192,24 +225,38 @@ ExitCode carry_out_prepared(const LoadedScene& scene, const Prepared<Dim>& prepa
   // results.json comes last: where it is, everything is
   Results& results = progress.results;
   write_tables(job.folder, progress);
-  if (wants_budget(scene) && results.outcome == Outcome::done &&
-      !add_budget(scene, job.folder, job.options.threads, job.quiet, results)) {
+  std::optional<Refinement> next;
+  if (!judge_accuracy(stated, scene, job, results, next)) {
     tell("voussoir: interrupted in the error budget: continue with 'voussoir resume {}'\n", job.folder.string());
     return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + interruption());
+  }
+  if (next) {
+    // a checkpoint of this answer is none of the next
+    remove_checkpoints(job.folder);
+    write_options(job.folder, job.options);
+    return std::nullopt;
   }
   write_results_json(job.folder / "results.json", results, record_of(scene, job.options));
   remove_checkpoints(job.folder);
   if (!job.quiet) {
     print_warnings(results.warnings);
-    print_summary(scene, results, job.folder);
+    print_summary(scene, results, job.options, job.folder);
   } else if (results.outcome != Outcome::done) {
     tell("voussoir: {}: {}\n", outcome_name(results.outcome), results.message);
   }
   return exit_code(results.outcome);
 }
 
-ExitCode carry_out(const LoadedScene& scene, const RunJob& job) {
-  return std::visit([&](const auto& prepared) { return carry_out_prepared(scene, prepared, job); }, scene.prepared);
+ExitCode carry_out(const LoadedScene& stated, RunJob job) {
+  for (;;) {
+    LoadedScene finer;
+    const bool refined = !job.options.settings.empty();
+    if (refined) finer = load_scene(job.folder / "scene.toml", job.options.settings, job.options.threads);
+    const LoadedScene& scene = refined ? finer : stated;
+    const std::optional<ExitCode> ended = std::visit(
+        [&](const auto& prepared) { return carry_out_prepared(stated, scene, prepared, job); }, scene.prepared);
+    if (ended) return *ended;
+  }
 }
 
 // the place of the stage after which the run ends
@@ -275,6 +322,10 @@ ExitCode run_command(const RunArguments& arguments) {
   std::vector<std::string> overrides = arguments.scene.overrides;
   if (arguments.budget) overrides.push_back("accuracy.budget=true");
   LoadedScene scene = load_scene(arguments.scene.scene, overrides, options.threads);
+  if (wants_budget(scene) && !(arguments.until.empty() && arguments.begin.empty()))
+    throw BadInput(fmt::format(
+        "{}: a budget's runs go from the start to the last stage; leave it out, or --budget and accuracy.budget",
+        arguments.until.empty() ? "--begin" : "--until"));
   end_with(options.until, scene);
   require_sane_size(scene.text, arguments.scene.scene.string() + " with all that it names");  // for it is read again
   options.scene_hash = scene.hash;

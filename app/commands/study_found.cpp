@@ -72,7 +72,8 @@ RunFound found_in_json(const nlohmann::json& results, const fs::path& folder, co
     if (seconds.is_number()) found.seconds = seconds;
   }
   const std::string status = results.at("status");
-  if (status != "done") {
+  if (status != "done" &&
+      !(plan.wide_brackets && results.at("values").contains(plan.quantity) && status == "incomplete")) {
     found.status = printable(status + ": " + results.at("message").get<std::string>());
     return found;
   }

@@ -57,6 +57,7 @@ struct StudyPlan {
   std::string quantity;                    // a name in the values of results.json
   std::optional<HistoryQuantity> history;  // or what this name stands for
   std::string begin;                       // the stage at whose end runs begin, made once; empty: each at the start
+  bool wide_brackets = false;              // a search that ended with a wider bracket than asked has a value, too
   std::vector<Sweep> sweeps;               // the first is the scene as it is, under the name "default"
 };
 

@@ -11,6 +11,7 @@
 #include "app/limit/limit_analysis.hpp"
 #include "cases/case_tools.hpp"
 #include "cases/slump/collapse.hpp"
+#include "cases/slump/layered_scene.hpp"
 #include "reference/slump/elastoplastic.hpp"
 #include "text/angle.hpp"
 
@@ -55,47 +56,12 @@ const std::vector<Variant> variants{{60, 5, 4, 8, 3, "S0"},
                                     {60, 5, 4, 8, 1, "1 layer"},
                                     {60, 5, 4, 8, 5, "5 layers"}};
 
-void write_plane(std::ofstream& out, const std::string& kind, const std::string& name, double dip, double direction,
-                 double x, double y) {
-  if (dip < 0) {
-    dip = -dip;
-    direction = 360 - direction;
-  }
-  out << fmt::format("{}\nname = \"{}\"\ndip = {}\ndip_direction = {}\npoint = [{:.17g}, {:.17g}]\n", kind, name, dip,
-                     direction, x, y);
-}
-
-// scene.toml with other numbers, in the case's output folder, so that it can be run by itself
+// in the case's output folder
 std::filesystem::path write_scene(const Variant& v) {
-  const reference::LayeredSlope slope = v.slope();
   const std::filesystem::path file =
       verification::case_output("slump") /
       fmt::format("variant_{}_{}_{}_{}_{}.toml", v.dip, v.base_dip, v.thickness, v.spacing, v.layers);
-  std::ofstream out(file);
-  const double layer = v.thickness / std::sin(slope.dip), row = v.spacing / std::cos(slope.base_dip);
-  const double right = slope.height / std::tan(slope.dip) + v.layers * layer + 10;
-  out << fmt::format("title = \"{}\"\ndimension = 2\ngravity = [0, -{}]\ndensity = {}\n", v.name(), slope.gravity,
-                     slope.density);
-  out << fmt::format("[domain]\nbox = {{ min = [-5, -20], max = [{:.17g}, {}] }}\n", right, slope.height);
-  write_plane(out, "[[domain.planes]]", "face", v.dip, 270, 0, 0);
-  out << "keep = \"below\"\n";
-  write_plane(out, "[[joints]]", "base", v.base_dip, 90, 0, 0);
-  write_plane(out, "[[joints]]", "back", v.dip, 270, v.layers * layer, 0);
-  for (int i = 1; i < v.layers; ++i)
-    write_plane(out, "[[joints]]", fmt::format("bedding {}", i), v.dip, 270, i * layer, 0);
-  // the rows above the base, as far up as the top of the last layer
-  const double last_top = slope.height + right * std::abs(std::tan(slope.base_dip));
-  for (int i = 1; i * row < last_top; ++i)
-    write_plane(out, "[[joints]]", fmt::format("cross {}", i), v.base_dip, 90, 0, i * row);
-  out << fmt::format(
-      "[[joint_properties]]\nname = \"rock\"\nnormal_stiffness = {}\nshear_stiffness = {}\n"
-      "friction_deg = 60\nsub_contacts = 4\n",
-      slope.normal_stiffness, slope.shear_stiffness);
-  out << "[[fix]]\nbelow = [\"base\"]\n[[fix]]\nbelow = [\"back\"]\n"
-         "[[stage]]\nname = \"settle\"\nkind = \"settle\"\ngravity_ramp_s = 0.5\n"
-         "[[stage]]\nname = \"critical\"\nkind = \"reduce\"\nmethod = \"bisection\"\nfrom_deg = 60\nto_deg = 2\n"
-         "tolerance_deg = 0.05\nfailure_displacement = 0.1\n";
-  if (!out) throw std::runtime_error("cannot write " + file.string());
+  write_layered_scene(v.slope(), v.name(), file);
   return file;
 }
 
@@ -153,8 +119,7 @@ Manner by_limit_analysis(const Variant& v, const std::filesystem::path& scene) {
 }
 
 Manner without_dilation(const Variant& v, const Model<2>& model) {
-  const reference::SlopeCollapse collapse =
-      reference::elastoplastic_collapse(v.slope(), 60 * degree, 1 * degree, reference_bracket * degree);
+  const reference::SlopeCollapse collapse = reference::elastoplastic_collapse(v.slope(), reference_bracket * degree);
   const std::vector<std::vector<int>> layers = layered_blocks(v, model);
   std::vector<BodyVelocity> motions(model.bodies.size());
   for (const reference::SlopeBlockMotion& block : collapse.motion)

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "cases/budget_trial.hpp"
 #include "cases/case_tools.hpp"
+#include "reference/small/block_on_joint.hpp"
 #include "reference/small/small.hpp"
 #include "reference/small/toppling.hpp"
 #include "text/angle.hpp"
@@ -23,6 +25,7 @@ constexpr double breadth = 1, height = 2, weight = 2500 * 9.81 * breadth * heigh
 // What counts as moved. A hinge gives by T/(k_s a) = 0.07 mm at most while the block turns by 0.1 rad, where the start
 // ends; at rest it turns by 0.002 rad.
 constexpr double slid = 2e-4, turned = 0.02, started = 0.1;  // m, rad, rad
+constexpr double duration = 1.2;                             // s, as the scenes state it
 
 struct Point {
   double slope, friction;  // deg
@@ -49,26 +52,30 @@ double overturns_at(double slope_deg) {
   return to_degrees(reference::overturning_angle(breadth, height, weight * std::cos(slope_deg * degree), stiffness));
 }
 
-// Two points on either side of each of the four borders, and one far inside each region. Below the friction that holds
-// a block's foot as it topples it slides for as long as it hardly leans: on an elastic joint, whose hinge lies inside
-// by up to a third of what is pressed, 0.2 degrees less friction hold it once it leans by 0.002 rad, and 0.9 at 0.02
-// rad. So that point stands farther off.
-std::vector<Point> points() {
-  constexpr double apart = 0.3, steep = 35;  // deg
-  const double flat = 20, overturns = overturns_at(26), sliding = overturns_at(steep);
-  const double both = to_degrees(reference::least_toppling_friction({breadth, height, steep * degree, 0}));
+// two points on either side of each of the four borders, and one far inside each region
+constexpr double flat = 20, steep = 35, holding = 40;  // deg
+struct Borders {
+  double overturns, sliding, both;  // deg
+};
+std::vector<Point> points_beside(const Borders& border, double apart) {
   return {{flat, flat + apart},
           {flat, flat - apart},
-          {overturns - apart, 40},
-          {overturns + apart, 40},
-          {steep, sliding - apart},
-          {steep, sliding + apart},
-          {steep, both - 2.5 * apart},
-          {steep, both + apart},
+          {border.overturns - apart, holding},
+          {border.overturns + apart, holding},
+          {steep, border.sliding - apart},
+          {steep, border.sliding + apart},
+          {steep, border.both - apart},
+          {steep, border.both + apart},
           {10, 35},
           {30, 15},
           {40, 50},
           {42, 29}};
+}
+
+std::vector<Point> points() {
+  return points_beside({overturns_at(26), overturns_at(steep),
+                        to_degrees(reference::least_toppling_friction({breadth, height, steep * degree, 0}))},
+                       0.3);
 }
 
 // the reference's mode, on elastic joints: the borders of overturning lie where the joint puts them
@@ -82,15 +89,58 @@ BlockMode expected_mode(const Point& p) {
                                                                           : BlockMode::topples;
 }
 
+BlockMode mode_of(double slip, double turn) {
+  if (slip > slid) return turn > turned ? BlockMode::slides_and_topples : BlockMode::slides;
+  return turn > turned ? BlockMode::topples : BlockMode::stays;
+}
+
+// the same of the block whose joint is carried as a whole, loaded as the scenes load it
+reference::JointStart start_on_joint(const Point& p, double until) {
+  reference::BlockOnJoint block{breadth, height, p.slope * degree, p.friction * degree};
+  block.normal_stiffness = block.shear_stiffness = stiffness;
+  block.dashpot_ratio = 0.1;
+  block.ramp = 0.1;
+  return reference::start_on_joint(block, until, duration);
+}
+
+BlockMode mode_on_joint(const Point& p) {
+  const reference::JointStart start = start_on_joint(p, started);
+  return mode_of(start.slip, start.turn);
+}
+
+// the number within half a degree of `near` where the block changes its mode, to 0.001 degrees
+template <typename At>
+double changes_mode(double near, const At& at) {
+  double low = near - 0.5, high = near + 0.5;
+  const BlockMode below = mode_on_joint(at(low));
+  if (below == mode_on_joint(at(high))) throw std::logic_error("the block has one mode on both sides");
+  while (high - low > 1e-3) {
+    const double middle = 0.5 * (low + high);
+    (mode_on_joint(at(middle)) == below ? low : high) = middle;
+  }
+  return low;
+}
+
+// deg: whole faces stand so far from their borders, twenty times what these are searched to
+constexpr double apart_on_joint = 0.02;
+
+const Borders& borders_on_joint() {
+  static const Borders borders = [] {
+    const double near = overturns_at(26);
+    const auto slope = [](double deg) { return Point{deg, holding}; };
+    const auto friction = [](double deg) { return Point{steep, deg}; };
+    const double rigid = to_degrees(reference::least_toppling_friction({breadth, height, steep * degree, 0}));
+    return Borders{changes_mode(near, slope), changes_mode(near, friction), changes_mode(rigid - 0.3, friction)};
+  }();
+  return borders;
+}
+
 // how the lower corner and the block have moved when the start is over
 struct Start {
   double slip = 0, turn = 0;  // m down the plane, rad down the slope
   SceneRun run;
 
-  BlockMode mode() const {
-    if (slip > slid) return turn > turned ? BlockMode::slides_and_topples : BlockMode::slides;
-    return turn > turned ? BlockMode::topples : BlockMode::stays;
-  }
+  BlockMode mode() const { return mode_of(slip, turn); }
 };
 
 Start start(const Variant& v, const Point& p) {
@@ -117,17 +167,19 @@ class Toppling : public testing::TestWithParam<Variant> {};
 
 TEST_P(Toppling, HasTheModesOfTheMap) {
   const Variant& v = GetParam();
+  const bool whole = !v.carried.empty();
   CaseReport report("toppling");
   std::map<BlockMode, std::vector<std::vector<double>>> found;
-  for (const Point& p : points()) {
-    const BlockMode expected = expected_mode(p);
+  for (const Point& p : whole ? points_beside(borders_on_joint(), apart_on_joint) : points()) {
+    const BlockMode expected = whole ? mode_on_joint(p) : expected_mode(p);
     const Start moved = start(v, p);
     char where[60];
     std::snprintf(where, sizeof where, "slope %.2f, friction %.2f: ", p.slope, p.friction);
     report.record({where + std::string(name_of(expected)) + ", " + v.name,
                    "1",
                    Kind::exact,
-                   "Sagaseta (1986), with the border of overturning on an elastic joint",
+                   whole ? "Newton's laws of a block on an elastic joint, reference/small"
+                         : "Sagaseta (1986), with the border of overturning on an elastic joint",
                    static_cast<double>(expected),
                    {0, 0},
                    "the number of the mode: 0 stays, 1 slides, 2 topples, 3 both"},
@@ -137,7 +189,7 @@ TEST_P(Toppling, HasTheModesOfTheMap) {
     columns[0].push_back(p.slope);
     columns[1].push_back(p.friction);
   }
-  if (v.dimension == 3 || !v.carried.empty()) return;
+  if (v.dimension == 3 || whole) return;
   for (const auto& [mode, columns] : found)
     write_csv("toppling", "mode_" + std::to_string(static_cast<int>(mode)) + ".csv", {"slope_deg", "friction_deg"},
               columns);
@@ -149,6 +201,32 @@ INSTANTIATE_TEST_SUITE_P(
                     Variant{"plane.toml", "2-D, whole faces", "PlaneOnWholeFaces", 2, {whole_faces}},
                     Variant{"scene.toml", "3-D, whole faces", "SpaceOnWholeFaces", 3, {whole_faces}}),
     [](const auto& chosen) { return chosen.param.test; });
+
+class TopplingFoot : public testing::TestWithParam<Variant> {};
+
+// the foot of a toppling block, 0.1 degrees below what holds it and 0.1 above
+TEST_P(TopplingFoot, SlipsAsFarAsOnAJointThatIsIntegrated) {
+  const Variant& v = GetParam();
+  CaseReport report("toppling");
+  const double both = borders_on_joint().both;
+  for (const auto& [friction, which] : {std::pair{both - 0.1, "slips"}, std::pair{both + 0.1, "holds"}}) {
+    const Start moved = start(v, {steep, friction});
+    report.record(
+        {"way of the foot that " + std::string(which) + " by the time the block has turned by 0.1 rad, " + v.name,
+         "m",
+         Kind::exact,
+         "Newton's laws of a block on an elastic joint, reference/small",
+         start_on_joint({steep, friction}, moved.turn).slip,
+         {1e-7, 5e-4},
+         "twice a time step, 0.03 ms, of the 0.2 s in which it slips and the reference's own 1e-4"},
+        moved.slip, cost(moved.run));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TopplingFoot,
+                         testing::Values(Variant{"plane.toml", "2-D, whole faces", "Plane", 2, {whole_faces}},
+                                         Variant{"scene.toml", "3-D, whole faces", "Space", 3, {whole_faces}}),
+                         [](const auto& chosen) { return chosen.param.test; });
 
 // What the map says of points where statics says something else: inertia enters the balance.
 TEST(TopplingMap, IsNotThatOfStatics) {
@@ -164,6 +242,12 @@ TEST(TopplingMap, IsNotThatOfStatics) {
   const double elastic = overturns_at(26);
   report.report("slope that overturns the block on its elastic joint", "deg", elastic,
                 "26.565 for a rigid block; the points stand on either side of the elastic border");
+  const Borders& loaded = borders_on_joint();
+  report.report("slope at which the block turns by 0.02 rad within the scene", "deg", loaded.overturns,
+                "Newton's laws of a block on an elastic joint; whole faces stand on either side");
+  report.report("friction angle at which the block turns by 0.02 rad within the scene as it slides", "deg",
+                loaded.sliding, "the same");
+  report.report("friction angle that holds the foot of a toppling block", "deg", loaded.both, "the same");
   int apart = 0;
   for (const Point& p : points()) {
     const InclinedBlock block{breadth, height, p.slope * degree, p.friction * degree};
@@ -236,6 +320,15 @@ TEST(SteppedColumns, ColumnsOnASteppedBaseFallWhereLimitEquilibriumSays) {
 TEST(SteppedColumnsLong, ColumnsOnASteppedBaseFallByTheWholeSearch) {
   judge_columns(", whole search", {});
   judge_columns(", whole search on whole faces", {whole_faces});
+}
+
+TEST(SteppedColumnsLong, BudgetEnclosesLimitEquilibrium) {
+  CaseReport report("toppling");
+  judge_budget(report, "toppling", "limit equilibrium (Goodman & Bray 1976)",
+               {"columns on steps",
+                std::filesystem::path(VOUSSOIR_CASE_DIR) / "columns.toml",
+                {},
+                to_degrees(reference::stepped_columns_friction({}))});
 }
 
 }  // namespace

@@ -228,9 +228,9 @@ void serialize(Archive& archive, RunProgress<Dim>& r) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, ReductionProgress<Dim>& r) {
   auto& [trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced, true_motion,
-         trial_steps, run, begin, base] = r;
+         trial_steps, avoids, undecided, run, begin, base] = r;
   archive(trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced, true_motion,
-          trial_steps, run, begin, base);
+          trial_steps, avoids, undecided, run, begin, base);
 }
 
 template <class Archive>

@@ -11,8 +11,8 @@ namespace voussoir {
 namespace {
 
 // A polygon so much smaller than the square that it was cut from has lost digits to the square: it is cut again from a
-// smaller one. One pass keeps them to 16 times the rounding of the polygon's own size.
-constexpr double lost_digits = 16;
+// smaller one. One pass keeps them to 6 times the rounding of the polygon's own size; a cube's face needs 3.5.
+constexpr double lost_digits = 6;
 
 // and that often: each time the square is at least an eighth of what it was
 constexpr int most_cuts = 24;

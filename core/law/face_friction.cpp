@@ -40,6 +40,13 @@ struct AroundPole {
   Matrix<2> bending = Matrix<2>::Zero();
 };
 
+// ∫ ds/ρ, the difference of asinh(s/|h|) at both ends, by one logarithm and without cancellation
+double integral_of_inverse(double h, double s0, double r0, double s1, double r1) {
+  if (s0 >= 0) return std::log((s1 + r1) / (s0 + r0));
+  if (s1 <= 0) return std::log((r0 - s0) / (r1 - s1));
+  return std::log((s1 + r1) / h * ((r0 - s0) / h));
+}
+
 // Over the triangle from the pole to an edge from `first` to `second`, seen from the pole, where the overlap is
 // at_pole + gradient·y. In polar coordinates the radius integrates to powers of ρ = √(h² + s²), the distance to the
 // edge's point s; along the edge dθ = h ds/ρ².
@@ -50,12 +57,12 @@ void add_edge(const Vector<2>& first, const Vector<2>& second, double at_pole, c
   const Vector<2> along = (second - first) / length, out(along[1], -along[0]);
   const double h = first.dot(out), s0 = first.dot(along), s1 = second.dot(along);
   if (std::abs(h) <= on_the_line * std::max(std::abs(s0), std::abs(s1))) return;
-  const double r0 = std::hypot(h, s0), r1 = std::hypot(h, s1);
-  const double i0 = std::asinh(s1 / std::abs(h)) - std::asinh(s0 / std::abs(h));  // ∫ ds/ρ
-  const double i1 = r1 - r0;                                                      // ∫ s ds/ρ
-  const double i2 = 0.5 * (s1 * r1 - s0 * r0 - h * h * i0);                       // ∫ s² ds/ρ
-  const double rho = 0.5 * (s1 * r1 - s0 * r0 + h * h * i0);                      // ∫ ρ ds
-  const double s_rho = (r1 * r1 * r1 - r0 * r0 * r0) / 3;                         // ∫ s ρ ds
+  const double r0 = std::sqrt(h * h + s0 * s0), r1 = std::sqrt(h * h + s1 * s1);
+  const double i0 = integral_of_inverse(h, s0, r0, s1, r1);   // ∫ ds/ρ
+  const double i1 = r1 - r0;                                  // ∫ s ds/ρ
+  const double i2 = 0.5 * (s1 * r1 - s0 * r0 - h * h * i0);   // ∫ s² ds/ρ
+  const double rho = 0.5 * (s1 * r1 - s0 * r0 + h * h * i0);  // ∫ ρ ds
+  const double s_rho = (r1 * r1 * r1 - r0 * r0 * r0) / 3;     // ∫ s ρ ds
   const double across = gradient.dot(out), slope = gradient.dot(along);
   sum.direction += h * ((at_pole / 2 * h * i0 + (h * h * across * i0 + h * slope * i1) / 3) * out +
                         (at_pole / 2 * i1 + (h * across * i1 + slope * i2) / 3) * along);

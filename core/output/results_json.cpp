@@ -156,12 +156,21 @@ std::string results_json(const Results& results, const RunRecord& record) {
   json["energy"] = energy;
   json["counters"] = counters_json(results.counters);
   if (results.budget_evaluations > 0) json["budget"] = {{"contact_evaluations", results.budget_evaluations}};
+  if (!record.rounds.empty()) json["accuracy"] = rounds_json(record.rounds);
   if (results.bonds) json["bonds"] = bonds_json(*results.bonds);
   json["state_hash"] = results.state_hash;
   json["timing"] = {{"seconds", std::isfinite(results.seconds) ? Json(results.seconds) : Json()},
                     {"threads", record.threads}};
   // a scene's title may hold bytes that are not UTF-8: replace them, a lost result would be worse
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json rounds_json(const std::vector<AccuracyRound>& rounds) {
+  Json json = Json::array();
+  for (const AccuracyRound& round : rounds)
+    json.push_back(
+        {{"settings", round.settings}, {"told", round.told}, {"contact_evaluations", round.contact_evaluations}});
+  return json;
 }
 
 void write_results_json(const std::filesystem::path& path, const Results& results, const RunRecord& record) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,14 @@ namespace voussoir {
 
 inline constexpr int results_schema_version = 1;
 
+// One answer of those that `[accuracy] error` asks for, until the last is accurate enough.
+struct AccuracyRound {
+  std::vector<std::string> settings;  // overrides of the scene that it was found with
+  std::string told;                   // how far its values are known, and what was made finer then
+  long long contact_evaluations = 0;  // those of its budget included
+};
+nlohmann::ordered_json rounds_json(const std::vector<AccuracyRound>& rounds);
+
 // what results.json says besides the results themselves
 struct RunRecord {
   std::string title;
@@ -20,6 +29,7 @@ struct RunRecord {
   std::vector<std::pair<std::string, bool>> features;  // parts built in: glpk, ipopt
   std::vector<std::string> warnings;                   // what looked implausible before the run
   int threads = 1;
+  std::vector<AccuracyRound> rounds = {};
 };
 
 // "done", "incomplete", "failed"

@@ -198,6 +198,11 @@ struct Search {
     if (!outcome) return {};
     const double level = level_of(attempt);
     if (outcome == Trial::undecided) {
+      if (plan.method == ReductionMethod::bisection && attempt.number > 1 && !progress.avoids) {
+        progress.avoids = true;
+        progress.undecided = level;
+        return outcome;
+      }
       give_up_undecided(attempt, level);
       return {};
     }
@@ -307,8 +312,15 @@ struct Search {
     if (progress.trial == 0 && !rest_at(0, levels.from)) return;
     if (progress.trial <= 1 && !rest_at(1, levels.to, true)) return;
     for (int n = std::max(progress.trial, 2); bracket() > levels.tolerance; ++n)
-      if (!rest_at(n, 0.5 * (progress.stable + progress.failed), true)) return;
+      if (!rest_at(n, next_level(), true)) return;
     close_bracket();
+  }
+  // half way, or where no trial decides the level there, half way from it to the farther end
+  double next_level() {
+    const double below = progress.undecided - progress.stable, above = progress.failed - progress.undecided;
+    progress.avoids = progress.avoids && levels.direction * below > 0 && levels.direction * above > 0;
+    if (!progress.avoids) return 0.5 * (progress.stable + progress.failed);
+    return progress.undecided + 0.5 * (std::abs(below) > std::abs(above) ? -below : above);
   }
   std::string bisection_rule() const { return "bisection from the last stable state; " + stable_and_failed_rule(); }
 

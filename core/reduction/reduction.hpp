@@ -35,6 +35,8 @@ struct ReductionProgress {
   double unbalanced = -1;                 // the equilibrium measure of the last stable state
   bool true_motion = false;               // whose turn it is in the trial: true motion's or relaxation's
   long long trial_steps = 0;              // of the trial up to this turn
+  bool avoids = false;                    // a bisection has met a level that no trial decides,
+  double undecided = 0;                   // this one
   RunProgress<Dim> run;                   // of the trial under way
   std::vector<Vector<Dim>> begin;         // m: displacements when the search began
   State<Dim> base;                        // the last stable state
@@ -73,9 +75,10 @@ double failure_displacement_of(const Model<Dim>& model, const ReducePlan& plan);
 // true motion under local damping and relaxation take turns: near the critical angle what slides flutters, and critical
 // damping of the flutter holds up the slide, while local damping does not end a slide whose forces are nearly in
 // balance. Afterwards the state is the last stable one (rates: the failed one). Where a fraction of the free mass must
-// have moved, bodies that have moved so far without being it are left behind: rest is that of the others. A bisection
-// with a trial that stays undecided ends there, with the bracket that it has and a message. A search that the hooks
-// interrupted (`last.reason`) continues when it is called again with its progress.
+// have moved, bodies that have moved so far without being it are left behind: rest is that of the others. Where a trial
+// of a bisection stays undecided, the bracket is closed around its level from both sides; at a second such level it
+// ends, with the bracket that it has and a message. A search that the hooks interrupted (`last.reason`) continues when
+// it is called again with its progress.
 template <int Dim>
 ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,
                        ReductionProgress<Dim>& progress, const RunHooks<Dim>& hooks = {},

@@ -150,6 +150,38 @@ TEST(Reduction, ATrialThatStaysUndecidedLeavesTheBracketKnownSoFar) {
   EXPECT_NEAR(*found->error_bar, report.error_bar / degree, 1e-12);
 }
 
+// One level alone that is not decided: the bracket closes around it from both sides.
+TEST(Reduction, ALevelThatNoTrialDecidesIsAvoided) {
+  const double slope = 30 * degree;
+  const Model<2> model = block_on_plate<2>(slope, 40 * degree);
+  ReducePlan plan;
+  plan.from = 35 * degree;
+  plan.to = 27 * degree;
+  plan.tolerance = 0.1 * degree;
+  plan.failure_displacement = 0.01;
+  for (const double level : {30.5, 29.7}) {  // it would be stable, it would fail
+    State<2> state = initial_state(model);
+    ReductionProgress<2> progress;
+    progress.trial = 2;
+    progress.stable = plan.from;
+    progress.failed = plan.to;
+    progress.begin.assign(model.bodies.size(), Vector<2>::Zero());
+    progress.base = state;
+    progress.avoids = true;
+    progress.undecided = level * degree;
+    std::vector<double> tried;
+    const ReductionReport report = reduce<2>(model, {}, plan, state, progress, {},
+                                             [&](const State<2>&, double at, Trial) { tried.push_back(at / degree); });
+    ASSERT_TRUE(report.bracketed) << report.message;
+    EXPECT_TRUE(report.message.empty()) << report.message;
+    EXPECT_NEAR(tried.front(), level == 30.5 ? 32.75 : 32.35, 1e-9) << "half way to the farther end";
+    for (const double at : tried)
+      EXPECT_GT(std::abs(at - level), 1e-6);
+    EXPECT_NEAR(report.critical, slope, report.error_bar);
+    EXPECT_LE(report.error_bar, 0.5 * plan.tolerance * (1 + 1e-9));
+  }
+}
+
 // A trial that relaxation cannot decide: true motion and relaxation take turns until its steps are used up.
 TEST(Reduction, RelaxationAndTrueMotionTakeTurns) {
   const Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);

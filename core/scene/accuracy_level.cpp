@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/accuracy.hpp"
+#include "core/scene/accuracy_target.hpp"
 #include "core/scene/keys.hpp"
 
 namespace voussoir {
@@ -15,7 +16,11 @@ namespace {
 // its place in the table's columns
 std::optional<std::size_t> level_of(const Node& scene) {
   const Node* accuracy = scene.find("accuracy");
-  const Node* level = accuracy && accuracy->kind == Node::Kind::table ? accuracy->find("level") : nullptr;
+  if (!accuracy || accuracy->kind != Node::Kind::table) return std::nullopt;
+  const Node* level = accuracy->find("level");
+  if (const Node* error = accuracy->find("error"); error && !level && error->kind == Node::Kind::text)
+    if (const std::optional<AccuracyTarget> target = accuracy_target(error->text))
+      return target->relative && target->size >= accuracy_promises[0] ? 0 : 1;
   if (!level || level->kind != Node::Kind::text) return std::nullopt;
   const auto found = std::find(accuracy_levels.begin(), accuracy_levels.end(), level->text);
   if (found == accuracy_levels.end()) return std::nullopt;
@@ -62,7 +67,7 @@ std::vector<std::string> apply_accuracy_level(Node& scene) {
   std::vector<std::string> done;
   const std::optional<std::size_t> level = level_of(scene);
   if (!level) return done;
-  const Place stated = scene.find("accuracy")->find("level")->place;
+  const Place stated = scene.find("accuracy")->place;
   const bool dashpots = has_dashpots(scene);
   const auto set = [&](Node& table, const std::string& path, const LevelSetting& setting) {
     if (is_settled(table, setting)) return;

@@ -7,6 +7,7 @@
 
 #include "core/contact/carried_whole.hpp"
 #include "core/scene/accuracy_level.hpp"
+#include "core/scene/accuracy_target.hpp"
 #include "core/scene/base_scene.hpp"
 #include "core/scene/bolts.hpp"
 #include "core/scene/keys.hpp"
@@ -162,6 +163,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
     apply_override(*tree, text_of_override, *source);
   const std::vector<std::string> from_level = apply_accuracy_level(*tree);
   check_keys(*tree);
+  accuracy_target(*tree);
 
   // from here on every value has the right type and lies in its range
   scene.file = *source;

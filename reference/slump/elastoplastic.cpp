@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace voussoir::reference {
 namespace {
@@ -12,8 +15,10 @@ namespace {
 constexpr double balanced = 1e-7;
 // it has collapsed when a corner has moved by this many times the elastic displacement under the whole height's weight
 constexpr double far_away = 30;
-constexpr int most_sweeps = 4'000'000;  // of one trial: a hundred times what those far from the critical angle take
-constexpr double mass_reserve = 1.1;    // above the bound on the stiffest mode: slip and gaps never stiffen a spring
+// of one trial: hundreds of times what those far from the critical angle take; a slide whose forces are nearly in
+// balance, 2e-6 of the mean weight, takes six million
+constexpr int most_sweeps = 20'000'000;
+constexpr double mass_reserve = 1.1;  // above the bound on the stiffest mode: slip and gaps never stiffen a spring
 
 struct Point {
   double x = 0, y = 0;
@@ -29,10 +34,15 @@ struct SlopeBlock {
   double area = 0;
 };
 
-// an end of an interface: the spring between two blocks (-1: the fixed rock), from `a` to `b`
+// how a spring's closure or slip follows from the motion of a block (-1: the fixed rock)
+struct Lever {
+  int block = -1;
+  Freedoms normal{}, tangent{};
+};
+
+// an end of an interface: the spring between two blocks, from `a` to `b`
 struct End {
-  int a = -1, b = -1;
-  Point place, normal;
+  Lever a, b;
   double length = 0;  // half of the interface's
   double slip_force = 0;
 };
@@ -64,114 +74,131 @@ struct Grid {
   const LayeredSlope& slope;
   double across = std::sin(slope.dip + slope.base_dip);
 
-  double u(int layer) const { return layer * slope.thickness / across; }
-  double v(int row) const { return row * slope.spacing / across; }
-  double top(double at_u) const { return (slope.height + at_u * std::sin(slope.base_dip)) / std::sin(slope.dip); }
-  Point point(double at_u, double at_v) const {
-    return {at_u * std::cos(slope.base_dip) + at_v * std::cos(slope.dip),
-            -at_u * std::sin(slope.base_dip) + at_v * std::sin(slope.dip)};
+  Point node(int layer, int row) const {
+    const double u = layer * slope.thickness / across, v = row * slope.spacing / across;
+    return {u * std::cos(slope.base_dip) + v * std::cos(slope.dip),
+            -u * std::sin(slope.base_dip) + v * std::sin(slope.dip)};
+  }
+  // some of the cell above and behind it lies in the slope
+  bool is_block(int layer, int row) const {
+    return layer < slope.layers && row >= 0 && std::min(node(layer, row).y, node(layer + 1, row).y) < slope.height;
   }
 };
 
-void add_interface(Assembly& assembly, int a, int b, Point from, Point to, Point normal) {
-  const double half = 0.5 * std::hypot(to.x - from.x, to.y - from.y);
-  for (const Point& place : {from, to})
-    assembly.ends.push_back({a, b, place, normal, half, 0});
-}
-
-Assembly build(const LayeredSlope& slope) {
-  Assembly assembly;
-  const Grid grid{slope};
-  int rows = 0;
-  while (grid.v(rows) < grid.top(0))
-    ++rows;
-  const auto id = [&](int layer, int row) { return layer < slope.layers && row >= 0 ? layer * rows + row : -1; };
-  const Point up{std::sin(slope.base_dip), std::cos(slope.base_dip)};  // across the base
-  const Point out{-std::sin(slope.dip), std::cos(slope.dip)};          // across the layers
-  for (int layer = 0; layer < slope.layers; ++layer)
-    for (int row = 0; row < rows; ++row) {
-      const double left = grid.u(layer), right = grid.u(layer + 1), foot = grid.v(row), head = grid.v(row + 1);
-      const Point low_left = grid.point(left, foot), low_right = grid.point(right, foot),
-                  high_right = grid.point(right, std::min(head, grid.top(right))),
-                  high_left = grid.point(left, std::min(head, grid.top(left)));
-      SlopeBlock block{layer, row, {low_left, low_right, high_right, high_left}, {}, 0};
-      find_centroid(block);
-      assembly.blocks.push_back(block);
-      add_interface(assembly, id(layer, row - 1), id(layer, row), low_left, low_right, up);
-      add_interface(assembly, id(layer + 1, row), id(layer, row), low_right, high_right, out);
-    }
-  const std::size_t count = assembly.blocks.size();
-  assembly.displacement.assign(count, {});
-  assembly.velocity.assign(count, {});
-  assembly.mass.assign(count, {});
-  assembly.arm = 0.5 * std::max(slope.thickness, slope.spacing);
-  assembly.weight_of_unit = slope.density * slope.gravity;
-  assembly.kn = slope.normal_stiffness;
-  assembly.ks = slope.shear_stiffness;
-  return assembly;
-}
-
-// how a block's freedoms move a place along a direction
-Freedoms lever(const Assembly& assembly, int block, const Point& place, const Point& direction) {
-  const Point& c = assembly.blocks[block].centroid;
-  const double turning = (place.x - c.x) * direction.y - (place.y - c.y) * direction.x;
-  return {direction.x, direction.y, turning / assembly.arm};
+// what a convex line of points has below the top; a line is closed when it has more than two
+std::vector<Point> below_top(const std::vector<Point>& line, double top) {
+  std::vector<Point> kept;
+  const std::size_t sides = line.size() > 2 ? line.size() : line.size() - 1;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const Point &p = line[i], &q = line[(i + 1) % line.size()];
+    if (p.y <= top) kept.push_back(p);
+    if (i >= sides || (p.y < top) == (q.y < top) || p.y == top || q.y == top) continue;
+    const double share = (top - p.y) / (q.y - p.y);
+    kept.push_back({p.x + share * (q.x - p.x), top});
+  }
+  return kept;
 }
 
 Point along(const Point& normal) {
   return {-normal.y, normal.x};
 }
 
+// how a block's freedoms move a place
+Lever lever(const Assembly& assembly, int block, const Point& place, const Point& normal) {
+  if (block < 0) return {};
+  const Point &c = assembly.blocks[block].centroid, tangent = along(normal);
+  const auto towards = [&](const Point& direction) {
+    const double turning = (place.x - c.x) * direction.y - (place.y - c.y) * direction.x;
+    return Freedoms{direction.x, direction.y, turning / assembly.arm};
+  };
+  return {block, towards(normal), towards(tangent)};
+}
+
+void add_interface(Assembly& assembly, int a, int b, const std::vector<Point>& line, const Point& normal) {
+  if (line.size() < 2) return;
+  const double half = 0.5 * std::hypot(line[1].x - line[0].x, line[1].y - line[0].y);
+  for (const Point& place : line)
+    assembly.ends.push_back({lever(assembly, a, place, normal), lever(assembly, b, place, normal), half, 0});
+}
+
+Assembly build(const LayeredSlope& slope) {
+  Assembly assembly;
+  assembly.arm = 0.5 * std::max(slope.thickness, slope.spacing);
+  assembly.weight_of_unit = slope.density * slope.gravity;
+  assembly.kn = slope.normal_stiffness;
+  assembly.ks = slope.shear_stiffness;
+  const Grid grid{slope};
+  std::map<std::pair<int, int>, int> ids;  // by layer and row; the fixed rock has none
+  for (int layer = 0; layer < slope.layers; ++layer)
+    for (int row = 0; grid.is_block(layer, row); ++row) {
+      const std::vector<Point> cell{grid.node(layer, row), grid.node(layer + 1, row), grid.node(layer + 1, row + 1),
+                                    grid.node(layer, row + 1)};
+      SlopeBlock block{layer, row, below_top(cell, slope.height), {}, 0};
+      find_centroid(block);
+      ids[{layer, row}] = static_cast<int>(assembly.blocks.size());
+      assembly.blocks.push_back(block);
+    }
+  const auto id = [&](int layer, int row) {
+    const auto found = ids.find({layer, row});
+    return found == ids.end() ? -1 : found->second;
+  };
+  const Point up{std::sin(slope.base_dip), std::cos(slope.base_dip)};  // across the base
+  const Point out{-std::sin(slope.dip), std::cos(slope.dip)};          // across the layers
+  for (const SlopeBlock& block : assembly.blocks) {
+    const int layer = block.layer, row = block.row;
+    const Point low_right = grid.node(layer + 1, row);
+    add_interface(assembly, id(layer, row - 1), id(layer, row),
+                  below_top({grid.node(layer, row), low_right}, slope.height), up);
+    add_interface(assembly, id(layer + 1, row), id(layer, row),
+                  below_top({low_right, grid.node(layer + 1, row + 1)}, slope.height), out);
+  }
+  const std::size_t count = assembly.blocks.size();
+  assembly.displacement.assign(count, {});
+  assembly.velocity.assign(count, {});
+  assembly.mass.assign(count, {});
+  return assembly;
+}
+
 // Masses for a step of 1: row sums of the stiffness over 4 bound the stiffest mode (Gershgorin).
 void set_masses(Assembly& assembly) {
   for (const End& end : assembly.ends)
     for (const auto& [direction, stiffness] :
-         {std::pair(end.normal, assembly.kn), std::pair(along(end.normal), assembly.ks)}) {
+         {std::pair(&Lever::normal, assembly.kn), std::pair(&Lever::tangent, assembly.ks)}) {
       double sum = 0;
-      for (const int block : {end.a, end.b})
-        if (block >= 0)
-          for (const double l : lever(assembly, block, end.place, direction))
-            sum += std::abs(l);
-      for (const int block : {end.a, end.b}) {
-        if (block < 0) continue;
-        const Freedoms l = lever(assembly, block, end.place, direction);
-        for (int k = 0; k < 3; ++k)
-          assembly.mass[block][k] += 0.25 * mass_reserve * stiffness * end.length * std::abs(l[k]) * sum;
-      }
+      for (const Lever* lever : {&end.a, &end.b})
+        for (const double l : lever->*direction)
+          sum += std::abs(l);
+      for (const Lever* lever : {&end.a, &end.b})
+        for (int k = 0; lever->block >= 0 && k < 3; ++k)
+          assembly.mass[lever->block][k] +=
+              0.25 * mass_reserve * stiffness * end.length * std::abs((lever->*direction)[k]) * sum;
     }
 }
 
-double relative(const Assembly& assembly, const std::vector<Freedoms>& motion, const End& end, const Point& direction) {
+// of b to a
+double relative(const std::vector<Freedoms>& motion, const End& end, Freedoms Lever::*direction) {
   double value = 0;
-  for (const auto& [block, sign] : {std::pair(end.b, 1.0), std::pair(end.a, -1.0)}) {
-    if (block < 0) continue;
-    const Freedoms l = lever(assembly, block, end.place, direction);
-    for (int k = 0; k < 3; ++k)
-      value += sign * l[k] * motion[block][k];
+  for (int k = 0; k < 3; ++k) {
+    if (end.b.block >= 0) value += (end.b.*direction)[k] * motion[end.b.block][k];
+    if (end.a.block >= 0) value -= (end.a.*direction)[k] * motion[end.a.block][k];
   }
   return value;
 }
 
 // forces on all blocks; slip forces follow the step that was just made
-std::vector<Freedoms> find_forces(Assembly& assembly, double friction) {
-  std::vector<Freedoms> forces(assembly.blocks.size());
+void find_forces(Assembly& assembly, double friction, std::vector<Freedoms>& forces) {
   for (std::size_t b = 0; b < forces.size(); ++b)
     forces[b] = {0, -assembly.weight_of_unit * assembly.blocks[b].area, 0};
   const double mu = std::tan(friction);
   for (End& end : assembly.ends) {
-    const Point tangent = along(end.normal);
-    const double closed = -relative(assembly, assembly.displacement, end, end.normal);
+    const double closed = -relative(assembly.displacement, end, &Lever::normal);
     const double normal = std::max(0.0, assembly.kn * end.length * closed);
-    end.slip_force -= assembly.ks * end.length * relative(assembly, assembly.velocity, end, tangent);
+    end.slip_force -= assembly.ks * end.length * relative(assembly.velocity, end, &Lever::tangent);
     end.slip_force = std::clamp(end.slip_force, -mu * normal, mu * normal);
-    for (const auto& [block, sign] : {std::pair(end.b, 1.0), std::pair(end.a, -1.0)}) {
-      if (block < 0) continue;
-      const Freedoms n = lever(assembly, block, end.place, end.normal), t = lever(assembly, block, end.place, tangent);
-      for (int k = 0; k < 3; ++k)
-        forces[block][k] += sign * (normal * n[k] + end.slip_force * t[k]);
-    }
+    for (const auto& [lever, sign] : {std::pair(&end.b, 1.0), std::pair(&end.a, -1.0)})
+      for (int k = 0; lever->block >= 0 && k < 3; ++k)
+        forces[lever->block][k] += sign * (normal * lever->normal[k] + end.slip_force * lever->tangent[k]);
   }
-  return forces;
 }
 
 double largest_corner_motion(const Assembly& assembly, std::size_t b, const Freedoms& motion) {
@@ -200,9 +227,10 @@ bool comes_to_rest(Assembly& assembly, double friction, double away, long long& 
   double mean_weight = 0;
   for (const SlopeBlock& block : assembly.blocks)
     mean_weight += assembly.weight_of_unit * block.area / static_cast<double>(assembly.blocks.size());
-  std::vector<Freedoms> before = find_forces(assembly, friction);
+  std::vector<Freedoms> forces(start.size()), before(start.size());
+  find_forces(assembly, friction, before);
   for (int sweep = 0; sweep < most_sweeps; ++sweep, ++sweeps) {
-    const std::vector<Freedoms> forces = find_forces(assembly, friction);
+    find_forces(assembly, friction, forces);
     double unbalanced = 0, stiffness = 0, inertia = 0, farthest = 0;
     for (std::size_t b = 0; b < forces.size(); ++b)
       for (int k = 0; k < 3; ++k) {
@@ -225,7 +253,7 @@ bool comes_to_rest(Assembly& assembly, double friction, double away, long long& 
         assembly.velocity[b][k] = keep * assembly.velocity[b][k] + gain * forces[b][k] / assembly.mass[b][k];
         assembly.displacement[b][k] += assembly.velocity[b][k];
       }
-    before = forces;
+    before.swap(forces);
   }
   throw std::runtime_error("the blocks neither come to rest nor move away");
 }
@@ -241,16 +269,20 @@ std::vector<SlopeBlockMotion> describe(const Assembly& assembly, const std::vect
   return motion;
 }
 
-}  // namespace
+// The blocks at rest under a friction; nothing where it does not hold them.
+std::optional<Assembly> settle(const LayeredSlope& slope, double friction, double away, long long& sweeps) {
+  Assembly assembly = build(slope);
+  set_masses(assembly);
+  if (!comes_to_rest(assembly, friction, away, sweeps)) return {};
+  return assembly;
+}
 
-SlopeCollapse elastoplastic_collapse(const LayeredSlope& slope, double from, double to, double tolerance) {
-  SlopeCollapse collapse;
-  Assembly resting = build(slope);
-  set_masses(resting);
-  const double elastic =
-      slope.density * slope.gravity * slope.height / std::min(slope.normal_stiffness, slope.shear_stiffness);
-  const double away = far_away * elastic;
-  if (!comes_to_rest(resting, from, away, collapse.sweeps)) throw std::runtime_error("`from` does not hold the blocks");
+double away_of(const LayeredSlope& slope) {
+  return far_away * slope.density * slope.gravity * slope.height /
+         std::min(slope.normal_stiffness, slope.shear_stiffness);
+}
+
+SlopeCollapse search(Assembly resting, double from, double to, double tolerance, double away, SlopeCollapse collapse) {
   const auto holds = [&](double friction) {
     Assembly trial = resting;
     const bool rests = comes_to_rest(trial, friction, away, collapse.sweeps);
@@ -266,6 +298,32 @@ SlopeCollapse elastoplastic_collapse(const LayeredSlope& slope, double from, dou
     (holds(middle) ? collapse.stands : collapse.collapses) = middle;
   }
   return collapse;
+}
+
+}  // namespace
+
+SlopeCollapse elastoplastic_collapse(const LayeredSlope& slope, double from, double to, double tolerance) {
+  const double away = away_of(slope);
+  SlopeCollapse collapse;
+  const std::optional<Assembly> resting = settle(slope, from, away, collapse.sweeps);
+  if (!resting) throw std::runtime_error("`from` does not hold the blocks");
+  return search(*resting, from, to, tolerance, away, collapse);
+}
+
+SlopeCollapse elastoplastic_collapse(const LayeredSlope& slope, double tolerance) {
+  const double away = away_of(slope);
+  SlopeCollapse collapse;
+  for (const double tangent : {1.0, 2.0, 4.0, 8.0})
+    if (const std::optional<Assembly> resting = settle(slope, std::atan(tangent), away, collapse.sweeps))
+      return search(*resting, std::atan(tangent), 0, tolerance, away, collapse);
+  throw std::runtime_error("no friction holds the blocks");
+}
+
+std::vector<double> slope_block_areas(const LayeredSlope& slope) {
+  std::vector<double> areas;
+  for (const SlopeBlock& block : build(slope).blocks)
+    areas.push_back(block.area);
+  return areas;
 }
 
 }  // namespace voussoir::reference

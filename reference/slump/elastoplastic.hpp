@@ -8,7 +8,7 @@
 namespace voussoir::reference {
 
 // The toe is the origin, y points up, the slope faces left. Layers dip out of the slope, base and cross joints into it.
-// Behind the last layer and below the base the rock is fixed.
+// Behind the last layer and below the base the rock is fixed; the top is level and cuts the blocks that reach it.
 struct LayeredSlope {
   double dip = 0, base_dip = 0;  // rad
   double thickness = 0;          // of a layer, across it, m
@@ -38,5 +38,11 @@ struct SlopeCollapse {
 // geometry stays, so that only the ratio of the stiffnesses matters. Throws std::runtime_error where an end of the
 // range is on the wrong side, or a trial neither comes to rest nor moves away.
 SlopeCollapse elastoplastic_collapse(const LayeredSlope& slope, double from, double to, double tolerance);
+
+// The same between the first of the friction coefficients 1, 2, 4 and 8 that holds the blocks, and none. Throws
+// std::runtime_error also where the last does not hold them.
+SlopeCollapse elastoplastic_collapse(const LayeredSlope& slope, double tolerance);
+
+std::vector<double> slope_block_areas(const LayeredSlope& slope);  // m², layer by layer, from the base upwards
 
 }  // namespace voussoir::reference

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
+#include <vector>
 
 namespace voussoir::reference {
 namespace {
@@ -49,6 +51,34 @@ TEST(ElastoplasticSlope, DependsOnNoStiffnessAndNoPath) {
   other.shear_stiffness *= 2;
   EXPECT_NEAR(elastoplastic_collapse(other, 60 * degree, 5 * degree, bracket).stands, as_it_is.stands, bracket);
   EXPECT_NEAR(elastoplastic_collapse(slope_s0(), 30 * degree, 14.9 * degree, bracket).stands, as_it_is.stands, bracket);
+}
+
+TEST(ElastoplasticSlope, FindsItsOwnRange) {
+  constexpr double bracket = 0.005 * degree;
+  for (const double dip : {50, 60}) {
+    LayeredSlope slope = slope_s0();
+    slope.dip = dip * degree;
+    const SlopeCollapse own = elastoplastic_collapse(slope, bracket);
+    EXPECT_LE(own.stands - own.collapses, bracket);
+    EXPECT_NEAR(own.stands, elastoplastic_collapse(slope, 60 * degree, 5 * degree, bracket).stands, bracket) << dip;
+  }
+}
+
+// Wherever the top cuts the cells, the blocks fill the layers: as long, along the dip, as in their middle.
+TEST(ElastoplasticSlope, FillsItsLayersUpToTheTop) {
+  for (const double base_dip : {-10, 0, 5, 8})
+    for (const double spacing : {3.1, 7.9, 16.0}) {
+      LayeredSlope slope = slope_s0();
+      slope.base_dip = base_dip * degree;
+      slope.spacing = spacing;
+      slope.layers = 5;
+      const double across = slope.layers * slope.thickness;
+      const double middle = 0.5 * across / std::sin(slope.dip + slope.base_dip);
+      const double length = (slope.height + middle * std::sin(slope.base_dip)) / std::sin(slope.dip);
+      const std::vector<double> areas = slope_block_areas(slope);
+      EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), across * length, 1e-9 * across * length)
+          << base_dip << ", " << spacing;
+    }
 }
 
 TEST(ElastoplasticSlope, RefusesARangeOnOneSide) {

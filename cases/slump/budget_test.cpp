@@ -1,0 +1,103 @@
+// Whether error budgets enclose the truth: random layered slopes against blocks that slip without opening, by the
+// program itself.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_int_distribution.hpp>
+#include <boost/random/uniform_real_distribution.hpp>
+
+#include "app/limit/limit_analysis.hpp"
+#include "cases/budget_trial.hpp"
+#include "cases/slump/layered_scene.hpp"
+
+namespace voussoir::cases {
+namespace {
+
+using verification::CaseReport;
+
+constexpr double reference_bracket = 0.005;  // deg
+constexpr double least_area = 0.1;           // of the largest block's: the top cuts off no slivers
+constexpr double settles = 50, falls = 4;    // deg: the search goes from 60 to 2
+constexpr const char* source = "elastic, perfectly plastic blocks without dilation";
+
+bool has_slivers(const reference::LayeredSlope& slope) {
+  const std::vector<double> areas = reference::slope_block_areas(slope);
+  return std::ranges::min(areas) < least_area * std::ranges::max(areas);
+}
+
+double truth_of(const reference::LayeredSlope& slope) {
+  const reference::SlopeCollapse collapse = reference::elastoplastic_collapse(slope, reference_bracket * degree);
+  return 0.5 * (collapse.stands + collapse.collapses) / degree;
+}
+
+// slopes 20 to 50 m high, face and bedding as steep as each other, on 5 to 20 GPa/m
+std::vector<BudgetScene> draw(unsigned seed, std::size_t count, int most_layers,
+                              const std::vector<std::string>& overrides) {
+  boost::random::mt19937_64 random(seed);
+  const auto between = [&](double low, double high) {
+    return boost::random::uniform_real_distribution<double>(low, high)(random);
+  };
+  std::vector<BudgetScene> scenes;
+  while (scenes.size() < count) {
+    reference::LayeredSlope slope;
+    slope.dip = between(50, 70) * degree;
+    slope.base_dip = between(-5, 8) * degree;
+    slope.thickness = between(2, 6);
+    slope.spacing = between(5, 15);
+    slope.height = between(20, 50);
+    slope.layers = boost::random::uniform_int_distribution<int>(1, most_layers)(random);
+    slope.density = 2500;
+    slope.gravity = 9.81;
+    slope.normal_stiffness = slope.shear_stiffness = 5e9 * std::pow(4, between(0, 1));
+    if (has_slivers(slope)) continue;
+    const double truth = truth_of(slope);
+    if (truth < falls || truth > settles) continue;
+    const std::string label =
+        fmt::format("slope {}, dip {:.2f}, base {:.2f}, {} x {:.2f} m, spacing {:.2f} m, height {:.2f} m, {:.2g} Pa/m",
+                    scenes.size(), slope.dip / degree, slope.base_dip / degree, slope.layers, slope.thickness,
+                    slope.spacing, slope.height, slope.normal_stiffness);
+    const std::filesystem::path file =
+        verification::case_output("slump") / fmt::format("random_{}_{}.toml", seed, scenes.size());
+    write_layered_scene(slope, label, file);
+    scenes.push_back({label, file, overrides, truth});
+  }
+  return scenes;
+}
+
+double by_limit_analysis(const BudgetScene& scene) {
+  const LimitAnalysis analysis = analyse_limit(load_scene(scene.scene));
+  if (analysis.status != LimitStatus::found) throw std::runtime_error(scene.label + ": " + analysis.message);
+  return analysis.values.front().second.value;
+}
+
+void try_budgets(unsigned seed, std::size_t count, int most_layers, const std::vector<std::string>& overrides) {
+  CaseReport report("slump");
+  const std::vector<BudgetScene> scenes = draw(seed, count, most_layers, overrides);
+  double largest = 0;
+  for (const BudgetScene& scene : scenes)
+    largest = std::max(largest, std::abs(by_limit_analysis(scene) - scene.truth));
+  report.report(fmt::format("limit analysis off the reference, most of {} random slopes", count), "deg", largest,
+                "0.0026 where blocks are lost as their joints open, too");
+  judge_budgets(report, "slump", "random slopes", source, scenes);
+}
+
+// of one layer, on whole faces and by a coarse search, so that every build can afford them
+TEST(SlumpBudget, EnclosesBlocksThatDoNotDilate) {
+  try_budgets(52618, 3, 1, {"stage.critical.tolerance_deg=0.2", whole_faces});
+}
+
+TEST(SlumpBudgetLong, EnclosesBlocksThatDoNotDilate) {
+  try_budgets(52619, 40, 4, {});
+}
+
+// the scene as it stands
+TEST(SlumpBudgetLong, OfTheWholeSearchEnclosesTheReference) {
+  CaseReport report("slump");
+  const reference::LayeredSlope slope{60 * degree, 5 * degree, 4, 8, 50, 3, 2500, 9.81, 10e9, 10e9};
+  judge_budget(report, "slump", source,
+               {"S0", std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml", {}, truth_of(slope)});
+}
+
+}  // namespace
+}  // namespace voussoir::cases

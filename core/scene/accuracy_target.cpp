@@ -1,0 +1,54 @@
+#include "core/scene/accuracy_target.hpp"
+
+#include <charconv>
+
+namespace voussoir {
+namespace {
+
+constexpr double largest = 0.5, largest_deg = 45;
+
+bool says(const Node& table, std::string_view key, std::string_view text) {
+  const Node* found = table.find(key);
+  return found && found->text == text;
+}
+
+}  // namespace
+
+std::optional<AccuracyTarget> accuracy_target(std::string_view text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || !std::isfinite(number) || !(number > 0)) return std::nullopt;
+  std::string_view unit(end, text.data() + text.size() - end);
+  if (unit.starts_with(' ')) unit.remove_prefix(1);
+  if (unit == "%" && number / 100 <= largest) return AccuracyTarget{number / 100, true};
+  if (unit == "deg" && number <= largest_deg) return AccuracyTarget{number, false};
+  return std::nullopt;
+}
+
+std::optional<AccuracyTarget> accuracy_target(const Node& scene) {
+  const std::optional<Subject> accuracy = child({&scene, ""}, "accuracy");
+  const Node* stated = accuracy ? accuracy->node->find("error") : nullptr;
+  if (!stated) return std::nullopt;
+  const std::string path = key_path(accuracy->path, "error");
+  const std::optional<AccuracyTarget> target = accuracy_target(stated->text);
+  if (!target)
+    refuse(*stated, path, "must be a part of the value, \"1 %\", or of an angle, \"0.1 deg\": at most 50 % or 45 deg");
+  bool searches = false;
+  for (const Subject& stage : children({&scene, ""}, "stage")) {
+    if (!says(*stage.node, "kind", "reduce")) continue;
+    searches = true;
+    if (!says(*stage.node, "method", "bisection") && stage.node->find("method"))
+      refuse(*stated, path, "is reached by finer brackets: " + stage.path + " must have method = \"bisection\"");
+    if (!target->relative && says(*stage.node, "search", "factor"))
+      refuse(*stated, path, stage.path + " searches a factor, which has no degrees: state it as \"1 %\"");
+  }
+  if (!searches)
+    refuse(*stated, path,
+           "is that of what a stage with kind = \"reduce\" finds, and there is none; budget = true says "
+           "how far other values are known");
+  const Node* budget = accuracy->node->find("budget");
+  if (budget && !budget->boolean) return std::nullopt;
+  return target;
+}
+
+}  // namespace voussoir
