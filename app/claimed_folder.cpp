@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <thread>
 
 #include "app/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
@@ -27,6 +29,7 @@ constexpr const char* lock_file = ".lock";
 constexpr const char* made_file = ".voussoir-made";
 constexpr const char* lock_begins = "process ";
 constexpr std::uintmax_t largest_list = 16 << 20;  // bytes
+constexpr int most_tries = 20;                     // at a lock that is held, a millisecond apart
 
 std::string host() {
   char name[256] = {};
@@ -71,10 +74,10 @@ std::string holder_of(int file) {
 
 // ---- what an older command made
 
-// a plain name, or one below a folder; no list may lead out of its own folder
+// a plain name, or one below folders; no list may lead out of its own folder
 bool is_safe(const std::string& name) {
   const fs::path path = name;
-  return !name.empty() && path.is_relative() && std::distance(path.begin(), path.end()) <= 2 &&
+  return !name.empty() && path.is_relative() &&
          std::none_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".." || part == "."; });
 }
 
@@ -178,7 +181,7 @@ void remove_run(const fs::path& folder, const std::vector<fs::path>& inputs) {
   if (!fs::is_directory(fs::symlink_status(folder, error))) return;
   const FolderLock lock(folder);
   if (const std::optional<Outputs> made = made_in(folder)) remove_files(folder, *made, inputs);
-  for (const char* name : {messages_file, made_file, lock_file})
+  for (const char* name : {messages_file, worker_file, failure_file, made_file, lock_file})
     if (!is_input(folder / name, inputs)) remove_file(folder / name);
   ::rmdir(folder.c_str());
 }
@@ -188,7 +191,11 @@ void remove_older(const fs::path& folder, const Outputs& outputs, const std::vec
   if (made)
     for (const std::string& name : made->folders)
       if (!holds(outputs.folders, name)) remove_run(folder / name, inputs);
-  if (made && outputs.goes_on && made->command == outputs.command) return;
+  if (made && outputs.goes_on && made->command == outputs.command) {
+    Outputs forgotten{made->command, made->files};
+    std::erase_if(forgotten.files, [&](const std::string& name) { return holds(outputs.files, name); });
+    return remove_files(folder, forgotten, inputs);
+  }
   if (made) remove_files(folder, *made, inputs);
   remove_files(folder, outputs, inputs);
 }
@@ -202,35 +209,61 @@ const fs::path& checked(const fs::path& folder, const Outputs& outputs, const st
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder) {
-  prepare_folder(folder);
-  const fs::path path = folder / lock_file;
-  file_ = open_lock(path);
-  const auto fail = [&](auto error) {
-    ::close(file_);
-    throw error;
-  };
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
-    if (errno != EWOULDBLOCK) fail(output_error(path, errno));
-    const std::string holder = holder_of(file_);
-    fail(FolderInUse(fmt::format("'{}' is in use by {}: wait for it, or choose another folder with --out",
-                                 folder.string(), holder.empty() ? "another process" : holder)));
+std::optional<FileLock> FileLock::taken(const fs::path& path, bool shared, std::string& holder) {
+  FileLock lock(open_lock(path));
+  // who only asks whether it is held (holder_of_lock) has it for a moment
+  for (int k = 0; ::flock(lock.file_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0; ++k) {
+    if (errno != EWOULDBLOCK) throw output_error(path, errno);
+    if (k == most_tries) {
+      holder = holder_of(lock.file_);
+      if (holder.empty()) holder = "another process";
+      return std::nullopt;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  if (const std::string before = holder_of(file_); !before.empty() && !before.starts_with(lock_begins))
-    fail(no_lock(path));
+  if (const std::string before = holder_of(lock.file_); !before.empty() && !before.starts_with(lock_begins))
+    throw no_lock(path);
   // for whom it may concern; the lock itself is the kernel's
-  const std::string holder = fmt::format("{}{} on {}", lock_begins, ::getpid(), host());
-  if (::ftruncate(file_, 0) != 0 || ::pwrite(file_, holder.data(), holder.size(), 0) < 0)
-    fail(output_error(path, errno));
+  const std::string name = fmt::format("{}{} on {}", lock_begins, ::getpid(), host());
+  if (::ftruncate(lock.file_, 0) != 0 || ::pwrite(lock.file_, name.data(), name.size(), 0) < 0)
+    throw output_error(path, errno);
+  return lock;
+}
 
+FileLock::~FileLock() {
+  if (file_ >= 0) ::close(file_);
+}
+
+std::optional<std::string> holder_of_lock(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (file < 0) return std::nullopt;
+  std::optional<std::string> holder;
+  if (::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) holder = holder_of(file);
+  ::close(file);
+  return holder;
+}
+
+namespace {
+
+FileLock locked(const fs::path& folder, bool shared) {
+  prepare_folder(folder);
+  std::string holder;
+  std::optional<FileLock> lock = FileLock::taken(folder / lock_file, shared, holder);
+  if (!lock)
+    throw FolderInUse(
+        fmt::format("'{}' is in use by {}: wait for it, or choose another folder with --out", folder.string(), holder));
+  return std::move(*lock);
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const fs::path& folder) : lock_(locked(folder, false)) {
   // nobody else writes here now
   remove_unfinished_files(folder);
   remove_unfinished_files(folder / "frames");
 }
 
-FolderLock::~FolderLock() {
-  ::close(file_);
-}
+SharedFolderLock::SharedFolderLock(const fs::path& folder) : lock_(locked(folder, true)) {}
 
 ReadingLock::ReadingLock(const fs::path& folder)
     : file_(::open((folder / lock_file).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)) {

@@ -8,8 +8,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace voussoir {
@@ -19,17 +21,45 @@ struct FolderInUse : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// A file that one process holds at a time, or several that share it; dies with the process. Its text names who held it
+// last. Throws OutputError, or BadInput where the name stands for something else.
+class FileLock {
+ public:
+  // nothing where others hold it; their name is then in `holder`
+  static std::optional<FileLock> taken(const std::filesystem::path& file, bool shared, std::string& holder);
+  FileLock(FileLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+  FileLock& operator=(FileLock&& other) noexcept {
+    std::swap(file_, other.file_);
+    return *this;
+  }
+  ~FileLock();
+
+ private:
+  explicit FileLock(int file) : file_(file) {}
+
+  int file_;
+};
+
+// who holds a lock alone, where somebody does; asks without a trace, of a folder that must not be written too
+std::optional<std::string> holder_of_lock(const std::filesystem::path& file);
+
 // Makes the folder if need be, holds its lock and removes what killed programs left half-written. Throws OutputError,
 // FolderInUse with the holder's name, or BadInput where the lock's name stands for something else.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
 
  private:
-  int file_;
+  FileLock lock_;
+};
+
+// The folder's lock, shared by processes that each write to places of their own in it. Throws as FolderLock.
+class SharedFolderLock {
+ public:
+  explicit SharedFolderLock(const std::filesystem::path& folder);
+
+ private:
+  FileLock lock_;
 };
 
 // Held while a command reads the folder of another one, which must not write there meanwhile; any number may read at
@@ -51,11 +81,11 @@ struct Outputs {
   std::vector<std::string> files;         // while the first is there, the folder holds results
   bool frames = false;                    // and a series of frames (core/output/paraview.hpp)
   std::vector<std::string> folders = {};  // of a study: one for every run
-  bool goes_on = false;  // with what the same command left: only folders not named any more are removed
+  bool goes_on = false;  // with what the same command left: only files and folders not named any more are removed
 };
 
-// caught from a run of a study, in the run's folder
-inline constexpr const char* messages_file = "messages.txt";
+// in the folder of a study's run: what it printed, who works at it, and why it has no results
+inline constexpr const char *messages_file = "messages.txt", *worker_file = ".worker", *failure_file = "failure.txt";
 
 // Throws BadInput where a file that is read would be written over.
 void refuse_inputs(const std::filesystem::path& folder, const Outputs& outputs,

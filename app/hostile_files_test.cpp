@@ -200,7 +200,10 @@ std::vector<Trial> over_others() {
     trials.push_back({name, "limit plane.toml --out out", name + foreign, file(std::string("out/") + name)});
   for (const char* name : {"joint_test.csv", "joint_test.svg"})
     trials.push_back({name, "joint-test scene.toml --out out", name + foreign, file(std::string("out/") + name)});
-  trials.push_back({"study", "study study.toml --out out", "study.csv" + foreign, file("out/study.csv")});
+  for (const char* name : {"study.csv", "study.json", "manifest.jsonl", "input/scene.toml"})
+    trials.push_back({name, "study study.toml --out out", name + foreign, file(std::string("out/") + name)});
+  trials.push_back(
+      {"a copy", "study plan study.toml --out out", "input/study.toml" + foreign, file("out/input/study.toml")});
   const auto dangling = [](const fs::path& folder) {
     fs::create_directories(folder / "out");
     fs::create_symlink("nowhere", folder / "out/history.csv");

@@ -95,6 +95,18 @@ struct StudyArguments {
   bool quiet = false;
 };
 
+// of a process that works at the rows of a planned study
+struct WorkArguments {
+  std::filesystem::path folder;
+  std::string rows;          // "120-139,7"; empty: all
+  std::string chunk;         // "k/n": that share of them
+  int jobs = 0;              // as of StudyArguments
+  int threads = 1;           // of each run
+  double time_limit = 0;     // s
+  bool any_program = false;  // though another one has planned it
+  bool quiet = false;
+};
+
 // runs a scene and writes results.json, history.csv, scene.toml and ParaView's files
 ExitCode run_command(const RunArguments& arguments);
 
@@ -118,6 +130,13 @@ ExitCode joint_test_command(const JointTestArguments& arguments);
 // runs a scene as it is and with one setting changed at a time, in processes side by side; writes study.csv. What was
 // done before is kept while scene and program are the same.
 ExitCode study_command(const StudyArguments& arguments);
+
+// The same in parts: what is to be run, with its input, into a folder; its rows by any number of processes, here and on
+// machines that share the folder or have a copy; study.csv; what is done and what is missing.
+ExitCode study_plan_command(const StudyArguments& arguments);
+ExitCode study_run_command(const WorkArguments& arguments);
+ExitCode study_gather_command(const std::vector<std::filesystem::path>& folders);
+ExitCode study_status_command(const std::filesystem::path& folder);
 
 // every key a scene and a study may hold and every column of history.csv, as Markdown, on stdout
 ExitCode docs_command();

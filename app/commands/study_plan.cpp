@@ -6,7 +6,8 @@
 #include <cmath>
 #include <memory>
 
-#include "core/scene/node.hpp"
+#include "app/commands/study_keys.hpp"
+#include "app/commands/study_products.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/scene/toml_text.hpp"
 
@@ -14,97 +15,6 @@ namespace voussoir {
 namespace {
 
 namespace fs = std::filesystem;
-
-// every key a study may hold; "" is the top of the file
-struct StudyKey {
-  std::string_view table, key, value, meaning;
-};
-
-constexpr StudyKey study_keys[] = {
-    {"", "scene", "text, required", "the scene's file, relative to the study"},
-    {"", "quantity", "text, required",
-     "a value of results.json, e.g. `\"critical_friction\"`; with `history` the name of what it takes"},
-    {"", "history", "table", "takes the quantity from a column of history.csv instead"},
-    {"", "set", "list of texts", "`\"key=value\"` as after --set, for every run"},
-    {"", "limit", "table",
-     "runs by `voussoir limit` instead of `voussoir run`; `{}` for the critical friction under gravity"},
-    {"", "begin", "text",
-     "a stage of the scene: runs that are the same up to its end share one run up to there, which the study makes "
-     "first, "
-     "and begin where it ended"},
-    {"", "sweep", "list of tables, required", "one setting that is changed, `[[sweep]]`, as many as are wanted"},
-    {"history", "column", "text, required", "a column of history.csv, by its whole name"},
-    {"history", "take", "one of `\"largest\"` `\"smallest\"` `\"last\"`, required", "which of its numbers"},
-    {"history", "unit", "text, required", "of that number, e.g. `\"N\"`"},
-    {"sweep", "name", "text, required", "in the table and the figure"},
-    {"sweep", "key", "text, required", "key of the scene as after --set, e.g. `\"time.fraction\"`"},
-    {"sweep", "values", "list, required", "what the key is set to, a run each"},
-    {"sweep", "with", "list of tables", "further keys that change together with `key`, value by value"},
-    {"sweep", "unit", "text", "of the values, e.g. `\"deg\"`"},
-    {"sweep", "scene", "text", "another scene for this sweep"},
-    {"sweep", "set", "list of texts", "`\"key=value\"` for every run of this sweep, after the study's own"},
-    {"sweep", "extrapolate", "table",
-     "adds what each two neighbouring runs give at a value of 0, where the result goes with a power of the value"},
-    {"sweep", "limit", "table", "runs of this sweep by `voussoir limit`, instead of the study's own `limit`"},
-    {"with", "key", "text, required", "key of the scene as after --set"},
-    {"with", "values", "list, required", "what it is set to, one for each of the sweep's values"},
-    {"extrapolate", "power", "number, required", "that power, above 0, at most 10; 0.6666667 for a rate of reduction"},
-    {"limit", "load", "one of `\"gravity\"` `\"left\"` `\"right\"` `\"applied\"`", "as after `voussoir limit --load`"},
-    {"limit", "friction", "list of texts", "names as after `--friction`"},
-    {"limit", "factor", "true or false", "`--factor`"},
-    {"limit", "joint", "list of texts", "names as after `--joint`"},
-    {"limit", "cohesion", "true or false", "`--cohesion`"},
-};
-
-void refuse_unknown_keys(const Subject& table, std::string_view kind) {
-  std::vector<std::string> known;
-  for (const StudyKey& row : study_keys)
-    if (row.table == kind) known.emplace_back(row.key);
-  for (const Member& member : table.node->members)
-    if (std::find(known.begin(), known.end(), member.key) == known.end())
-      refuse(member.value, key_path(table.path, member.key), "no such key; " + suggestion(member.key, known));
-}
-
-const std::string& text_of(const Subject& table, const char* key, const std::string& rule) {
-  const Node* node = table.node->find(key);
-  if (!node || node->kind != Node::Kind::text || node->text.empty()) refuse(table, key, rule);
-  return node->text;
-}
-
-std::vector<std::string> texts_of(const Subject& table, const char* key, const std::string& rule) {
-  std::vector<std::string> texts;
-  const Node* list = table.node->find(key);
-  if (!list) return texts;
-  if (list->kind != Node::Kind::list) refuse(table, key, rule);
-  for (const Node& item : list->items) {
-    if (item.kind != Node::Kind::text) refuse(item, key_path(table.path, key), rule);
-    texts.push_back(item.text);
-  }
-  return texts;
-}
-
-std::vector<std::string> read_overrides(const Subject& table) {
-  return texts_of(table, "set", "must be a list of texts \"key=value\"");
-}
-
-// as --set takes it; a text in quotes, so that it is never read as a number
-std::string override_text(const Node& value, const std::string& path) {
-  switch (value.kind) {
-    case Node::Kind::boolean:
-      return value.boolean ? "true" : "false";
-    case Node::Kind::integer:
-      return fmt::format("{:.0f}", value.number);
-    case Node::Kind::number:
-      if (!std::isfinite(value.number)) refuse(value, path, "must be a finite number");
-      return fmt::format("{}", value.number);
-    case Node::Kind::text:
-      if (value.text.find_first_of("\"\\\n") != std::string::npos)
-        refuse(value, path, "must not hold quotes, backslashes or line breaks");
-      return '"' + value.text + '"';
-    default:
-      refuse(value, path, "must be a number, a text, true or false");
-  }
-}
 
 std::optional<HistoryQuantity> read_history(const Subject& top) {
   const Node* node = top.node->find("history");
@@ -125,27 +35,6 @@ std::optional<HistoryQuantity> read_history(const Subject& top) {
   else if (take != "last")
     refuse(table, "take", rule);
   return quantity;
-}
-
-std::vector<std::string> read_values(const Subject& table) {
-  const Node* list = table.node->find("values");
-  if (!list || list->kind != Node::Kind::list || list->items.empty())
-    refuse(table, "values", "must be a list of at least one value, e.g. values = [1.0, 0.1, 0.01]");
-  std::vector<std::string> values;
-  for (std::size_t k = 0; k < list->items.size(); ++k)
-    values.push_back(override_text(list->items[k], fmt::format("{}.{}", key_path(table.path, "values"), k + 1)));
-  return values;
-}
-
-// the tables of a list under `key`; none where there is no such key
-std::vector<Subject> tables_of(const Subject& table, const char* key) {
-  const Node* list = table.node->find(key);
-  if (!list) return {};
-  const std::string rule = fmt::format("must be a list of tables, e.g. {} = [{{ key = …, values = … }}]", key);
-  if (list->kind != Node::Kind::list || list->items.empty()) refuse(table, key, rule);
-  for (const Node& item : list->items)
-    if (item.kind != Node::Kind::table) refuse(item, key_path(table.path, key), rule);
-  return children(table, key);
 }
 
 std::vector<TiedKey> read_tied(const Subject& sweep, std::size_t count) {
@@ -222,49 +111,53 @@ void read_extrapolation(const Subject& table, Sweep& sweep) {
       refuse(table, "values", "must differ from one to the next to be extrapolated");
 }
 
-Sweep read_sweep(const Subject& table, const std::string& scene, const fs::path& folder) {
+Sweep read_sweep(const Subject& table) {
   refuse_unknown_keys(table, "sweep");
   Sweep sweep;
-  sweep.name = text_of(table, "name", "must be a text: the sweep's name in the table and the figure");
   sweep.key = text_of(table, "key", "must be a key of the scene as after --set, e.g. \"time.fraction\"");
   if (table.node->find("unit")) sweep.unit = text_of(table, "unit", "must be a text, e.g. \"deg\"");
-  sweep.scene = folder / scene;
-  if (table.node->find("scene"))
-    sweep.scene = folder / text_of(table, "scene", "must be a scene's file name, relative to the study");
   sweep.values = read_values(table);
   read_numbers(table, sweep);
   sweep.with = read_tied(table, sweep.values.size());
-  sweep.limit = read_limit(table);
-  sweep.overrides = read_overrides(table);
   read_extrapolation(table, sweep);
   return sweep;
 }
 
+// what sweeps, grids and samples state alike
+void read_common(const Subject& table, const std::string& scene, const fs::path& folder, Sweep& sweep) {
+  sweep.name = text_of(table, "name", "must be a text: its name in the table and the figure");
+  sweep.scene = folder / scene;
+  if (table.node->find("scene"))
+    sweep.scene = folder / text_of(table, "scene", "must be a scene's file name, relative to the study");
+  sweep.limit = read_limit(table);
+  sweep.overrides = read_overrides(table);
+}
+
+// [[sweep]] and its like
+std::vector<Subject> headed_tables(const Subject& top, const std::string& key) {
+  const Node* list = top.node->find(key);
+  if (!list) return {};
+  const std::string rule = fmt::format("must be a table; begin it with [[{}]]", key);
+  if (list->kind != Node::Kind::list || list->items.empty()) refuse(top, key, rule);
+  for (const Node& item : list->items)
+    if (item.kind != Node::Kind::table) refuse(item, key, rule);
+  return children(top, key);
+}
+
 }  // namespace
 
-std::string study_documentation() {
-  std::string text = R"(
-# Studies
+std::string shown_value(const std::string& value) {
+  return value.starts_with('"') ? value.substr(1, value.size() - 2) : value;
+}
 
-`voussoir study study.toml --out folder` runs a scene as it is and with one setting changed at a time.
-
-```toml
-scene = "scene.toml"
-quantity = "critical_friction"
-
-[[sweep]]
-name = "time step"
-key = "time.fraction"
-values = [0.2, 0.1, 0.05]
-```
-
-| table | key | value | meaning |
-|---|---|---|---|
-)";
-  for (const StudyKey& row : study_keys)
-    text += fmt::format("| {} | `{}` | {} | {} |\n", row.table.empty() ? "the top of the file" : row.table, row.key,
-                        row.value, row.meaning);
-  return text;
+std::vector<std::string> overrides_of(const Sweep& sweep, std::size_t place) {
+  std::vector<std::string> overrides = sweep.overrides;
+  if (sweep.varied == Varied::one_key && !sweep.key.empty()) overrides.push_back(sweep.key + "=" + sweep.values[place]);
+  for (const TiedKey& tied : sweep.with)
+    overrides.push_back(tied.key + "=" + tied.values[place]);
+  // pictures cost time and say nothing here
+  overrides.push_back("output.frames=false");
+  return overrides;
 }
 
 StudyPlan read_study_plan(const fs::path& path) {
@@ -278,18 +171,19 @@ StudyPlan read_study_plan(const fs::path& path) {
   plan.history = read_history(top);
   if (top.node->find("begin")) plan.begin = text_of(top, "begin", "must name a stage of the scene, e.g. \"stress\"");
 
-  const Node* sweeps = tree.find("sweep");
-  if (!sweeps || sweeps->kind != Node::Kind::list || sweeps->items.empty())
-    refuse(top, "sweep", "must be at least one table; begin it with [[sweep]]");
-
   // what everything else is compared with comes first
-  plan.sweeps.push_back(
-      {.name = "default", .values = {""}, .numbers = {std::nullopt}, .scene = path.parent_path() / scene});
-  for (std::size_t k = 0; k < sweeps->items.size(); ++k) {
-    const Node& item = sweeps->items[k];
-    if (item.kind != Node::Kind::table) refuse(item, "sweep", "must be a table; begin it with [[sweep]]");
-    plan.sweeps.push_back(read_sweep({&item, item_path("sweep", item, k)}, scene, path.parent_path()));
+  const fs::path folder = path.parent_path();
+  plan.sweeps.push_back({.name = "default", .values = {""}, .numbers = {std::nullopt}, .scene = folder / scene});
+  using Read = Sweep (*)(const Subject&);
+  for (const auto& [key, read] :
+       {std::pair<const char*, Read>{"sweep", read_sweep}, {"grid", read_grid}, {"sample", read_sample}}) {
+    for (const Subject& table : headed_tables(top, key)) {
+      plan.sweeps.push_back(read(table));
+      read_common(table, scene, folder, plan.sweeps.back());
+    }
   }
+  if (plan.sweeps.size() == 1)
+    refuse(top, "sweep", "must be at least one table; begin it with [[sweep]], [[grid]] or [[sample]]");
   const std::vector<std::string> everywhere = read_overrides(top);
   const std::optional<std::vector<std::string>> limit = read_limit(top);
   for (Sweep& sweep : plan.sweeps) {

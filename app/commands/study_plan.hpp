@@ -1,4 +1,4 @@
-// study.toml: which settings of which scene a study changes, one at a time.
+// study.toml: which settings of which scene a study changes: one at a time, some in every combination, some at random.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +12,35 @@ namespace voussoir {
 struct TiedKey {
   std::string key;
   std::vector<std::string> values;  // one for each of the sweep's
+  std::string unit = {};
 };
+
+// which results count as failed
+struct Fails {
+  bool below = true;  // the limit; false: above it
+  double limit = 0;
+
+  bool operator()(double result) const { return below ? result < limit : result > limit; }
+};
+
+// one_key: several values of one key, and of those tied to it; grid and sample: `with` holds all keys, `values` only
+// name the runs
+enum class Varied { one_key, grid, sample };
 
 // one key, several values
 struct Sweep {
-  std::string name;
+  Varied varied = Varied::one_key;
+  std::string name = {};
   std::string key = {};                             // as after --set; empty: the scene as it is
   std::vector<std::string> values = {};             // as after --set key=
   std::vector<std::optional<double>> numbers = {};  // the same where they are numbers
   std::vector<TiedKey> with = {};
   std::string unit = {};  // of the values; may be empty
   std::filesystem::path scene = {};
-  std::vector<std::string> overrides = {};             // key=value, for every run of this sweep; the plan's own first
-  std::optional<double> power = {};                    // fit result against value^power and extrapolate to value 0
+  std::vector<std::string> overrides = {};  // key=value, for every run of this sweep; the plan's own first
+  std::optional<double> power = {};         // fit result against value^power and extrapolate to value 0
+  std::vector<std::size_t> counts = {};     // of a grid: how many values each key has
+  std::optional<Fails> fails = {};
   std::optional<std::vector<std::string>> limit = {};  // run by `voussoir limit` with these options, not `voussoir run`
 };
 
@@ -45,8 +61,14 @@ struct StudyPlan {
   std::vector<Sweep> sweeps;               // the first is the scene as it is, under the name "default"
 };
 
+// what the run at a place among the sweep's values changes in the scene, as after --set
+std::vector<std::string> overrides_of(const Sweep& sweep, std::size_t place);
+
 // Paths in the plan are relative to it. Strict: whatever it does not know is a SceneError with line and repair.
 StudyPlan read_study_plan(const std::filesystem::path& path);
+
+// a value as it is shown: without the quotes that --set takes
+std::string shown_value(const std::string& value);
 
 // every key a study may hold, in markdown, from the table that the reader refuses by
 std::string study_documentation();

@@ -13,7 +13,9 @@
 #include <memory>
 #include <thread>
 
+#include "app/bad_input.hpp"
 #include "app/child_process.hpp"
+#include "app/claimed_folder.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/progress_line.hpp"
 #include "app/interruption.hpp"
@@ -21,6 +23,7 @@
 #include "app/run_folder.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/fingerprint.hpp"
+#include "text/read_file.hpp"
 
 namespace voussoir {
 namespace {
@@ -33,10 +36,13 @@ constexpr std::chrono::milliseconds time_between_looks{5};
 // s: a run that was asked to stop writes its checkpoint; one that hangs never will
 constexpr double patience = 10;
 
+constexpr std::uintmax_t longest_note = 1 << 20;  // bytes
+
 constexpr int bad_input = static_cast<int>(ExitCode::bad_input);
 
 struct ActiveRun {
   const StudyRun* run;
+  std::optional<FileLock> lock;  // let go when the process has ended
   std::unique_ptr<ChildProcess> process;
   bool resumed = false, too_long = false;
   std::optional<double> asked_to_stop;  // s of its time when it was asked to stop
@@ -50,6 +56,18 @@ std::string last_line(const fs::path& file) {
   const std::string prefix = "voussoir: ";
   return printable(last.starts_with(prefix) ? last.substr(prefix.size()) : last);
 }
+
+// a run holds its folder's lock as long as it lives
+bool is_being_written(const fs::path& folder) {
+  try {
+    const ReadingLock lock(folder);
+    return false;
+  } catch (const FolderInUse&) {
+    return true;
+  }
+}
+
+using Clock = std::chrono::steady_clock;
 
 class Runs {
  public:
@@ -69,9 +87,11 @@ class Runs {
   // false: a signal stopped it
   bool go() {
     while (!active_.empty() || (!waiting_.empty() && !interruption())) {
-      while (!waiting_.empty() && !interruption() && static_cast<int>(active_.size()) < options_.jobs) {
-        start(*waiting_.front());
+      // each at most once: what has to wait for another process goes behind the others
+      for (std::size_t left = waiting_.size(); left > 0 && !interruption() && has_room(); --left) {
+        const StudyRun* const next = waiting_.front();
         waiting_.pop_front();
+        if (!begin(*next)) waiting_.push_back(next);
       }
       for (std::size_t k = 0; k < active_.size();)
         if (look_after(active_[k]))
@@ -86,6 +106,10 @@ class Runs {
   }
 
   const std::string& failure(const StudyRun& run) const { return failures_.at(run.name); }
+  std::string holder(const StudyRun& run) const {
+    const auto found = holders_.find(run.name);
+    return found == holders_.end() ? "" : found->second;
+  }
   int different() const { return static_cast<int>(failures_.size()); }
   int kept() const { return kept_; }
 
@@ -93,9 +117,41 @@ class Runs {
   fs::path folder_of(const StudyRun& run) const { return options_.folder / run.name; }
   fs::path messages_of(const StudyRun& run) const { return folder_of(run) / messages_file; }
 
-  void start(const StudyRun& run) {
+  bool has_room() const { return static_cast<int>(active_.size()) < options_.jobs; }
+
+  // false: later, when another process has ended
+  bool begin(const StudyRun& run) {
     const fs::path folder = folder_of(run);
     prepare_folder(folder);
+    std::optional<FileLock> lock;
+    if (options_.others != Others::nobody) {
+      std::string holder;
+      lock = FileLock::taken(folder / worker_file, false, holder);
+      if (!lock && options_.others == Others::wait_for_theirs) return false;
+      if (!lock) {
+        holders_[run.name] = holder;
+        --total_;
+        return true;
+      }
+      if (holds_results(folder)) {  // since we looked
+        ++kept_;
+        --total_;
+        require_worth(run);
+        return true;
+      }
+      // of a worker that was killed: it is about to write its checkpoint
+      if (is_being_written(folder) && orphaned_.try_emplace(run.name, Clock::now()).first->second +
+                                              std::chrono::seconds(static_cast<int>(patience)) >
+                                          Clock::now())
+        return false;
+      remove_file(folder / failure_file);
+    }
+    start(run, std::move(lock));
+    return true;
+  }
+
+  void start(const StudyRun& run, std::optional<FileLock> lock) {
+    const fs::path folder = folder_of(run);
     const bool resume = holds_unfinished_run(folder) && holds_checkpoints(folder);
     std::vector<std::string> arguments;
     if (resume) {
@@ -109,7 +165,8 @@ class Runs {
     if (!resume && !run.until.empty()) arguments.insert(arguments.end(), {"--until", run.until});
     if (!resume && !run.begin.empty()) arguments.insert(arguments.end(), {"--begin", run.begin.string()});
     if (!run.limit) arguments.insert(arguments.end(), {"--quiet", "--threads", std::to_string(options_.threads)});
-    active_.push_back({&run, std::make_unique<ChildProcess>(arguments, messages_of(run)), resume, false, {}});
+    active_.push_back(
+        {&run, std::move(lock), std::make_unique<ChildProcess>(arguments, messages_of(run)), resume, false, {}});
   }
 
   // a study of something that no run yields ends with its first run instead of its last
@@ -133,7 +190,10 @@ class Runs {
       }
       ++done_;
       if (holds_results(folder_of(*active.run))) require_worth(*active.run);
-      failures_.at(active.run->name) = reason(active, *end);
+      std::string& failure = failures_.at(active.run->name);
+      failure = reason(active, *end);
+      if (active.lock && !failure.empty() && (!interruption() || active.too_long))
+        note_failure(folder_of(*active.run), failure);
       return true;
     }
     const double seconds = process.seconds();
@@ -167,10 +227,10 @@ class Runs {
     rewrite_line(line);
   }
 
-  using Clock = std::chrono::steady_clock;
-
   RunsOptions options_;
-  std::map<std::string, std::string> failures_;  // by name of every different run
+  std::map<std::string, std::string> failures_;        // by name of every different run
+  std::map<std::string, std::string> holders_;         // of those that are left to another process
+  std::map<std::string, Clock::time_point> orphaned_;  // since when their own lock was found held
   std::deque<const StudyRun*> waiting_;
   std::vector<ActiveRun> active_;
   std::size_t total_ = 0, done_ = 0;
@@ -189,14 +249,31 @@ std::string folder_name(const std::string& what) {
   return name;
 }
 
+std::string noted_failure(const fs::path& folder) {
+  try {
+    return read_file(folder / failure_file, longest_note);
+  } catch (const ReadFault&) {
+    return "";
+  }
+}
+
+void note_failure(const fs::path& folder, const std::string& failure) {
+  try {
+    write_file(folder / failure_file, failure);
+  } catch (const OutputError&) {
+  }
+}
+
 RunsEnded carry_out_runs(const std::vector<StudyRun>& study, const RunsOptions& options) {
   prepare_folder(options.folder);
   note_interruptions();
   Runs runs(study, options);
   RunsEnded ended;
   ended.interrupted = !runs.go();
-  for (const StudyRun& run : study)
+  for (const StudyRun& run : study) {
     ended.failures.push_back(runs.failure(run));
+    ended.holders.push_back(runs.holder(run));
+  }
   ended.runs = runs.different();
   ended.kept = runs.kept();
   return ended;

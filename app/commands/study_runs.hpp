@@ -22,6 +22,10 @@ struct StudyRun {
 // of a run, from the text of all that makes it what it is
 std::string folder_name(const std::string& what);
 
+// What to do about a run that another process works at. nobody: there is none, and no lock and no note of a failure is
+// kept in the run's folder.
+enum class Others { nobody, leave_theirs, wait_for_theirs };
+
 struct RunsOptions {
   std::filesystem::path folder;  // holds a folder for every run
   int jobs = 1;                  // at the same time
@@ -31,13 +35,20 @@ struct RunsOptions {
   // Asked about the folder of each run that has results, until one is found good: empty for a good one, nothing for one
   // that tells nothing, else why no run is worth its time.
   std::function<std::optional<std::string>(const std::filesystem::path&)> doubt = {};
+  Others others = Others::nobody;
 };
 
 struct RunsEnded {
   std::vector<std::string> failures;  // for every run why it has no results; empty where it has
+  std::vector<std::string> holders;   // for every run which other process works at it; empty for none
   int runs = 0, kept = 0;             // different ones, and how many of these were there before
   bool interrupted = false;           // by a signal: what is done is kept, what was going on has a checkpoint
 };
+
+// Why the run of this folder has no results, as it was noted last; empty for none.
+std::string noted_failure(const std::filesystem::path& folder);
+// A note that cannot be written is none: the run then counts as not done.
+void note_failure(const std::filesystem::path& folder, const std::string& failure);
 
 // Does what is not done yet. A failure is repeated at the next call, a run that was interrupted continues from its
 // checkpoint. Throws BadInput with the doubt about the first run that ended.

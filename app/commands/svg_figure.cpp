@@ -111,6 +111,42 @@ std::string drawn(const Curve& curve, const Axis& x, const Axis& y, const char* 
   return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", path, colour);
 }
 
+// from low to high, told apart without colours too: its lightness rises evenly (viridis, five of its colours)
+std::string shade(double fraction) {
+  constexpr int stops[][3] = {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
+  const double at = std::clamp(fraction, 0.0, 1.0) * 4;
+  const int k = std::min(3, static_cast<int>(at));
+  const auto mix = [&](int c) {
+    return static_cast<int>(std::lround(stops[k][c] + (at - k) * (stops[k + 1][c] - stops[k][c])));
+  };
+  return fmt::format("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2));
+}
+
+std::string rectangle(double x, double y, double wide, double high, const std::string& fill) {
+  return fmt::format(
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" "
+      "shape-rendering=\"crispEdges\"/>\n",
+      x, y, wide, high, fill);
+}
+
+std::string cross(double x, double y, double half) {
+  return stroke(x - half, y - half, x + half, y + half, colours[1], 2) +
+         stroke(x - half, y + half, x + half, y - half, colours[1], 2);
+}
+
+// the scale beside a map, with the marks that it uses
+std::string map_legend(const MapFigure& figure, double low, double high) {
+  constexpr double x = 620, wide = 20, steps = 50;
+  std::string text;
+  for (int k = 0; k < steps; ++k)
+    text += rectangle(x, bottom - (k + 1) * (bottom - top) / steps, wide, (bottom - top) / steps + 0.5,
+                      shade(k / (steps - 1)));
+  text += label(x + wide + 6, bottom, "start", number(low)) + label(x + wide + 6, top + 10, "start", number(high));
+  text += label(x + wide / 2, top - 12, "middle", figure.value_label);
+  if (!figure.mark_label.empty()) text += cross(left + 6, 44, 5) + label(left + 18, 48, "start", figure.mark_label);
+  return text;
+}
+
 }  // namespace
 
 std::string svg(const Diagram& diagram) {
@@ -135,6 +171,39 @@ std::string svg(const Diagram& diagram) {
     text += stroke(at, 48, at + 24, 48, colour(i), 2) + label(at + 30, 52, "start", diagram.curves[i].title);
   }
   return text + "</svg>\n";
+}
+
+std::string svg_map(const MapFigure& figure) {
+  constexpr double map_right = 590;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const std::optional<double>& value : figure.values)
+    if (value) {
+      low = std::min(low, *value);
+      high = std::max(high, *value);
+    }
+  if (!(low <= high)) low = high = 0;
+  const auto nx = static_cast<double>(figure.x.size()), ny = static_cast<double>(figure.y.size());
+  const double wide = (map_right - left) / nx, tall = (bottom - top) / ny;
+  std::string text = head(figure.title);
+  for (std::size_t k = 0; k < figure.values.size(); ++k) {
+    const double x = left + wide * static_cast<double>(k % figure.x.size());
+    const double y = bottom - tall * static_cast<double>(k / figure.x.size() + 1);
+    const std::optional<double>& value = figure.values[k];
+    text += rectangle(x, y, wide, tall, value ? shade(high > low ? (*value - low) / (high - low) : 0.5) : "#d0d0d0");
+    if (figure.marked[k]) text += cross(x + wide / 2, y + tall / 2, std::min({6.0, wide / 3, tall / 3}));
+  }
+  // no more names than there is room for
+  const auto every = [](double size, double room) {
+    return static_cast<std::size_t>(std::max(1.0, std::ceil(room / size)));
+  };
+  for (std::size_t k = 0; k < figure.x.size(); k += every(wide, 50))
+    text += label(left + wide * (static_cast<double>(k) + 0.5), bottom + 20, "middle", figure.x[k]);
+  for (std::size_t k = 0; k < figure.y.size(); k += every(tall, 14))
+    text += label(left - 8, bottom - tall * (static_cast<double>(k) + 0.5) + 4, "end", figure.y[k]);
+  text += label((left + map_right) / 2, height - 18, "middle", figure.x_label);
+  const double across = (top + bottom) / 2;
+  text += label(22, across, "middle", figure.y_label, fmt::format(" transform=\"rotate(-90 22 {})\"", across));
+  return text + map_legend(figure, low, high) + "</svg>\n";
 }
 
 std::string stereonet_svg(const std::string& title, const std::vector<PoleSet>& sets) {

@@ -1,6 +1,7 @@
 // Small figures in the look of the manual's (reports/style.gp), drawn without gnuplot: byte for byte the same anywhere.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,17 @@ struct Diagram {
 
 // axes with round numbers that hold every point; y begins at 0
 std::string svg(const Diagram& diagram);
+
+// A field of cells, one for each pair of values; axes name the values, which may be texts and at any distance.
+struct MapFigure {
+  std::string title, x_label, y_label, value_label, mark_label;  // without a mark's label none is explained
+  std::vector<std::string> x, y;
+  std::vector<std::optional<double>> values;  // of each cell, x changing fastest; nothing: grey
+  std::vector<bool> marked;                   // with a cross
+};
+
+// y rises upwards
+std::string svg_map(const MapFigure& figure);
 
 struct PoleSet {
   std::string title;

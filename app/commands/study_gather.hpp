@@ -1,0 +1,27 @@
+// What a study's runs found, from one folder or from several copies of it.
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/commands/commands.hpp"
+#include "app/commands/study_folder.hpp"
+#include "app/commands/study_table.hpp"
+
+namespace voussoir {
+
+struct Gathered {
+  std::vector<StudyRow> rows;
+  std::set<int> missing;                 // neither results nor a failure
+  std::vector<std::string> differences;  // two results of a row that are not the same, a line each
+};
+
+// the first folder's results come first; all hold the same plan
+Gathered gather(const StudyFolder& study, const std::vector<std::filesystem::path>& folders);
+
+// Writes study.csv and says what it holds; `remark` is a line behind the first, or empty.
+ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, const std::string& remark);
+
+}  // namespace voussoir

@@ -1,0 +1,12 @@
+// A hash that tells inputs, programs and results apart: 128 bits, so that no study ever sees two by chance alike.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace voussoir {
+
+// 32 hexadecimal digits: XXH3 with 128 bits (xxHash's canonical form). Not a defence against forgery.
+std::string digest(std::string_view bytes);
+
+}  // namespace voussoir
