@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 
 #include "app/testing/program.hpp"
 
@@ -56,11 +55,11 @@ class Budget : public program::Program {
   }
 };
 
-std::set<std::string> varied(const nlohmann::json& value) {
-  std::set<std::string> names;
+// by itself or with others at once
+bool is_varied(const nlohmann::json& value, const std::string& name) {
   for (const auto& line : value["budget"])
-    names.insert(line["varied"]);
-  return names;
+    if (line["varied"].get<std::string>().find(name) != std::string::npos) return true;
+  return false;
 }
 
 // the block slides where friction is as steep as the joint: the closed form
@@ -73,8 +72,8 @@ TEST_F(Budget, CoversTheClosedFormAndSaysWhatItIsMadeOf) {
   EXPECT_LE(std::abs(found - 30), bar);
   EXPECT_LT(bracket, bar);
   EXPECT_LT(bar, 1);
-  for (const char* name : {"normal stiffness", "shear stiffness"})
-    EXPECT_TRUE(varied(angle).contains(name)) << name;
+  for (const char* name : {"normal stiffness", "shear stiffness", "failure displacement", "ramp", "time step"})
+    EXPECT_TRUE(is_varied(angle, name)) << name;
   // the rule: each line with its order, the largest first
   double squares = bracket * bracket, before = 1e300;
   for (const auto& line : angle["budget"]) {
@@ -110,7 +109,7 @@ TEST_F(Budget, OfTwoSearchesCoversBoth) {
     const nlohmann::json angle = value("b", name);
     EXPECT_EQ(angle["covers"], "budget") << name;
     EXPECT_LE(std::abs(angle["value"].get<double>() - 30), angle["error_bar"].get<double>()) << name;
-    EXPECT_TRUE(varied(angle).contains("normal stiffness")) << name;
+    EXPECT_TRUE(is_varied(angle, "normal stiffness")) << name;
   }
 }
 

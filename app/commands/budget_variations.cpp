@@ -42,7 +42,8 @@ Overrides more_points(const std::vector<PropertiesSpec>& properties, const Conta
   return overrides;
 }
 
-void add_stiffness(const std::shared_ptr<const Scene>& scene, bool searches, std::vector<Variation>& variations) {
+void add_stiffness(const std::shared_ptr<const Scene>& scene, bool searches, Variations& all) {
+  std::vector<Variation>& variations = all.alone;
   const std::vector<PropertiesSpec>& properties = scene->properties;
   for (std::size_t k = 0; k < properties.size(); ++k)
     if (const PropertiesSpec& spec = properties[k]; states(*spec.subject.node, "measured"))
@@ -67,8 +68,8 @@ void add_stiffness(const std::shared_ptr<const Scene>& scene, bool searches, std
                         [scene](double f) { return stiffnesses(scene->properties, f, 1); }});
   // by the ratio of both, which stiffer normal springs lower as well: they leave the way to the limit of friction as it
   // is
-  variations.push_back({"shear stiffness", "a ninth", 9, 0.5,
-                        [scene](double f) { return stiffnesses(scene->properties, 1, 1 / f); }, "normal stiffness"});
+  all.together.push_back({"shear stiffness", "a ninth", 9, 0.5,
+                          [scene](double f) { return stiffnesses(scene->properties, 1, 1 / f); }, "normal stiffness"});
 }
 
 template <int Dim>
@@ -87,7 +88,7 @@ Variations variations_of(const LoadedScene& loaded, const Prepared<Dim>& prepare
       ramps.push_back({search.path, static_cast<double>(std::max(search.plan.ramp_steps, 1LL))});
     failures.push_back({search.path, failure_displacement_of(prepared.model, search.plan)});
   }
-  add_stiffness(scene, !failures.empty(), all.alone);
+  add_stiffness(scene, !failures.empty(), all);
   // It must be long against what joints give and short against what changes the geometry, which move the answer in
   // opposite ways: of which sort a shift is, and how much of it is left, is not known.
   if (!failures.empty())
@@ -170,13 +171,17 @@ std::vector<Search> searches_of(const LoadedScene& scene) {
 }
 
 Variations variations_of(const LoadedScene& scene) {
-  Variations all = std::visit([&](const auto& prepared) { return variations_of(scene, prepared); }, scene.prepared);
-  all.all.change = "together";
-  for (const Variation& v : all.together)
-    all.all.name += (all.all.name.empty() ? "" : ", ") + v.name;
-  all.all.by = [together = all.together](double) {
+  return std::visit([&](const auto& prepared) { return variations_of(scene, prepared); }, scene.prepared);
+}
+
+Variation at_once(const std::vector<Variation>& variations) {
+  if (variations.size() == 1) return variations.front();
+  Variation all{"", fmt::format("{} at once", variations.size())};
+  for (const Variation& v : variations)
+    all.name += (all.name.empty() ? "" : ", ") + v.name;
+  all.by = [variations](double) {
     Overrides overrides;
-    for (const Variation& v : together)
+    for (const Variation& v : variations)
       for (const std::string& text : v.overrides())
         overrides.push_back(text);
     return overrides;

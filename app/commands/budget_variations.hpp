@@ -23,13 +23,16 @@ struct Variation {
   double left_by(double shift) const;
 };
 
-// What is varied: each by itself, and what moves few answers together first, then by itself where that moved something.
+// What is varied: each by itself, and what moves few answers together first. Where that moved something, the first of
+// them and the others together; where these moved something, each by itself.
 struct Variations {
   std::vector<Variation> alone, together;
-  Variation all;  // of `together` at once
 };
 
 Variations variations_of(const LoadedScene& scene);
+
+// several at once, under the name of their number's
+Variation at_once(const std::vector<Variation>& variations);
 
 // what a line adds to the square of a bar, its unit squared
 double square_of(const BudgetLine& line);

@@ -63,10 +63,14 @@ StudyRun run_of(const Variation& v, const fs::path& scene, const std::vector<std
 }
 
 std::string folder_of(const Variation& v, const std::string& run) {
-  std::string name = v.change == "together" ? v.change : v.name;
+  std::string name = v.change.ends_with(" at once") ? v.change : v.name;
   std::ranges::replace(name, ' ', '_');
   std::erase_if(name, [](char c) { return !(std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'); });
   return name + "-" + run;
+}
+
+std::vector<Variation> without_first(const std::vector<Variation>& variations) {
+  return {variations.begin() + 1, variations.end()};
 }
 
 // the bar of one value, from the lines of its budget; `other`: the largest half bracket among the variations
@@ -101,11 +105,11 @@ bool wants_budget(const LoadedScene& scene) {
 }
 
 std::vector<std::string> budget_folders(const LoadedScene& scene) {
+  std::vector<Variation> variations;
   const Variations all = variations_of(scene);
-  std::vector<Variation> variations = all.alone;
-  variations.insert(variations.end(), all.together.begin(), all.together.end());
-  variations.push_back(all.all);
-  variations.push_back({"search", ""});
+  for (const std::vector<Variation>& some :
+       {all.alone, all.together, {at_once(all.together), at_once(without_first(all.together)), {"search", ""}}})
+    variations.insert(variations.end(), some.begin(), some.end());
   const int rounds = accuracy_target(*scene.stated->tree) ? most_rounds : 1;
   std::vector<std::string> folders;
   for (int round = 0; round < rounds; ++round) {
@@ -223,17 +227,29 @@ bool add_budget(const LoadedScene& scene, const BudgetRuns& of, const fs::path& 
   for (const auto& [name, value] : results.values)
     if (value.error_bar) runs.searched.push_back(name);
 
-  std::vector<Variation> variations = all.alone;
-  variations.push_back(all.all);
-  std::optional<std::vector<std::string>> names = runs.carry_out(variations);
-  if (!names || !runs.try_path(*names, results)) return false;
-  if (!runs.moved_nothing(names->back(), results)) {
-    const std::optional<std::vector<std::string>> each = runs.carry_out(all.together);
-    if (!each) return false;
+  std::vector<Variation> variations;
+  std::vector<std::string> names;
+  const auto carry_out = [&](const std::vector<Variation>& some) {
+    const std::optional<std::vector<std::string>> done = runs.carry_out(some);
+    if (!done) return false;
+    variations.insert(variations.end(), some.begin(), some.end());
+    names.insert(names.end(), done->begin(), done->end());
+    return runs.path.empty() ? runs.try_path(*done, results) : true;
+  };
+  // whether the last of them, several at once, moved something; then it is left to what takes them apart
+  const auto take_back_moved = [&] {
+    if (runs.moved_nothing(names.back(), results)) return false;
     variations.pop_back();
-    names->pop_back();
-    variations.insert(variations.end(), all.together.begin(), all.together.end());
-    names->insert(names->end(), each->begin(), each->end());
+    names.pop_back();
+    return true;
+  };
+  std::vector<Variation> first = all.alone;
+  first.push_back(at_once(all.together));
+  if (!carry_out(first)) return false;
+  if (all.together.size() > 1 && take_back_moved()) {
+    const std::vector<Variation> others = without_first(all.together);
+    if (!carry_out({all.together.front(), at_once(others)})) return false;
+    if (others.size() > 1 && take_back_moved() && !carry_out(others)) return false;
   }
   results.budget_evaluations = runs.evaluations;
 
@@ -243,14 +259,14 @@ bool add_budget(const LoadedScene& scene, const BudgetRuns& of, const fs::path& 
     double other = 0;
     for (std::size_t k = 0; k < variations.size(); ++k) {
       const Variation& v = variations[k];
-      const RunFound then = runs.found((*names)[k], name);
+      const RunFound then = runs.found(names[k], name);
       if (!then.result) {
         if (untold.insert(v.name).second)
           results.warnings.push_back(
               fmt::format("the budget of {} knows nothing of {}, {}: {}", name, v.name, v.change, then.status));
         continue;
       }
-      const double shift = then.result->value - runs.unvaried((*names)[k], name, value);
+      const double shift = then.result->value - runs.unvaried(names[k], name, value);
       other = std::max(other, then.result->error_bar.value_or(0));
       value.budget.push_back({v.name, v.change, shift, v.left_by(shift), v.sensitivity});
     }
