@@ -46,12 +46,18 @@ for plan in "$source"/cases/*/study.toml; do
   "$build/reports/voussoir_study_report" case --study "$out/study.csv" --reference "$build/cases/$name/reference.json" \
       --out "$out" --style "$source/reports" || failures+=("report on the study of $name")
 done
+# what scenes say of their own error
+for name in incline roofwedge wedge; do
+  [ -x "$program" ] || continue
+  (cd "$source" && "$program" run "cases/$name/scene.toml" --budget --quiet --overwrite --set output.frames=false \
+                              --out "$reports/budgets/$name") || failures+=("error budget of $name")
+done
 for out in "$reports"/studies/*/; do
   [ -e "$source/cases/$(basename "$out")/study.toml" ] || rm -rf "$out"
 done
 if [ -d "$reports/studies" ]; then
   "$build/reports/voussoir_study_report" compare --studies "$reports/studies" \
-      --cases "$build/cases" --style "$source/reports" ||
+      --cases "$build/cases" --budgets "$reports/budgets" --style "$source/reports" ||
       failures+=("comparison of the studies")
 fi
 

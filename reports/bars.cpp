@@ -48,6 +48,33 @@ std::string budgets(const std::vector<BudgetSet>& sets) {
   return text + "\n";
 }
 
+std::string unit_of(const nlohmann::json& value) {
+  return value.at("unit") == "1" ? "" : " " + value.at("unit").get<std::string>();
+}
+
+// every line of a budget, as results.json has them: by size
+std::string scene_budgets(const std::vector<SceneBudget>& scenes) {
+  std::string rows;
+  for (const SceneBudget& scene : scenes)
+    for (const auto& [quantity, value] : scene.results.at("values").items()) {
+      if (!value.contains("budget")) continue;
+      rows += fmt::format("| {} | {} {:.6g} ± {:.2g}{} | its bracket | | {:.2g} |\n", link(scene.name), quantity,
+                          value.at("value").get<double>(), value.at("error_bar").get<double>(), unit_of(value),
+                          value.at("bracket").get<double>());
+      for (const nlohmann::json& line : value.at("budget"))
+        rows += fmt::format("| | | {}, {} | {:+.2g} | {} |\n", line.at("varied").get<std::string>(),
+                            line.at("change").get<std::string>(), line.at("shift").get<double>(),
+                            line.at("sensitivity").get<bool>() ? "measured, no error"
+                                                               : fmt::format("{:+.2g}", line.at("left").get<double>()));
+    }
+  if (rows.empty()) return "";
+  return "The budgets of scenes as they stand. A bar is the root of the squares of the brackets, the answer's and "
+         "those "
+         "of the runs that vary something, and of 1.25 times what each leaves open.\n\n"
+         "| case | value | varied | shift | left open |\n|---|---|---|--:|--:|\n" +
+         rows + "\n";
+}
+
 // relative; of settings that have a bar
 std::string brackets(const std::vector<CaseStudy>& studies) {
   std::string rows;
@@ -90,8 +117,9 @@ std::string bars_csv(const std::vector<BudgetSet>& sets) {
   return text;
 }
 
-std::string bars_markdown(const std::vector<BudgetSet>& sets, const std::vector<CaseStudy>& studies) {
-  const std::string text = budgets(sets) + brackets(studies);
+std::string bars_markdown(const std::vector<BudgetSet>& sets, const std::vector<SceneBudget>& scenes,
+                          const std::vector<CaseStudy>& studies) {
+  const std::string text = budgets(sets) + scene_budgets(scenes) + brackets(studies);
   return text.empty() ? "" : "### Whether bars cover the truth\n\n" + text;
 }
 

@@ -87,7 +87,24 @@ std::vector<voussoir::reports::BudgetSet> budget_sets(const fs::path& cases) {
   return sets;
 }
 
-void compare(const fs::path& folder, const fs::path& case_outputs, const fs::path& style_folder) {
+std::vector<voussoir::reports::SceneBudget> scene_budgets(const fs::path& folder) {
+  std::vector<voussoir::reports::SceneBudget> scenes;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (fs::exists(entry.path() / "results.json"))
+      scenes.push_back(
+          {entry.path().filename().string(), nlohmann::json::parse(read_text(entry.path() / "results.json"))});
+  std::sort(scenes.begin(), scenes.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return scenes;
+}
+
+// what is compared, and where
+struct Compared {
+  fs::path folder, case_outputs, budgets, style_folder;
+};
+
+void compare(const Compared& compared) {
+  const auto& [folder, case_outputs, budgets, style_folder] = compared;
   using namespace voussoir::reports;
   std::vector<CaseStudy> studies;
   for (const auto& entry : fs::directory_iterator(folder))
@@ -112,7 +129,7 @@ void compare(const fs::path& folder, const fs::path& case_outputs, const fs::pat
     run_draw({(style_folder / "draw.sh").string(), (style_folder / "trade.gp").string(),
               (folder / "trade.svg").string(), "data=" + (folder / "trade.csv").string(), "cases=" + cases});
   }
-  write_atomically(folder / "trade.md", trade_markdown(studies) + bars_markdown(sets, studies));
+  write_atomically(folder / "trade.md", trade_markdown(studies) + bars_markdown(sets, scene_budgets(budgets), studies));
   fmt::print("{} studies compared: {}\n", studies.size(), (folder / "trade.md").string());
 }
 
@@ -121,7 +138,7 @@ void compare(const fs::path& folder, const fs::path& case_outputs, const fs::pat
 int main(int argc, char** argv) {
   CLI::App app{"Joins study.csv with reference.json: error against cost, Pareto front, recommendation."};
   app.require_subcommand(1);
-  fs::path study_file, reference_file, out, style_folder, folder, case_outputs;
+  fs::path study_file, reference_file, out, style_folder, folder, case_outputs, budgets;
   CLI::App* one = app.add_subcommand("case", "the report on one case's study");
   one->add_option("--study", study_file, "what `voussoir study` wrote")->required();
   one->add_option("--reference", reference_file, "reference.json of the case's test")->required();
@@ -130,6 +147,8 @@ int main(int argc, char** argv) {
   all->add_option("--studies", folder, "folder that holds a folder for every case; trade.md, .csv and .svg go there")
       ->required();
   all->add_option("--cases", case_outputs, "folder of what the cases' tests wrote, in which budget.csv are looked for");
+  all->add_option("--budgets", budgets,
+                  "folder that holds a folder for every case whose scene was run with its budget");
   for (CLI::App* command : {one, all})
     command->add_option("--style", style_folder, "folder with draw.sh and *.gp; without it no figure is drawn");
   CLI11_PARSE(app, argc, argv);
@@ -138,7 +157,7 @@ int main(int argc, char** argv) {
     if (one->parsed())
       report(study_file, reference_file, style_folder, out);
     else
-      compare(folder, case_outputs, style_folder);
+      compare({folder, case_outputs, budgets, style_folder});
     return 0;
   } catch (const std::exception& problem) {
     fmt::print(stderr, "voussoir_study_report: {}\n", problem.what());
