@@ -38,7 +38,9 @@ std::optional<AccuracyTarget> accuracy_target(const Node& scene) {
     if (!says(*stage.node, "kind", "reduce")) continue;
     searches = true;
     if (!says(*stage.node, "method", "bisection") && stage.node->find("method"))
-      refuse(*stated, path, "is reached by finer brackets: " + stage.path + " must have method = \"bisection\"");
+      refuse(*stated, path,
+             "is reached by finer brackets, so it applies only where method = \"bisection\", which " + stage.path +
+                 " has not");
     if (!target->relative && says(*stage.node, "search", "factor"))
       refuse(*stated, path, stage.path + " searches a factor, which has no degrees: state it as \"1 %\"");
   }
