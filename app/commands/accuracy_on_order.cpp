@@ -48,9 +48,9 @@ double cost_of(const std::string& name, double finer) {
 
 std::string bar_text(const std::string& name, const Value& value, const AccuracyTarget& target) {
   const bool known = value.covers == "budget";
-  return fmt::format("{} is known to ± {:.2g} {}{}, {:.2g} was asked", name,
-                     known ? *value.error_bar : bracket_of(value), value.unit, known ? "" : " by brackets alone",
-                     target.allowed(value.value));
+  return fmt::format("{} is known to ± {:.2g}{}{}, {:.2g} was asked", name,
+                     known ? *value.error_bar : bracket_of(value), value.unit == "1" ? "" : " " + value.unit,
+                     known ? "" : " by brackets alone", target.allowed(value.value));
 }
 
 }  // namespace
