@@ -238,6 +238,31 @@ void add_joint_test(CLI::App& program, JointTestArguments& arguments, Action& ac
   command->callback([&] { action = [&] { return joint_test_command(arguments); }; });
 }
 
+void add_import(CLI::App& program, ImportArguments& arguments, Action& action) {
+  CLI::App* command = program.add_subcommand(
+      "import", "joints of a scan, a drawing or a fracture network as a table that scenes read (joints_file)");
+  command->add_option("file", arguments.file, "the file")->required()->check(plain_text());
+  command
+      ->add_option(
+          "--as", arguments.format,
+          "facets: CloudCompare's table of facets (CSV); fab: FracMan's fractures (ASCII); dxf: 3DFACE, POLYLINE "
+          "and LWPOLYLINE of an ASCII DXF, its layers are sets; traces: GeoJSON lines in a plane")
+      ->required()
+      ->check(CLI::IsMember({"facets", "fab", "dxf", "traces"}));
+  command->add_option("--out", arguments.out, "the table, e.g. joints.csv beside the scene")
+      ->required()
+      ->check(plain_text());
+  command
+      ->add_option("--shift", arguments.shift,
+                   "x,y,z in m, added to every coordinate, e.g. --shift=-458000,-5210000,-900 (traces leave out z)")
+      ->delimiter(',')
+      ->expected(3)
+      ->allow_extra_args(false)
+      ->check(finite(-largest, largest));
+  command->add_flag("--overwrite", arguments.overwrite, "replace the table; the file that is read is never replaced");
+  command->callback([&] { action = [&] { return import_command(arguments); }; });
+}
+
 struct AllStudyArguments {
   StudyArguments study;
   WorkArguments work;
@@ -381,6 +406,7 @@ int parse_and_act(int argument_count, char** arguments) {
   SliceArguments slice;
   LimitArguments limit;
   JointTestArguments joint_test;
+  ImportArguments imported;
   AllStudyArguments study;
   add_run(program, run, action);
   add_resume(program, resume, action);
@@ -388,6 +414,7 @@ int parse_and_act(int argument_count, char** arguments) {
   add_slice(program, slice, action);
   add_limit(program, limit, action);
   add_joint_test(program, joint_test, action);
+  add_import(program, imported, action);
   add_study(program, study, action);
   CLI::App* docs =
       program.add_subcommand("docs", "every key of scenes and studies and every column of history.csv, as Markdown");

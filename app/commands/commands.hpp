@@ -85,6 +85,14 @@ struct JointTestArguments {
   bool overwrite = false;
 };
 
+struct ImportArguments {
+  std::filesystem::path file;
+  std::string format;                     // facets, fab, dxf, traces
+  std::filesystem::path out;              // a file
+  std::vector<double> shift = {0, 0, 0};  // m, added to coordinates
+  bool overwrite = false;
+};
+
 struct StudyArguments {
   std::filesystem::path plan;
   std::filesystem::path out;
@@ -126,6 +134,9 @@ ExitCode limit_command(const LimitArguments& arguments);
 
 // takes the joints of a scene through laboratory tests: joint_test.csv and a figure of stress against displacement
 ExitCode joint_test_command(const JointTestArguments& arguments);
+
+// joints of another program's file as a table that scenes read, and a report on stdout
+ExitCode import_command(const ImportArguments& arguments);
 
 // runs a scene as it is and with one setting changed at a time, in processes side by side; writes study.csv. What was
 // done before is kept while scene and program are the same.

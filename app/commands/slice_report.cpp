@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "app/commands/svg_figure.hpp"
+#include "app/dip_angles.hpp"
 #include "core/exchange/tables.hpp"
 #include "core/joint_sets/statistics.hpp"
 #include "core/output/atomic_file.hpp"
@@ -46,19 +47,6 @@ Sample<Dim> sample_of(const Scene& scene) {
 }
 
 // ---- joints.csv
-
-struct DipAndDirection {
-  double dip, direction;  // deg
-};
-
-DipAndDirection angles_of(const Vector<3>& n) {
-  const double direction = std::atan2(n[0], n[1]) / degree;
-  return {std::atan2(std::hypot(n[0], n[1]), n[2]) / degree, direction < 0 ? direction + 360 : direction};
-}
-
-DipAndDirection angles_of(const Vector<2>& n) {
-  return {std::atan2(std::abs(n[0]), n[1]) / degree, n[0] < 0 ? 270.0 : 90.0};
-}
 
 template <int Dim>
 std::vector<double> numbers_of(const Vector<Dim>& v) {

@@ -142,8 +142,7 @@ std::string shape_text(OutlineForm shape, int dimension) {
 }
 
 std::vector<JointRow> read_joint_table(std::string_view text, int dimension) {
-  constexpr std::size_t most_joints = 10'000;  // as a scene may state
-  const CsvTable table = parse_csv(text, most_joints);
+  const CsvTable table = parse_csv(text, most_table_joints);
   const Names orientation = joined({"dip_deg", "dip_direction_deg"}, normal_columns(dimension));
   Names other = joined({"name", "set", "shape", "properties", inside_column(dimension)}, extent_columns(dimension));
   if (dimension == 3) other.push_back("corners_m");

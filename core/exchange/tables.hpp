@@ -2,6 +2,7 @@
 // back to the same number, so that planes return exactly.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,8 @@ struct JointRow {
 
 // as scenes and tables name it
 std::string shape_text(OutlineForm shape, int dimension);
+
+inline constexpr std::size_t most_table_joints = 10'000;  // as a scene may state
 
 // Throws FileFault, but leaves the ranges of angles and coordinates to the scene.
 std::vector<JointRow> read_joint_table(std::string_view text, int dimension);

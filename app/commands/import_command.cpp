@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+
+#include "app/bad_input.hpp"
+#include "app/claimed_folder.hpp"
+#include "app/commands/commands.hpp"
+#include "app/dip_angles.hpp"
+#include "app/import/formats.hpp"
+#include "core/output/atomic_file.hpp"
+#include "core/scene/scene_text.hpp"
+#include "text/plain_text.hpp"
+#include "text/read_file.hpp"
+
+namespace voussoir {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t largest_import = 64 << 20;  // bytes
+
+ImportedJoints read(const ImportArguments& arguments) {
+  using Reader = std::function<ImportedJoints(std::string_view, const Vector<3>&)>;
+  static const std::map<std::string, Reader> readers{
+      {"facets", read_facets}, {"fab", read_fab}, {"dxf", read_dxf}, {"traces", read_traces}};
+  const std::string name = printable(arguments.file.string());
+  try {
+    return readers.at(arguments.format)(read_file(arguments.file, largest_import),
+                                        Eigen::Map<const Vector<3>>(arguments.shift.data()));
+  } catch (const ReadFault& fault) {
+    throw BadInput(name + ": " + fault.what());
+  } catch (const FileFault& fault) {
+    std::string place = name;
+    for (const int number : {fault.line, fault.column})
+      if (number > 0) place += ":" + std::to_string(number);
+    throw BadInput(place + ": " + fault.what());
+  }
+}
+
+// one file beside others that are not ours: no lock and no list
+void require_free(const fs::path& out, const fs::path& input, bool overwrite) {
+  const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
+  refuse_inputs(folder, {"import", {out.filename().string()}}, {input});
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(out, error);
+  if (fs::is_directory(status)) throw BadInput(fmt::format("'{}' is a folder; name a file with --out", out.string()));
+  if (fs::exists(status) && !overwrite)
+    throw BadInput(fmt::format(
+        "'{}' is there and would be replaced: choose another name with --out, or add --overwrite", out.string()));
+  prepare_folder(folder);
+}
+
+// ---- the report
+
+std::string line_text(int line) {
+  return line > 0 ? fmt::format("line {}", line) : "";
+}
+
+std::string box_text(const ImportedJoints& found) {
+  std::string text = "box:";
+  for (int k = 0; k < found.dimension; ++k) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    const auto take = [&](double from, double to) {
+      low = std::min(low, from);
+      high = std::max(high, to);
+    };
+    for (const JointRow& joint : found.joints) {
+      double reach = 0;
+      if (found.dimension == 2) reach = joint.extents[0] / 2 * std::abs(joint.normal[1 - k]);
+      if (joint.shape == OutlineForm::ellipse) {
+        const PlaneAxes<3> axes = plane_axes(Vector<3>(joint.normal.data()));
+        reach = std::hypot(axes(k, 0) * joint.extents[0], axes(k, 1) * joint.extents[1]) / 2;
+      }
+      take(joint.point[k] - reach, joint.point[k] + reach);
+      for (const std::vector<double>& corner : joint.corners)
+        take(corner[k], corner[k]);
+    }
+    text += fmt::format("{} {} {:.9g} to {:.9g}", k == 0 ? "" : ",", "xyz"[k], low, high);
+  }
+  return text + " m\n";
+}
+
+std::string out_of_plane_text(const ImportedJoints& found) {
+  const auto worst = std::max_element(found.out_of_plane.begin(), found.out_of_plane.end());
+  if (!worst->has_value()) return "";
+  const JointRow& joint = found.joints[worst - found.out_of_plane.begin()];
+  return fmt::format("out of plane: at most {:.3g} m ({}, {})\n", **worst, joint.name, line_text(joint.line));
+}
+
+std::string dropped_text(const ImportedJoints& found) {
+  constexpr std::size_t shown_lines = 5;
+  std::map<std::string, std::vector<int>> reasons;
+  for (const Dropped& dropped : found.dropped)
+    reasons[dropped.reason].push_back(dropped.line);
+  std::string text = fmt::format("dropped: {}\n", found.dropped.size());
+  for (const auto& [reason, lines] : reasons) {
+    text += fmt::format("  {} for {}", lines.size(), reason);
+    if (lines.front() > 0) text += lines.size() == 1 ? ": line" : ": lines";
+    for (std::size_t k = 0; k < std::min(lines.size(), shown_lines) && lines[k] > 0; ++k)
+      text += fmt::format("{} {}", k == 0 ? "" : ",", lines[k]);
+    text += lines.size() > shown_lines && lines.front() > 0 ? ", …\n" : "\n";
+  }
+  return text;
+}
+
+// Of normals that have no sign: the axis of the largest moment. Fisher's constant is that of the normals turned to its
+// side (Fisher 1953), 3-D alone.
+template <int Dim>
+std::string orientation_text(const std::vector<const JointRow*>& joints) {
+  using Matrix = Eigen::Matrix<double, Dim, Dim>;
+  Matrix moments = Matrix::Zero();
+  for (const JointRow* joint : joints) {
+    const Vector<Dim> normal(joint->normal.data());
+    moments += normal * normal.transpose();
+  }
+  Vector<Dim> mean = Eigen::SelfAdjointEigenSolver<Matrix>(moments).eigenvectors().col(Dim - 1);
+  if (mean[Dim - 1] < 0) mean = -mean;
+  Vector<Dim> sum = Vector<Dim>::Zero();
+  for (const JointRow* joint : joints) {
+    const Vector<Dim> normal(joint->normal.data());
+    sum += normal.dot(mean) < 0 ? Vector<Dim>(-normal) : normal;
+  }
+  const DipAndDirection angles = angles_of(mean);
+  const auto n = static_cast<double>(joints.size());
+  const bool scattered = Dim == 3 && n > 1 && n - sum.norm() > n * std::numeric_limits<double>::epsilon();
+  return fmt::format("{:>8} {:>8.1f} {:>14.1f} {:>10}\n", joints.size(), angles.dip, angles.direction,
+                     scattered ? fmt::format("{:.4g}", (n - 1) / (n - sum.norm())) : "-");
+}
+
+std::string sets_text(const ImportedJoints& found) {
+  std::map<std::string, std::vector<const JointRow*>> sets;
+  for (const JointRow& joint : found.joints)
+    sets[joint.set].push_back(&joint);
+  std::string text =
+      fmt::format("{:<24} {:>8} {:>8} {:>14} {:>10}\n", "set", "joints", "dip deg", "direction deg", "Fisher's k");
+  for (const auto& [name, joints] : sets)
+    text += fmt::format("{:<24} {}", name.empty() ? "(none)" : name,
+                        found.dimension == 3 ? orientation_text<3>(joints) : orientation_text<2>(joints));
+  return text;
+}
+
+}  // namespace
+
+ExitCode import_command(const ImportArguments& arguments) {
+  const ImportedJoints found = read(arguments);
+  const std::string table = joint_table(found.joints, found.dimension);
+  if (table.size() > largest_scene_file)
+    throw BadInput(fmt::format("{}: its joints make a table of more than {} MB, which no scene reads; divide the file",
+                               printable(arguments.file.string()), largest_scene_file >> 20));
+  require_free(arguments.out, arguments.file, arguments.overwrite);
+  write_file(arguments.out, table);
+  std::string report = fmt::format("joints: {}, {}-D\n", found.joints.size(), found.dimension) + box_text(found) +
+                       out_of_plane_text(found) + dropped_text(found);
+  for (const std::string& remark : found.remarks)
+    report += remark + "\n";
+  fmt::print("{}{}table: {}\n", report, sets_text(found), arguments.out.string());
+  return ExitCode::done;
+}
+
+}  // namespace voussoir
