@@ -222,6 +222,19 @@ TEST_F(Import, DamagedFilesAreRefusedInOneLine) {
   expect_one_line(import("drawing_damaged.dxf", "--as dxf"), 2, "drawing_damaged.dxf:21: '20.000000' stands where");
   expect_one_line(import("traces_damaged.geojson", "--as traces"), 2, "traces_damaged.geojson:7: is no JSON");
   EXPECT_TRUE(folder_is_empty());
+  const auto traces = [&](const std::string& coordinates, const std::string& refusal) {
+    write("file.geojson",
+          "{\"type\": \"FeatureCollection\", \"features\": [\n{\"type\": \"Feature\", \"geometry\":\n"
+          "{\"type\": \"LineString\", \"coordinates\": " +
+              coordinates + "}}]}");
+    expect_one_line(run("import file.geojson --as traces --out joints.csv"), 2, refusal);
+    fs::remove(folder_ / "file.geojson");
+  };
+  traces("[[0, 0], [1]]", "file.geojson:2: coordinates.2: a point is a list of two numbers");
+  traces("[[0, 0], [1e13, 0]]", "file.geojson:2: the coordinate exceeds 1e12 m");
+  traces("[[0, 0], [1e400, 0]]", "file.geojson:3: holds a number too large");
+  traces("[[0, 0], [0, 0]]", "file.geojson:2: holds no joint that can be taken");
+  EXPECT_TRUE(folder_is_empty());
   // of another kind altogether
   for (const char* format : {"facets", "fab", "dxf", "traces"})
     expect_one_line(run("import " + squares_ + "--out joints.csv --as " + format), 2, "two_squares.toml");

@@ -15,6 +15,8 @@ options=(-error_exitcode=1 -timeout=20 -rss_limit_mb=2048 -verbosity=0 -print_fi
 if [ "$target" = scene ]; then
   seeds=$(find "$here/../cases" "$here/../app/testing" -name '*.toml' ! -name study.toml | sort | paste -sd, -)
   options+=(-dict="$here/scene.dict" -seed_inputs="$seeds" -max_len=6000)
+elif [ "$target" = import ]; then
+  options+=(-max_len=6000)
 else
   options+=(-max_len=120)
 fi

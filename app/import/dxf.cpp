@@ -59,7 +59,9 @@ class DxfReader {
       if (entity_.kind == "EOF") break;
       if (entity_.kind == "SECTION") section_ = entity_.find(2) ? upper_case(entity_.find(2)->text) : "";
       if (entity_.kind == "SECTION" && section_ == "HEADER") unit();
-      if (section_ == "ENTITIES" && entity_.kind != "SECTION" && entity_.kind != "ENDSEC") entity();
+      if (section_ == "ENTITIES" && entity_.kind != "a comment" && entity_.kind != "SECTION" &&
+          entity_.kind != "ENDSEC")
+        entity();
       if (entity_.kind == "ENDSEC") section_.clear();
     }
     if (entity_.kind != "EOF") throw FileFault(lines_.number(), 0, "the file ends without EOF; is it cut off?");
@@ -93,7 +95,7 @@ class DxfReader {
     if (group_.code != 0 && group_.code != 999)  // 999: a comment
       throw FileFault(group_.value.line - 1, 0,
                       fmt::format("group code {} stands where 0 must begin something", group_.code));
-    entity_ = {upper_case(group_.value.text), group_.value.line, {}};
+    entity_ = {group_.code == 0 ? upper_case(group_.value.text) : "a comment", group_.value.line, {}};
     ahead_ = false;
     while (next_group()) {
       ahead_ = group_.code == 0;

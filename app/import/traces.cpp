@@ -1,17 +1,61 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "app/import/formats.hpp"
+#include "core/floating_point_traps.hpp"
 
 namespace voussoir {
 namespace {
 
 using nlohmann::json;
 
-[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
-  throw FileFault(0, 0, (path.empty() ? "" : path + ": ") + reason);
+// counts the lines that a parser has read
+struct LineCounter {
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  reference operator*() const { return *at; }
+  LineCounter& operator++() {
+    *line += *at == '\n';
+    ++at;
+    return *this;
+  }
+  bool operator==(const LineCounter& other) const { return at == other.at; }
+  bool operator!=(const LineCounter& other) const { return at != other.at; }
+
+  const char* at;
+  int* line;
+};
+
+struct GeoJson {
+  json root;
+  std::vector<int> lines;  // where each object of the list `features` begins
+};
+
+GeoJson parse(std::string_view text) {
+  GeoJson file;
+  int line = 1;
+  bool in_features = false;
+  const auto note_lines = [&](int depth, json::parse_event_t event, json& value) {
+    if (event == json::parse_event_t::key && depth == 1) in_features = value == "features";
+    if (event == json::parse_event_t::object_start && depth == 2 && in_features) file.lines.push_back(line);
+    return true;
+  };
+  try {
+    const WithoutTraps no_traps;  // a number too large is the library's to refuse
+    file.root = json::parse(LineCounter{text.data(), &line}, LineCounter{text.data() + text.size(), &line}, note_lines);
+  } catch (const json::parse_error&) {
+    throw FileFault(line, 0, "is no JSON from here on; is the file cut off, or a bracket or comma lost?");
+  } catch (const json::out_of_range&) {
+    throw FileFault(line, 0, "holds a number too large for any coordinate; is it in m?");
+  }
+  return file;
 }
 
 // a member of an object; nothing where there is none, or null
@@ -28,50 +72,58 @@ std::string type_of(const json& object) {
 
 class TracesReader {
  public:
-  explicit TracesReader(const Vector<3>& shift) : shift_(shift.head<2>()) {}
+  TracesReader(const Vector<3>& shift, const std::vector<int>& lines) : shift_(shift.head<2>()), lines_(lines) {}
 
   ImportedJoints read(const json& file) {
     const std::string type = type_of(file);
     if (type == "FeatureCollection")
       collection(file);
     else if (type == "Feature")
-      feature(file, "");
+      feature(file);
     else
-      geometry(file, "", {0, "trace-1", ""});
+      geometry(file, {1, "trace-1", ""});
     reference_system(file);
     return joints_.finish();
   }
 
  private:
+  [[noreturn]] void refuse(const std::string& what, const std::string& reason) const {
+    throw FileFault(line_, 0, what + ": " + reason);
+  }
   void collection(const json& file) {
     const json* features = member(file, "features");
     if (!features || !features->is_array()) refuse("features", "must be a list; is it a GeoJSON?");
-    for (const json& one : *features)
-      feature(one, fmt::format("features.{}", ++count_));
+    std::size_t objects = 0;
+    for (const json& one : *features) {
+      if (one.is_object() && objects < lines_.size()) line_ = lines_[objects++];
+      ++count_;
+      feature(one);
+    }
+    line_ = 1;
   }
-  void feature(const json& one, const std::string& path) {
+  void feature(const json& one) {
     const json* drawn = member(one, "geometry");
-    if (!drawn) return joints_.drop(0, "a feature without a geometry");
-    Origin origin{0, fmt::format("trace-{}", std::max(count_, 1LL)), ""};
+    if (!drawn) return joints_.drop(line_, "a feature without a geometry");
+    Origin origin{line_, fmt::format("trace-{}", std::max(count_, 1LL)), ""};
     if (const json* properties = member(one, "properties"))
       if (const json* set = member(*properties, "set"))
         if (set->is_string() || set->is_number()) origin.set = set->is_string() ? set->get<std::string>() : set->dump();
-    geometry(*drawn, path.empty() ? "geometry" : path + ".geometry", origin);
+    geometry(*drawn, origin);
   }
-  void geometry(const json& drawn, const std::string& path, const Origin& origin) {
+  void geometry(const json& drawn, const Origin& origin) {
     const std::string type = type_of(drawn);
-    if (type.empty()) refuse(path, "has no type; is it a GeoJSON?");
+    if (type.empty()) refuse("geometry", "has no type; is it a GeoJSON?");
     const json* coordinates = member(drawn, "coordinates");
     if (type != "LineString" && type != "MultiLineString")
-      return joints_.drop(0, "a geometry " + shown(type) + ", no LineString");
-    if (!coordinates || !coordinates->is_array()) refuse(path + ".coordinates", "must be a list of points");
-    if (type == "LineString") return line(*coordinates, path + ".coordinates", origin);
+      return joints_.drop(line_, "a geometry " + shown(type) + ", no LineString");
+    if (!coordinates || !coordinates->is_array()) refuse("coordinates", "must be a list of points");
+    if (type == "LineString") return line(*coordinates, "coordinates", origin);
     for (std::size_t k = 0; k < coordinates->size(); ++k)
-      line((*coordinates)[k], fmt::format("{}.coordinates.{}", path, k + 1), origin);
+      line((*coordinates)[k], fmt::format("coordinates.{}", k + 1), origin);
   }
   void line(const json& points, const std::string& path, const Origin& origin) {
     if (!points.is_array()) refuse(path, "must be a list of points");
-    if (points.size() < 2) return joints_.drop(0, "a line of fewer than two points");
+    if (points.size() < 2) return joints_.drop(line_, "a line of fewer than two points");
     Vector<2> before = point(points[0], path + ".1");
     if (points.size() > 2) ++bent_;
     for (std::size_t k = 1; k < points.size(); ++k) {
@@ -87,11 +139,7 @@ class TracesReader {
     Vector<2> p;
     for (int k = 0; k < 2; ++k) {
       p[k] = numbers[k].get<double>();
-      try {
-        refuse_far_coordinate(p[k], 0, 0);
-      } catch (const FileFault& fault) {
-        refuse(path, fault.what());
-      }
+      refuse_far_coordinate(p[k], line_, 0);
     }
     return p + shift_;
   }
@@ -106,6 +154,8 @@ class TracesReader {
   }
 
   Vector<2> shift_;
+  const std::vector<int>& lines_;
+  int line_ = 1;  // of the feature in hand
   long long count_ = 0, bent_ = 0;
   JointCollector joints_{2};
 };
@@ -115,17 +165,8 @@ class TracesReader {
 ImportedJoints read_traces(std::string_view text, const Vector<3>& shift) {
   for (LineReader lines(text); lines.next();) {  // refuses what is no plain text
   }
-  json file;
-  try {
-    file = json::parse(text);
-  } catch (const json::parse_error& error) {
-    const std::string_view before = text.substr(0, std::min(error.byte, text.size()));
-    throw FileFault(static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1, 0,
-                    "is no JSON from here on; is the file cut off, or a bracket or comma lost?");
-  } catch (const json::out_of_range&) {
-    throw FileFault(0, 0, "holds a number too large for any coordinate; is it in m?");
-  }
-  return TracesReader(shift).read(file);
+  const GeoJson file = parse(text);
+  return TracesReader(shift, file.lines).read(file.root);
 }
 
 }  // namespace voussoir
