@@ -267,7 +267,7 @@ bool add_budget(const LoadedScene& scene, const BudgetRuns& of, const fs::path& 
         continue;
       }
       const double shift = then.result->value - runs.unvaried(names[k], name, value);
-      other = std::max(other, then.result->error_bar.value_or(0));
+      if (!v.sensitivity) other = std::max(other, then.result->error_bar.value_or(0));
       value.budget.push_back({v.name, v.change, shift, v.left_by(shift), v.sensitivity});
     }
     if (!runs.path.empty()) {
