@@ -1,6 +1,7 @@
 // `voussoir import`: joints of other programs' files as tables that cut blocks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <tuple>
@@ -136,6 +137,35 @@ TEST(ImportFormats, FacetsAreEllipsesOrTheirHulls) {
   EXPECT_EQ(found.joints[0].corners.size(), 6u);  // of seven, one is a notch
   EXPECT_EQ(found.joints[1].shape, OutlineForm::ellipse);
   EXPECT_EQ(found.joints[1].extents, (std::vector<double>{18, 16}));
+}
+
+bool remarks(const ImportedJoints& found, const std::string& part) {
+  return std::any_of(found.remarks.begin(), found.remarks.end(),
+                     [&](const std::string& remark) { return remark.find(part) != std::string::npos; });
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(ImportFormats, WhatIsNotTakenAsItStandsIsTold) {
+  const std::string drawing = sample("drawing.dxf");
+  EXPECT_FALSE(remarks(read_dxf(drawing, no_shift), "$INSUNITS"));
+  EXPECT_TRUE(
+      remarks(read_dxf(replaced(drawing, "$INSUNITS\n 70\n6\n", "$INSUNITS\n 70\n4\n"), no_shift), "$INSUNITS 4"));
+  EXPECT_TRUE(remarks(read_dxf(replaced(drawing, "-4.5\n", "-4.5\n 42\n0.5\n"), no_shift), "1 arcs"));
+  const ImportedJoints mesh = read_dxf(replaced(drawing, " 70\n9\n", " 70\n64\n"), no_shift);
+  EXPECT_EQ(mesh.joints.size(), 3u);
+  ASSERT_EQ(mesh.dropped.size(), 3u);
+  EXPECT_NE(mesh.dropped[0].reason.find("a mesh"), std::string::npos);
+
+  const std::string fractures = sample("network.fab");
+  EXPECT_FALSE(remarks(read_fab(fractures, no_shift), "stated normals"));
+  EXPECT_TRUE(remarks(read_fab(replaced(fractures, "    0    0    0    1\n", "    0    1    0    0\n"), no_shift),
+                      "1 stated normals"));
+  EXPECT_TRUE(remarks(read_facets(sample("facets.csv"), no_shift), "2 outlines are not convex"));
 }
 
 // the least-squares plane against corners moved off a known plane by a pattern that has no moment about it
