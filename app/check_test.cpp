@@ -215,6 +215,40 @@ TEST_F(Check, IsSilentAboutWhatIsWell) {
   says(std::string(joints).replace(joints.find("point = [5.05"), 13, "point = [6.05"), "was it given in km");
 }
 
+TEST_F(Check, CountsJointsThatMissTheDomain) {
+  const std::string domain =
+      "dimension = 2\ngravity = [0, -10]\ndensity = 2000\ndomain = { box = { min = [0, 0], max = [4, 4] } }\n" + rock +
+      settle;
+  const auto level = [](const std::string& name, double height, const std::string& more = "") {
+    return fmt::format("[[joints]]\nname = \"{}\"\ndip = 0\npoint = [2, {}]\n{}", name, height, more);
+  };
+  const std::string held = "[[fix]]\nbelow = [\"in\"]\n";
+  says(domain + level("in", 2) + held, "none of 1 stated joints misses the domain");
+  says(domain + level("in", 2) + level("out", 5) + held, "1 of 2 stated joints misses the domain: out\n");
+  const std::string aside = "within = { box = { min = [6, 0], max = [8, 4] } }\n";
+  const std::string beyond = "[[joints]]\nname = \"short\"\ndip = 0\npoint = [9, 1]\nshape = \"trace\"\nlength = 2\n";
+  says(domain + level("in", 2) + level("out", 5) + level("aside", 3, aside) + beyond + level("above", 6) + held,
+       "4 of 5 stated joints miss the domain: out, aside, short and 1 more");
+  says(domain + level("in", 2) + beyond + held, "1 of 2 stated joints misses the domain: short");
+  says(domain + level("in", 2) + beyond + held + "[slicing]\nends = \"ignored\"\n", "none of 2 stated joints");
+}
+
+TEST_F(Check, ListsTheWorstBlocks) {
+  const std::string scene = ground + box("one", 0, 0) + box("small", 2, 0, 0.125) + box("middle", 4, 0, 0.5) +
+                            box("two", 6, 0, 2) + rock + settle;
+  says(scene, "smallest area: small 0.01562 m², middle 0.25 m², one 1 m²\n");
+  says(scene, "shortest edge: small 0.125 m, middle 0.5 m, one 1 m\n");
+  says(scene, "largest aspect ratio of the box along the axes: ground 20, ");
+  // without a name, by its number; in space
+  const std::string cube =
+      "dimension = 3\ndensity = 2000\ndomain = { box = { min = [0, 0, 0], max = [2, 2, 2] } }\n"
+      "[[joints]]\nname = \"bed\"\ndip = 0\npoint = [0, 0, 0.25]\n" +
+      rock + "[[fix]]\nbelow = [\"bed\"]\n" + settle;
+  says(cube, "smallest volume: block 0 1 m³, block 1 7 m³\n");
+  says(cube, "shortest edge: block 0 0.25 m, block 1 1.75 m\n");
+  says(cube, "aspect ratio of the box along the axes: block 0 8, block 1 1.143\n");
+}
+
 TEST_F(Check, CallsNoPartOfAWeldedBlockASliver) {
   // an excavation's face cuts 2 mm off a block that stays in one piece
   const std::string scene =

@@ -42,8 +42,9 @@ TEST_F(Program, RunWritesResultsThatOpen) {
   EXPECT_NE(ended.out.find("results: results/two_cubes"), std::string::npos) << ended.out;
 
   const std::string where = "results/two_cubes";
-  for (const char* name : {"results.json", "history.csv", "scene.toml", "blocks.pvd", "contacts.pvd",
-                           "frames/blocks_0000.vtp", "frames/contacts_0000.vtp"})
+  for (const char* name :
+       {"results.json", "history.csv", "scene.toml", "blocks.pvd", "contacts.pvd", "frames/blocks_0000.vtp",
+        "frames/contacts_0000.vtp", "force_lines.pvd", "frames/force_lines_0000.vtp"})
     EXPECT_TRUE(fs::exists(folder_ / where / name)) << name;
   EXPECT_EQ(results(where)["status"], "done");
   // weight over stiffness: 20 kN / 100 MN/m

@@ -83,6 +83,15 @@ struct Monitor {
   int node = -1;                  // of a lining, that is followed; -1: the largest of all
 };
 
+// the sets of the model's joints, for those who look at them: nothing is computed by them
+struct JointSets {
+  std::vector<int> of_joint{};  // by Model::joints: place in `names`; -1: of none
+  std::vector<std::string> names{};
+
+  // -1 also for what no joint of the scene made
+  int set_of(int joint) const { return joint >= 0 && joint < static_cast<int>(of_joint.size()) ? of_joint[joint] : -1; }
+};
+
 template <int Dim>
 struct Prepared {
   std::string title;
@@ -94,6 +103,7 @@ struct Prepared {
   std::optional<int> last_stage{};  // place of the last one that is to be done; none: all are
   std::vector<Monitor> monitors;
   OutputPlan output;
+  JointSets joint_sets{};
 };
 
 }  // namespace voussoir

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/commands/check_blocks.hpp"
 #include "app/commands/check_support.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/plausibility.hpp"
@@ -401,11 +402,13 @@ void print_left_to_relaxation(const Prepared<Dim>& prepared) {
 }
 
 template <int Dim>
-void print_active(const Prepared<Dim>& prepared) {
+void print_active(const Scene& stated, const Prepared<Dim>& prepared) {
   const Settings& settings = prepared.settings;
   print_blocks(prepared.model);
+  print_worst_blocks(prepared.model);
   print_particles(prepared.model);
   print_joints(prepared.model);
+  print_missing_joints(stated, prepared.model);
   print_properties(prepared.model, prepared.settings.contact);
   print_line("gravity", vector_text<Dim>(prepared.model.gravity) + " m/s²");
   print_water(prepared);
@@ -448,7 +451,7 @@ void print_derived(const Plausibility& plausibility) {
 ExitCode check_command(const SceneArguments& arguments) {
   const LoadedScene scene = load_scene(arguments.scene, arguments.overrides);
   fmt::print("{} ({}-D)\n", scene.title.empty() ? arguments.scene.filename().string() : scene.title, scene.dimension);
-  std::visit([](const auto& prepared) { print_active(prepared); }, scene.prepared);
+  std::visit([&](const auto& prepared) { print_active(*scene.stated, prepared); }, scene.prepared);
   for (std::size_t k = 0; k < scene.from_level.size(); ++k)
     print_line(k == 0 ? "by level" : "", scene.from_level[k]);
   const Plausibility plausibility = assess(scene);

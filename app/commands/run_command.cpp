@@ -169,8 +169,9 @@ bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const R
 
 // what the run so far has written beyond its checkpoint is cut off
 template <int Dim>
-WrittenSeries cut_back_to(const Progress<Dim>& progress, const fs::path& folder) {
+WrittenSeries cut_back_to(const Progress<Dim>& progress, const JointSets& sets, const fs::path& folder) {
   WrittenSeries written{cut_back(folder, progress.frames), cut_back(folder, progress.trial_frames, trial_series)};
+  written.frames.sets = written.trials.sets = sets;
   std::set<std::string> lost = written.frames.lost;
   lost.insert(written.trials.lost.begin(), written.trials.lost.end());
   if (!lost.empty())
@@ -213,7 +214,7 @@ std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const Load
   std::vector<std::string> remarks;
   Progress<Dim> progress = last_progress(job.folder, prepared, scene.hash, remarks);
   print_warnings(remarks);
-  WrittenSeries written = cut_back_to(progress, job.folder);
+  WrittenSeries written = cut_back_to(progress, prepared.joint_sets, job.folder);
 
   note_interruptions();
   if (!go_on(prepared, scene.hash, job, progress, written)) {

@@ -103,7 +103,7 @@ template <int Dim>
 void write_blocks(const Prepared<Dim>& prepared, const SliceArguments& arguments) {
   const fs::path& folder = arguments.out;
   write_formats(prepared.model, arguments);
-  write_file(folder / "blocks.vtp", vtp(block_faces(prepared.model, prepared.state, 0)));
+  write_file(folder / "blocks.vtp", vtp(block_faces(prepared.model, prepared.state, 0, prepared.joint_sets)));
   write_file(folder / "blocks.csv", block_table(prepared.model));
   fmt::print("{} blocks: {}, {}\n", prepared.model.bodies.size(), (folder / "blocks.vtp").string(),
              (folder / "blocks.csv").string());

@@ -146,6 +146,7 @@ State<2> moved_along(const LimitAnalysis& analysis, double distance) {
     state.motions[b].displacement = distance * v.velocity;
     state.motions[b].rotation.angle = distance * v.spin;
     state.motions[b].velocity = v.velocity;
+    state.motions[b].angular_momentum = angular_momentum<2>(analysis.model.bodies[b], {}, Spin<2>(v.spin));
   }
   return state;
 }

@@ -311,6 +311,83 @@ TEST(Paraview, CellsSayWhatTheyBelongTo) {
   EXPECT_EQ(made_by_joint, 2);
 }
 
+// the turned block's points began where those of the model at rest are; each goes as v + w × r
+template <int Dim>
+void expect_points_to_tell_their_motion(const Spin<Dim>& spin) {
+  const Model<Dim> model = row_of_blocks<Dim>(2);
+  State<Dim> state = moved_state(model);
+  Motion<Dim>& motion = state.motions[1];
+  motion.angular_momentum = angular_momentum<Dim>(model.bodies[1], motion.rotation, spin);
+  const auto piece_of = [&](const State<Dim>& of) {
+    return checked_piece(vtp(block_faces(model, of, 0)), "Polys", "NumberOfPolys");
+  };
+  const Element piece = piece_of(state);
+  const std::vector<double> start = piece_of(initial_state(model)).child("Points").named("Points").numbers(),
+                            now = piece.child("Points").named("Points").numbers(),
+                            way = piece.child("PointData").named("displacement").numbers(),
+                            velocity = piece.child("PointData").named("velocity").numbers();
+  EXPECT_EQ(piece.child("PointData").named("displacement").attributes.at("type"), "Float32");
+  ASSERT_EQ(now.size(), start.size());
+  const Vector<3> centroid(1001, 1000.25, Dim == 3 ? 1000 : 0);
+  for (std::size_t k = 0; k < now.size(); k += 3) {
+    const bool free = k >= now.size() / 2;
+    const Vector<3> arm = Vector<3>(now[k], now[k + 1], now[k + 2]) - centroid;
+    const Vector<3> expected = free ? Vector<3>(2, 0, 0) + Vector<3>(0, 0, 3).cross(arm) : Vector<3>::Zero();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(way[k + axis], now[k + axis] - start[k + axis], 2e-7);
+      EXPECT_NEAR(velocity[k + axis], expected[axis], 5e-7);
+    }
+    // a corner of a unit square that is turned by a quarter goes one side of it
+    EXPECT_NEAR(Vector<3>(way[k], way[k + 1] - (free ? 0.25 : 0), way[k + 2]).norm(), free ? 1 : 0, 1e-6);
+  }
+}
+
+TEST(Paraview, PointsSayWhereTheyBeganAndHowTheyGo) {
+  expect_points_to_tell_their_motion<2>(Spin<2>(3));
+  expect_points_to_tell_their_motion<3>({0, 0, 3});
+}
+
+TEST(Paraview, FacesNameTheSetOfTheirJoint) {
+  const Model<3> model = row_of_blocks<3>(2);
+  const auto cells = [&](const JointSets& sets) {
+    return checked_piece(vtp(block_faces(model, initial_state(model), 0, sets)), "Polys", "NumberOfPolys")
+        .child("CellData");
+  };
+  const Element named = cells({{0}, {"bedding"}});
+  EXPECT_EQ(named.named("set").numbers(), named.named("joint").numbers()) << "the one joint is of the one set";
+  const std::vector<double> none(12, -1);
+  EXPECT_EQ(cells({{-1}, {}}).named("set").numbers(), none);
+  EXPECT_EQ(cells({}).named("set").numbers(), none);
+}
+
+TEST(Paraview, LinesJoinBodiesThatTouch) {
+  const Model<3> model = row_of_blocks<3>(2);
+  State<3> state = moved_state(model);
+  const auto piece_of = [&] { return checked_piece(vtp(force_lines(model, state, 0)), "Lines", "NumberOfLines"); };
+  EXPECT_EQ(piece_of().child("CellData").named("normal_N").numbers(), std::vector<double>{3});
+  state.contacts[1].status = ContactStatus::touching;
+  state.contacts[1].force = {1, 4, 0};
+  const Element piece = piece_of(), cells = piece.child("CellData");
+  EXPECT_EQ(piece.child("Points").named("Points").numbers(),
+            (std::vector<double>{1000, 1000, 1000, 1001, 1000.25, 1000}));
+  EXPECT_EQ(cells.named("body_a").numbers(), std::vector<double>{0});
+  EXPECT_EQ(cells.named("body_b").numbers(), std::vector<double>{1});
+  EXPECT_EQ(cells.named("contacts").numbers(), std::vector<double>{2});
+  EXPECT_EQ(cells.named("force").numbers(), (std::vector<double>{4, 4, 0}));
+  EXPECT_EQ(cells.named("normal_N").numbers(), std::vector<double>{4});
+  EXPECT_EQ(cells.named("shear_N").numbers(), std::vector<double>{4});
+  for (const double magnitude : piece.child("PointData").named("magnitude_N").numbers())
+    EXPECT_NEAR(magnitude, std::sqrt(32), 1e-6);
+}
+
+TEST(Vtp, SinglePrecisionHoldsWhatItCan) {
+  PolyData data;
+  data.points = {{0, 0, 0}};
+  data.point_data = {{"some", 1, false, {0.1, -1e300, 1e-300, std::nan(""), -3e38}, true}};
+  const std::string text = vtp(data);
+  EXPECT_NE(text.find("\n0.1 \n0 \n0 \n0 \n-3e+38 \n"), std::string::npos) << text;
+}
+
 TEST(Paraview, ASquareIsOnePolygonInThePlane) {
   const Model<2> model = row_of_blocks<2>(3);
   const Element piece = checked_piece(vtp(block_faces(model, moved_state(model), 0)), "Polys", "NumberOfPolys");
@@ -359,7 +436,7 @@ TEST(Paraview, CollectionsNameFilesThatExist) {
   FrameSeries series{folder.path};
   for (const double time : {0.0, 0.1, 0.3})
     write_frame(series, model, moved_state(model), time);
-  for (const char* name : {"blocks.pvd", "contacts.pvd"}) {
+  for (const char* name : {"blocks.pvd", "contacts.pvd", "force_lines.pvd"}) {
     const Element root = XmlReader(read(folder.path / name)).read();
     EXPECT_EQ(root.attributes.at("type"), "Collection");
     const std::vector<Element>& entries = root.child("Collection").children;

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <span>
 
@@ -41,6 +42,7 @@ std::vector<std::vector<int>> polygons(const Polytope<2>& part) {
 struct BlockArrays {
   DataArray body{"body", 1, true, {}}, part{"part", 1, true, {}}, joint{"joint", 1, true, {}},
       fixed{"fixed", 1, true, {}}, displacement{"displacement", 3, false, {}}, velocity{"velocity", 3, false, {}};
+  DataArray point_displacement{"displacement", 3, false, {}, true}, point_velocity{"velocity", 3, false, {}, true};
 };
 
 template <int Dim>
@@ -53,8 +55,12 @@ void append_part(PolyData& data, BlockArrays& arrays, const Model<Dim>& model, c
   const int first_point = static_cast<int>(data.points.size());
   const Matrix<Dim> turn = matrix(motion.rotation);
   const Vector<Dim> centroid = body.reference + motion.displacement;
+  const Spin<Dim> spin = angular_velocity(body, motion);
   const auto add_point = [&](const Vector<Dim>& point) {
-    data.points.push_back(in_space(Vector<Dim>(model.origin + (centroid + turn * point))));
+    const Vector<Dim> arm = turn * point;
+    data.points.push_back(in_space(Vector<Dim>(model.origin + (centroid + arm))));
+    append<Dim>(arrays.point_displacement, motion.displacement + (arm - point));
+    append<Dim>(arrays.point_velocity, motion.velocity + cross(spin, arm));
   };
   std::vector<std::vector<int>> outlines;
   if (is_particle(part)) {
@@ -89,7 +95,7 @@ std::vector<std::string> names_of(const std::vector<Named>& list) {
   return names;
 }
 
-constexpr std::array kinds{"blocks", "contacts", "bolts", "linings"};
+constexpr std::array kinds{"blocks", "contacts", "force_lines", "bolts", "linings"};
 
 // whether every scene has frames of this kind
 bool always(const std::string& kind) {
@@ -145,7 +151,7 @@ void write_collections(const FrameSeries& series) {
 }  // namespace
 
 template <int Dim>
-PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double time) {
+PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double time, const JointSets& sets) {
   PolyData data;
   data.time = time;
   BlockArrays arrays;
@@ -154,7 +160,13 @@ PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double ti
 
   // in the plane a cell is a whole part: no single joint made it
   data.cell_data = {arrays.body, arrays.part};
-  if (Dim == 3) data.cell_data.push_back(arrays.joint);
+  if (Dim == 3) {
+    data.cell_data.push_back(arrays.joint);
+    DataArray set{"set", 1, true, {}};
+    for (const double joint : arrays.joint.values)
+      set.values.push_back(sets.set_of(static_cast<int>(joint)));
+    data.cell_data.push_back(std::move(set));
+  }
   data.cell_data.insert(data.cell_data.end(), {arrays.fixed, arrays.displacement, arrays.velocity});
 
   // what acts on each block from outside, by source; N
@@ -167,8 +179,12 @@ PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double ti
     data.cell_data.push_back(std::move(array));
   }
 
+  data.point_data = {arrays.point_displacement, arrays.point_velocity};
   data.names = {{"body_names", names_of(model.bodies)}};
-  if (Dim == 3) data.names.emplace_back("joint_names", names_of(model.joints));
+  if (Dim == 3) {
+    data.names.emplace_back("joint_names", names_of(model.joints));
+    data.names.emplace_back("set_names", sets.names);
+  }
   return data;
 }
 
@@ -221,6 +237,51 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
   }
   data.point_data = {body_a, body_b, properties, normal, force, overlap, area, slip, bond, mobilised};
   data.names = {{"property_names", names_of(model.properties)}};
+  return data;
+}
+
+template <int Dim>
+PolyData force_lines(const Model<Dim>& model, const State<Dim>& state, double time) {
+  struct Carried {
+    Vector<Dim> force = Vector<Dim>::Zero();
+    double normal = 0, shear = 0;
+    int contacts = 0;
+  };
+  std::map<std::pair<int, int>, Carried> pairs;
+  for (const Contact<Dim>& contact : state.contacts) {
+    if (!contact.touching()) continue;
+    Carried& carried = pairs[{model.parts[contact.part_a].body, model.parts[contact.part_b].body}];
+    const double normal = contact.force.dot(contact.geometry.normal);
+    carried.force += contact.force;
+    carried.normal += normal;
+    carried.shear += (contact.force - normal * contact.geometry.normal).norm();
+    ++carried.contacts;
+  }
+
+  PolyData data;
+  data.kind = PolyData::Cells::lines;
+  data.time = time;
+  DataArray body_a{"body_a", 1, true, {}}, body_b{"body_b", 1, true, {}}, contacts{"contacts", 1, true, {}},
+      force{"force", 3, false, {}, true}, normal{"normal_N", 1, false, {}, true}, shear{"shear_N", 1, false, {}, true},
+      magnitude{"magnitude_N", 1, false, {}, true};
+  for (const auto& [bodies, carried] : pairs) {
+    const int first = static_cast<int>(data.points.size());
+    data.cells.push_back({first, first + 1});
+    // points of its own for each line: a tube's radius is that of its points
+    for (const int body : {bodies.first, bodies.second}) {
+      data.points.push_back(
+          in_space(Vector<Dim>(model.origin + (model.bodies[body].reference + state.motions[body].displacement))));
+      magnitude.values.push_back(carried.force.norm());
+    }
+    body_a.values.push_back(bodies.first);
+    body_b.values.push_back(bodies.second);
+    contacts.values.push_back(carried.contacts);
+    append<Dim>(force, carried.force);
+    normal.values.push_back(carried.normal);
+    shear.values.push_back(carried.shear);
+  }
+  data.point_data = {magnitude};
+  data.cell_data = {body_a, body_b, contacts, force, normal, shear};
   return data;
 }
 
@@ -344,8 +405,10 @@ template <int Dim>
 void write_frame(FrameSeries& series, const Model<Dim>& model, const State<Dim>& state, double time) {
   if (series.times.empty()) prepare_folder(series.folder / "frames");
   const std::size_t frame = series.times.size();
-  write_file(series.folder / frame_file(series.name, "blocks", frame), vtp(block_faces(model, state, time)));
+  write_file(series.folder / frame_file(series.name, "blocks", frame),
+             vtp(block_faces(model, state, time, series.sets)));
   write_file(series.folder / frame_file(series.name, "contacts", frame), vtp(contact_points(model, state, time)));
+  write_file(series.folder / frame_file(series.name, "force_lines", frame), vtp(force_lines(model, state, time)));
   if (!model.bolts.empty())
     write_file(series.folder / frame_file(series.name, "bolts", frame), vtp(bolt_lines(model, state, time)));
   if constexpr (Dim == 2)
@@ -355,8 +418,10 @@ void write_frame(FrameSeries& series, const Model<Dim>& model, const State<Dim>&
   write_collections(series);  // last: they never name a file that is not there
 }
 
-template PolyData block_faces<2>(const Model<2>&, const State<2>&, double);
-template PolyData block_faces<3>(const Model<3>&, const State<3>&, double);
+template PolyData block_faces<2>(const Model<2>&, const State<2>&, double, const JointSets&);
+template PolyData block_faces<3>(const Model<3>&, const State<3>&, double, const JointSets&);
+template PolyData force_lines<2>(const Model<2>&, const State<2>&, double);
+template PolyData force_lines<3>(const Model<3>&, const State<3>&, double);
 template PolyData bolt_lines<2>(const Model<2>&, const State<2>&, double);
 template PolyData bolt_lines<3>(const Model<3>&, const State<3>&, double);
 template PolyData contact_points<2>(const Model<2>&, const State<2>&, double);

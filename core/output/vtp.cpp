@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "text/plain_text.hpp"
 
@@ -21,11 +22,27 @@ void append_number(Text out, double number, bool integer) {
     fmt::format_to(out, "{} ", number);
 }
 
+// by its size before it is made single: an overflow there is a trap
+void append_single(Text out, double number) {
+  using Single = std::numeric_limits<float>;
+  const double size = std::isfinite(number) ? std::abs(number) : 0;
+  if (size < Single::min() || size > Single::max())
+    fmt::format_to(out, "0 ");
+  else
+    fmt::format_to(out, "{} ", static_cast<float>(number));
+}
+
 void append_array(Text out, const DataArray& array) {
   fmt::format_to(out, "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n",
-                 array.integer ? "Int64" : "Float64", xml_escaped(array.name), array.components);
+                 array.integer  ? "Int64"
+                 : array.single ? "Float32"
+                                : "Float64",
+                 xml_escaped(array.name), array.components);
   for (std::size_t k = 0; k < array.values.size(); ++k) {
-    append_number(out, array.values[k], array.integer);
+    if (array.single)
+      append_single(out, array.values[k]);
+    else
+      append_number(out, array.values[k], array.integer);
     if ((k + 1) % array.components == 0) fmt::format_to(out, "\n");
   }
   fmt::format_to(out, "        </DataArray>\n");

@@ -16,6 +16,7 @@ struct DataArray {
   int components = 1;  // 3: a vector
   bool integer = false;
   std::vector<double> values;  // components × cells (or points)
+  bool single = false;         // written to single precision; what it cannot hold is 0
 };
 
 struct PolyData {

@@ -73,6 +73,22 @@ void add_joints(const Scene& scene, Model<Dim>& model) {
                             joint.kind == JointKind::construction});
 }
 
+// numbered as the joints first name them
+JointSets joint_sets_of(const Scene& scene) {
+  JointSets sets;
+  std::map<std::string, int> numbers;
+  for (const JointSpec& joint : scene.joints) {
+    int number = -1;
+    if (!joint.set.empty()) {
+      const auto [found, first] = numbers.try_emplace(joint.set, static_cast<int>(sets.names.size()));
+      if (first) sets.names.push_back(joint.set);
+      number = found->second;
+    }
+    sets.of_joint.push_back(number);
+  }
+  return sets;
+}
+
 double density_of(const Scene& scene, const std::optional<double>& own) {
   if (own) return *own;
   if (!scene.density)
@@ -444,6 +460,7 @@ Prepared<Dim> prepare(const Scene& scene) {
     if (const Node* level = accuracy->find("level")) prepared.accuracy_level = level->text;
   prepared.settings = scene.settings;
   prepared.output = scene.output;
+  prepared.joint_sets = joint_sets_of(scene);
 
   // the solids, numbered whatever the order they were stated in
   model.origin = find_origin<Dim>(scene);
