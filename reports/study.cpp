@@ -75,7 +75,6 @@ void report(const fs::path& study_file, const fs::path& reference_file, const fs
   if (!broken.empty()) throw std::runtime_error(broken);
 }
 
-// all studies in a folder beside each other
 std::vector<voussoir::reports::BudgetSet> budget_sets(const fs::path& cases) {
   std::vector<voussoir::reports::BudgetSet> sets;
   std::error_code error;
@@ -103,6 +102,7 @@ struct Compared {
   fs::path folder, case_outputs, budgets, style_folder;
 };
 
+// all studies in a folder beside each other
 void compare(const Compared& compared) {
   const auto& [folder, case_outputs, budgets, style_folder] = compared;
   using namespace voussoir::reports;

@@ -26,7 +26,7 @@ double bracket_of(const Value& value) {
   if (!value.bracket) return std::sqrt(2.0) * value.error_bar.value_or(0);
   double squares = *value.error_bar * *value.error_bar;
   for (const BudgetLine& line : value.budget)
-    if (!line.sensitivity) squares -= square_of(line);
+    squares -= square_of(line);
   return std::max(std::sqrt(std::max(squares, 0.0)), *value.bracket);
 }
 
