@@ -21,7 +21,8 @@ function(voussoir_case name)
 
   add_executable(case_${name} ${sources})
   target_link_libraries(case_${name} PRIVATE
-    voussoir_flags voussoir_traps voussoir_verification voussoir::core voussoir_reference ${arg_LIBS} GTest::gtest_main)
+    voussoir_flags voussoir_traps voussoir_verification voussoir::core voussoir_reference fmt::fmt ${arg_LIBS} GTest::gtest_main)
+  target_precompile_headers(case_${name} REUSE_FROM voussoir_case_headers)
   target_compile_definitions(case_${name} PRIVATE
     VOUSSOIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VOUSSOIR_CASE_DIR="${PROJECT_SOURCE_DIR}/cases/${name}")
 

@@ -1,3 +1,18 @@
+# Half of a test's compile time is reading the same headers: they are compiled once for the unit tests of core and app and
+# once for the cases, whose macros and optimisation differ. Every source still includes what it uses.
+set(VOUSSOIR_COMMON_HEADERS <Eigen/Dense> <algorithm> <filesystem> <functional> <map> <optional> <ranges> <span> <string> <vector>)
+function(voussoir_precompiled_tests name)
+  add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
+  target_link_libraries(${name} PRIVATE voussoir_flags GTest::gtest ${ARGN})
+  target_precompile_headers(${name} PRIVATE <gtest/gtest.h> ${VOUSSOIR_COMMON_HEADERS})
+endfunction()
+if(VOUSSOIR_BUILD_TESTS)
+  find_package(fmt REQUIRED)
+  voussoir_precompiled_tests(voussoir_unit_headers voussoir_core)
+  target_compile_options(voussoir_unit_headers PRIVATE $<$<CONFIG:Release>:-O1>)
+  voussoir_precompiled_tests(voussoir_case_headers voussoir_core voussoir_reference fmt::fmt)
+endif()
+
 # voussoir_test(<name> [LONG] LABEL <label> SOURCES <files…> LIBS <targets…>): one GoogleTest program, one CTest entry,
 # with floating-point traps on. With LONG, its test suites whose names end in Long are <name>.long (label long), which
 # only `ctest -C Long` runs.
@@ -12,6 +27,9 @@ function(voussoir_test name)
   # a test's own code need not be fast, and compiling it is what `make test` waits for
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${target} PRIVATE VOUSSOIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if("voussoir_core" IN_LIST arg_LIBS OR "voussoir_app" IN_LIST arg_LIBS)
+    target_precompile_headers(${target} REUSE_FROM voussoir_unit_headers)
+  endif()
   voussoir_test_entries(${name} ${target} ${CMAKE_CURRENT_BINARY_DIR} ${arg_LONG} ${arg_SOURCES})
   set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL})
 endfunction()

@@ -1,0 +1,1 @@
+// A target of precompiled headers must have a source.
