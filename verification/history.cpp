@@ -180,26 +180,39 @@ std::string describe(const Moved& moved, const std::string& version) {
 }
 
 std::string history_csv(const std::vector<PastVersion>& history, const Verdicts& verdicts) {
-  std::string text = "case,quantity,place,version,change,evaluations,moved\n";
+  std::string text = "case,quantity,place,version,change,moved\n";
   std::vector<std::map<Key, const PastRow*>> past;
   for (const PastVersion& version : history)
     past.push_back(by_key(version));
+  const auto line = [&](const std::string& name, const std::string& quantity, std::size_t place, double change,
+                        bool moved) {
+    text += csv_line({name, quantity, std::to_string(place), place < history.size() ? history[place].version : "now",
+                      csv_cell(change), moved ? "1" : "0"}) +
+            "\n";
+  };
+
+  std::map<std::string, std::vector<long long>> costs;  // of a case, by place
   for (const Row& row : verdicts.rows) {
-    if (row.check.by_the_clock || !std::isfinite(row.computed)) continue;
-    const double scale = std::max(std::abs(row.computed), tolerance_of(row));
-    const auto line = [&](std::size_t place, const std::string& version, double value, long long evaluations,
-                          bool moved) {
-      text += csv_line({row.case_name, row.check.quantity, std::to_string(place), version,
-                        csv_cell(scale > 0.0 ? (value - row.computed) / scale : value), std::to_string(evaluations),
-                        moved ? "1" : "0"}) +
-              "\n";
-    };
-    for (std::size_t place = 0; place < past.size(); ++place)
-      if (const auto found = past[place].find({row.case_name, row.check.quantity}); found != past[place].end())
-        line(place, history[place].version, found->second->value, found->second->contact_evaluations,
-             value_moved(found->second->value, row));
-    line(past.size(), "now", row.computed, row.cost.contact_evaluations, false);
+    auto& cost = costs.try_emplace(row.case_name, past.size() + 1).first->second;
+    cost.back() = std::max(cost.back(), row.cost.contact_evaluations);
+    for (std::size_t place = 0; place < past.size(); ++place) {
+      const auto found = past[place].find({row.case_name, row.check.quantity});
+      if (found == past[place].end()) continue;
+      cost[place] = std::max(cost[place], found->second->contact_evaluations);
+      if (row.check.by_the_clock || !std::isfinite(row.computed)) continue;
+      const double scale = std::max(std::abs(row.computed), tolerance_of(row));
+      const double change = found->second->value - row.computed;
+      line(row.case_name, row.check.quantity, place, scale > 0.0 ? change / scale : change,
+           value_moved(found->second->value, row));
+    }
+    if (!row.check.by_the_clock) line(row.case_name, row.check.quantity, past.size(), 0.0, false);
   }
+  for (const CaseStatus& status : verdicts.cases)
+    if (const auto found = costs.find(status.name); found != costs.end() && found->second.back() > 0)
+      for (std::size_t place = 0; place < found->second.size(); ++place)
+        if (const auto evaluations = static_cast<double>(found->second[place]); evaluations > 0.0)
+          line(status.name, history_cost, place, evaluations / static_cast<double>(found->second.back()) - 1.0,
+               found->second[place] != found->second.back());
   return text;
 }
 

@@ -53,9 +53,11 @@ std::vector<std::string> mark_announced(std::vector<Moved>& moved, std::string_v
 // "wedge: critical friction: 33.358 deg, was 33.371 in 0.1.0"
 std::string describe(const Moved& moved, const std::string& version);
 
-// For the drawing: case,quantity,place,version,change,evaluations,moved; place counts the versions from 0 and the
-// present is last. `change` is how far the value is from the present one, in parts of the present one, or of the
-// tolerance where that is larger; times by the clock are left out.
+// For the drawing: case,quantity,place,version,change,moved; place counts the versions from 0 and the present is last.
+// `change` is how far the value is from the present one, in parts of the present one, or of the tolerance where that is
+// larger; times by the clock are left out. The last rows, of the quantity `history_cost`, are each case's costliest
+// run.
+inline constexpr const char* history_cost = "contact evaluations of the costliest run";
 std::string history_csv(const std::vector<PastVersion>& history, const Verdicts& verdicts);
 
 }  // namespace voussoir::verification

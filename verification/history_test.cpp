@@ -101,12 +101,14 @@ TEST_F(History, StandsInTheTable) {
 
 TEST_F(History, IsDrawnWithItsMoves) {
   const CsvTable table = parse_csv(history_csv(read_history(folder), verdicts(30.02)));
-  ASSERT_EQ(table.rows.size(), 6u);  // two quantities at three places, without the time
+  ASSERT_EQ(table.rows.size(), 9u);  // two quantities and the cost at three places, without the time
   EXPECT_EQ(table.rows[0].cells[3].text, "0.9.0");
   EXPECT_NEAR(std::stod(table.rows[0].cells[4].text), -0.01 / 30.02, 1e-12);
-  EXPECT_EQ(table.rows[0].cells[6].text, "1");
-  EXPECT_EQ(table.rows[1].cells[6].text, "0");
+  EXPECT_EQ(table.rows[0].cells[5].text, "1");
+  EXPECT_EQ(table.rows[1].cells[5].text, "0");
   EXPECT_EQ(table.rows[2].cells[3].text, "now");
+  EXPECT_EQ(table.rows[6].cells[1].text, history_cost);
+  EXPECT_EQ(table.rows[6].cells[4].text, "0");
 }
 
 TEST_F(History, RefusesWhatIsNoHistory) {

@@ -33,10 +33,10 @@ void compare(Verdicts& verdicts, const fs::path& folder, const fs::path& changel
   verdicts.moved = moved_since(history.back(), verdicts);
   const auto idle = mark_announced(verdicts.moved, fs::exists(changelog) ? read_text(changelog) : "");
   for (const Moved& moved : verdicts.moved)
-    fmt::print("MOVED {}{}\n", describe(moved, verdicts.compared_with),
-               moved.announced ? " (announced)"
-                               : "; when that is meant, say so under Unreleased in CHANGELOG.md: "
-                                 "- Moved: `case`: `quantity`, since …");
+    fmt::print("MOVED {}{}\n", describe(moved, verdicts.compared_with), moved.announced ? " (announced)" : "");
+  if (!all_announced(verdicts))
+    fmt::print(
+        "What is meant to move is said under Unreleased in CHANGELOG.md: - Moved: `case`: `quantity`, since …\n");
   for (const std::string& line : idle)
     fmt::print("note: CHANGELOG.md announces what did not move since {}: {}\n", verdicts.compared_with, line);
 }
