@@ -119,6 +119,12 @@ void CaseReport::report(const std::string& quantity, const std::string& unit, do
   add({case_name_, shown, value, cost, current_commit()});
 }
 
+void CaseReport::report_time(const std::string& quantity, const std::string& unit, double value,
+                             const std::string& note) {
+  report(quantity, unit, value, note);
+  rows_.back().check.by_the_clock = true;
+}
+
 void CaseReport::reference(const std::string& quantity, double value, const std::string& unit) {
   if (quantity.empty() || unit.empty() || !std::isfinite(value))
     throw std::invalid_argument("a reference number needs a quantity, a unit and a finite value");

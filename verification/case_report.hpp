@@ -36,6 +36,9 @@ class CaseReport {
   void report(const std::string& quantity, const std::string& unit, double value, const std::string& note,
               Cost cost = {});
 
+  // The same of a time, or a ratio of times, measured by a clock: it is not compared with earlier versions.
+  void report_time(const std::string& quantity, const std::string& unit, double value, const std::string& note);
+
   // The number that this case's study measures its error against: <case_output>/reference.json.
   void reference(const std::string& quantity, double value, const std::string& unit);
 

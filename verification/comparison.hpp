@@ -30,7 +30,8 @@ struct Check {
   std::string source;  // author, year, equation or page; for an identity, its name
   double expected = 0.0;
   Tolerance tolerance;
-  std::string because;  // why the tolerance is what it is: derived, not tuned
+  std::string because;        // why the tolerance is what it is: derived, not tuned
+  bool by_the_clock = false;  // of kind reported: a time, which no two runs share
 };
 
 // Half of the accepted interval: absolute + relative * |expected|, in the unit of the check.

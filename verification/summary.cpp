@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "verification/verdicts.hpp"
+#include "verification/history.hpp"
 
 namespace {
 
@@ -24,21 +24,42 @@ std::string commit_in(const fs::path& file) {
   return commit.empty() ? "unknown" : commit;
 }
 
+// What has moved since the newest version of the history, and the drawing's data.
+void compare(Verdicts& verdicts, const fs::path& folder, const fs::path& changelog, const fs::path& out) {
+  const std::vector<PastVersion> history = read_history(folder);
+  write_atomically(out / "history.csv", history_csv(history, verdicts));
+  if (history.empty()) return;
+  verdicts.compared_with = history.back().version;
+  verdicts.moved = moved_since(history.back(), verdicts);
+  const auto idle = mark_announced(verdicts.moved, fs::exists(changelog) ? read_text(changelog) : "");
+  for (const Moved& moved : verdicts.moved)
+    fmt::print("MOVED {}{}\n", describe(moved, verdicts.compared_with), moved.announced ? " (announced)" : "");
+  if (!all_announced(verdicts))
+    fmt::print(
+        "What is meant to move is said under Unreleased in CHANGELOG.md: - Moved: `case`: `quantity`, since …\n");
+  for (const std::string& line : idle)
+    fmt::print("note: CHANGELOG.md announces what did not move since {}: {}\n", verdicts.compared_with, line);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Gathers the verdict rows of all cases into one table."};
   std::vector<std::string> cases, not_modelled;
-  fs::path rows, out, commit_file;
+  fs::path rows, out, commit_file, history, changelog, keep;
   app.add_option("--cases", cases, "the cases that must have run")->delimiter(',')->required();
   app.add_option("--not-modelled", not_modelled, "cases that are listed but not modelled yet")->delimiter(',');
   app.add_option("--rows", rows, "folder with <case>.json")->required();
   app.add_option("--out", out, "folder for verdicts.md, verdicts.csv and verdicts.json")->required();
   app.add_option("--commit-file", commit_file, "file that holds the commit's name");
+  app.add_option("--history", history, "folder of earlier versions' rows, to compare with");
+  app.add_option("--changelog", changelog, "file that says which values are meant to move");
+  app.add_option("--keep", keep, "write the rows as a version of the history into this file, when all is good");
   CLI11_PARSE(app, argc, argv);
 
   try {
-    const Verdicts verdicts = collect(rows, cases, not_modelled, commit_in(commit_file));
+    Verdicts verdicts = collect(rows, cases, not_modelled, commit_in(commit_file));
+    if (!history.empty()) compare(verdicts, history, changelog, out);
     write_atomically(out / "verdicts.md", verdict_markdown(verdicts));
     write_atomically(out / "verdicts.csv", verdict_csv(verdicts));
     write_atomically(out / "verdicts.json", verdict_json(verdicts).dump(1) + "\n");
@@ -55,7 +76,8 @@ int main(int argc, char** argv) {
     for (const CaseStatus& status : verdicts.cases)
       if (status.state == CaseState::not_run) fmt::print("NOT RUN {}\n", status.name);
     fmt::print("{}: {}\n", one_line(verdicts), (out / "verdicts.md").string());
-    return all_good(verdicts) ? 0 : 1;
+    if (!keep.empty()) write_atomically(keep, history_lines(verdicts));
+    return all_good(verdicts) && all_announced(verdicts) ? 0 : 1;
   } catch (const std::exception& problem) {
     fmt::print(stderr, "voussoir_summary: {}\n", problem.what());
     return 2;

@@ -69,6 +69,7 @@ json to_json(const Row& row) {
             {"contact_evaluations", row.cost.contact_evaluations},
             {"seconds", row.cost.seconds},
             {"commit", row.commit}};
+  if (check.by_the_clock) text["by_the_clock"] = true;
   if (check.kind == Kind::reported) return text;
   text["expected"] = check.expected;
   text["error"] = number(error_of(row));
@@ -90,6 +91,7 @@ Row row_from_json(const json& text) {
     text.at("because").get_to(row.check.because);
     text.at("commit").get_to(row.commit);
     row.check.kind = kind_of(text.at("kind").get<std::string>());
+    row.check.by_the_clock = text.value("by_the_clock", false);
     row.computed = number_at(text, "computed");
     row.cost = {text.at("contact_evaluations").get<long long>(), number_at(text, "seconds")};
     if (row.check.kind != Kind::reported) {

@@ -50,7 +50,7 @@ void read_listed_case(const fs::path& folder, const std::string& name, Verdicts&
 
 Verdicts collect(const fs::path& folder, const std::vector<std::string>& cases,
                  const std::vector<std::string>& not_modelled, const std::string& commit) {
-  Verdicts verdicts{commit, {}, {}, {}};
+  Verdicts verdicts{commit, {}, {}, {}, {}, {}};
   std::set<std::string> listed;
   for (const std::string& name : cases) {
     if (listed.insert(name).second)
@@ -93,10 +93,34 @@ bool all_good(const Verdicts& verdicts) {
   return counts.failed == 0 && counts.not_run == 0 && counts.passed > 0;
 }
 
+const Moved* move_of(const Verdicts& verdicts, const Row& row) {
+  for (const Moved& moved : verdicts.moved)
+    if (moved.case_name == row.case_name && moved.quantity == row.check.quantity) return &moved;
+  return nullptr;
+}
+
+std::string show_moved(const Moved* moved) {
+  if (!moved) return "";
+  if (moved->gone) return "gone, was " + show(moved->before);
+  std::string text = moved->value ? fmt::format("was {:.9g}", moved->before) : "";
+  if (moved->cost)
+    text += fmt::format("{}{:+d} evaluations", text.empty() ? "" : ", ",
+                        moved->evaluations_now - moved->evaluations_before);
+  return text;
+}
+
+bool all_announced(const Verdicts& verdicts) {
+  return std::all_of(verdicts.moved.begin(), verdicts.moved.end(), [](const Moved& moved) { return moved.announced; });
+}
+
 std::string one_line(const Verdicts& verdicts) {
   const Counts counts = count(verdicts);
-  return fmt::format("{} passed, {} failed, {} not run", plural(counts.passed, "check", "checks"), counts.failed,
-                     plural(counts.not_run, "case", "cases"));
+  std::string text = fmt::format("{} passed, {} failed, {} not run", plural(counts.passed, "check", "checks"),
+                                 counts.failed, plural(counts.not_run, "case", "cases"));
+  if (!verdicts.moved.empty())
+    text += fmt::format(", {} moved since {}", plural(static_cast<int>(verdicts.moved.size()), "row", "rows"),
+                        verdicts.compared_with);
+  return text;
 }
 
 const std::vector<VerdictGroup>& verdict_groups() {
@@ -157,6 +181,16 @@ std::string verdict_markdown(const Verdicts& verdicts) {
       text += fmt::format("| {} | **FAILED** {} |\n", failure.case_name, cell(failure.message));
   }
 
+  std::string gone;
+  for (const Moved& moved : verdicts.moved)
+    if (moved.gone)
+      gone += fmt::format("| {} | {} | {} |\n", moved.case_name, cell(moved.quantity), show_moved(&moved));
+  if (!gone.empty())
+    text += fmt::format("\n## Rows of {} that are gone\n\n| case | quantity | what |\n|---|---|---|\n",
+                        verdicts.compared_with) +
+            gone;
+  const std::string since = verdicts.compared_with.empty() ? "moved" : "moved since " + verdicts.compared_with;
+
   for (const VerdictGroup& group : verdict_groups()) {
     const bool judged = group.kinds.front() != Kind::reported;
     std::string lines;
@@ -164,20 +198,21 @@ std::string verdict_markdown(const Verdicts& verdicts) {
       if (!belongs_to(row, group)) continue;
       const Check& check = row.check;
       if (judged)
-        lines += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.3g} |\n", row.case_name,
+        lines += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.3g} | {} |\n", row.case_name,
                              cell(check.quantity), cell(check.unit), name_of(check.kind), show_expected(check),
                              show(row.computed), show(error_of(row)), show(width(check.expected, check.tolerance)),
                              fmt::format("{:.3g}", margin(row.computed, check)), passed(row) ? "passed" : "**FAILED**",
-                             row.cost.contact_evaluations, row.cost.seconds);
+                             row.cost.contact_evaluations, row.cost.seconds, show_moved(move_of(verdicts, row)));
       else
-        lines += fmt::format("| {} | {} | {} | {} | {} |\n", row.case_name, cell(check.quantity), cell(check.unit),
-                             show(row.computed), cell(check.because));
+        lines += fmt::format("| {} | {} | {} | {} | {} | {} |\n", row.case_name, cell(check.quantity), cell(check.unit),
+                             show(row.computed), cell(check.because), show_moved(move_of(verdicts, row)));
     }
     if (lines.empty()) continue;
     text += fmt::format("\n## {}\n\n{}\n\n", group.title, group.explanation);
     text += judged ? "| case | quantity | unit | kind | expected | computed | error | tolerance | margin | verdict | "
-                     "contact evaluations | seconds |\n|---|---|---|---|--:|--:|--:|--:|--:|---|--:|--:|\n"
-                   : "| case | quantity | unit | value | note |\n|---|---|---|--:|---|\n";
+                     "contact evaluations | seconds | " +
+                         since + " |\n|---|---|---|---|--:|--:|--:|--:|--:|---|--:|--:|---|\n"
+                   : "| case | quantity | unit | value | note | " + since + " |\n|---|---|---|--:|---|---|\n";
     text += lines;
   }
   return text;
@@ -211,6 +246,20 @@ json verdict_json(const Verdicts& verdicts) {
     text["rows"].push_back(to_json(row));
   for (const Failure& failure : verdicts.failures)
     text["failures"].push_back({{"case", failure.case_name}, {"message", failure.message}});
+  text["compared_with"] = verdicts.compared_with;
+  text["moved"] = json::array();
+  for (const Moved& moved : verdicts.moved)
+    text["moved"].push_back({{"case", moved.case_name},
+                             {"quantity", moved.quantity},
+                             {"unit", moved.unit},
+                             {"before", moved.before},
+                             {"now", moved.now},
+                             {"evaluations_before", moved.evaluations_before},
+                             {"evaluations_now", moved.evaluations_now},
+                             {"value", moved.value},
+                             {"cost", moved.cost},
+                             {"gone", moved.gone},
+                             {"announced", moved.announced}});
   return text;
 }
 
@@ -229,6 +278,14 @@ Verdicts verdicts_from_json(const json& text) {
       verdicts.rows.push_back(row_from_json(row));
     for (const json& entry : text.at("failures"))
       verdicts.failures.push_back({entry.at("case").get<std::string>(), entry.at("message").get<std::string>()});
+    text.at("compared_with").get_to(verdicts.compared_with);
+    for (const json& entry : text.at("moved"))
+      verdicts.moved.push_back({entry.at("case").get<std::string>(), entry.at("quantity").get<std::string>(),
+                                entry.at("unit").get<std::string>(), entry.at("before").get<double>(),
+                                entry.at("now").get<double>(), entry.at("evaluations_before").get<long long>(),
+                                entry.at("evaluations_now").get<long long>(), entry.at("value").get<bool>(),
+                                entry.at("cost").get<bool>(), entry.at("gone").get<bool>(),
+                                entry.at("announced").get<bool>()});
     return verdicts;
   } catch (const json::exception& problem) {
     throw std::runtime_error(fmt::format("the verdicts are incomplete: {}", problem.what()));

@@ -22,11 +22,25 @@ struct Failure {
   std::string message;
 };
 
+// How a row differs from the same of an earlier version (verification/history.hpp).
+struct Moved {
+  std::string case_name;
+  std::string quantity;
+  std::string unit;
+  double before = 0.0, now = 0.0;
+  long long evaluations_before = 0, evaluations_now = 0;
+  bool value = false, cost = false;  // what has moved
+  bool gone = false;                 // no such row any more
+  bool announced = false;            // the changelog says so
+};
+
 struct Verdicts {
   std::string commit;
   std::vector<CaseStatus> cases;  // in the order of the list
   std::vector<Row> rows;          // by case in the same order
   std::vector<Failure> failures;
+  std::string compared_with;  // the version that `moved` is against; empty when there is none
+  std::vector<Moved> moved;
 };
 
 struct Counts {
@@ -45,7 +59,16 @@ Counts count(const Verdicts& verdicts);
 // False when anything failed, a case did not run, or nothing was checked at all.
 bool all_good(const Verdicts& verdicts);
 
-// "12 checks passed, 0 failed, 1 case not run"
+// The row's move since that version; none when it stayed.
+const Moved* move_of(const Verdicts& verdicts, const Row& row);
+
+// What a table says of it: "", "was 33.4", "42 evaluations more", …
+std::string show_moved(const Moved* moved);
+
+// Whether the changelog tells of all moves.
+bool all_announced(const Verdicts& verdicts);
+
+// "12 checks passed, 0 failed, 1 case not run", and how many moved, if any
 std::string one_line(const Verdicts& verdicts);
 
 std::string verdict_markdown(const Verdicts& verdicts);

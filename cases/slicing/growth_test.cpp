@@ -209,11 +209,11 @@ void study(CaseReport& report, const Growth& growth) {
   if (growth.culled_too > 0) {
     report.report(of + "linear programs without culling over those with it", "1", programs_saved,
                   fmt::format("at {} blocks", columns[2][growth.culled_too - 1]));
-    report.report(of + "time without culling over time with it", "1", seconds_saved,
+    report.report_time(of + "time without culling over time with it", "1", seconds_saved,
                   fmt::format("at {} blocks; on this machine", columns[2][growth.culled_too - 1]));
   }
   report.report(of + "blocks", "1", columns[2].back(), "the largest of these runs");
-  report.report(of + "time", "s", columns[3].back(), "one thread, vertices and mass included; on this machine");
+  report.report_time(of + "time", "s", columns[3].back(), "one thread, vertices and mass included; on this machine");
 }
 
 TEST(SlicingGrowth, ProgramsGrowAsTheNumberOfBlocks) {

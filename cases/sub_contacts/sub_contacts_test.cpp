@@ -170,7 +170,7 @@ void measure(CaseReport& report, const std::string& file) {
       judge(report, "spin stiffness" + name, 1 - 1.0 / (along * along), measured_to,
             "each cell lacks its own spin, which together is 1/n² of the face's", s.spin);
     if (Dim == 3) report.report("spin strength" + name, "1", s.spin_strength, "of the distributed joint");
-    report.report("contact in a step" + name, "ns", time, "processor time, fastest of twenty rounds of this run");
+    report.report_time("contact in a step" + name, "ns", time, "processor time, fastest of twenty rounds of this run");
     // what a logarithmic axis can show: rounding stands at 1e-8
     const auto error = [](double fraction) { return std::max(1e-8, std::abs(fraction - 1)); };
     const std::array row{static_cast<double>(along),
@@ -206,7 +206,7 @@ double measure_whole(CaseReport& report) {
     judge(report, "spin strength" + name, 1, tolerance, because, s.spin_strength);
   }
   const double time = step_nanoseconds<Dim>(whole_faces);
-  report.report("contact in a step" + name, "ns", time, "processor time, fastest of twenty rounds of this run");
+  report.report_time("contact in a step" + name, "ns", time, "processor time, fastest of twenty rounds of this run");
   return time;
 }
 
