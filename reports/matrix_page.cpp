@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "reports/html.hpp"
 #include "reports/verdict_tables.hpp"
@@ -19,12 +20,15 @@ std::string join(const std::vector<std::string>& items, const char* between) {
   return text;
 }
 
-// a long name may break before its parts
+// a long name may break after a sign between its parts, and before a capital
 std::string code(const std::string& text) {
   std::string broken;
-  for (const char character : text)
-    broken += (character == '/' || character == '.' || character == '_') ? fmt::format("{}<wbr>", character)
-                                                                         : escape(std::string(1, character));
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const bool capital = std::isupper(static_cast<unsigned char>(text[k]));
+    if (capital && k > 0 && std::islower(static_cast<unsigned char>(text[k - 1]))) broken += "<wbr>";
+    broken += escape(std::string(1, text[k]));
+    if (text[k] == '/' || text[k] == '.' || text[k] == '_') broken += "<wbr>";
+  }
   return "<code>" + broken + "</code>";
 }
 

@@ -106,7 +106,7 @@ TEST(ThreeWays, LowerFrictionToTheSameAngle) {
       report.record({fmt::format("critical friction, {}, by {}", name, way),
                      "deg",
                      Kind::limit,
-                     "bisection",
+                     "comparison: bisection",
                      expected.value,
                      {*expected.error_bar + *found.error_bar + path_dependence, 0},
                      "both error bars, and 0.1 for the loading path"},
