@@ -106,11 +106,12 @@ CheckSpreads spreads_of(const Verdicts& verdicts) {
 }
 
 std::string checks_csv(const Verdicts& verdicts) {
-  std::string text = "group,case,place,expected,computed,over_tolerance\n";
+  std::string text = "group,case,side,place,expected,computed,over_tolerance\n";
   std::array<std::map<std::string, int>, groups> places, seen;
   for (const Row& row : verdicts.rows) {
     const auto group = group_of(row);
     if (!group) continue;
+    const char* side = row.check.tolerance.bound == Bound::both ? "both" : "one";
     std::optional<double> place, expected, computed, error = over_tolerance(row);
     if (error) {
       const int next = static_cast<int>(places[*group].size()) + 1;
@@ -122,7 +123,7 @@ std::string checks_csv(const Verdicts& verdicts) {
       expected = std::abs(row.check.expected);
       computed = std::abs(row.computed);
     }
-    text += csv_line({verdict_groups()[*group].title, row.case_name, csv_cell(place), csv_cell(expected),
+    text += csv_line({verdict_groups()[*group].title, row.case_name, side, csv_cell(place), csv_cell(expected),
                       csv_cell(computed), csv_cell(error)}) +
             "\n";
   }
@@ -141,9 +142,8 @@ std::string checks_cases_csv(const CheckSpreads& spreads) {
 
 std::string checks_markdown(const CheckSpreads& spreads) {
   std::string text =
-      "![Computed against expected, all checks whose numbers are not zero, in the units of each, without their signs. "
-      "On "
-      "the line they agree.](checks_values.svg)\n\n"
+      "![Computed against expected, of all checks whose numbers are not zero, in the unit of each, without their signs. "
+      "On the line they agree; an inequality may lie on its side of it.](checks_values.svg)\n\n"
       "![Error over tolerance, a point a check, case by case: within ±1 a check passes. The black mark is the mean of "
       "the case's checks, its bar their scatter. One-sided checks, and those that must agree to the last digit, are "
       "left out.](checks_errors.svg)\n\n"

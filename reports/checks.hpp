@@ -41,7 +41,7 @@ struct CheckSpreads {
 };
 CheckSpreads spreads_of(const verification::Verdicts& verdicts);
 
-// For gnuplot, a check a line: group, case, place (of the case among the group's, from 1, a little off it so that
+// For gnuplot, a check a line: group, case, side (both, or one of an inequality), place (of the case among the group's, from 1, a little off it so that
 // points of one case do not hide each other), expected and computed (nothing where logarithmic axes have no place for
 // them), over_tolerance (nothing where it has none; what lies beyond ±1.4 is drawn there).
 std::string checks_csv(const verification::Verdicts& verdicts);

@@ -68,14 +68,14 @@ TEST(Checks, VerificationAndValidationStandApart) {
 
 TEST(Checks, PointsAreForLogarithmicAxesAndClampedAtTheEdge) {
   EXPECT_EQ(checks_csv(some()),
-            "group,case,place,expected,computed,over_tolerance\n"
-            "Verification,wedge,0.76,10,10.5,0.5\n"
-            "Verification,wedge,1,10,9.5,0.5\n"
-            "Verification,slump,1.76,,,0.25\n"
-            "Verification,slump,,3,2,\n"
-            "Verification,slump,,7,7,\n"
-            "Validation,tunnel,0.76,100,130,1.4\n"
-            "Validation,tunnel,,,,\n");
+            "group,case,side,place,expected,computed,over_tolerance\n"
+            "Verification,wedge,both,0.76,10,10.5,0.5\n"
+            "Verification,wedge,both,1,10,9.5,0.5\n"
+            "Verification,slump,both,1.76,,,0.25\n"
+            "Verification,slump,one,,3,2,\n"
+            "Verification,slump,both,,7,7,\n"
+            "Validation,tunnel,both,0.76,100,130,1.4\n"
+            "Validation,tunnel,both,,,,\n");
   EXPECT_EQ(checks_cases_csv(spreads_of(some())),
             "group,place,mean,deviation\nVerification,1,0.5,0\nVerification,2,0.25,0\nValidation,1,3,0\n");
 }

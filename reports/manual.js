@@ -8,9 +8,10 @@
 
   // what can be found: where it is, its name, and what its kind is called
   const places = [];
-  const add = (element, name, kind) => {
+  const add = (element, name, kind, besides = "") => {
     if (!element.id) element.id = "place-" + places.length;
-    places.push({ id: element.id, name: name.trim(), kind, text: (name + " " + element.textContent).toLowerCase() });
+    const text = [name, besides, element.textContent].join(" ").toLowerCase();
+    places.push({ id: element.id, name: name.trim(), kind, text });
   };
   for (const section of document.querySelectorAll("main > section")) {
     const title = section.querySelector("h2");
@@ -18,23 +19,31 @@
     const name = section.querySelector(".case-name");
     add(title, name ? name.textContent + ": " + title.textContent : title.textContent, name ? "case" : "page");
   }
-  for (const row of document.querySelectorAll("#scene-keys tbody tr")) {
-    const key = row.querySelector("td code");
-    if (key) add(row, key.textContent, "key");
+  // a key belongs to the tables that the heading above it names, and is found as table.key too
+  let tables = [];
+  for (const element of document.querySelectorAll("#scene-keys h3, #scene-keys tbody tr")) {
+    if (element.tagName === "H3") {
+      tables = [...element.querySelectorAll("code")].map((code) => code.textContent.replace(/[[\]]/g, ""));
+      continue;
+    }
+    const key = element.querySelector("td code");
+    if (!key) continue;
+    const name = tables.length ? tables[0] + "." + key.textContent : key.textContent;
+    add(element, name, "key", tables.map((table) => table + "." + key.textContent).join(" "));
   }
   for (const row of document.querySelectorAll("table.equations tbody tr")) {
     const cells = row.querySelectorAll("td");
     add(row, "Eq. " + cells[0].textContent + " " + cells[1].firstChild.textContent, "equation");
   }
 
-  // every word must be there; names come before texts
+  // every word must be there; names come before texts, short names before long
   const find = () => {
     const words = box.value.toLowerCase().split(/\s+/).filter((word) => word);
     list.replaceChildren();
     if (!words.length) return;
     const named = (place) => words.every((word) => place.name.toLowerCase().includes(word));
     const hits = places.filter((place) => words.every((word) => place.text.includes(word)));
-    hits.sort((a, b) => named(b) - named(a));
+    hits.sort((a, b) => named(b) - named(a) || a.name.length - b.name.length);
     for (const place of hits.slice(0, most)) {
       const link = document.createElement("a");
       link.href = "#" + place.id;

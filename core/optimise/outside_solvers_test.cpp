@@ -160,6 +160,10 @@ void expect_aligned(const Vector<Dim>& n) {
   EXPECT_LT((turn.col(Dim - 1) - n).norm(), 1e-15) << n.transpose();
   EXPECT_LT((turn * turn.transpose() - Matrix<Dim>::Identity()).norm(), 4e-15) << n.transpose();
   EXPECT_NEAR(turn.determinant(), 1, 4e-15);
+  if constexpr (Dim == 3) {  // about the axis that is normal to both, and no other
+    const Vector<3> axis = Vector<3>::UnitZ().cross(n);
+    EXPECT_LT((turn * axis - axis).norm(), 4e-15) << n.transpose();
+  }
 }
 
 // Eqs 3.39-3.44
