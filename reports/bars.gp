@@ -6,7 +6,6 @@ set logscale xy
 set format xy '10^{%T}'
 set xlabel 'true error (deg)'
 set ylabel 'error bar of the budget (deg)'
-set key bottom right
 least = 1e-5
 set xrange [least:*]
 set yrange [*:*]

@@ -90,6 +90,10 @@ Spread spread_of(const std::vector<double>& values) {
   return spread;
 }
 
+std::string in_words(const Spread& spread) {
+  return fmt::format("bias {}, scatter {}", number(spread.mean), number(spread.deviation));
+}
+
 std::vector<std::string> CheckSpreads::cases(int group) const {
   std::vector<std::string> names;
   for (const CaseSpread& of_case : groups[group].by_case)
@@ -142,7 +146,8 @@ std::string checks_cases_csv(const CheckSpreads& spreads) {
 
 std::string checks_markdown(const CheckSpreads& spreads) {
   std::string text =
-      "![Computed against expected, of all checks whose numbers are not zero, in the unit of each, without their signs. "
+      "![Computed against expected, of all checks whose numbers are not zero, in the unit of each, without their "
+      "signs. "
       "On the line they agree; an inequality may lie on its side of it.](checks_values.svg)\n\n"
       "![Error over tolerance, a point a check, case by case: within ±1 a check passes. The black mark is the mean of "
       "the case's checks, its bar their scatter. One-sided checks, and those that must agree to the last digit, are "

@@ -14,6 +14,7 @@ struct Spread {
   double mean = 0, deviation = 0;  // the deviation of a sample, n - 1
 };
 Spread spread_of(const std::vector<double>& values);
+std::string in_words(const Spread& spread);  // "bias 0.039, scatter 0.23"
 
 struct CaseSpread {
   std::string case_name;
@@ -41,9 +42,10 @@ struct CheckSpreads {
 };
 CheckSpreads spreads_of(const verification::Verdicts& verdicts);
 
-// For gnuplot, a check a line: group, case, side (both, or one of an inequality), place (of the case among the group's, from 1, a little off it so that
-// points of one case do not hide each other), expected and computed (nothing where logarithmic axes have no place for
-// them), over_tolerance (nothing where it has none; what lies beyond ±1.4 is drawn there).
+// For gnuplot, a check a line: group, case, side (both, or one of an inequality), place (of the case among the group's,
+// from 1, a little off it so that points of one case do not hide each other), expected and computed (nothing where
+// logarithmic axes have no place for them), over_tolerance (nothing where it has none; what lies beyond ±1.4 is drawn
+// there).
 std::string checks_csv(const verification::Verdicts& verdicts);
 // group, place, mean and deviation of each case
 std::string checks_cases_csv(const CheckSpreads& spreads);

@@ -1,5 +1,5 @@
 # All checks, error over tolerance, case by case. draw.sh passes: points (checks.csv), means (checks_cases.csv), verification
-# and validation (the cases of each, as words).
+# and validation (the cases of each, as words), verification_spread and validation_spread (bias and scatter of each).
 load style
 upper = words(verification)
 lower = words(validation)
@@ -25,7 +25,7 @@ set bmargin at screen 1 - (top + row * (upper + 0.4)) / height
 set yrange [upper + 0.7 : 0.3]
 set ytics scale 0 () noenhanced
 set for [i=1:upper] ytics add (word(verification, i) i)
-set title 'Verification' offset 0, -0.5
+set title 'Verification: '.verification_spread offset 0, -0.5
 plot points using (of('Verification', 'over_tolerance')):'place' with points pt 7 ps 0.35 lc rgb '#0072b2' title 'a check', \
      means using (of('Verification', 'mean')):'place':'deviation' @mean title 'mean and scatter of a case'
 set key off
@@ -34,8 +34,8 @@ set bmargin at screen bottom / height
 set yrange [lower + 0.7 : 0.3]
 set ytics scale 0 () noenhanced
 set for [i=1:lower] ytics add (word(validation, i) i)
-set title 'Validation'
+set title 'Validation: '.validation_spread
 set xlabel '(computed − expected) / tolerance'
-plot points using (of('Validation', 'over_tolerance')):'place' with points pt 4 ps 0.5 lc rgb '#d55e00', \
+plot points using (of('Validation', 'over_tolerance')):'place' with points pt 4 ps 0.6 lw 1.5 lc rgb '#d55e00', \
      means using (of('Validation', 'mean')):'place':'deviation' @mean
 unset multiplot

@@ -41,6 +41,7 @@ TEST(Checks, SpreadIsMeanAndSampleDeviation) {
   const Spread two = spread_of({1, 3});
   EXPECT_EQ(two.mean, 2);
   EXPECT_DOUBLE_EQ(two.deviation, std::sqrt(2.0));
+  EXPECT_EQ(in_words(two), "bias 2, scatter 1.4");
 }
 
 TEST(Checks, VerificationAndValidationStandApart) {

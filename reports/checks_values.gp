@@ -1,4 +1,4 @@
-# All checks, computed against expected. draw.sh passes: points (checks.csv); means, verification and validation are not used here.
+# All checks, computed against expected. draw.sh passes: points (checks.csv), and what only checks_errors.gp needs.
 load style
 set terminal svg size 760,420
 set output out
@@ -33,6 +33,6 @@ set rmargin at screen 0.98
 unset ylabel
 set title 'Validation'
 plot x with lines lw 1 lc rgb '#808080' notitle, \
-     points using (of('Validation', 'both')):'computed' with points pt 4 ps 0.6 lc rgb '#d55e00' title 'a check', \
+     points using (of('Validation', 'both')):'computed' with points pt 4 ps 0.6 lw 1.5 lc rgb '#d55e00' title 'a check', \
      points using (of('Validation', 'one')):'computed' with points pt 6 ps 0.6 lc rgb '#404040' title 'an inequality'
 unset multiplot

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -83,7 +82,7 @@ void add_matrix(const Sources& sources, std::vector<Part>& parts) {
     parts.push_back({"By tests", "thesis-cases", "The thesis's cases", thesis_page(matrix)});
     parts.push_back({"By tests", "promises", "Promises", promises_page(matrix)});
     parts.push_back({"By tests", "grounds", "What checks rest on", grounds_page(matrix, sources.verdicts)});
-  } catch (const std::runtime_error& problem) {
+  } catch (const std::exception& problem) {
     sources.missing.push_back(fmt::format("equations by tests: {}", problem.what()));
     parts.push_back({"By tests", "equations", "Equations",
                      fmt::format("<section class=\"case\" id=\"equations\">\n<h2>Equations by tests</h2>\n<p "

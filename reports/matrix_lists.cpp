@@ -27,6 +27,13 @@ constexpr std::array chapters{std::pair{"3", 55}, std::pair{"4", 18}, std::pair{
                               std::pair{"E", 2},  std::pair{"F", 8},  std::pair{"G", 3},  std::pair{"H", 6},
                               std::pair{"I", 4}};
 
+// the number of a chapter's last equation; 0 of what is none
+int last_of(std::string_view chapter) {
+  for (const auto& [name, last] : chapters)
+    if (chapter == name) return last;
+  return 0;
+}
+
 [[noreturn]] void refuse(const fs::path& file, long line, const std::string& problem) {
   throw std::runtime_error(fmt::format("{}:{}: {}", file.filename().string(), line, problem));
 }
@@ -138,14 +145,13 @@ std::vector<Equation> read_equations(const fs::path& list, const fs::path& formu
   const auto formulas = read_formulas(formula_file);
   std::vector<Equation> equations;
   for (const auto& [chapter, node] : whole) {
-    const auto known =
-        std::find_if(chapters.begin(), chapters.end(), [&](const auto& c) { return chapter.str() == c.first; });
-    if (known == chapters.end() || !node.is_table())
+    const int last = last_of(chapter.str());
+    if (last == 0 || !node.is_table())
       refuse(list, line_of(node), fmt::format("{} is no chapter of the thesis with numbered equations", chapter.str()));
     for (const auto& [count, table] : *node.as_table()) {
       const std::string number = fmt::format("{}.{}", chapter.str(), count.str());
       const bool whole_number = count.str().find_first_not_of("0123456789") == std::string_view::npos;
-      if (!whole_number || !table.is_table() || std::stoi(std::string(count.str())) > known->second)
+      if (!whole_number || !table.is_table() || std::stoi(std::string(count.str())) > last)
         refuse(list, line_of(table), fmt::format("the thesis has no Eq. {}", number));
     }
   }

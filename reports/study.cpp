@@ -85,7 +85,7 @@ struct Compared {
 
 // all studies in a folder beside each other
 void compare(const Compared& compared) {
-  const auto& [folder, case_outputs, budgets, style_folder] = compared;
+  const fs::path &folder = compared.folder, &style_folder = compared.style_folder;
   using namespace voussoir::reports;
   const auto studies = parts_of<CaseStudy>(folder, "study.json");
   const auto drawn = [&](const std::string& name, const std::vector<std::string>& cases) {
@@ -95,7 +95,7 @@ void compare(const Compared& compared) {
   };
   write_atomically(folder / "trade.csv", trade_csv(studies));
   drawn("trade", compared_cases(studies));
-  const std::vector<BudgetSet> sets = budget_sets(case_outputs);
+  const std::vector<BudgetSet> sets = budget_sets(compared.case_outputs);
   write_atomically(folder / "bars.csv", bars_csv(sets));
   std::vector<std::string> cases;
   for (const BudgetSet& set : sets)
@@ -103,7 +103,7 @@ void compare(const Compared& compared) {
   if (!sets.empty()) drawn("bars", cases);
   write_atomically(
       folder / "trade.md",
-      trade_markdown(studies) + bars_markdown(sets, parts_of<SceneBudget>(budgets, "results.json"), studies));
+      trade_markdown(studies) + bars_markdown(sets, parts_of<SceneBudget>(compared.budgets, "results.json"), studies));
   fmt::print("{} studies compared: {}\n", studies.size(), (folder / "trade.md").string());
 }
 
@@ -118,7 +118,9 @@ void gather_checks(const fs::path& verdict_file, const fs::path& style_folder, c
     if (!style_folder.empty() && spreads.can_be_drawn())
       draw(style_folder, std::string(figure) + ".gp", out / (std::string(figure) + ".svg"),
            {"points=" + (out / "checks.csv").string(), "means=" + (out / "checks_cases.csv").string(),
-            "verification=" + as_words(spreads.cases(0)), "validation=" + as_words(spreads.cases(1))});
+            "verification=" + as_words(spreads.cases(0)), "validation=" + as_words(spreads.cases(1)),
+            "verification_spread=" + in_words(spreads.groups[0].over_tolerance),
+            "validation_spread=" + in_words(spreads.groups[1].over_tolerance)});
   write_atomically(out / "checks.md", checks_markdown(spreads));
   fmt::print("{} checks at one look: {}\n", verdicts.rows.size(), (out / "checks.md").string());
 }

@@ -22,9 +22,9 @@ set arrow from first 1, graph 0 to first 1, graph 1 nohead lw 1 lc rgb '#c0c0c0'
 
 count = words(cases)
 # seven colours; those that return are dashed, with open points
-first = count > 7 ? 7 : count
-open(i) = i == 1 ? 6 : i == 2 ? 4 : i == 3 ? 8 : i == 4 ? 12 : i == 5 ? 10 : i == 6 ? 5 : 7
+colour(i) = (i - 1) % 7 + 1
+dash(i) = i > 7 ? 2 : 1
+shape(i) = int(word(i > 7 ? '6 4 8 12 10 5 7' : '7 5 9 13 11 4 6', colour(i)))
 of(i) = strcol('case') eq word(cases, i) ? column('relative_cost') : NaN
-plot for [i=1:first] data using (of(i)):(column('relative_error')) with linespoints lt i ps 0.8 title word(cases, i) noenhanced, \
-     for [i=8:count] data using (of(i)):(column('relative_error')) with linespoints lt i-7 dt 2 pt open(i-7) ps 0.8 \
-     title word(cases, i) noenhanced
+plot for [i=1:count] data using (of(i)):(column('relative_error')) with linespoints lt colour(i) dt dash(i) \
+     pt shape(i) ps 0.8 title word(cases, i) noenhanced

@@ -195,15 +195,17 @@ TEST(Slicing, ASlopeIsShapedByConstructionJointsAndExcavation) {
                    .because = "a count"},
                   found);
   };
-  count("slope: boundary blocks", "what lies below each of three boundary joints stays whole", 3, persistent.fixed);
-  count("slope: blocks cut along the outline alone", "construction joints through everything, held together again",
+  count("slope: boundary blocks", "geometry: what lies below each of three boundary joints stays whole", 3,
+        persistent.fixed);
+  count("slope: blocks cut along the outline alone",
+        "geometry: construction joints through everything, held together again",
         static_cast<double>(persistent.model.bodies.size()), static_cast<double>(confined.model.bodies.size()));
   const auto blocks = [](const Slope& found) { return static_cast<double>(found.model.bodies.size()); };
   report.report("slope: blocks", "1", blocks(persistent), "persistent joint sets");
   report.report("slope: blocks with finite cross joints", "1", blocks(finite), "each ends at the beds that it meets");
   report.report("slope: clumps", "1", persistent.clumped, "blocks of several parts, across construction joints");
   report.report("slope: clumps, cut along the outline alone", "1", confined.clumped, "the same blocks of fewer parts");
-  report.report("slope: parts", "1", persistent.parts, "construction joints through everything");
+  report.report("slope: parts", "1", persistent.parts, "geometry: construction joints through everything");
   report.report("slope: parts, cut along the outline alone", "1", confined.parts, "construction joints end");
 }
 

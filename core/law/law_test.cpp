@@ -169,7 +169,7 @@ Vector<3> rotated(const Vector<3>& v, const Vector<3>& axis, double angle) {
   return std::cos(angle) * v + std::sin(angle) * axis.cross(v) + (1 - std::cos(angle)) * axis.dot(v) * axis;
 }
 
-// what stands in place of Eq. 4.4
+// what replaces Eq. 4.4
 TEST(Carried, AFullTurnOfTheNormalBringsTheShearBack) {
   Random random(37);
   for (const int steps : {5, 12, 360, 10'000}) {
@@ -218,7 +218,7 @@ TEST(Carried, FollowsTheSpinAboutTheNormal) {
   }
 }
 
-// what stands in place of Eq. 4.4
+// what replaces Eq. 4.4
 TEST(Carried, TurnsWithAPairThatTurnsAsOneBody) {
   // first order at worst in the step, and no change of length
   Random random(38);
