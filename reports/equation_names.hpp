@@ -35,7 +35,7 @@ struct Naming {
 // What the sources of a repository say.
 struct SourceNames {
   std::vector<Naming> namings;     // by file, then in its order
-  std::set<std::string> tests;     // every test that stands in the sources: Suite.Name
+  std::set<std::string> tests;     // every test of the sources: Suite.Name
   std::set<std::string> programs;  // every CTest entry that CMake files name: unit.contact, case.wedge, …
   std::vector<std::string> wrong;  // one line each: file, line, what is written
 };

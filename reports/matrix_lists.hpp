@@ -40,8 +40,8 @@ struct Promise {
 };
 std::vector<Promise> read_promises(const std::filesystem::path& list);
 
-// What a check may rest on besides an equation: a published work, or a principle. Its name stands in the check's
-// source.
+// What a check may rest on besides an equation: a published work, or a principle. The check's source holds its
+// name.
 struct Ground {
   std::string name, meaning;
   bool is_work = false;
