@@ -10,7 +10,7 @@ help:
 	@echo "make test                verify: build and run every test (PRESET=dev|asan|tsan for other builds)"
 	@echo "make test-long           the long tests"
 	@echo "make coverage            line coverage of the core's rooms by the unit tests (build-coverage)"
-	@echo "make reports             figures, studies and the verification manual: $(BUILD)/reports/index.html"
+	@echo "make reports             figures, studies and the verification manual: $(BUILD)/reports/manual-VERSION.html"
 	@echo "make benchmark           time the kernels and their peers, and twenty thousand falling blocks, an hour of two cores"
 	@echo "                         (VOUSSOIR_FALL_BLOCKS=2000: minutes; VOUSSOIR_BENCHMARK=quick: the contact kernel, a minute)"
 	@echo "make run SCENE=file      run one scene (OUT=folder SET='key=value …')"

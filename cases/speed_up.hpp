@@ -50,7 +50,7 @@ inline void expect_honest_bar(verification::CaseReport& report, const SoughtAngl
   report.record({"error of " + name + " as a fraction of its error bar",
                  "1",
                  Kind::limit,
-                 "what an error bar is",
+                 "promise: what an error bar is",
                  1,
                  {0, 0, Bound::at_most},
                  "no room: the bar is the claim"},

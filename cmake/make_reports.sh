@@ -61,6 +61,13 @@ if [ -d "$reports/studies" ]; then
       failures+=("comparison of the studies")
 fi
 
+# all checks at one look
+rm -rf "$reports/checks"
+if [ -s "$reports/verdicts.json" ]; then
+  "$build/reports/voussoir_study_report" checks --verdicts "$reports/verdicts.json" --out "$reports/checks" \
+      --style "$source/reports" || failures+=("checks at one look")
+fi
+
 # the contact kernel is timed again when it or a peer's harness has changed; `make benchmark` times it at length
 benchmarks=$reports/benchmarks
 bench=$build/benchmarks/bench_contact
@@ -90,15 +97,18 @@ if [ -x "$program" ] && ! "$program" docs >"$reports/scene_keys.md"; then
   rm -f "$reports/scene_keys.md"
   failures+=("scene keys (voussoir docs)")
 fi
+rm -f "$reports"/manual-*.html "$reports/index.html"  # of another version, and of those that did not say theirs
 "$build/reports/voussoir_manual" --source "$source" --build "$build" || failures+=("manual")
+manuals=("$reports"/manual-*.html)
+manual=${manuals[0]+$shown/reports/$(basename "${manuals[0]}")}
 
 for failure in "${failures[@]}"; do
   echo "FAILED: $failure"
 done
 verdicts=$(cat "$reports/verdicts.txt" 2>/dev/null || echo "no verdicts")
 if [ ${#failures[@]} -eq 0 ]; then
-  echo "make reports: $verdicts; manual: $shown/reports/index.html"
+  echo "make reports: $verdicts; manual: $manual"
 else
-  echo "make reports: FAILED (${#failures[@]} above); $verdicts; manual: $shown/reports/index.html"
+  echo "make reports: FAILED (${#failures[@]} above); $verdicts; manual: ${manual:-none}"
   exit 1
 fi

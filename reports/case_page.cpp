@@ -54,21 +54,23 @@ struct Page {
     }
   }
 
+  // inside the manual a file of the repository is an anchor, or just its name
+  std::optional<std::string> anchor_of(const std::string& target) const {
+    if (target.starts_with("http") || target.starts_with("#")) return target;
+    const fs::path path(target);
+    if (path.extension() == ".toml" && !path.has_parent_path()) return fmt::format("#{}-{}", slug(name), slug(target));
+    if (path.filename() == "README.md" && target.starts_with("../"))
+      return "#" + slug(path.parent_path().filename().string());
+    return std::nullopt;
+  }
+
   std::string render(const std::string& markdown, int heading_shift, bool leave_out_title) {
-    const LinkRules rules{[this](const std::string& target, const std::string& caption) -> std::optional<std::string> {
-                            return show_figure(fs::path(target).stem().string(), caption);
-                          },
-                          [this](const std::string& target) -> std::optional<std::string> {
-                            // inside the manual a file of the repository is an anchor, or just its name
-                            if (target.starts_with("http") || target.starts_with("#")) return target;
-                            const fs::path path(target);
-                            if (path.extension() == ".toml" && !path.has_parent_path())
-                              return fmt::format("#{}-{}", slug(name), slug(target));
-                            if (path.filename() == "README.md" && target.starts_with("../"))
-                              return "#" + slug(path.parent_path().filename().string());
-                            return std::nullopt;
-                          }};
-    return apply_links(markdown_to_html(markdown, heading_shift, leave_out_title), rules);
+    return markdown_to_html(
+        markdown, heading_shift, leave_out_title,
+        {[this](const std::string& target) { return anchor_of(target); },
+         [this](const std::string& target, const std::string& caption) -> std::optional<std::string> {
+           return show_figure(fs::path(target).stem().string(), caption);
+         }});
   }
 };
 
@@ -97,7 +99,7 @@ std::string case_page(const Folders& folders, const Verdicts& verdicts, const Ca
   const std::string id = slug(status.name);
   std::string text =
       fmt::format("<section class=\"case\" id=\"{}\">\n<h2>{}</h2>\n", id, escape(case_title(folders, status.name)));
-  text += fmt::format("<p class=\"quiet\">Case <code>{}</code></p>\n", escape(status.name));
+  text += fmt::format("<p class=\"quiet\">Case <code class=\"case-name\">{}</code></p>\n", escape(status.name));
   if (status.state != CaseState::run) text += fmt::format("<p>{}</p>\n", badge(name_of(status.state)));
 
   // the words first: problem, reference, model, quantities, result, limits

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <initializer_list>
 #include <memory>
 #include <regex>
 #include <stdexcept>
@@ -45,17 +46,78 @@ std::string owned(char* text) {
   return copy;
 }
 
-// calls `replace` for every match and keeps the text between
-template <class Replace>
-std::string replace_all(const std::string& text, const std::regex& pattern, Replace replace) {
-  std::string result;
-  auto rest = text.cbegin();
-  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
-    result.append(rest, (*match)[0].first);
-    result += replace(*match);
-    rest = (*match)[0].second;
+// All nodes of some types below a node, none of them a leaf: in the order of the text, what stands within another
+// first.
+std::vector<cmark_node*> nodes_below(cmark_node* root, std::initializer_list<cmark_node_type> types) {
+  std::vector<cmark_node*> found;
+  const std::unique_ptr<cmark_iter, decltype(&cmark_iter_free)> walk(cmark_iter_new(root), &cmark_iter_free);
+  for (cmark_event_type event; (event = cmark_iter_next(walk.get())) != CMARK_EVENT_DONE;) {
+    cmark_node* node = cmark_iter_get_node(walk.get());
+    if (event == CMARK_EVENT_EXIT && std::find(types.begin(), types.end(), cmark_node_get_type(node)) != types.end())
+      found.push_back(node);
   }
-  return result.append(rest, text.cend());
+  return found;
+}
+
+void remove(cmark_node* node) {
+  cmark_node_unlink(node);
+  cmark_node_free(node);
+}
+
+void follow(const LinkRules& rules, cmark_node* link) {
+  if (const auto target = rules.link(cmark_node_get_url(link))) {
+    cmark_node_set_url(link, target->c_str());
+    return;
+  }
+  while (cmark_node* words = cmark_node_first_child(link))
+    cmark_node_insert_before(link, words);
+  remove(link);
+}
+
+// the words of a picture as HTML; they leave it
+std::string caption_of(cmark_node* picture) {
+  const Node page(cmark_node_new(CMARK_NODE_DOCUMENT), &cmark_node_free);
+  cmark_node* line = cmark_node_new(CMARK_NODE_PARAGRAPH);
+  cmark_node_append_child(page.get(), line);
+  while (cmark_node* words = cmark_node_first_child(picture))
+    cmark_node_append_child(line, words);
+  const std::string html = owned(cmark_render_html(page.get(), CMARK_OPT_DEFAULT, nullptr));
+  const std::size_t start = html.find('>') + 1, end = html.rfind("</p>");
+  return end == std::string::npos ? "" : html.substr(start, end - start);
+}
+
+bool is_of_pictures_alone(cmark_node* paragraph) {
+  for (cmark_node* node = cmark_node_first_child(paragraph); node; node = cmark_node_next(node))
+    if (const cmark_node_type type = cmark_node_get_type(node);
+        type != CMARK_NODE_IMAGE && type != CMARK_NODE_SOFTBREAK && type != CMARK_NODE_LINEBREAK)
+      return false;
+  return true;
+}
+
+// puts HTML before a node
+void put(const std::string& html, cmark_node_type type, cmark_node* before) {
+  cmark_node* place = cmark_node_new(type);
+  cmark_node_set_on_enter(place, html.c_str());
+  cmark_node_insert_before(before, place);
+}
+
+void draw(const LinkRules& rules, cmark_node* document) {
+  std::vector<cmark_node*> emptied;
+  for (cmark_node* picture : nodes_below(document, {CMARK_NODE_IMAGE})) {
+    const std::string target = cmark_node_get_url(picture);
+    const std::string html = rules.picture(target, caption_of(picture)).value_or("");
+    cmark_node* parent = cmark_node_parent(picture);
+    const bool alone = cmark_node_get_type(parent) == CMARK_NODE_PARAGRAPH && is_of_pictures_alone(parent);
+    if (alone) {
+      put(html, CMARK_NODE_CUSTOM_BLOCK, parent);
+      if (emptied.empty() || emptied.back() != parent) emptied.push_back(parent);
+    } else {
+      put(html, CMARK_NODE_CUSTOM_INLINE, picture);
+      remove(picture);
+    }
+  }
+  for (cmark_node* paragraph : emptied)
+    remove(paragraph);
 }
 
 }  // namespace
@@ -96,13 +158,17 @@ std::string slug(std::string_view text) {
   return name;
 }
 
-std::string markdown_to_html(const std::string& markdown, int heading_shift, bool leave_out_title) {
+std::string markdown_to_html(const std::string& markdown, int heading_shift, bool leave_out_title,
+                             const LinkRules& rules) {
   const Parser parser = make_parser();
   const Node document = parse(parser, markdown);
-  if (cmark_node* title = title_of(document.get()); title && leave_out_title) cmark_node_free(title);
-  for (cmark_node* node = cmark_node_first_child(document.get()); node; node = cmark_node_next(node))
-    if (cmark_node_get_type(node) == CMARK_NODE_HEADING)
-      cmark_node_set_heading_level(node, std::clamp(cmark_node_get_heading_level(node) + heading_shift, 1, 6));
+  if (cmark_node* title = title_of(document.get()); title && leave_out_title) remove(title);
+  for (cmark_node* heading : nodes_below(document.get(), {CMARK_NODE_HEADING}))
+    cmark_node_set_heading_level(heading, std::clamp(cmark_node_get_heading_level(heading) + heading_shift, 1, 6));
+  if (rules.link)
+    for (cmark_node* link : nodes_below(document.get(), {CMARK_NODE_LINK}))
+      follow(rules, link);
+  if (rules.picture) draw(rules, document.get());
   return owned(cmark_render_html(document.get(), CMARK_OPT_DEFAULT, cmark_parser_get_syntax_extensions(parser.get())));
 }
 
@@ -115,18 +181,6 @@ std::optional<std::string> markdown_title(const std::string& markdown) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())))
     text.pop_back();
   return text;
-}
-
-std::string apply_links(const std::string& html, const LinkRules& rules) {
-  static const std::regex image(R"re((?:<p>)?<img src="([^"]*)" alt="([^"]*)"[^>]*/>(?:</p>)?)re");
-  static const std::regex link(R"re(<a href="([^"]*)"[^>]*>([\s\S]*?)</a>)re");
-  const std::string with_links = replace_all(html, link, [&](const std::smatch& match) {
-    const auto target = rules.link(match[1].str());
-    return target ? fmt::format("<a href=\"{}\">{}</a>", *target, match[2].str()) : match[2].str();
-  });
-  return replace_all(with_links, image, [&](const std::smatch& match) {
-    return rules.image(match[1].str(), match[2].str()).value_or("");
-  });
 }
 
 std::string inline_svg(const std::filesystem::path& path, const std::string& prefix) {

@@ -15,20 +15,22 @@ std::string escape(std::string_view text);
 // Letters, digits and dashes: what an anchor may be called.
 std::string slug(std::string_view text);
 
+// What becomes of the links and pictures of a markdown text. A link goes to the target that its function returns; where
+// that is nothing, the link goes and its words stay. A picture is what its function returns, HTML, `caption` being its
+// words as HTML; nothing leaves it out. Without a function links and pictures stay as they are.
+struct LinkRules {
+  std::function<std::optional<std::string>(const std::string& target)> link = {};
+  std::function<std::optional<std::string>(const std::string& target, const std::string& caption)> picture = {};
+};
+
 // GitHub's markdown with tables as HTML; raw HTML in the text is dropped. Headings move down by `heading_shift` levels.
-// `leave_out_title` drops a heading of the first level at the very start, for a page that has its own.
-std::string markdown_to_html(const std::string& markdown, int heading_shift = 0, bool leave_out_title = false);
+// `leave_out_title` drops a heading of the first level at the very start, for a page that has its own. A paragraph of
+// nothing but pictures gives way to them, for a figure must not stand in one.
+std::string markdown_to_html(const std::string& markdown, int heading_shift = 0, bool leave_out_title = false,
+                             const LinkRules& rules = {});
 
 // The heading of the first level at the start of a markdown text, as plain text; nothing when there is none.
 std::optional<std::string> markdown_title(const std::string& markdown);
-
-// Passes the target of every image and link of an HTML text to a function. For an image the function may return HTML
-// that replaces the whole element, for a link a new target; nothing leaves an image or link with that target out.
-struct LinkRules {
-  std::function<std::optional<std::string>(const std::string& target, const std::string& caption)> image;
-  std::function<std::optional<std::string>(const std::string& target)> link;
-};
-std::string apply_links(const std::string& html, const LinkRules& rules);
 
 // The <svg> element of a gnuplot file, its ids made unique by `prefix`, so that many stand in one page.
 // Throws std::runtime_error when the file holds no such element.

@@ -10,6 +10,7 @@
 #include "reports/case_page.hpp"
 #include "reports/html.hpp"
 #include "reports/kernel_page.hpp"
+#include "reports/matrix_page.hpp"
 #include "reports/text_page.hpp"
 #include "reports/trade_page.hpp"
 #include "reports/verdict_tables.hpp"
@@ -21,24 +22,18 @@ namespace fs = std::filesystem;
 using namespace voussoir::reports;
 using namespace voussoir::verification;
 
-std::string navigation(const Verdicts& verdicts) {
-  std::string cases, open;
-  for (const CaseStatus& status : verdicts.cases) {
-    const std::string line = fmt::format("<li><a href=\"#{}\">{}</a></li>\n", slug(status.name), escape(status.name));
-    (status.state == CaseState::not_modelled ? open : cases) += line;
-  }
-  std::string text =
-      "<nav><p class=\"name\"><a href=\"#top\">Voussoir</a></p><ul>\n"
-      "<li><a href=\"#top\">What this is</a></li>\n<li><a href=\"#verdicts\">Verdicts</a></li>\n</ul>\n";
-  text += "<p>Cases</p><ul>\n" + cases + "</ul>\n";
-  if (!open.empty()) text += "<p>Not yet modelled</p><ul>\n" + open + "</ul>\n";
-  return text +
-         "<p>Speed</p><ul>\n<li><a href=\"#what-accuracy-costs\">What accuracy costs</a></li>\n"
-         "<li><a href=\"#what-a-slope-costs\">What it costs on a slope</a></li>\n"
-         "<li><a href=\"#contact-kernel\">The contact kernel</a></li>\n</ul>\n<p>Reference</p><ul>\n"
-         "<li><a href=\"#what-water-means\">What water means here</a></li>\n<li><a "
-         "href=\"#scene-keys\">Scene keys</a></li>\n</ul></nav>\n";
-}
+// what every part of the manual is made of
+struct Sources {
+  Folders folders;
+  fs::path keys;  // markdown list of all scene keys
+  Verdicts verdicts;
+  std::vector<std::string>& missing;  // what could not be shown, one sentence each
+};
+
+// A part of the manual: its section, whose id is `id`, and the line that leads there.
+struct Part {
+  std::string group, id, title, html;
+};
 
 // commits of the rows that differ from the build's: results of another state of the source
 std::string commit_note(const Verdicts& verdicts) {
@@ -49,59 +44,126 @@ std::string commit_note(const Verdicts& verdicts) {
   return {};
 }
 
-std::string scene_keys(const fs::path& file, std::vector<std::string>& missing) {
+std::string front(const Sources& sources) {
+  const Verdicts& verdicts = sources.verdicts;
+  return fmt::format(
+      "<section id=\"top\">\n{}<p class=\"state {}\"><b>{}.</b> Version {}, commit "
+      "<code>{}</code>.</p>\n{}</section>\n",
+      markdown_to_html(read_text(sources.folders.source / "reports" / "front.md")),
+      all_good(verdicts) ? "passed" : "failed", one_line(verdicts), VOUSSOIR_VERSION, escape(verdicts.commit),
+      commit_note(verdicts));
+}
+
+std::string scene_keys(const Sources& sources) {
   std::string text = "<section id=\"scene-keys\"><h2>Scene keys</h2>\n";
-  if (fs::exists(file) && fs::file_size(file) > 0) {
-    const LinkRules keep{[](const std::string&, const std::string&) -> std::optional<std::string> { return ""; },
-                         [](const std::string& target) -> std::optional<std::string> { return target; }};
-    return text + apply_links(markdown_to_html(read_text(file), 1, true), keep) + "</section>\n";
+  if (fs::exists(sources.keys) && fs::file_size(sources.keys) > 0) {
+    const LinkRules without_pictures{
+        {}, [](const std::string&, const std::string&) -> std::optional<std::string> { return {}; }};
+    return text + markdown_to_html(read_text(sources.keys), 1, true, without_pictures) + "</section>\n";
   }
-  missing.push_back("scene keys: the program voussoir did not list them");
+  sources.missing.push_back("scene keys: the program voussoir did not list them");
   return text +
          "<p class=\"note\">The list is missing: the program <code>voussoir docs</code> was not available when "
          "this manual was built.</p></section>\n";
 }
 
-std::string manual(const Folders& folders, const Verdicts& verdicts, const fs::path& keys,
-                   std::vector<std::string>& missing) {
-  const bool good = all_good(verdicts);
+void add_cases(const Sources& sources, CaseState state, bool wanted, const std::string& group,
+               std::vector<Part>& parts) {
+  for (const CaseStatus& status : sources.verdicts.cases)
+    if ((status.state == state) == wanted)
+      parts.push_back({group, slug(status.name), status.name,
+                       case_page(sources.folders, sources.verdicts, status, sources.missing)});
+}
+
+void add_matrix(const Sources& sources, std::vector<Part>& parts) {
+  try {
+    const Matrix matrix = read_matrix(sources.folders.source);
+    parts.push_back({"By tests", "equations", "Equations", equations_page(matrix, sources.verdicts)});
+    parts.push_back({"By tests", "thesis-cases", "The thesis's cases", thesis_page(matrix)});
+    parts.push_back({"By tests", "promises", "Promises", promises_page(matrix)});
+    parts.push_back({"By tests", "grounds", "What checks rest on", grounds_page(matrix, sources.verdicts)});
+  } catch (const std::exception& problem) {
+    sources.missing.push_back(fmt::format("equations by tests: {}", problem.what()));
+    parts.push_back({"By tests", "equations", "Equations",
+                     fmt::format("<section class=\"case\" id=\"equations\">\n<h2>Equations by tests</h2>\n<p "
+                                 "class=\"note\">The lists cannot be read: {}</p></section>\n",
+                                 escape(problem.what()))});
+  }
+}
+
+// in the order of the manual
+std::vector<Part> all_parts(const Sources& sources) {
+  const Folders& folders = sources.folders;
+  const Verdicts& verdicts = sources.verdicts;
+  std::vector<Part> parts{{"", "top", "What this is", front(sources)},
+                          {"", "verdicts", "Verdicts",
+                           "<section id=\"verdicts\">\n<h2>Verdicts</h2>\n" + case_overview(verdicts) +
+                               all_tables(verdicts) + "</section>\n"},
+                          {"", "all-checks", "All checks at one look", checks_page(folders, sources.missing)}};
+  add_cases(sources, CaseState::not_modelled, false, "Cases", parts);
+  add_cases(sources, CaseState::not_modelled, true, "Not yet modelled", parts);
+  add_matrix(sources, parts);
+  parts.push_back({"Speed", "what-accuracy-costs", "What accuracy costs", trade_page(folders, sources.missing)});
+  parts.push_back({"Speed", "what-a-slope-costs", "What it costs on a slope",
+                   text_page(folders, "slope_cost", "what-a-slope-costs")});
+  parts.push_back({"Speed", "contact-kernel", "The contact kernel", kernel_page(folders, sources.missing)});
+  parts.push_back(
+      {"Reference", "what-water-means", "What water means here", text_page(folders, "water", "what-water-means")});
+  parts.push_back({"Reference", "scene-keys", "Scene keys", scene_keys(sources)});
+  return parts;
+}
+
+// the list of parts beside the text, with a box to find cases, keys and equations that the script fills
+std::string navigation(const std::vector<Part>& parts) {
+  std::string text = fmt::format(
+      "<nav><p class=\"name\"><a href=\"#top\">Voussoir</a> <span class=\"quiet\">{}</span></p>\n", VOUSSOIR_VERSION);
+  text +=
+      "<div id=\"finder\" hidden><input type=\"search\" id=\"find\" placeholder=\"Find a case, key or equation\" "
+      "aria-label=\"Find a case, key or equation\" autocomplete=\"off\"><ul id=\"found\"></ul></div>\n";
+  for (auto part = parts.begin(); part != parts.end();) {
+    const std::string group = part->group;
+    text += (group.empty() ? "" : fmt::format("<p>{}</p>", escape(group))) + "<ul>\n";
+    for (; part != parts.end() && part->group == group; ++part)
+      text += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", part->id, escape(part->title));
+    text += "</ul>\n";
+  }
+  return text + "</nav>\n";
+}
+
+std::string manual(const Sources& sources) {
+  const std::vector<Part> parts = all_parts(sources);
+  const auto from_file = [&](const char* name) { return read_text(sources.folders.source / "reports" / name); };
   std::string text = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>Voussoir: verification manual</title>\n<style>\n{}</style></head>\n<body>\n{}<main>\n",
-      read_text(folders.source / "reports" / "manual.css"), navigation(verdicts));
-
-  text += fmt::format("<section id=\"top\">\n{}", markdown_to_html(read_text(folders.source / "reports" / "front.md")));
-  text += fmt::format("<p class=\"state {}\"><b>{}.</b> Commit <code>{}</code>.</p>\n{}</section>\n",
-                      good ? "passed" : "failed", one_line(verdicts), escape(verdicts.commit), commit_note(verdicts));
-  text += "<section id=\"verdicts\">\n<h2>Verdicts</h2>\n" + case_overview(verdicts) + all_tables(verdicts) +
-          "</section>\n";
-  for (const CaseStatus& status : verdicts.cases)
-    text += case_page(folders, verdicts, status, missing);
-  return text + trade_page(folders, missing) + text_page(folders, "slope_cost", "what-a-slope-costs") +
-         kernel_page(folders, missing) + text_page(folders, "water", "what-water-means") + scene_keys(keys, missing) +
-         "</main>\n</body></html>\n";
+      "<meta name=\"color-scheme\" content=\"light dark\">\n"
+      "<title>Voussoir {}: verification manual</title>\n<style>\n{}</style></head>\n<body>\n{}<main>\n",
+      VOUSSOIR_VERSION, from_file("manual.css"), navigation(parts));
+  for (const Part& part : parts)
+    text += part.html;
+  return text + "</main>\n<script>\n" + from_file("manual.js") + "</script>\n</body></html>\n";
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Builds the verification manual from the verdicts, figures and studies of a build."};
-  Folders folders;
-  fs::path keys, out;
-  app.add_option("--source", folders.source, "the repository")->required();
-  app.add_option("--build", folders.build, "the build folder, in which reports/verdicts.json lies")->required();
-  app.add_option("--scene-keys", keys, "markdown list of all scene keys (default: reports/scene_keys.md in the build)");
-  app.add_option("--out", out, "the manual (default: reports/index.html in the build)");
+  std::vector<std::string> missing;
+  Sources sources{{}, {}, {}, missing};
+  fs::path out;
+  app.add_option("--source", sources.folders.source, "the repository")->required();
+  app.add_option("--build", sources.folders.build, "the build folder, in which reports/verdicts.json lies")->required();
+  app.add_option("--scene-keys", sources.keys,
+                 "markdown list of all scene keys (default: reports/scene_keys.md in the build)");
+  app.add_option("--out", out, "the manual (default: reports/manual-VERSION.html in the build)");
   CLI11_PARSE(app, argc, argv);
-  if (keys.empty()) keys = folders.build / "reports" / "scene_keys.md";
-  if (out.empty()) out = folders.build / "reports" / "index.html";
+  const fs::path reports = sources.folders.build / "reports";
+  if (sources.keys.empty()) sources.keys = reports / "scene_keys.md";
+  if (out.empty()) out = reports / fmt::format("manual-{}.html", VOUSSOIR_VERSION);
 
   try {
-    const fs::path file = folders.build / "reports" / "verdicts.json";
-    const Verdicts verdicts = verdicts_from_json(nlohmann::json::parse(read_text(file)));
-    std::vector<std::string> missing;
-    write_atomically(out, manual(folders, verdicts, keys, missing));
+    sources.verdicts = verdicts_from_json(nlohmann::json::parse(read_text(reports / "verdicts.json")));
+    write_atomically(out, manual(sources));
     for (const std::string& text : missing)
       fmt::print("missing: {}\n", text);
     fmt::print("manual: {}\n", out.string());

@@ -41,6 +41,33 @@ TEST(Html, RendersTablesShiftsHeadingsAndDropsRawHtml) {
   EXPECT_EQ(markdown_title("no title"), std::nullopt);
 }
 
+std::string with_rules(const std::string& markdown) {
+  return markdown_to_html(
+      markdown, 0, false,
+      {[](const std::string& target) { return target == "drop" ? std::nullopt : std::optional("#" + target); },
+       [](const std::string& target, const std::string& caption) -> std::optional<std::string> {
+         return target == "drop" ? std::nullopt : std::optional("<figure>" + target + ": " + caption + "</figure>");
+       }});
+}
+
+// what expressions over HTML would stumble on: code, quotes, brackets, links in tables, around pictures and in captions
+TEST(Html, ChangesLinksAndPicturesInTheTree) {
+  EXPECT_EQ(with_rules("[a](x) and [b *c*](drop)"), "<p><a href=\"#x\">a</a> and b <em>c</em></p>\n");
+  EXPECT_EQ(with_rules("| t |\n|---|\n| [a](x) |\n").find("<a href=\"x\">"), std::string::npos);
+  EXPECT_TRUE(
+      holds(with_rules("`<a href=\"x\">y</a>` and `![p](q)`"), "<code>&lt;a href=&quot;x&quot;&gt;y&lt;/a&gt;</code>"));
+  EXPECT_EQ(with_rules("![one](p)"), "<figure>p: one</figure>\n");
+  EXPECT_EQ(with_rules("![one](p)\n![two `<x>` \"q\"](q)\n"),
+            "<figure>p: one</figure>\n<figure>q: two <code>&lt;x&gt;</code> &quot;q&quot;</figure>\n");
+  EXPECT_EQ(with_rules("words ![p](q) more"), "<p>words <figure>q: p</figure> more</p>\n");
+  EXPECT_EQ(with_rules("words ![p](drop) more"), "<p>words  more</p>\n");
+  EXPECT_EQ(with_rules("![see [a](x), ![inner](i)](p)"),
+            "<figure>p: see <a href=\"#x\">a</a>, <figure>i: inner</figure></figure>\n");
+  EXPECT_EQ(with_rules("> # T\n\n[![p](q)](x)\n").find("<img"), std::string::npos);
+  // without rules they stay
+  EXPECT_EQ(markdown_to_html("[a](x) ![p](q)"), "<p><a href=\"x\">a</a> <img src=\"q\" alt=\"p\" /></p>\n");
+}
+
 TEST(Html, MakesIdsOfAFigureUnique) {
   const fs::path path = fs::path(testing::TempDir()) / "voussoir_figure.svg";
   write_atomically(path, svg);
@@ -148,6 +175,21 @@ TEST(TradePage, ShowsTheComparisonAndNamesWhatIsMissing) {
   EXPECT_TRUE(holds(page, "<figcaption>All.</figcaption>"));
   EXPECT_TRUE(holds(page, "<h3>Orders</h3>"));
   EXPECT_TRUE(holds(page, "href=\"#wedge\"")) << page;
+}
+
+TEST(ChecksPage, NamesWhatIsMissing) {
+  const fs::path root = fs::path(testing::TempDir()) / "voussoir_checks_page_test";
+  fs::remove_all(root);
+  const Folders folders{root, root / "build"};
+  std::vector<std::string> missing;
+  EXPECT_TRUE(holds(checks_page(folders, missing), "The checks were not gathered"));
+  EXPECT_EQ(missing.size(), 1u);
+  const fs::path checks = root / "build/reports/checks";
+  write_atomically(checks / "checks.md", "![All.](checks_values.svg)\n");
+  write_atomically(checks / "checks_values.svg", svg);
+  missing.clear();
+  EXPECT_TRUE(holds(checks_page(folders, missing), "<figcaption>All.</figcaption>"));
+  EXPECT_TRUE(missing.empty());
 }
 
 }  // namespace

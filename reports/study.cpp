@@ -1,10 +1,8 @@
 // voussoir_study_report: turns the study of one case into points, figures, a recommendation and a page for the manual,
-// and compares the studies of all cases.
+// compares the studies of all cases, and shows all checks at one look.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <stdexcept>
@@ -12,6 +10,8 @@
 #include <vector>
 
 #include "reports/bars.hpp"
+#include "reports/checks.hpp"
+#include "reports/drawing.hpp"
 #include "reports/study_report.hpp"
 #include "reports/trade.hpp"
 #include "verification/verdict_file.hpp"
@@ -22,31 +22,18 @@ namespace fs = std::filesystem;
 using voussoir::verification::read_text;
 using voussoir::verification::write_atomically;
 
-// one word of a shell command, whatever it holds
-std::string quoted(const std::string& text) {
-  std::string word = "'";
-  for (const char character : text)
-    word += character == '\'' ? std::string("'\\''") : std::string(1, character);
-  return word + "'";
-}
+using voussoir::reports::OfSubfolder;
 
-void run_draw(const std::vector<std::string>& words) {
-  std::string command;
-  for (const std::string& word : words)
-    command += quoted(word) + " ";
-  if (std::system(command.c_str()) != 0) throw std::runtime_error("not drawn: " + words.at(2));
-}
-
-void draw(const voussoir::reports::Study& study, const std::string& quantity, const fs::path& style_folder,
-          const fs::path& out) {
-  std::string sweeps;
+void draw_study(const voussoir::reports::Study& study, const std::string& quantity, const fs::path& style_folder,
+                const fs::path& out) {
+  std::vector<std::string> sweeps;
   for (const std::string& sweep : sweeps_of(study, quantity))
-    if (sweep != voussoir::reports::default_sweep) sweeps += (sweeps.empty() ? "" : "|") + sweep;
-  run_draw({(style_folder / "draw.sh").string(), (style_folder / "study.gp").string(),
-            (out / voussoir::reports::study_figure_name(quantity)).string(),
-            "points=" + (out / "study_points.csv").string(), "sweeps=" + sweeps, "quantity=" + quantity,
-            std::string("cost=") + name_of(cost_unit(study)),
-            std::string("default=") + (default_point(study, quantity) ? "yes" : "no")});
+    if (sweep != voussoir::reports::default_sweep) sweeps.push_back(sweep);
+  voussoir::reports::draw(
+      style_folder, "study.gp", out / voussoir::reports::study_figure_name(quantity),
+      {"points=" + (out / "study_points.csv").string(), "sweeps=" + voussoir::reports::as_words(sweeps),
+       "quantity=" + quantity, std::string("cost=") + name_of(cost_unit(study)),
+       std::string("default=") + (default_point(study, quantity) ? "yes" : "no")});
 }
 
 voussoir::reports::Study judged(const fs::path& study_file, const fs::path& reference_file) {
@@ -67,7 +54,7 @@ void report(const fs::path& study_file, const fs::path& reference_file, const fs
   write_atomically(out / "study.json", study_json(study).dump(1) + "\n");
   if (!style_folder.empty())
     for (const std::string& quantity : study.quantities)
-      draw(study, quantity, style_folder, out);
+      draw_study(study, quantity, style_folder, out);
   write_atomically(out / "study.md", study_markdown(study));
   fmt::print("{} settings judged, {} failed: {}\n", study.points.size(), study.failed.size(),
              (out / "study.md").string());
@@ -77,24 +64,18 @@ void report(const fs::path& study_file, const fs::path& reference_file, const fs
 
 std::vector<voussoir::reports::BudgetSet> budget_sets(const fs::path& cases) {
   std::vector<voussoir::reports::BudgetSet> sets;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(cases, error))
-    if (fs::exists(entry.path() / "budget.csv"))
-      sets.push_back(
-          voussoir::reports::read_budget_set(entry.path().filename().string(), read_text(entry.path() / "budget.csv")));
-  std::sort(sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  for (const OfSubfolder& found : voussoir::reports::in_subfolders(cases, "budget.csv"))
+    sets.push_back(voussoir::reports::read_budget_set(found.name, read_text(found.file)));
   return sets;
 }
 
-std::vector<voussoir::reports::SceneBudget> scene_budgets(const fs::path& folder) {
-  std::vector<voussoir::reports::SceneBudget> scenes;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (fs::exists(entry.path() / "results.json"))
-      scenes.push_back(
-          {entry.path().filename().string(), nlohmann::json::parse(read_text(entry.path() / "results.json"))});
-  std::sort(scenes.begin(), scenes.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
-  return scenes;
+// a JSON file of every subfolder, as the part of a report that has its name and its contents
+template <class Part>
+std::vector<Part> parts_of(const fs::path& folder, const std::string& file) {
+  std::vector<Part> parts;
+  for (const OfSubfolder& found : voussoir::reports::in_subfolders(folder, file))
+    parts.push_back({found.name, nlohmann::json::parse(read_text(found.file))});
+  return parts;
 }
 
 // what is compared, and where
@@ -104,41 +85,53 @@ struct Compared {
 
 // all studies in a folder beside each other
 void compare(const Compared& compared) {
-  const auto& [folder, case_outputs, budgets, style_folder] = compared;
+  const fs::path &folder = compared.folder, &style_folder = compared.style_folder;
   using namespace voussoir::reports;
-  std::vector<CaseStudy> studies;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (fs::exists(entry.path() / "study.json"))
-      studies.push_back(
-          {entry.path().filename().string(), nlohmann::json::parse(read_text(entry.path() / "study.json"))});
-  std::sort(studies.begin(), studies.end(), [](const CaseStudy& a, const CaseStudy& b) { return a.name < b.name; });
+  const auto studies = parts_of<CaseStudy>(folder, "study.json");
+  const auto drawn = [&](const std::string& name, const std::vector<std::string>& cases) {
+    if (!style_folder.empty())
+      draw(style_folder, name + ".gp", folder / (name + ".svg"),
+           {"data=" + (folder / (name + ".csv")).string(), "cases=" + as_words(cases)});
+  };
   write_atomically(folder / "trade.csv", trade_csv(studies));
-  const std::vector<BudgetSet> sets = budget_sets(case_outputs);
+  drawn("trade", compared_cases(studies));
+  const std::vector<BudgetSet> sets = budget_sets(compared.case_outputs);
   write_atomically(folder / "bars.csv", bars_csv(sets));
-  if (!style_folder.empty() && !sets.empty()) {
-    std::string cases;
-    for (const BudgetSet& set : sets)
-      cases += (cases.empty() ? "" : "|") + set.name;
-    run_draw({(style_folder / "draw.sh").string(), (style_folder / "bars.gp").string(), (folder / "bars.svg").string(),
-              "data=" + (folder / "bars.csv").string(), "cases=" + cases});
-  }
-  if (!style_folder.empty()) {
-    std::string cases;
-    for (const std::string& name : compared_cases(studies))
-      cases += (cases.empty() ? "" : "|") + name;
-    run_draw({(style_folder / "draw.sh").string(), (style_folder / "trade.gp").string(),
-              (folder / "trade.svg").string(), "data=" + (folder / "trade.csv").string(), "cases=" + cases});
-  }
-  write_atomically(folder / "trade.md", trade_markdown(studies) + bars_markdown(sets, scene_budgets(budgets), studies));
+  std::vector<std::string> cases;
+  for (const BudgetSet& set : sets)
+    cases.push_back(set.name);
+  if (!sets.empty()) drawn("bars", cases);
+  write_atomically(
+      folder / "trade.md",
+      trade_markdown(studies) + bars_markdown(sets, parts_of<SceneBudget>(compared.budgets, "results.json"), studies));
   fmt::print("{} studies compared: {}\n", studies.size(), (folder / "trade.md").string());
+}
+
+// all checks at one look
+void gather_checks(const fs::path& verdict_file, const fs::path& style_folder, const fs::path& out) {
+  using namespace voussoir::reports;
+  const auto verdicts = voussoir::verification::verdicts_from_json(nlohmann::json::parse(read_text(verdict_file)));
+  const CheckSpreads spreads = spreads_of(verdicts);
+  write_atomically(out / "checks.csv", checks_csv(verdicts));
+  write_atomically(out / "checks_cases.csv", checks_cases_csv(spreads));
+  for (const char* figure : {"checks_values", "checks_errors"})
+    if (!style_folder.empty() && spreads.can_be_drawn())
+      draw(style_folder, std::string(figure) + ".gp", out / (std::string(figure) + ".svg"),
+           {"points=" + (out / "checks.csv").string(), "means=" + (out / "checks_cases.csv").string(),
+            "verification=" + as_words(spreads.cases(0)), "validation=" + as_words(spreads.cases(1)),
+            "verification_spread=" + in_words(spreads.groups[0].over_tolerance),
+            "validation_spread=" + in_words(spreads.groups[1].over_tolerance)});
+  write_atomically(out / "checks.md", checks_markdown(spreads));
+  fmt::print("{} checks at one look: {}\n", verdicts.rows.size(), (out / "checks.md").string());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Joins study.csv with reference.json: error against cost, Pareto front, recommendation."};
+  CLI::App app{
+      "Joins results with references: error against cost, Pareto front, recommendation; all checks at one look."};
   app.require_subcommand(1);
-  fs::path study_file, reference_file, out, style_folder, folder, case_outputs, budgets;
+  fs::path study_file, reference_file, verdict_file, out, style_folder, folder, case_outputs, budgets;
   CLI::App* one = app.add_subcommand("case", "the report on one case's study");
   one->add_option("--study", study_file, "what `voussoir study` wrote")->required();
   one->add_option("--reference", reference_file, "reference.json of the case's test")->required();
@@ -149,13 +142,18 @@ int main(int argc, char** argv) {
   all->add_option("--cases", case_outputs, "folder of what the cases' tests wrote, in which budget.csv are looked for");
   all->add_option("--budgets", budgets,
                   "folder that holds a folder for every case whose scene was run with its budget");
-  for (CLI::App* command : {one, all})
+  CLI::App* checks = app.add_subcommand("checks", "all checks of a build at one look");
+  checks->add_option("--verdicts", verdict_file, "verdicts.json of the summary")->required();
+  checks->add_option("--out", out, "folder for checks.md, checks.csv and the figures")->required();
+  for (CLI::App* command : {one, all, checks})
     command->add_option("--style", style_folder, "folder with draw.sh and *.gp; without it no figure is drawn");
   CLI11_PARSE(app, argc, argv);
 
   try {
     if (one->parsed())
       report(study_file, reference_file, style_folder, out);
+    else if (checks->parsed())
+      gather_checks(verdict_file, style_folder, out);
     else
       compare({folder, case_outputs, budgets, style_folder});
     return 0;

@@ -1,4 +1,4 @@
-# Work and precision of one case's study. draw.sh passes: points (csv), sweeps (names, '|' between them), quantity, cost
+# Work and precision of one case's study. draw.sh passes: points (csv), sweeps (names, as words), quantity, cost
 # ('contact evaluations' or 'steps', what the recommendation counts), default ('yes': the scene as it is has a result).
 load style
 set terminal svg size 760,880
@@ -18,24 +18,16 @@ set label 1 '5 %'   at graph 1.005, first 0.05  font ',11' tc rgb '#606060'
 set label 2 '1 %'   at graph 1.005, first 0.01  font ',11' tc rgb '#606060'
 set label 3 '0.1 %' at graph 1.005, first 0.001 font ',11' tc rgb '#606060'
 
-# the names are cut at '|': a sweep's name may hold blanks
-count = 1
-do for [i=1:strlen(sweeps)] { if (sweeps[i:i] eq '|') { count = count + 1 } }
-array name[count]
-rest = sweeps
-do for [i=1:count] {
-  cut = strstrt(rest, '|')
-  name[i] = cut > 0 ? rest[1:cut-1] : rest
-  rest = rest[cut+1:*]
-}
+# each a word of its own, whatever blanks it holds
+count = words(sweeps)
 
 # a row belongs to the curve when quantity and sweep agree; the others are left out without breaking the line
 of(sweep, value) = (strcol('quantity') eq quantity && strcol('sweep') eq sweep) ? value : NaN
 best(value) = (strcol('quantity') eq quantity && strcol('pareto') eq 'yes') ? value : NaN
 error = 'column("relative_error")'
 upper = 'column("relative_error_upper")'
-curves = "for [i=1:count] points using (of(name[i], @work)):(@error):(0):(@upper - @error) with vectors nohead lt i lw 1 notitle, \
-     for [i=1:count] points using (of(name[i], @work)):(@error) with linespoints lt i title name[i] noenhanced, \
+curves = "for [i=1:count] points using (of(word(sweeps, i), @work)):(@error):(0):(@upper - @error) with vectors nohead lt i lw 1 notitle, \
+     for [i=1:count] points using (of(word(sweeps, i), @work)):(@error) with linespoints lt i title word(sweeps, i) noenhanced, \
      points using (best(@work)):(@error) with points pt 6 ps 1.5 lw 1.5 lc rgb '#202020' title 'Pareto front'"
 if (default eq 'yes') {
   curves = curves.", points using (of('default', @work)):(@error) with points pt 3 ps 1.2 lw 1.5 lc rgb '#202020' title 'the scene as it is'"

@@ -11,16 +11,16 @@ namespace fs = std::filesystem;
 
 std::string text_page(const Folders& folders, const std::string& name, const std::string& anchor) {
   const std::string text = verification::read_text(folders.source / "reports" / (name + ".md"));
-  const LinkRules rules{[](const std::string&, const std::string&) -> std::optional<std::string> { return {}; },
-                        [](const std::string& target) -> std::optional<std::string> {
+  const LinkRules rules{[](const std::string& target) -> std::optional<std::string> {
                           const fs::path path(target);
                           if (path.parent_path().parent_path() != "../cases") return {};
                           const std::string of_case = slug(path.parent_path().filename().string());
                           if (path.filename() == "README.md") return "#" + of_case;
                           return fmt::format("#{}-{}", of_case, slug(path.filename().string()));
-                        }};
+                        },
+                        [](const std::string&, const std::string&) -> std::optional<std::string> { return {}; }};
   return fmt::format("<section class=\"case\" id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", anchor,
-                     escape(markdown_title(text).value_or(name)), apply_links(markdown_to_html(text, 1, true), rules));
+                     escape(markdown_title(text).value_or(name)), markdown_to_html(text, 1, true, rules));
 }
 
 }  // namespace voussoir::reports

@@ -1,4 +1,4 @@
-# What accuracy costs, over all cases. draw.sh passes: data (trade.csv), cases (names, '|' between them).
+# What accuracy costs, over all cases. draw.sh passes: data (trade.csv), cases (names, as words).
 load style
 set terminal svg size 760,620
 set output out
@@ -20,19 +20,11 @@ set label 2 '1 %'   at graph 1.005, first 0.01  font ',11' tc rgb '#606060'
 set label 3 '0.1 %' at graph 1.005, first 0.001 font ',11' tc rgb '#606060'
 set arrow from first 1, graph 0 to first 1, graph 1 nohead lw 1 lc rgb '#c0c0c0' back
 
-count = 1
-do for [i=1:strlen(cases)] { if (cases[i:i] eq '|') { count = count + 1 } }
-array name[count]
-rest = cases
-do for [i=1:count] {
-  cut = strstrt(rest, '|')
-  name[i] = cut > 0 ? rest[1:cut-1] : rest
-  rest = rest[cut+1:*]
-}
+count = words(cases)
 # seven colours; those that return are dashed, with open points
-first = count > 7 ? 7 : count
-open(i) = i == 1 ? 6 : i == 2 ? 4 : i == 3 ? 8 : i == 4 ? 12 : i == 5 ? 10 : i == 6 ? 5 : 7
-of(i) = strcol('case') eq name[i] ? column('relative_cost') : NaN
-plot for [i=1:first] data using (of(i)):(column('relative_error')) with linespoints lt i ps 0.8 title name[i] noenhanced, \
-     for [i=8:count] data using (of(i)):(column('relative_error')) with linespoints lt i-7 dt 2 pt open(i-7) ps 0.8 \
-     title name[i] noenhanced
+colour(i) = (i - 1) % 7 + 1
+dash(i) = i > 7 ? 2 : 1
+shape(i) = int(word(i > 7 ? '6 4 8 12 10 5 7' : '7 5 9 13 11 4 6', colour(i)))
+of(i) = strcol('case') eq word(cases, i) ? column('relative_cost') : NaN
+plot for [i=1:count] data using (of(i)):(column('relative_error')) with linespoints lt colour(i) dt dash(i) \
+     pt shape(i) ps 0.8 title word(cases, i) noenhanced

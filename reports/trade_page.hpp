@@ -1,5 +1,5 @@
 #pragma once
-// The page "What accuracy costs": the studies of all cases beside each other.
+// Pages that set all cases beside each other: "What accuracy costs", of their studies, and "All checks at one look".
 #include <string>
 #include <vector>
 
@@ -9,5 +9,6 @@ namespace voussoir::reports {
 
 // What could not be shown is named on the page, and in `missing`, one sentence each.
 std::string trade_page(const Folders& folders, std::vector<std::string>& missing);
+std::string checks_page(const Folders& folders, std::vector<std::string>& missing);
 
 }  // namespace voussoir::reports

@@ -140,15 +140,15 @@ TEST(Arch, NeedsLessOnStifferJoints) {
   const double rigid = reference::minimum_thickness(arch) / arch.radius;
   const std::size_t last = least.size() - 1;
   const double power = std::log10((least[last] - rigid) / (least[last - 4] - rigid));
-  report.record(
-      {"power of the stiffness in what is added",
-       "1",
-       Kind::limit,
-       "a pressed length of (1/(k turn))^1/2 lost against a turn of the arch gained: the least sum goes by k^-1/3",
-       -1.0 / 3,
-       {0.5 * (least[last] / rigid - 1), 0},
-       "the next power, k^-2/3, is as small beside it as it is beside the thickness"},
-      power);
+  report.record({"power of the stiffness in what is added",
+                 "1",
+                 Kind::limit,
+                 "closed form: a pressed length of (1/(k turn))^1/2 lost against a turn of the arch gained: the least "
+                 "sum goes by k^-1/3",
+                 -1.0 / 3,
+                 {0.5 * (least[last] / rigid - 1), 0},
+                 "the next power, k^-2/3, is as small beside it as it is beside the thickness"},
+                power);
   write_csv("arch", "least.csv", {"stiffness_GPa_m", "least"}, {joints, least});
   write_csv("arch", "rigid.csv", {"rigid", "many"}, {{rigid}, {reference::minimum_thickness({1001, 1, 1})}});
 }
@@ -235,7 +235,7 @@ TEST(Arch, StandsAboveItsLimitAndFallsBelow) {
   report.record({"hinges",
                  "1",
                  Kind::exact,
-                 "joints at whose ends the thrust line of rigid voussoirs acts, and at which end",
+                 "joints at whose ends the thrust line of rigid voussoirs acts, and at which end, reference/arch",
                  6,
                  {0, 0},
                  "a count: at both springings, both haunches and both sides of the keystone"},

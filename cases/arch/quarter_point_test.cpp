@@ -142,7 +142,7 @@ void judge_extrapolation(const Found& soft, const Found& stiff, CaseReport& repo
       {"point load on rigid joints, from " + on(soft.stiffness) + " and " + on(stiff.stiffness),
        "N",
        Kind::limit,
-       "voussoir limit --load applied",
+       "limit analysis: voussoir limit --load applied",
        limit_analysis(),
        {0, std::min(asked, next_power + brackets)},
        "by how much a line through the reference's own two loads misses the rigid one, for it leaves out the next "

@@ -58,14 +58,14 @@ struct Flight {
   }
 };
 
-// Falls 50 mm and rebounds.
+// Falls 50 mm and rebounds on the dashpot of Eq. 6.9.
 TEST(Bounce, FirstImpact) {
   CaseReport report("bounce", {"largest overlap", "restitution", "duration of contact", "rebound height"});
   const SceneRun run = cases::run("scene.toml");
   const Flight flight(run, gap);
   const reference::BounceResult expected = reference::bounce({mass, stiffness, damping_ratio, drop_speed, gravity});
   const double fraction = 2 * damping_ratio * frequency * flight.step;
-  const std::string source = "spring and dashpot that cannot pull, with gravity (Schwager & Poschel 2007)";
+  const std::string source = "Schwager & Poschel (2007): spring and dashpot (Eq. 6.9) that cannot pull, with gravity";
 
   report.record({"largest overlap", "m", Kind::exact, source, expected.maximum_overlap, {0, fraction}, first_order},
                 flight.overlap(), cost(run));
@@ -130,7 +130,7 @@ TEST(Bounce, FourthImpact) {
   report.record({"time of the fourth impact",
                  "s",
                  Kind::exact,
-                 "arcs and impacts in turn",
+                 "Schwager & Poschel (2007): arcs and impacts in turn",
                  touch,
                  {3 * fraction * touch, 0},
                  "each of three impacts adds its fraction of the speed, that is of the time in flight"},
@@ -153,7 +153,7 @@ TEST(Bounce, ErrorAgainstStep) {
     report.record({fmt::format("restitution without gravity, {} of the stable step", fraction),
                    "1",
                    Kind::exact,
-                   "exp(-2 z acos(z)/sqrt(1 - z2))",
+                   "Schwager & Poschel (2007): exp(-2 z acos(z)/sqrt(1 - z2))",
                    expected,
                    {0, bounds.back()},
                    first_order},
@@ -166,7 +166,7 @@ TEST(Bounce, ErrorAgainstStep) {
       {"order of the error in the step",
        "1",
        Kind::limit,
-       "leapfrog with a late dashpot",
+       "convergence: leapfrog with a late dashpot",
        1,
        {0.1, 0},
        "the fraction of second order is as large as omega dt, below 0.02 for the two smallest steps; the last force "
@@ -175,7 +175,7 @@ TEST(Bounce, ErrorAgainstStep) {
   report.record({"restitution, extrapolated to no step",
                  "1",
                  Kind::limit,
-                 "exp(-2 z acos(z)/sqrt(1 - z2))",
+                 "Schwager & Poschel (2007): exp(-2 z acos(z)/sqrt(1 - z2))",
                  expected,
                  {0, damping_ratio * steps[last - 1] * steps[last - 1]},
                  "what second order leaves of the two smallest steps: z (omega dt)2"},

@@ -100,7 +100,7 @@ void compare(CaseReport& report, int blocks, double relaxation_interval, double 
   report.record({fmt::format("settlement by relaxation, {} blocks", blocks),
                  "m",
                  Kind::exact,
-                 "N (N + 1)/2 m g/k",
+                 "equilibrium: N (N + 1)/2 m g/k",
                  settlement(blocks),
                  {0, rest * blocks * blocks},
                  "rest leaves each of N blocks 1e-8 of the mean contact force unbalanced, which N joints collect"},

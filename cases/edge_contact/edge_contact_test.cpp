@@ -38,14 +38,19 @@ void check(CaseReport& report, const std::string& which, const SceneRun& run) {
   report.record({"overlap" + which,
                  "m",
                  Kind::exact,
-                 "W/k",
+                 "equilibrium: W/k",
                  overlap,
                  {0, 2e-6},
                  "rest leaves 1e-6 of the force unbalanced, the search for the contact point 1e-9 of the overlap"},
                 found.overlap, cost(run));
-  report.record(
-      {"contact force" + which, "N", Kind::exact, "W", weight, {0, 2e-6}, "as the overlap, of which it is k times"},
-      found.force, cost(run));
+  report.record({"contact force" + which,
+                 "N",
+                 Kind::exact,
+                 "equilibrium: W",
+                 weight,
+                 {0, 2e-6},
+                 "as the overlap, of which it is k times"},
+                found.force, cost(run));
   report.record({"contact force on the base" + which,
                  "N",
                  Kind::exact,
@@ -65,7 +70,7 @@ void check(CaseReport& report, const std::string& which, const SceneRun& run) {
   report.record({"tilt of the contact force" + which,
                  "deg",
                  Kind::exact,
-                 "common perpendicular of the edges: vertical",
+                 "geometry: common perpendicular of the edges: vertical",
                  0,
                  {1e-9 / degree, 0},
                  "the contact point is found to 1e-9 of the overlap"},

@@ -68,16 +68,16 @@ void check(CaseReport& report, const std::string& which, const Fall& fall, Balan
                            double limit, const char* reason) {
     report.record({quantity + which, unit, Kind::limit, source, 0, {limit, 0, Bound::at_most}, reason}, value, cost);
   };
-  at_most("contacts without an answer", "1", "robustness", static_cast<double>(found.counters.unconverged), 0.5,
-          "a count");
-  at_most("overlaps beyond the potential particle's radius", "1", "stiff enough",
+  at_most("contacts without an answer", "1", "promise: every contact has an answer",
+          static_cast<double>(found.counters.unconverged), 0.5, "a count");
+  at_most("overlaps beyond the potential particle's radius", "1", "demanded: stiff enough",
           static_cast<double>(found.counters.deep_overlaps), 0.5, "a count");
-  at_most("deepest corner in the plate or a wall", "m", "no block goes through", found.deepest,
+  at_most("deepest corner in the plate or a wall", "m", "promise: no block goes through", found.deepest,
           largest_potential_radius(fall.scene().model, fall.scene().settings.contact.potential_radius),
           "no overlap is beyond the radius of the bluntest block's potential particle");
   if (rest == Rest::demanded || found.kinetic < at_rest)
-    at_most("kinetic energy at rest", "1", "rest, as a fraction of the energy of the drop", found.kinetic, at_rest,
-            "what was asked of the case; there the fall is ended");
+    at_most("kinetic energy at rest", "1", "equilibrium: rest, as a fraction of the energy of the drop", found.kinetic,
+            at_rest, "what was asked of the case; there the fall is ended");
   else
     report.report("kinetic energy at the end, not at rest" + which, "1", found.kinetic,
                   "a block between two parallel faces keeps turning: contacts that act at points do not resist "
@@ -85,13 +85,16 @@ void check(CaseReport& report, const std::string& which, const Fall& fall, Balan
                   cost);
   for (const auto& [when, closure] :
        {std::pair(", before the damping starts", found.before), {", at rest", found.end}}) {
-    at_most(std::string("energy that the motion does not account for") + when, "1",
-            "work of all forces against kinetic energy, as a fraction of the energy of the drop", closure.motion,
-            motion_closed, "leapfrog closes to the rounding of some ten thousand steps of two hundred blocks");
+    at_most(
+        std::string("energy that the motion does not account for") + when, "1",
+        "conservation of energy: work of all forces against kinetic energy, as a fraction of the energy of the drop",
+        closure.motion, motion_closed,
+        "leapfrog closes to the rounding of some ten thousand steps of two hundred blocks");
     const std::string quantity = std::string("energy that the contacts do not account for") + when;
     if (balance == Balance::checked)
       at_most(quantity, "1",
-              "work of the contacts against springs, dashpots and friction, as a fraction of the energy of the drop",
+              "conservation of energy: work of the contacts against springs, dashpots and friction, as a fraction of "
+              "the energy of the drop",
               closure.contacts, energy_balanced,
               "what was asked of the case; what the time step leaves falls with its square (README.md)");
     else
@@ -179,14 +182,15 @@ TEST(FreeFall, TheEnergyBalanceClosesWithTheSquareOfTheStep) {
     open[2].push_back(left_open("multipliers", multipliers, fraction, {}));
     std::optional<Limit> of_path;  // seen: 4e-4 and 6e-5, a sixth more or less
     if (fraction < 1)
-      of_path = {fraction == 0.2 ? 2e-4 : 1e-3, "a potential, second order in the step",
+      of_path = {fraction == 0.2 ? 2e-4 : 1e-3, "convergence: a potential, second order in the step",
                  "four times what a step of second order leaves"};
     open[3].push_back(left_open("central path", central_path, fraction, of_path));
     // demanded of whole contacts: one percent, a thousandth at a fifth, and that a shorter step leaves less
     double most = 0.01;
     if (fraction < 1) most = std::min(fraction == 0.2 ? energy_balanced : most, open[4].front());
-    const Limit of_region{most, "a potential: the depth of the overlap region, or the overlap of two faces",
-                          "what was asked of the case; a shorter step leaves less than the limit does"};
+    const Limit of_region{
+        most, "conservation of energy: a potential, the depth of the overlap region, or the overlap of two faces",
+        "what was asked of the case; a shorter step leaves less than the limit does"};
     open[4].push_back(left_open("whole contacts", whole_contacts, fraction, of_region, When::worst));
   }
   left_open("a point with stiffness per area", per_area, 1, {});

@@ -119,7 +119,7 @@ Check share_check(const std::string& quantity, const std::string& source, double
   return {quantity, "1", Kind::limit, source, 0, {tolerance, 0, Bound::at_most}, because};
 }
 
-const std::string by_reference = "equilibrium with the scene's own normal, arm and abutments (Boon 2013, appendix E)";
+const std::string by_reference = "equilibrium with the scene's own normal, arm and abutments, reference/hingedbeam";
 
 bool has_ipopt() {
   const auto built_in = features();
@@ -180,7 +180,7 @@ TEST(HingedBeamPeak, IsThatOfALevelCorner) {
     report.record({"peak weight of the reference, " + v.name,
                    "N",
                    Kind::limit,
-                   "36.895 kN (tall) and 36.588 kN (aligned) with the lower corner kept level",
+                   "equilibrium: 36.895 kN (tall) and 36.588 kN (aligned) with the lower corner kept level",
                    level.weight,
                    {0, 0.01},
                    "rolling lifts the corner by 0.1 mm, of which each carries 0.6 % where the abutment ends beside it"},
@@ -219,15 +219,15 @@ TEST(HingedBeamWeight, IsHeldUpToThePeak) {
                      {"gravity=[0, -" + std::to_string(weight / block_mass) + "]"}, 1);
   };
   const SceneRun below = under(0.99 * peak), above = under(1.01 * peak);
-  report.record({"weight held", "1", Kind::exact, "0.99 of the peak", 1, {0, 0}, "it comes to rest"},
-                below.results.outcome == Outcome::done && -value(below, "block_rotation") * degree < 0.117262,
-                cost(below));
+  report.record(
+      {"weight held", "1", Kind::exact, "reference/hingedbeam: 0.99 of the peak", 1, {0, 0}, "it comes to rest"},
+      below.results.outcome == Outcome::done && -value(below, "block_rotation") * degree < 0.117262, cost(below));
   const std::vector<double> turned = column(above, "block_rotation_deg", push);
   report.record(
       {"weight that snaps through",
        "1",
        Kind::exact,
-       "1.01 of the peak",
+       "reference/hingedbeam: 1.01 of the peak",
        1,
        {0, 0},
        "it passes Goodman's geometric limit, where the hinges are level"},
@@ -249,10 +249,10 @@ TEST(HingedBeamSolvers, AgreeOnTheCentre) {
   const Worst apart = worst(curve(ipopt), curve(own));
   const std::string because =
       "both find the centre to 1e-6 of the overlap; rows stand at the same times, and a chord of the curve misses 1e-4";
-  report.record(share_check("weight, Ipopt against own Newton", "the same maximum", 0.001, because), apart.weight,
-                cost(ipopt));
-  report.record(share_check("thrust, Ipopt against own Newton", "the same maximum", 0.001, because), apart.thrust,
-                cost(ipopt));
+  report.record(share_check("weight, Ipopt against own Newton", "Eqs 3.28 and 3.38: the same maximum", 0.001, because),
+                apart.weight, cost(ipopt));
+  report.record(share_check("thrust, Ipopt against own Newton", "Eqs 3.28 and 3.38: the same maximum", 0.001, because),
+                apart.thrust, cost(ipopt));
   write_curve("ipopt", curve(ipopt));
 }
 

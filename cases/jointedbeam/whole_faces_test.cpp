@@ -37,7 +37,7 @@ TEST(JointedBeam, OnWholeFacesIsTheChainOfDistributedJointsThatDoNotSlip) {
   report.record({"contact evaluations, whole faces over one point a face",
                  "1",
                  Kind::limit,
-                 "what was asked of the time",
+                 "demanded: what was asked of the time",
                  0,
                  {2.5, 0, verification::Bound::at_most},
                  "a count: what a contact costs is measured in cases/sub_contacts"},

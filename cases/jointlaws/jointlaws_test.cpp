@@ -141,7 +141,7 @@ TEST(JointLaws, CurvesForTheFigures) {
   }
   for (const double stress : {0.5e6, 1e6, 2e6, 4e6})
     for (int i = 0; i <= 60; ++i) {
-      const double slip = 60e-6 * i / 60, left = std::max(1 - slip / peak_slip(stress), 0.0);  // Eq. 4.15
+      const double slip = 60e-6 * i / 60, left = std::max(1 - slip / peak_slip(stress), 0.0);  // no law of ours
       const double row[] = {1e-6 * stress, 1e6 * slip, 1e-9 * left * reference::stiffness_at(power_shear, stress)};
       for (int k = 0; k < 3; ++k)
         degrading[k].push_back(row[k]);

@@ -155,7 +155,7 @@ TEST(KernelTrade, AccuracyAgainstWork) {
   report.record({"point error over Newton's bound",
                  "1",
                  Kind::limit,
-                 "long double; Boyd & Vandenberghe 2004, 9.6.4",
+                 "extended precision: long double; Boyd & Vandenberghe (2004), 9.6.4",
                  0,
                  {1, 0},
                  "the decrement before the last step bounds the distance after it, for every pair and tolerance"},
@@ -163,7 +163,7 @@ TEST(KernelTrade, AccuracyAgainstWork) {
   report.record({"worst error at the default tolerance",
                  "1",
                  Kind::limit,
-                 "long double",
+                 "extended precision: long double",
                  0,
                  {1e-9, 0},
                  "the default leaves (1e-5)² of the overlap and the rounding of slacks; settings.hpp promises 1e-9"},
@@ -185,7 +185,7 @@ TEST(KernelTrade, TheRadiusOfThePotentialParticle) {
   report.record({"tilt near an edge",
                  "rad",
                  Kind::exact,
-                 "atan(<r - e>/(r - u/2)), closed form",
+                 "Eqs 3.31-3.35: atan(<r - e>/(r - u/2)), closed form",
                  0,
                  {3e-9, 0},
                  "largest difference over r and e; the point is found to 1e-9 of the patch 2e, and the tilt grows by "
@@ -205,18 +205,19 @@ TEST(KernelTrade, TheRadiusOfThePotentialParticle) {
   write_csv("kernel_trade", "radius.csv", {"radius", "tilt", "change", "without", "deep"}, curves);
   const AtRadius& rule = ruled(radii);
   write_csv("kernel_trade", "rule.csv", {"radius", "share"}, {{rule.radius, rule.radius}, {0, 1}});
-  report.record({"contacts without a gradient, not reported as deep",
-                 "1",
-                 Kind::exact,
-                 "a part has no gradient only where all its faces are r or more away, so the overlap exceeds r",
-                 0,
-                 {0.5, 0},
-                 "a count"},
-                unsaid);
+  report.record(
+      {"contacts without a gradient, not reported as deep",
+       "1",
+       Kind::exact,
+       "Eqs 3.31-3.35: a part has no gradient only where all its faces are r or more away, so the overlap exceeds r",
+       0,
+       {0.5, 0},
+       "a count"},
+      unsaid);
   report.record({"tilt of face contacts at the ruled radius",
                  "rad",
                  Kind::exact,
-                 "the face's normal",
+                 "geometry: the face's normal",
                  0,
                  {1e-12, 0},
                  "mean; every point lies farther than r from the edges, so only the rounding of normals is left"},

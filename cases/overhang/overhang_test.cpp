@@ -131,7 +131,7 @@ TEST(OverhangOfHardBlocks, IsNearlyHarmonic) {
   const double limit = elastic_overhang_limit(harder).fraction;
   constexpr double apart = 0.001;
   const SceneRun standing = attempt(plane, limit - apart, joints), falling = attempt(plane, 1 + apart, joints);
-  const std::string source = "harmonic overhangs, 1.1417 m together";
+  const std::string source = "reference/small/overhang: harmonic overhangs, 1.1417 m together";
   report.record({"stands below the harmonic overhang",
                  "1",
                  Kind::limit,

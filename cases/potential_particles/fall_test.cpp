@@ -92,9 +92,9 @@ void check(CaseReport& report, const std::string& which, const Fall& fall, Overl
         {which + quantity + name_of(overlap), unit, Kind::limit, source, 0, {limit, 0, Bound::at_most}, reason}, value,
         cost);
   };
-  at_most(": contacts without an answer", "1", "robustness", static_cast<double>(found.counters.unconverged), 0.5,
-          "a count");
-  at_most(": deepest in the plate or a wall", "m", "no block goes through", fall.deepest, fall.room,
+  at_most(": contacts without an answer", "1", "promise: every contact has an answer",
+          static_cast<double>(found.counters.unconverged), 0.5, "a count");
+  at_most(": deepest in the plate or a wall", "m", "promise: no block goes through", fall.deepest, fall.room,
           "the overlap at which the inner bodies of block and wall would meet: the sum of their radii");
   if (found.kinetic < at_rest)
     at_most(": kinetic energy at rest", "1", "rest, as a fraction of the energy of the drop", found.kinetic, at_rest,
@@ -104,13 +104,15 @@ void check(CaseReport& report, const std::string& which, const Fall& fall, Overl
                   "contacts that act at points do not resist a spin about their normal (README.md)", cost);
   for (const auto& [when, closure] :
        {std::pair(", before the damping starts", found.before), {", at the end", found.end}}) {
-    at_most(std::string(": energy that the motion does not account for") + when, "1",
-            "work of all forces against kinetic energy, as a fraction of the energy of the drop", closure.motion,
-            motion_closed, "leapfrog closes to the rounding of some ten thousand steps");
+    at_most(
+        std::string(": energy that the motion does not account for") + when, "1",
+        "conservation of energy: work of all forces against kinetic energy, as a fraction of the energy of the drop",
+        closure.motion, motion_closed, "leapfrog closes to the rounding of some ten thousand steps");
     const std::string quantity = std::string(": energy that the contacts do not account for") + when;
     if (overlap == Overlap::conservative)
       at_most(quantity, "1",
-              "work of the contacts against springs, dashpots and friction, as a fraction of the energy of the drop",
+              "conservation of energy: work of the contacts against springs, dashpots and friction, as a fraction of "
+              "the energy of the drop",
               closure.contacts, energy_balanced, "what was asked of the case (README.md)");
     else
       report.report(which + quantity + name_of(overlap), "1", closure.contacts,
@@ -161,7 +163,7 @@ void follow_the_step(const std::string& which, const std::vector<double>& fracti
       {"twenty: energy left open at the smallest step over that at the largest, conservative overlap",
        "1",
        Kind::limit,
-       "second order in the step",
+       "convergence: second order in the step",
        0,
        {10 * std::pow(fractions.back() / fractions.front(), 2), 0, Bound::at_most},
        "the square of the steps' ratio; a fall is chaotic, and one differs from the next by some times itself"},

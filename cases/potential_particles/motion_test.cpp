@@ -43,7 +43,7 @@ TEST(PotentialParticles, ABallBouncesWithThePeriodOfItsSpring) {
       {"ball on a plate: period",
        "s",
        Kind::exact,
-       "2 v/g + (2/w)(pi - atan(w v/g))",
+       "Newton: 2 v/g + (2/w)(pi - atan(w v/g))",
        reference::ball_period({ball_mass, ball_stiffness, gravity}, gap),
        {0, 0.55 * half_step * half_step * (periods + 2) / 2},
        "a bounce changes the energy by at most 1.1 (omega dt/2)2 (case bounce), the time in flight by half of "
@@ -61,7 +61,7 @@ TEST(PotentialParticles, ADampedImpactGivesBackWhatTheClosedFormDoes) {
     report.record({fmt::format("ball on a plate: restitution, {} of the stable step", fraction),
                    "1",
                    Kind::exact,
-                   "exp(-2 z acos(z)/sqrt(1 - z2))",
+                   "Schwager & Poschel (2007): exp(-2 z acos(z)/sqrt(1 - z2))",
                    expected,
                    {0, 2 * damping_ratio * eigenfrequency() * step},
                    "the dashpot takes the velocity of half a step before and starts up to half a step early or late"},
@@ -97,7 +97,7 @@ TEST(PotentialParticles, ARoundedSquareRollsOverItsCorner) {
       report.record({fmt::format("rolling over a corner of {} m: time to lean by {:.0f} deg more", r, lean),
                      "s",
                      Kind::exact,
-                     "energy, by quadrature: it turns about its point of contact",
+                     "conservation of energy, by quadrature: it turns about its point of contact",
                      reference::rolling_time(body, start + lean * degree),
                      {0, overlap / (square.arm * start) + overlap / r},
                      "the corner gives by its overlap, W/k, which moves the pivot against the first lean, and shortens "

@@ -84,7 +84,13 @@ TEST(PotentialParticles, ReadingsOfEquationA10) {
     const double size = 3, rounding = 64 * std::numeric_limits<double>::epsilon() * size;
     const auto place_is = [&](const std::string& what, double expected, double tolerance, const std::string& because,
                               double computed) {
-      report.record({name + what, "m", Kind::exact, "closed form on the axis", expected, {tolerance, 0}, because},
+      report.record({name + what,
+                     "m",
+                     Kind::exact,
+                     "readings of Eqs A.3 and A.10: closed form on the axis",
+                     expected,
+                     {tolerance, 0},
+                     because},
                     computed);
     };
     const PotentialContact<3> found = resolve<3>(example.pair(), PotentialQuery::overlap, workspace);

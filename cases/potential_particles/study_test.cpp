@@ -63,7 +63,7 @@ TEST(PotentialParticles, RoundedBlocksKeepTheirClosedForms) {
     report.record({fmt::format("hinged beam, r/size {}, k 0: weight over that of the sharp hinge", q),
                    "1",
                    Kind::exact,
-                   "arcs of r, forces through their centres",
+                   "equilibrium: arcs of r, forces through their centres",
                    expected,
                    {0, 0.005},
                    "the push leaves a swing of at most 0.4 % of the weight (case hingedbeam)"},
@@ -73,7 +73,7 @@ TEST(PotentialParticles, RoundedBlocksKeepTheirClosedForms) {
   report.record({"hinged beam, r/size 0.1, k 0: peak weight",
                  "N",
                  Kind::exact,
-                 "arcs of r, forces through their centres",
+                 "equilibrium: arcs of r, forces through their centres",
                  reference::rounded_hinged_beam_peak({{}, beam_stiffness, 0.1 * inscribed}).weight,
                  {0, 0.005},
                  "as above"},
@@ -88,7 +88,7 @@ TEST(PotentialParticles, RoundedBlocksKeepTheirClosedForms) {
   report.record({"column, r/size 0.1, k 0: settlement over that of the sharp blocks",
                  "1",
                  Kind::exact,
-                 "the weight of what rounding leaves: 1 - (4 - pi) r2 of a square of 1 m",
+                 "equilibrium: the weight of what rounding leaves: 1 - (4 - pi) r2 of a square of 1 m",
                  1 - (4 - std::numbers::pi) * r * r,
                  {1.4e-4, 0},
                  "rest leaves 4e-5 (case column), the mass is right to 1e-4"},
@@ -117,7 +117,8 @@ TEST(PotentialParticles, AColumnStandsAsLongAsItsFacesAreFlatEnough) {
     const double critical = critical_sphericity(radius);
     const Trial stands = leaning_column({radius, critical / 1.5}), falls = leaning_column({radius, critical * 1.5});
     const std::string at = fmt::format(" of its critical k = {:.3f}, r/size {}", critical, radius);
-    const std::string source = "tilts of blocks that roll on each other: least joint radius 12.59 heights for eight";
+    const std::string source =
+        "equilibrium: tilts of blocks that roll on each other: least joint radius 12.59 heights for eight";
     report.record({"column, two thirds" + at + ": top sideways",
                    "m",
                    Kind::limit,
@@ -236,7 +237,7 @@ TEST(PotentialParticles, RoundingChangesWhatItsBoundariesSay) {
     report.record({"coarse study, " + problem.name + ": error at r/size 0.001, k 0",
                    "1",
                    Kind::limit,
-                   "a sharp shape's",
+                   "comparison: a sharp shape's",
                    0,
                    {0.005, 0, Bound::at_most},
                    "twice r/size, and what its own test leaves: wedge 0.0015, beam 0.004, column 0.0001"},

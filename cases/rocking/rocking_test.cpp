@@ -214,7 +214,7 @@ TEST(Rocking, IsHeldByTheMomentOfItsBase) {
       report.record({quantity,
                      "1",
                      Kind::limit,
-                     "linear pressure without tension",
+                     "equilibrium: linear pressure without tension",
                      0,
                      {allowed, 0, Bound::at_most},
                      "largest deviation over the breadth, to 0.003 rad"},

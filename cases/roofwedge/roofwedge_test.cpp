@@ -172,7 +172,7 @@ void judge_pressure(CaseReport& report, const std::string& name, const SceneRun&
     report.record({fmt::format("pressure that arrives on joint {}{}", static_cast<char>('A' + i), name),
                    "Pa",
                    Kind::limit,
-                   "homogeneous stress: 0.75 of the 0.05 MPa applied",
+                   "equilibrium: homogeneous stress: 0.75 of the 0.05 MPa applied",
                    share_across * applied,
                    {0, 0.0005},
                    "closures of 0.1 mm change faces by 0.02 %"},

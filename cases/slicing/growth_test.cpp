@@ -180,20 +180,20 @@ void study(CaseReport& report, const Growth& growth) {
   const std::string of = growth.name + ": ";
   report.record({.quantity = of + "volume, largest relative error",
                  .unit = "1",
-                 .source = "the box",
+                 .source = "geometry: the box",
                  .tolerance = {.absolute = conserved},
                  .because = "rounding of as many volumes as there are blocks"},
                 worst_volume);
   report.record({.quantity = of + "overlapping neighbours",
                  .unit = "1",
-                 .source = "blocks tile the box",
+                 .source = "conservation of volume: blocks tile the box",
                  .tolerance = {.absolute = 0.5},
                  .because = "a count"},
                 static_cast<double>(overlapping_pairs(runs.back().blocks)));
   report.record({.quantity = of + "memory of a block",
                  .unit = "B",
                  .kind = Kind::limit,
-                 .source = "what a machine of 1 GB holds of 5e5 blocks",
+                 .source = "demanded: what a machine of 1 GB holds of 5e5 blocks",
                  .expected = 2000,
                  .tolerance = {.relative = 1e-9, .bound = Bound::at_most},
                  .because = "a size in bytes"},
@@ -295,7 +295,7 @@ TEST(SlicingGrowth, AnAssemblyInSpaceFillsItsBoxAndItsFacesMatch) {
   report.report("assembly: blocks", "1", static_cast<double>(done.blocks.size()), "finite joints in a box of 24 m");
   report.record({.quantity = "assembly: volume",
                  .unit = "m³",
-                 .source = "the box",
+                 .source = "geometry: the box",
                  .expected = pattern.domain.mass.volume,
                  .tolerance = {.relative = conserved},
                  .because = "rounding of as many volumes as there are blocks"},
@@ -308,7 +308,7 @@ TEST(SlicingGrowth, AnAssemblyInSpaceFillsItsBoxAndItsFacesMatch) {
     common += face.area;
   report.record({.quantity = "assembly: area of joints that two blocks share",
                  .unit = "m²",
-                 .source = "half the area of all faces of joints: each is seen from both sides",
+                 .source = "geometry: half the area of all faces of joints: each is seen from both sides",
                  .expected = faces / 2,
                  .tolerance = {.relative = 1e-9},
                  .because = "areas clipped at a joint's other faces, whose slivers below 1e-9 count as none"},

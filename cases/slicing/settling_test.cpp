@@ -67,20 +67,20 @@ void check(CaseReport& report, const std::string& which, const RecordedRun<3>& s
     weight -= model.bodies[b].mass * model.gravity[2];
     farthest = std::max(farthest, state.motions[b].displacement.norm());
   }
-  record("contacts without an answer", "1", Kind::exact, "a contact without an answer fails the run", 0, {0.5, 0},
-         "a count", static_cast<double>(results.counters.unconverged));
+  record("contacts without an answer", "1", Kind::exact, "promise: a contact without an answer fails the run", 0,
+         {0.5, 0}, "a count", static_cast<double>(results.counters.unconverged));
 
   const double released = -state.energy.potential();
   record(
-      "kinetic energy at rest", "1", Kind::limit, "rest, as a fraction of what gravity did", 0,
+      "kinetic energy at rest", "1", Kind::limit, "equilibrium: rest, as a fraction of what gravity did", 0,
       {1e-6, 0, Bound::at_most},
       "momentum times frequency is below u = 1e-4 of the mean contact force: such a block holds some u² = 1e-8 of what "
       "its springs do, and a hundred times that where its springs are the softest",
       kinetic(model, state) / released);
-  record("energy that the motion does not account for", "1", Kind::exact, "work of all forces against kinetic energy",
-         0, {1e-10, 0}, "leapfrog closes to the rounding of some ten thousand steps",
-         std::abs(state.energy.motion_error) / released);
-  record("energy that is not accounted for", "1", Kind::limit, "the drift beyond which a run is doubted", 0,
+  record("energy that the motion does not account for", "1", Kind::exact,
+         "conservation of energy: work of all forces against kinetic energy", 0, {1e-10, 0},
+         "leapfrog closes to the rounding of some ten thousand steps", std::abs(state.energy.motion_error) / released);
+  record("energy that is not accounted for", "1", Kind::limit, "demanded: the drift beyond which a run is doubted", 0,
          {0.05, 0, Bound::at_most}, "core/simulate.cpp: areas and normals of contacts change while blocks settle",
          state.energy.relative_error());
 
@@ -93,7 +93,7 @@ void check(CaseReport& report, const std::string& which, const RecordedRun<3>& s
          now.on_fixed[0]);
   record("thrust on the walls, northward", "N", Kind::exact, "equilibrium of the whole", 0, {out_of_balance, 0},
          balance, now.on_fixed[1]);
-  record("largest overlap", "1", Kind::limit, "a fraction of the smaller block's inscribed radius", 0,
+  record("largest overlap", "1", Kind::limit, "geometry: a fraction of the smaller block's inscribed radius", 0,
          {settled.scene().settings.contact.potential_radius, 0, Bound::at_most},
          "beyond it the contact normal of the potential particle is no longer that of the faces", now.largest_overlap);
 
@@ -174,14 +174,15 @@ void check_cost(CaseReport& report, const std::string& which, const RecordedRun<
   report.record({"settling: evaluations a touching pair" + which,
                  "1",
                  Kind::limit,
-                 "core/step/README.md",
+                 "promise: core/step/README.md",
                  0,
                  {most, 0, Bound::at_most},
                  "those measured, and half as much again: the order of rounding decides "
                  "which joints open and close on the way"},
                 static_cast<double>(counters.contact_evaluations) / static_cast<double>(touching), cost(settled.run));
-  report.record({"settling: left to relaxation" + which, "1", Kind::exact, "none need be", 0, {0.5, 0}, "a count"},
-                static_cast<double>(counters.static_fallbacks), cost(settled.run));
+  report.record(
+      {"settling: left to relaxation" + which, "1", Kind::exact, "demanded: none need be", 0, {0.5, 0}, "a count"},
+      static_cast<double>(counters.static_fallbacks), cost(settled.run));
 }
 
 TEST(SlicingSettling, ThreeHundredBlocksRestByNewtonsMethod) {

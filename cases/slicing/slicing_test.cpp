@@ -177,7 +177,7 @@ TEST(Slicing, ASlopeIsShapedByConstructionJointsAndExcavation) {
     report.record(
         {.quantity = quantity,
          .unit = "m²",
-         .source = "corners of seven lines, shoelace formula",
+         .source = "geometry: corners of seven lines, shoelace formula",
          .expected = area_of_slide(),
          .tolerance = {.relative = 1e-11},
          .because = "coordinates of 1000 m round at 1e-16 of their size, corners of acute angles at 1e-14 and "
@@ -195,15 +195,17 @@ TEST(Slicing, ASlopeIsShapedByConstructionJointsAndExcavation) {
                    .because = "a count"},
                   found);
   };
-  count("slope: boundary blocks", "what lies below each of three boundary joints stays whole", 3, persistent.fixed);
-  count("slope: blocks cut along the outline alone", "construction joints through everything, held together again",
+  count("slope: boundary blocks", "geometry: what lies below each of three boundary joints stays whole", 3,
+        persistent.fixed);
+  count("slope: blocks cut along the outline alone",
+        "geometry: construction joints through everything, held together again",
         static_cast<double>(persistent.model.bodies.size()), static_cast<double>(confined.model.bodies.size()));
   const auto blocks = [](const Slope& found) { return static_cast<double>(found.model.bodies.size()); };
   report.report("slope: blocks", "1", blocks(persistent), "persistent joint sets");
   report.report("slope: blocks with finite cross joints", "1", blocks(finite), "each ends at the beds that it meets");
   report.report("slope: clumps", "1", persistent.clumped, "blocks of several parts, across construction joints");
   report.report("slope: clumps, cut along the outline alone", "1", confined.clumped, "the same blocks of fewer parts");
-  report.report("slope: parts", "1", persistent.parts, "construction joints through everything");
+  report.report("slope: parts", "1", persistent.parts, "geometry: construction joints through everything");
   report.report("slope: parts, cut along the outline alone", "1", confined.parts, "construction joints end");
 }
 
@@ -239,7 +241,7 @@ TEST(Slicing, OnePatternCutInFourWays) {
     Model<2> model = blocks_of<2>("pattern.toml", t.overrides);
     report.record({.quantity = "pattern: area, " + t.name,
                    .unit = "m²",
-                   .source = "the square of 10 m",
+                   .source = "geometry: the square of 10 m",
                    .expected = 100,
                    .tolerance = {.relative = conserved},
                    .because = why_conserved},
@@ -252,7 +254,7 @@ TEST(Slicing, OnePatternCutInFourWays) {
       report.record({.quantity = quantity,
                      .unit = "m",
                      .kind = Kind::limit,
-                     .source = "pattern.toml with slicing.smallest_inscribed_radius",
+                     .source = "demanded: pattern.toml with slicing.smallest_inscribed_radius",
                      .expected = least_radius,
                      .tolerance = {.relative = 1e-12, .bound = Bound::at_least},
                      .because = "rounding of the inscribed radius"},
@@ -282,7 +284,7 @@ TEST(Slicing, OnePatternCutInFourWays) {
     report.record({.quantity = "pattern: " + less + " has no more blocks than " + more,
                    .unit = "1",
                    .kind = Kind::limit,
-                   .source = "every face of the former is one of the latter",
+                   .source = "geometry: every face of the former is one of the latter",
                    .expected = count(more),
                    .tolerance = {.absolute = 0.5, .bound = Bound::at_most},
                    .because = "a count"},

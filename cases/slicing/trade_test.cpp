@@ -92,7 +92,7 @@ TEST(SlicingTrade, AgainstTheLimits) {
   report.record({"trade: volume, largest error of all limits",
                  "1",
                  Kind::exact,
-                 "cuts lose nothing",
+                 "conservation of volume: cuts lose nothing",
                  0,
                  {1e-12, 0},
                  "each cut rounds the volumes of two children, some 1e-15 of theirs"},
@@ -100,7 +100,7 @@ TEST(SlicingTrade, AgainstTheLimits) {
   report.record({"trade: smallest inscribed radius over the limit",
                  "1",
                  Kind::limit,
-                 "what slicing.hpp promises",
+                 "promise: what slicing.hpp promises",
                  1,
                  {1e-9, 0, Bound::at_least},
                  "the box obeys every limit, so every block must, but for the rounding of a finished block's radius"},
@@ -108,7 +108,7 @@ TEST(SlicingTrade, AgainstTheLimits) {
   report.record({"trade: largest aspect ratio over the limit",
                  "1",
                  Kind::limit,
-                 "what slicing.hpp promises",
+                 "promise: what slicing.hpp promises",
                  1,
                  {1e-9, 0, Bound::at_most},
                  "likewise"},
@@ -145,7 +145,7 @@ TEST(SlicingTrade, TheTimeStepGrowsWithTheRootOfTheSize) {
   report.record({"trade: time step of blocks twice as large, over the root of two",
                  "1",
                  Kind::exact,
-                 "stiffness per area times area over mass",
+                 "closed form: stiffness per area times area over mass",
                  1,
                  {1e-9, 0},
                  "similar blocks to the last digits; the first step decides, and is taken before anything moves"},
@@ -192,9 +192,14 @@ length = 2
 TEST(SlicingTrade, ALargerLimitCanMakeMoreBlocks) {
   CaseReport report("slicing");
   const auto count = [&](const std::string& quantity, double expected, const std::vector<std::string>& overrides) {
-    report.record(
-        {"trade: blocks of the cornered square" + quantity, "1", Kind::exact, "by hand", expected, {0.5, 0}, "a count"},
-        static_cast<double>(corner(overrides).model.bodies.size()));
+    report.record({"trade: blocks of the cornered square" + quantity,
+                   "1",
+                   Kind::exact,
+                   "geometry: by hand",
+                   expected,
+                   {0.5, 0},
+                   "a count"},
+                  static_cast<double>(corner(overrides).model.bodies.size()));
   };
   const std::string limit = "slicing.smallest_inscribed_radius=0.5", ignored = "slicing.ends=ignored";
   // the corner, of 0.29 m, keeps the diagonal to itself; left uncut, the diagonal parts the whole square, and each of

@@ -19,7 +19,7 @@ using verification::CaseReport;
 constexpr double reference_bracket = 0.005;  // deg
 constexpr double least_area = 0.1;           // of the largest block's: the top cuts off no slivers
 constexpr double settles = 50, falls = 4;    // deg: the search goes from 60 to 2
-constexpr const char* source = "elastic, perfectly plastic blocks without dilation";
+constexpr const char* source = "elastic, perfectly plastic blocks without dilation, reference/slump";
 
 bool has_slivers(const reference::LayeredSlope& slope) {
   const std::vector<double> areas = reference::slope_block_areas(slope);

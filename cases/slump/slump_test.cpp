@@ -103,7 +103,7 @@ TEST(Slump, IsLostWhereBlocksThatDoNotDilateLoseIt) {
   report.record({"critical friction, limit analysis",
                  "deg",
                  Kind::limit,
-                 "elastic, perfectly plastic blocks without dilation",
+                 "elastic, perfectly plastic blocks without dilation, reference/slump",
                  expected,
                  {0.0003, 0},
                  "half the reference's bracket, 0.00025; its trials leave up to 1e-7 of a block's weight at each of 63 "
@@ -128,7 +128,7 @@ TEST(Slump, IsLostWhereBlocksThatDoNotDilateLoseIt) {
   report.record({"blocks that move, limit analysis",
                  "1",
                  Kind::limit,
-                 "the outer layer: seven blocks",
+                 "geometry: the outer layer: seven blocks",
                  blocks_of_a_layer,
                  {0, 0},
                  "a count"},
@@ -154,7 +154,7 @@ std::vector<CollapsedBlock> judge_collapse(CaseReport& report, const std::string
       {"critical friction, " + name,
        "deg",
        Kind::limit,
-       "elastic, perfectly plastic blocks without dilation",
+       "elastic, perfectly plastic blocks without dilation, reference/slump",
        expected_deg(sought),
        {0.2, 0},
        "half the short search's bracket is 0.175; its last trials are 0.14 below and 0.21 above the reference, farther "
@@ -174,7 +174,7 @@ std::vector<CollapsedBlock> judge_collapse(CaseReport& report, const std::string
     if (block.turn < 0) ++backwards;
     turning += block.turn / (blocks_of_a_layer * most);
   }
-  const std::string source = "the outer layer: seven blocks";
+  const std::string source = "geometry: the outer layer: seven blocks";
   report.record({"blocks that move, " + name, "1", Kind::limit, source, blocks_of_a_layer, {0, 0}, "a count"}, outer);
   report.record({"blocks that turn backwards, " + name, "1", Kind::limit, source, blocks_of_a_layer, {0, 0}, "a count"},
                 backwards);
@@ -182,7 +182,7 @@ std::vector<CollapsedBlock> judge_collapse(CaseReport& report, const std::string
       {"turn of the outer layer, " + name,
        "1/m",
        Kind::limit,
-       "elastic, perfectly plastic blocks without dilation",
+       "elastic, perfectly plastic blocks without dilation, reference/slump",
        mean_turn_of_outer_layer(sought),
        {0, most / slope.thickness},
        "per metre that the fastest corner moves, mean of the layer's blocks: a mechanism of one freedom, whose "
@@ -235,7 +235,7 @@ void judge_hard_search(const std::string& name, const std::vector<std::string>& 
   report.record({"critical friction, " + name,
                  "deg",
                  Kind::limit,
-                 "elastic, perfectly plastic blocks without dilation",
+                 "elastic, perfectly plastic blocks without dilation, reference/slump",
                  expected_deg(without_dilation()),
                  {bar + 0.13, 0},
                  "half the bracket, and what the way until failure is worth: 15.22 at 0.2 m and 10 GPa/m (README)"},

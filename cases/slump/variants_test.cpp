@@ -164,7 +164,8 @@ void write_table(const std::vector<Answers>& all) {
 }
 
 void judge(CaseReport& report, const Variant& v, const Answers& found) {
-  const std::string name = ", " + v.label, source = "elastic, perfectly plastic blocks without dilation";
+  const std::string name = ", " + v.label,
+                    source = "elastic, perfectly plastic blocks without dilation, reference/slump";
   const Manner& limit = found.limit;
   EXPECT_TRUE(limit.rotates()) << v.label;
   if (!found.plastic) {

@@ -144,7 +144,7 @@ double step_nanoseconds(const std::string& carried) {
 
 void judge(CaseReport& report, const std::string& what, double expected, double tolerance, const std::string& because,
            double found) {
-  report.record({what, "1", Kind::exact, "distributed joint", expected, {tolerance, 0}, because}, found);
+  report.record({what, "1", Kind::exact, "closed form: distributed joint", expected, {tolerance, 0}, because}, found);
 }
 
 // the normal of a tilted contact lies between the two faces', and its point is known to rounding over the tilt

@@ -24,7 +24,7 @@ struct PressedRing {
   double thrust, vertex, middle;  // N, N m, N m
 };
 
-const char* const foundation = "EI w'''' + K w = K d on each side, w(h) tan²(π/12) EA/h = K ∫(d - w)";
+const char* const foundation = "equilibrium: EI w'''' + K w = K d on each side, w(h) tan²(π/12) EA/h = K ∫(d - w)";
 
 void check_ring(CaseReport& report, const PressedRing& ring) {
   const SceneRun run = cases::run(ring.scene);
@@ -96,7 +96,7 @@ TEST(Lining, SmoothingTakesTheRippleOfThePolygon) {
       {"smoothed moment of a ring of twelve sides under even pressure, of the largest before",
        "1",
        Kind::exact,
-       "a ring under even pressure is not bent",
+       "equilibrium: a ring under even pressure is not bent",
        0,
        {1e-6, 0},
        "by symmetry all sides have one pressure but for what Newton's method leaves, 1e-8 of the forces, times "
@@ -170,7 +170,7 @@ void check_invert(CaseReport& report, double shear_stiffness) {
   report.record({"error of an invert's moment with 30 beams over that with 59, " + name,
                  "1",
                  Kind::limit,
-                 "second order: 4",
+                 "convergence: second order, 4",
                  3,
                  {0, 0, verification::Bound::at_least},
                  "half way between the first order's 2 and 4: it is the largest error, not that of one place"},
@@ -206,7 +206,7 @@ TEST(Lining, APlateHangsFromItsInterface) {
   report.record({"bending of the hanging lining, of its weight times its half length",
                  "1",
                  Kind::exact,
-                 "a load held where it is bends nothing",
+                 "equilibrium: a load held where it is bends nothing",
                  0,
                  {1e-6, 0},
                  "the same"},

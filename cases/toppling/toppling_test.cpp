@@ -273,7 +273,7 @@ double judge_column(const std::string& which, const std::vector<std::string>& ov
   report.record({"time in which a column of two blocks has turned by 45 deg" + which,
                  "s",
                  Kind::limit,
-                 "a rigid block about its corner",
+                 "Newton: a rigid block about its corner",
                  expected,
                  {0, allowed},
                  because},
@@ -303,7 +303,7 @@ SceneRun judge_columns(const std::string& which, const std::vector<std::string>&
   report.record({"critical friction of columns on steps" + which,
                  "deg",
                  Kind::limit,
-                 "limit equilibrium (Goodman & Bray 1976)",
+                 "Goodman & Bray (1976): limit equilibrium",
                  expected,
                  {bar + 0.1, 0},
                  "half the bracket, and what 0.14 m of way and elastic corners are worth: 0.05 at a bracket of 0.08"},
@@ -324,7 +324,7 @@ TEST(SteppedColumnsLong, ColumnsOnASteppedBaseFallByTheWholeSearch) {
 
 TEST(SteppedColumnsLong, BudgetEnclosesLimitEquilibrium) {
   CaseReport report("toppling");
-  judge_budget(report, "toppling", "limit equilibrium (Goodman & Bray 1976)",
+  judge_budget(report, "toppling", "Goodman & Bray (1976): limit equilibrium",
                {"columns on steps",
                 std::filesystem::path(VOUSSOIR_CASE_DIR) / "columns.toml",
                 {},

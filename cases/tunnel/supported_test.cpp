@@ -61,8 +61,9 @@ void compare(CaseReport& report, const std::string& which, const SupportedRun& r
     linear.push_back(both.linear.bolts[both.twin_of_spring[i]]);
   }
   const BondCount& bonds = run.run.results.bonds.value();
-  report.record({"bonds that break" + which, "1", Kind::exact, "bonds hold what is let off", 0, {0, 0}, "a count"},
-                static_cast<double>(bonds.broken), cost);
+  report.record(
+      {"bonds that break" + which, "1", Kind::exact, "equilibrium: bonds hold what is let off", 0, {0, 0}, "a count"},
+      static_cast<double>(bonds.broken), cost);
   const auto unmatched = static_cast<double>(both.program.bolts.size() + both.linear.bolts.size() - 2 * program.size());
   const std::string springs = "springs of bolts that the network has not, or the program" + which;
   if (which.empty())
@@ -110,7 +111,7 @@ TEST(Supported, WhatIsLetOffBeforeIsNotTheirs) {
     report.record({fmt::format("{} where half is let off before, of all", what),
                    "1",
                    Kind::exact,
-                   "1 - x of linear supports",
+                   "comparison: 1 - x of linear supports",
                    0.5,
                    {0.005, 0},
                    "1 % of it: joints that are bonded in one run and not in the other, as against the network"},
@@ -192,7 +193,7 @@ TEST(SupportedLong, TheChaptersMassBonded) {
   report.record({"sum of bolt forces in the chapter's bonded mass, of the smeared ring's",
                  "1",
                  Kind::limit,
-                 "Carranza-Torres (2009), held at the circle of the square's area; mean of three draws",
+                 "Carranza-Torres (2009), Eq. 5.3, held at the circle of the square's area; mean of three draws",
                  1,
                  {0.15, 0},
                  within},
@@ -200,7 +201,7 @@ TEST(SupportedLong, TheChaptersMassBonded) {
   report.record({"mean thrust in the chapter's bonded mass, of appendix H",
                  "1",
                  Kind::limit,
-                 "Boon (2013), appendix H, held likewise; mean of three draws",
+                 "Boon (2013), Eq. H.6, held likewise; mean of three draws",
                  1,
                  {0.15, 0},
                  within},

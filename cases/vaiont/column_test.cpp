@@ -36,7 +36,7 @@ Creep creep(const std::string& scene, const std::vector<std::string>& overrides 
 
 TEST(VaiontColumn, CreepsWhileItRings) {
   CaseReport report("vaiont", {"way of the column from rest", "way of the column that rings"});
-  const std::string bound = "37.49 deg are below 40 deg: what is at rest stays";
+  const std::string bound = "equilibrium: 37.49 deg are below 40 deg: what is at rest stays";
   const Creep rough = creep("column.toml"), rest = creep("column_relaxed.toml"),
               damped = creep("column.toml", {"stage.free.damping.viscous_ratio=0.1"});
   report.record({"way of the column from rest", "mm", Kind::limit, bound, 0, {1e-6, 0}, "1e-9 of unbalanced force"},
@@ -52,7 +52,7 @@ TEST(VaiontColumn, CreepsWhileItRings) {
   report.record({"way of the column at 0.1 of critical damping",
                  "mm",
                  Kind::limit,
-                 "what rings dies away within some periods",
+                 "comparison: what rings dies away within some periods",
                  0.1 * rough.last(),
                  {0, 0, Bound::at_most},
                  "a tenth of the undamped way: it ends after a second, of 60"},
@@ -60,7 +60,7 @@ TEST(VaiontColumn, CreepsWhileItRings) {
   report.record({"energy of the column unexplained",
                  "1",
                  Kind::limit,
-                 "conservation",
+                 "conservation of energy",
                  0,
                  {0.05, 0, Bound::at_most},
                  "as demanded, of the largest energy of the run"},

@@ -20,7 +20,8 @@ inline Overrides operator+(Overrides first, const Overrides& second) {
   return first;
 }
 
-// cross joints and beds every `metres`, the rock mass as stiff as at any other spacing (Boon 2013, table 6.4)
+// cross joints and beds every `metres`, the rock mass as stiff as at any other spacing (Boon 2013, Eqs 6.1 and 6.2,
+// table 6.4)
 inline Overrides spacing(double metres) {
   Overrides settings;
   for (const char* set : {"cross", "beds above the back", "beds above the middle", "beds above the seat"})

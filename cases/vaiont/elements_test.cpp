@@ -195,7 +195,7 @@ double judge_softening(CaseReport& report, double water, const Path& path) {
   report.record({"critical friction, DEM, softening" + name(ground) + path.name,
                  "deg",
                  Kind::limit,
-                 "elastic-plastic blocks with softening, small displacements",
+                 "comparison: elastic-plastic blocks with softening, small displacements",
                  water > 0 ? 20.5 : 18.8,
                  {0.3, 0},
                  "half a bracket or step is 0.1, half the reference's step 0.05; the reference's blocks move little, "

@@ -66,7 +66,13 @@ TEST(VaiontInSpace, HasTheVolumeBetweenItsPlanes) {
   const double whole = free_volume(model_of("space.toml"));
   judge_volume(report, all, reference::vaiont_in_space(), whole);
   judge_volume(report, flexible, reference::vaiont_in_space(3400), free_volume(model_of("space.toml", {"fix=[]"})));
-  report.record({cut, "m3", Kind::exact, "space.toml, the slide as one body", whole, {1e-9 * whole, 0}, "rounding"},
+  report.record({cut,
+                 "m3",
+                 Kind::exact,
+                 "conservation of volume: space.toml, the slide as one body",
+                 whole,
+                 {1e-9 * whole, 0},
+                 "rounding"},
                 free_volume(model_of("space_80.toml", {"slicing.smallest_inscribed_radius=0"})));
   for (const auto& [name, scene] : {std::pair(coarse, "space_fall_160.toml"), {fine, "space_80.toml"}})
     report.report(name, "1", 1 - free_volume(model_of(scene)) / whole, "as a fraction of the free volume");

@@ -49,7 +49,7 @@ TEST(FloatingBlock, HeavesRollsAndPitches) {
           {swing.name + where,
            "s",
            Kind::exact,
-           "Archimedes; metacentre, I/V - BG",
+           "Archimedes (Eq. 6.8); metacentre, I/V - BG",
            swing.period,
            {0, 5e-3},
            "swings of 12 mm and a degree: the righting arm grows by 2e-4 with the square of the heel, heave and "
@@ -109,7 +109,7 @@ TEST(FloatingBlock, FloatsUprightFromAWidth) {
     report.record({"least width that floats upright" + std::string(scene == in_space ? ", in space" : ", in the plane"),
                    "m",
                    Kind::exact,
-                   "metacentre at the centroid: b/h = sqrt(6 s (1 - s))",
+                   "equilibrium: metacentre at the centroid: b/h = sqrt(6 s (1 - s))",
                    reference::least_stable_ratio(raft.relative_density) * raft.height,
                    {0, 0.01},
                    "half the bracket is 0.002, in space 0.007; a block narrower by 0.0001 rests at the degree that "
@@ -125,7 +125,7 @@ TEST(FloatingBlock, LollsWhereItIsTooNarrow) {
     report.record({"angle of loll" + std::string(scene == "tender.toml" ? ", in the plane" : ", in space"),
                    "deg",
                    Kind::exact,
-                   "wall-sided formula: tan2 = -2 GM/BM",
+                   "equilibrium: wall-sided formula: tan2 = -2 GM/BM",
                    expected,
                    {0.05, 0},
                    "what is left of the swings after 60 s of damping"},

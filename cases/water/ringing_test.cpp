@@ -74,7 +74,7 @@ TEST(RingingBlock, KeepsItsMobilisedFrictionOnEqualSprings) {
   report.record({"largest slip, ringing block, ks = kn",
                  "m",
                  Kind::limit,
-                 "shear and normal force ring alike",
+                 "identity: shear and normal force ring alike",
                  0,
                  {1e-9, 0, Bound::at_most},
                  "what 1e-9 of unbalanced force moves, and rounding of millimetres"},

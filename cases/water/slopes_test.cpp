@@ -34,7 +34,7 @@ TEST(SubmergedIncline, SlidesAtItsDipWhateverTheLevel) {
   for (const double level : {-2.0, 0.0, 0.4, 3.0})
     report.record(
         angle_check(fmt::format("critical friction of the incline, level {} m", level),
-                    "buoyancy takes the same fraction off weight and contact force", 30 * degree, 0.005,
+                    "equilibrium: buoyancy takes the same fraction off weight and contact force", 30 * degree, 0.005,
                     "half the bracket of 0.01; the force left at rest, 1e-6 of the contact force, is worth 0.00005"),
         value(run("incline.toml", {fmt::format("water.lake.level={}", level)}), "critical_friction"));
   const SceneRun slides = run("incline.toml");
@@ -45,7 +45,7 @@ TEST(SubmergedIncline, SlidesAtItsDipWhateverTheLevel) {
   report.record({"acceleration under water",
                  "m/s2",
                  Kind::exact,
-                 "(1 - rho_w/rho) g (sin - cos tan phi)",
+                 "Newton: (1 - rho_w/rho) g (sin - cos tan phi)",
                  reference::submerged_acceleration(30 * degree, 20 * degree, 2, gravity),
                  {0, 5e-3},
                  "twice the way by the square of the time: half a step at the start is dt/t, some 2e-4; as demanded"},
@@ -89,12 +89,12 @@ TEST(GravityBlock, SlidesOnItsFoundation) {
   const double expected = critical_friction(GravityBlock{8, 10, 24e3, 9});
   const SceneRun scene = run("dam.toml");
   report.record(
-      angle_check("critical friction, gravity block", "thrust over weight less uplift", expected, 0.02,
+      angle_check("critical friction, gravity block", "equilibrium: thrust over weight less uplift", expected, 0.02,
                   "half the bracket is 0.005; the table stays where it is, and the dam leaves 0.004 of it with "
                   "every millimetre"),
       value(scene, "critical_friction"), cost(scene));
-  report.record(angle_check("critical friction, gravity block, limit analysis", "thrust over weight less uplift",
-                            expected, 1e-5, "the bracket is 1e-6 wide"),
+  report.record(angle_check("critical friction, gravity block, limit analysis",
+                            "equilibrium: thrust over weight less uplift", expected, 1e-5, "the bracket is 1e-6 wide"),
                 limit_answer("dam.toml", {}));
 }
 
@@ -122,7 +122,7 @@ TEST(GravityBlock, TipsWhenTheWaterRises) {
   report.record({"water that tips a slender gravity block",
                  "m",
                  Kind::exact,
-                 "moments about the dry edge",
+                 "equilibrium: moments about the dry edge",
                  tipping_water(GravityBlock{4, 10, 24e3, 0}),
                  {0, 0.01},
                  "half the bracket is 0.005 m"},
@@ -136,7 +136,7 @@ TEST(Drawdown, SlidesOnAJointThatIsStillFull) {
   DrawnDownBlock block{4, 2, 20 * degree, 2500 * gravity, 0};
   block.level = highest_corner(block);
   const SceneRun scene = run("drawdown.toml");
-  report.record(angle_check("critical friction, drawdown", "weight over contact force less uplift",
+  report.record(angle_check("critical friction, drawdown", "equilibrium: weight over contact force less uplift",
                             critical_friction(block), 0.02, "half the bracket is 0.005"),
                 value(scene, "critical_friction"), cost(scene));
 }

@@ -78,7 +78,8 @@ TEST(WetWedge, StiffShearFollowsTheElasticPlasticPath) {
     found.push_back(value(scene, "critical_friction"));
     if (ratio < 0.1) continue;
     report.record(angle_check(fmt::format("critical friction, wedge, 1 kPa in its joints, ks/kn = {}", ratio),
-                              "elastic-plastic block with three translations on two faces", path.back() * degree, 0.05,
+                              "elastic-plastic block with three translations on two faces, reference/wedge",
+                              path.back() * degree, 0.05,
                               "half the bracket is 0.005, the path's steps 0.0003; slip that inertia adds loosens the "
                               "locked shear, by up to 0.03 on the dry wedge"),
                   found.back(), cost(scene));
@@ -106,7 +107,7 @@ TEST(ThreeWays, LowerFrictionToTheSameAngle) {
       report.record({fmt::format("critical friction, {}, by {}", name, way),
                      "deg",
                      Kind::limit,
-                     "bisection",
+                     "comparison: bisection",
                      expected.value,
                      {*expected.error_bar + *found.error_bar + path_dependence, 0},
                      "both error bars, and 0.1 for the loading path"},

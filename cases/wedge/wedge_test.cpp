@@ -70,7 +70,7 @@ TEST(Wedge, StiffShearFollowsTheElasticPlasticPath) {
     found.push_back(value(scene, "critical_friction"));
     report.record(
         angle_check(fmt::format("critical friction, ks/kn = {}", ratio), Kind::exact,
-                    "elastic-plastic block with three translations on two faces", path.back(), 0.05,
+                    "elastic-plastic block with three translations on two faces, reference/wedge", path.back(), 0.05,
                     "bracket 0.005, path steps 0.0003; slip that inertia adds while friction falls loosens the "
                     "locked shear, by up to 0.03 when it falls at once"),
         found.back(), cost(scene));
@@ -149,9 +149,10 @@ void let_it_turn(CaseReport& report, const Carried& carried, double restrained) 
   if (carried.name == on_points(1).name)
     report.report(name, "deg", angle, "one point carries no moment: no target (cases.md)", cost(scene));
   else
-    report.record(angle_check(name, Kind::limit, "rigid wedge of six freedoms, four points a face", restrained - 0.15,
-                              0.15, "0.0 to 0.3 below the restrained wedge, whatever the slope face"),
-                  angle, cost(scene));
+    report.record(
+        angle_check(name, Kind::limit, "comparison: rigid wedge of six freedoms, four points a face", restrained - 0.15,
+                    0.15, "0.0 to 0.3 below the restrained wedge, whatever the slope face"),
+        angle, cost(scene));
   const std::string note = "at the last stable angle";
   report.report("rotation, " + carried.name, "deg", turn, note);
   report.report("tilt of the contact normal on A, " + carried.name, "deg", value(scene, "A_normal_tilt"), note);

@@ -71,6 +71,7 @@ constexpr std::array whole_turns{
     WholeTurn{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, 1}, WholeTurn{{{{2, 3, 6}, {3, -6, 2}, {6, 2, -3}}}, 7},
     WholeTurn{{{{1, 4, 8}, {4, 7, -4}, {8, -4, 1}}}, 9}, WholeTurn{{{{4, 4, 7}, {1, -8, 4}, {8, -1, -4}}}, 9}};
 
+// Eq. 3.27
 TEST(Program, OfCubesThatTouchExactlyIsZero) {
   // a cube of half edge 40 and a turned one; all numbers whole, all normals equally long, so that nothing is rounded
   Random random(502);
@@ -139,6 +140,7 @@ TEST(Normal, DeeperThanTheRadiusItIsOfTheNearestFaceAndSaysSo) {
   EXPECT_FALSE(contact_normal<3>(twice, 6, {0, 0, 0.9}, 0.2, normal, fallback));
 }
 
+// Eqs 3.31-3.35
 TEST(Normal, LeansTowardsAnEdgeByTheRadius) {
   // a point at depth d under a face and e beside an edge: gradient (r - d) ez + (r - e) ex, against -ez of the other
   HalfSpaces<3> planes = shapes::cube<3>(1);
@@ -177,6 +179,7 @@ TEST(Normal, OfSymmetricContactsIsExact) {
 
 // ---- O: the search along the normal ---------------------------------------------------------------------------------
 
+// Eq. 3.36
 TEST(OverlapAlong, MeetsPlanesNearlyParallelToItExactly) {
   // A ends in a plane that the normal meets at 10^-k, so near that it comes first
   for (int k = 1; k <= 16; ++k)
@@ -229,6 +232,7 @@ void expect_exact_section(const HalfSpaces<3>& planes, const Vector<3>& point, c
               1e-12 * area + 64 * ulp * reach * to_double(section.sensitivity));
 }
 
+// in place of Eqs D.1 and D.2
 TEST(SectionArea, IsExactWhereverThePlaneLies) {
   Random random(503);
   for (int i = 0; i < 150; ++i) {

@@ -141,6 +141,7 @@ void expect_grid(std::uint64_t seed, int instances) {
   testing::Test::RecordProperty(fmt::format("worst_share_of_value_{}d", Dim), fmt::format("{:.3g}", worst.value));
 }
 
+// Eq. 3.28
 TEST(Centre, IsTheConvergedOneOverDepthAspectAndDistance3D) {
   expect_grid<3>(401, 2);
 }

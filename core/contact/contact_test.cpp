@@ -43,6 +43,7 @@ void expect_decision_by_separating_axes(std::uint64_t seed, int pairs) {
   EXPECT_GT(close, pairs / 10);
 }
 
+// Eq. 3.27
 TEST(Decision, AgreesWithSeparatingAxes3D) {
   expect_decision_by_separating_axes<3>(61, 80);
 }
@@ -179,11 +180,13 @@ void expect_sections(std::uint64_t seed) {
   }
 }
 
+// in place of Eqs D.1 and D.2
 TEST(SectionArea, AgreesWithLasserresRecursion) {
   expect_sections<3>(64);
   expect_sections<2>(65);
 }
 
+// Eq. 3.36
 TEST(OverlapAlong, FindsTheEndsAndSaysWhenThereAreNone) {
   HalfSpaces<3> planes = shapes::cube<3>(1);
   for (const HalfSpace<3>& p : shapes::box<3>({-1, -1, 0.5}, {1, 1, 3}))
@@ -202,6 +205,7 @@ TEST(OverlapAlong, FindsTheEndsAndSaysWhenThereAreNone) {
   EXPECT_FALSE(overlap_along<3>(planes, 5, {0, 0, 0.6}, Vector<3>::UnitZ(), overlap, face_a, face_b));
 }
 
+// Eqs 3.31-3.35
 TEST(ContactNormal, TurnsGraduallyAsAPointRoundsAnEdge) {
   // a small cube travels over the edge of a large one; no step may turn the normal by more than a few slopes of the
   // potential
@@ -286,6 +290,7 @@ TEST(Symmetry, SwappingThePartsReversesTheNormal2D) {
 
 // ---- parts anywhere -------------------------------------------------------------------------------------------------
 
+// planes and points from one frame to another: Eqs 3.22-3.26
 TEST(ContactBetween, CubesFarFromTheOrigin) {
   const Polytope<3> cube = unit_cube<3>();
   // a quarter turn about x: what was up points along -y

@@ -186,6 +186,7 @@ void expect_same_overlap(std::uint64_t seed) {
   }
 }
 
+// Eq. 3.37 against Eq. 3.36
 TEST(Bracketing, EndsWhereTheClosedFormDoes) {
   expect_same_overlap<3>(85);
   expect_same_overlap<2>(86);

@@ -13,7 +13,7 @@ enum class QueryLevel {
   area       // and how wide
 };
 
-// Two parts as the first one sees them. Positions were subtracted before, so nothing depends on where the pair lies.
+// Two parts as the first one sees them. Positions were subtracted (Eq. 3.26): nothing depends on where the pair lies.
 template <int Dim>
 struct Pair {
   const Polytope<Dim>* a = nullptr;

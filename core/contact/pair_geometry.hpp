@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-// Planes of both parts in the first body's frame, seen from `origin`.
+// Planes of both parts in the first body's frame, seen from `origin` (Eqs 3.22-3.25, which have the world's).
 template <int Dim>
 void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>& planes);
 
@@ -24,8 +24,8 @@ template <int Dim>
 bool overlap_along(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, const Vector<Dim>& normal,
                    double& overlap, int& face_a, int& face_b);
 
-// Area (2-D: length) of the section of the overlap region through the point normal to n (App. D, by clipping).
-// `reach` bounds the section, m.
+// Area (2-D: length) of the section of the overlap region through the point normal to n, by clipping, not
+// by the tracing of Eqs D.1 and D.2. `reach` bounds the section, m.
 template <int Dim>
 double section_area(const HalfSpaces<Dim>& planes, const Vector<Dim>& point, const Vector<Dim>& normal, double reach);
 

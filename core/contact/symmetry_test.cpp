@@ -265,6 +265,7 @@ void expect_symmetries(long long first, long long last) {
   }
 }
 
+// Eqs 3.22-3.26
 TEST(SamePair, InAnyOrderUnitAndFrame3D) {
   expect_symmetries<3>(0, 3000);
 }

@@ -265,6 +265,7 @@ TEST(Batch, ThePairsAnswerIsBitwiseIndependentOfIt) {
   EXPECT_LT(touching, 30);
 }
 
+// Eq. 3.18, of an overlap
 TEST(Options, TheChebyshevPointIsTheLargestBallsCentre) {
   const Polytope<3> cube = unit_cube<3>();
   const ContactSettings settings{.point = ContactPoint::chebyshev};

@@ -129,6 +129,8 @@ void expect_blocks(std::uint64_t first, std::uint64_t last) {
     if (!problem.empty()) ADD_FAILURE() << problem;
 }
 
+// the region of Eqs 3.1 and 3.2; its corners, in place of Eq. B.1 for all choices of planes, counted in exact
+// arithmetic
 TEST(BlockCatalogue, RandomBlocksHaveTheirExactMassAndCorners3D) {
   expect_blocks<3>(0, 250);
 }
@@ -301,6 +303,7 @@ double cut_depth(const HalfSpaces<3>& planes, std::size_t number) {
   return Rational(exact::support(exact::planes_of(others), own.normal) - own.offset).get_d();
 }
 
+// Eq. 3.8
 TEST(BlockCatalogue, APlaneStaysWhenItCutsSomethingOff) {
   // R1, R3: a plane across a corner, an edge or along a face, off it by +-10^-k of the inscribed radius
   Random random(605);

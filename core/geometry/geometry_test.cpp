@@ -40,6 +40,7 @@ TEST(Types, MomentAndVelocityDoTheSameWork) {
   EXPECT_EQ(moment(Vector<2>(1, 0), Vector<2>(0, 1))[0], 1);  // counter-clockwise is positive
 }
 
+// Eq. 3.21
 TEST(Types, TurningFollowsRodrigues) {
   Random random(2);
   for (int i = 0; i < 200; ++i) {
@@ -81,6 +82,13 @@ TEST(Types, PerpendicularIsUnitAndPerpendicular) {
 
 // ---- half-spaces ----------------------------------------------------------------------------------------------------
 
+// Eqs 3.3-3.5 as printed: x north, y east, z down, looking down
+Vector<3> printed_normal(double dip, double dip_direction) {
+  const double chi = pi / 2 - dip, kappa = dip_direction <= pi ? dip_direction + pi : dip_direction - pi;
+  return {std::cos(kappa) * std::cos(chi), std::sin(kappa) * std::cos(chi), std::sin(chi)};
+}
+
+// Eqs 3.3-3.5
 TEST(HalfSpace, JointNormalIsUpwardAndAcrossStrikeAndDip) {
   Random random(4);
   for (int i = 0; i < 100; ++i) {
@@ -92,12 +100,15 @@ TEST(HalfSpace, JointNormalIsUpwardAndAcrossStrikeAndDip) {
     EXPECT_GE(n[2], 0);
     EXPECT_NEAR(n.dot(strike), 0, rounding);
     EXPECT_NEAR(n.dot(down), 0, rounding);
+    const Vector<3> printed = printed_normal(dip, direction);
+    EXPECT_LT((n + Vector<3>(printed[1], printed[0], -printed[2])).norm(), rounding);
   }
   // the section looks north: a joint that dips east has its normal to the right
   EXPECT_LT((upward_normal_2d(0.3, pi / 2) - Vector<2>(std::sin(0.3), std::cos(0.3))).norm(), rounding);
   EXPECT_LT((upward_normal_2d(0.3, 3 * pi / 2) - Vector<2>(-std::sin(0.3), std::cos(0.3))).norm(), rounding);
 }
 
+// Eqs 3.19 and 3.20
 TEST(HalfSpace, MovingTheOriginMovesNoPoint) {
   Random random(5);
   for (int i = 0; i < 100; ++i) {

@@ -16,6 +16,7 @@ bool is_unit(double squared_length) {
   return std::abs(squared_length - 1) <= 2 * within;
 }
 
+// minus the normal of Eqs 3.3-3.5, which points down, in axes x east, y north, z up instead of x north, y east, z down
 Vector<3> upward_normal_3d(double dip, double dip_direction) {
   return {std::sin(dip) * std::sin(dip_direction), std::sin(dip) * std::cos(dip_direction), std::cos(dip)};
 }

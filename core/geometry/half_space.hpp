@@ -1,4 +1,4 @@
-// Half-spaces a·x <= d, the only thing a block is made of (Boon 2013, Eq. 3.1).
+// Half-spaces a·x <= d, the only thing a block is made of (Boon 2013, Eqs 3.1 and 3.2).
 #pragma once
 
 #include <vector>
@@ -30,7 +30,7 @@ bool lies_inside(const HalfSpaces<Dim>& region, const Vector<Dim>& point) {
   return true;
 }
 
-// the same half-space seen from an origin moved by `shift`
+// the same half-space seen from an origin moved by `shift` (Eqs 3.19 and 3.20)
 template <int Dim>
 HalfSpace<Dim> moved_origin(const HalfSpace<Dim>& plane, const Vector<Dim>& shift) {
   return {plane.normal, plane.offset - plane.normal.dot(shift)};

@@ -29,7 +29,7 @@ struct Outline {
   std::vector<Vector<2>> corners{};          // of the polygon: counter-clockwise along the axes from the centre, m
 };
 
-// The axes of a plane with this upward normal (Boon 2013, Eqs 3.11 and 3.12): the horizontal strike, 90 degrees
+// The axes of a plane with this upward normal (Boon 2013, Eqs 3.11-3.13): the horizontal strike, 90 degrees
 // counter-clockwise from the dip direction seen from above, and the line of the steepest descent (2-D: the trace alone,
 // downwards). Of a horizontal plane the strike is x. Only +, *, / and square roots: the same bits on every platform.
 PlaneAxes<3> plane_axes(const Vector<3>& upward_normal);

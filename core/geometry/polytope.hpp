@@ -28,7 +28,7 @@ struct Polytope {
   std::vector<Vector<Dim>> vertices;                      // body frame, m
   std::vector<std::vector<int>> loops;                    // vertices of each face, counter-clockwise seen from outside
   MassProperties<Dim> mass;                               // about the body's origin, per unit density
-  double inscribed_radius = 0;                            // Chebyshev radius, m: the size of the part
+  double inscribed_radius = 0;                            // Chebyshev radius, m: the size of the part (Eq. 3.18)
   Vector<Dim> centre = Vector<Dim>::Zero();               // its centre, m
   double radius = 0;                                      // largest distance of a vertex from the body's origin, m
   std::array<int, Dim + 1> basis{};                       // faces that touch the inscribed ball: the LP's start

@@ -31,6 +31,7 @@ constexpr double well_conditioned = 1e-4;
 // in an unlucky order, several points where one is meant.
 constexpr double one_corner = 4;
 
+// of a corner, by the sign of its distance to the plane that cuts, and not by Eq. B.1 over all planes
 enum class Side { unseen, in, on, out };
 
 // a face: its corners are `size` entries of the solid's from `begin` on; negative planes are the box's

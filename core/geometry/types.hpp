@@ -51,7 +51,7 @@ inline Spin<3> moment(const Vector<3>& r, const Vector<3>& f) {
   return r.cross(f);
 }
 
-// the matrix that takes body axes to world axes
+// the matrix that takes body axes to world axes (Eq. 3.21)
 Matrix<2> matrix(const Rotation<2>& rotation);
 Matrix<3> matrix(const Rotation<3>& rotation);
 

@@ -72,6 +72,7 @@ FrictionAnswer friction_answer(const JointProperties& p, double friction, double
   return {last, 0};
 }
 
+// Eqs F.1-F.8 in one number: elastic trial, force and plastic slip have one direction.
 SlipReturn return_to_cone(const JointProperties& p, double friction, double plastic_slip, double trial,
                           double stiffness, double normal_force, double stress, double strength_factor) {
   SlipReturn result;

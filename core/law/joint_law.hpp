@@ -1,4 +1,4 @@
-// Joint laws beyond the plain one (Boon 2013, Eqs 4.10-4.18, 6.3-6.7, App. F; decisions in method.md section 4):
+// Joint laws beyond the plain one (Boon 2013, Eqs 4.10-4.14, 4.16-4.18, 6.3-6.7; decisions in method.md section 4):
 // stiffness that depends on the normal stress, strength in tension and cohesion with brittle loss, friction that
 // hardens or softens with slip. The table of scene keys (scene/keys/joint_properties.cpp) repeats parameters and
 // equations for users.
@@ -18,7 +18,7 @@ struct NormalAnswer {
 // Stress of a joint closed by `overlap`, m, >= 0. A tensile strength σt shifts the origin to δ0 = σt/kn, where it
 // stays: the stress reaches -σt as the overlap reaches 0, and without a bond there is none below δ0 (Eqs 6.5, 6.6).
 //   constant  σ = kn u
-//   linear    σ = (k0/c)(e^(c u) - 1)                 integral of dσ/du = k0 + c σ        (Eqs 4.10, 4.12)
+//   linear    σ = (k0/c)(e^(c u) - 1)                 integral of dσ/du = k0 + c σ        (Eqs 4.10, 4.12, 4.14)
 //   power     σ = ((1-m) k1 u)^(1/(1-m))              integral of dσ/du = k1 (σ/1 Pa)^m   (Eq. 4.13)
 NormalAnswer normal_answer(const JointProperties& properties, double overlap, bool bonded);
 

@@ -81,6 +81,7 @@ std::vector<JointProperties> every_law() {
 // ---- normal
 // ----------------------------------------------------------------------------------------------------------
 
+// Eqs 4.12 and 4.13 by hand, 6.5 and 6.6; all by differences
 TEST(NormalLaw, StressIsTheIntegralOfItsStiffness) {
   // by hand: Eq. 4.12 gives 4e9/7.4e4 (e^0.74 - 1) = 59 243.8... at 10 µm; Eq. 4.13 integrated (0.25·2.1e6 u)^4
   EXPECT_NEAR(normal_answer(linear(), 1e-5, false).stress, 4e9 / 7.4e4 * (std::exp(0.74) - 1), closed_form * 6e4);
@@ -109,6 +110,7 @@ TEST(NormalLaw, StressIsTheIntegralOfItsStiffness) {
     }
 }
 
+// Eqs 4.10, 4.11, 4.13, 4.17
 TEST(NormalLaw, StatedStiffnessFollowsFromTheStress) {
   const NormalAnswer l = normal_answer(linear(), 4e-5, false), w = normal_answer(power(), 4e-5, false);
   EXPECT_NEAR(l.stiffness, 4e9 + 7.4e4 * l.stress, rounding * l.stiffness);
@@ -143,7 +145,8 @@ TEST(ShearLaw, ElasticThenAtTheConstantStrength) {
     }
 }
 
-// Hardening and softening: plastic slip β and strength μ(β)σ with s = τ/ks + β in closed form through β
+// Eqs 4.16, 4.18, 6.7, F.1-F.8. Hardening and softening: plastic slip β and strength μ(β)σ with s = τ/ks + β in closed
+// form through β
 TEST(ShearLaw, HardeningAndSofteningFollowTheirCurves) {
   for (const JointProperties& p : {hardened(), softened()})
     for (const double stress : {1e5, 1e6, 5e6}) {
@@ -191,6 +194,7 @@ TEST(ShearLaw, TangentIsThatOfTheCurve) {
   }
 }
 
+// Eqs 6.3 and 6.4
 TEST(ShearLaw, CohesionIsLostAtOnce) {
   const JointProperties p = bonded_joint();
   JointPath path = sheared(1e6, 3e-3);
@@ -206,6 +210,7 @@ TEST(ShearLaw, CohesionIsLostAtOnce) {
   EXPECT_FALSE(intact);
 }
 
+// Eqs 6.3-6.6
 TEST(ShearLaw, TensionAndSlipBreakTheSameBond) {
   const JointProperties p = bonded_joint();
   JointState<2> history;

@@ -57,6 +57,7 @@ void expect_return_to_the_cone(std::uint64_t seed) {
     }
 }
 
+// Eqs 4.7-4.9
 TEST(Coulomb, ReturnsToTheConeFromAnywhere3D) {
   expect_return_to_the_cone<3>(31);
 }
@@ -64,6 +65,7 @@ TEST(Coulomb, ReturnsToTheConeFromAnywhere2D) {
   expect_return_to_the_cone<2>(32);
 }
 
+// Eqs 4.1-4.3, 4.5, 4.6
 TEST(Coulomb, IsElasticInsideTheCone) {
   const Vector<3> n(0, 0, 1);
   Vector<3> shear(3, -4, 0);
@@ -167,6 +169,7 @@ Vector<3> rotated(const Vector<3>& v, const Vector<3>& axis, double angle) {
   return std::cos(angle) * v + std::sin(angle) * axis.cross(v) + (1 - std::cos(angle)) * axis.dot(v) * axis;
 }
 
+// what replaces Eq. 4.4
 TEST(Carried, AFullTurnOfTheNormalBringsTheShearBack) {
   Random random(37);
   for (const int steps : {5, 12, 360, 10'000}) {
@@ -215,6 +218,7 @@ TEST(Carried, FollowsTheSpinAboutTheNormal) {
   }
 }
 
+// what replaces Eq. 4.4
 TEST(Carried, TurnsWithAPairThatTurnsAsOneBody) {
   // first order at worst in the step, and no change of length
   Random random(38);

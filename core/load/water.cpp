@@ -217,6 +217,7 @@ void list_stretches(std::span<const double> numbers, std::vector<WaterStretch<3>
   stretches.push_back({.point = {0, 0, numbers[0]}, .rise = {-numbers[1], -numbers[2], 1}});
 }
 
+// below a level the load is Eq. 6.8
 template <int Dim>
 Submerged<Dim> submerged(const std::vector<Polytope<Dim>>& parts, double radius, const Standing<Dim>& standing,
                          std::span<const WaterStretch<Dim>> surface) {

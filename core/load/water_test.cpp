@@ -164,6 +164,7 @@ template <class Dimension>
 class Water : public testing::Test {};
 TYPED_TEST_SUITE(Water, Dimensions);
 
+// Eq. 6.8
 TYPED_TEST(Water, HasVolumeAndMomentsOfPlainGeometry) {
   constexpr int Dim = TypeParam::value;
   Random random(Dim);

@@ -34,6 +34,7 @@ bool graded_frame(std::vector<Row<Size>>& rows, Eigen::Matrix<double, Size, Size
 
 }  // namespace
 
+// Eq. 3.30 with t = 1/µ, of the feasibility program as one of the form Eq. 3.29
 template <int Dim>
 CentralPathResult<Dim> follow_central_path(const HalfSpaces<Dim>& planes, const CentralPathRequest<Dim>& request) {
   constexpr int size = Dim + 1;                                     // x and -s

@@ -118,7 +118,7 @@ Matrix<Dim> contact_axes(const HalfSpaces<Dim>& planes, const std::vector<double
   return axes;
 }
 
-// variables: y, then t
+// variables: y, then t; gradient, Hessian and Jacobian are those of Eqs 3.53-3.55
 template <int Dim>
 class SlackForm : public Ipopt::TNLP {
  public:

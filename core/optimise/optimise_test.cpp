@@ -107,6 +107,7 @@ void expect_best_of_all_bases(std::uint64_t seed, int trials) {
   EXPECT_LT(separate, trials - trials / 10);
 }
 
+// Eqs 3.7 and 3.27
 TEST(Feasibility, IsTheBestOfAllBases3D) {
   expect_best_of_all_bases<3>(11, 100);
 }
@@ -269,6 +270,7 @@ void expect_central_paths(std::uint64_t seed) {
   }
 }
 
+// Eq. 3.30 against the program, Eq. 3.29
 TEST(CentralPath, ItsMultipliersAreTheProgramsButForTheWeight) {
   expect_central_paths<3>(21);
   expect_central_paths<2>(22);
@@ -381,6 +383,7 @@ void expect_newton_in_long_double(std::uint64_t seed, int trials) {
   }
 }
 
+// Eq. 3.28
 TEST(AnalyticCentre, AgreesWithNewtonInLongDouble3D) {
   expect_newton_in_long_double<3>(18, 40);
 }

@@ -61,6 +61,7 @@ void expect_certificate(const HalfSpaces<Dim>& planes, const FeasibilityResult<D
   EXPECT_NEAR(value, result.value, 1e-12);
 }
 
+// Eq. 3.18
 TEST(Glpk, FindsTheInscribedCircleOfABox) {
   const HalfSpaces<2> planes = box<2>({3, -2}, {0.5, 0.25});
   const FeasibilityResult<2> result = solve_feasibility_glpk<2>(planes, {});
@@ -78,6 +79,7 @@ TEST(Glpk, SymmetricProblemsHaveACompleteBasis) {
   expect_certificate<3>(planes, result);
 }
 
+// Eqs 3.27 and 3.29
 TEST(Glpk, AgreesWithOurSolver) {
   std::mt19937 random(20131);
   for (int trial = 0; trial < 200; ++trial) {
@@ -135,6 +137,7 @@ TEST(Ipopt, AFlatOverlapIsNoHarder) {
   EXPECT_LT(std::abs(result.point[2]), 1e-8 * thickness);
 }
 
+// Eq. 3.28 by Eq. 3.38
 TEST(Ipopt, AgreesWithOurSolver) {
   std::mt19937 random(20132);
   for (int trial = 0; trial < 50; ++trial) {
@@ -157,8 +160,13 @@ void expect_aligned(const Vector<Dim>& n) {
   EXPECT_LT((turn.col(Dim - 1) - n).norm(), 1e-15) << n.transpose();
   EXPECT_LT((turn * turn.transpose() - Matrix<Dim>::Identity()).norm(), 4e-15) << n.transpose();
   EXPECT_NEAR(turn.determinant(), 1, 4e-15);
+  if constexpr (Dim == 3) {  // about the axis that is normal to both, and no other
+    const Vector<3> axis = Vector<3>::UnitZ().cross(n);
+    EXPECT_LT((turn * axis - axis).norm(), 4e-15) << n.transpose();
+  }
 }
 
+// Eqs 3.39-3.44
 TEST(AligningRotation, TakesTheLastAxisToTheNormalAlsoWhereTheyAreOpposite) {
   // 10^-k from z and from -z, down to angles whose squares vanish
   for (int k = 0; k <= 300; k += k < 20 ? 1 : 20)
@@ -233,6 +241,7 @@ TEST(IpoptScaling, FindsOurCentreFaceOnFaceAndSavesIterationsFromAWarmStart) {
   }
 }
 
+// Eqs 3.45-3.52
 TEST(IpoptScaling, FindsOurCentreInAnyDirectionAndInThePlane) {
   std::mt19937 random(20134);
   for (int trial = 0; trial < 20; ++trial) {

@@ -117,6 +117,7 @@ void judge_pairs(unsigned seed, int first, int pairs) {
   EXPECT_LE(1000 * tally.outside_unsure, tally.asked_outside);
 }
 
+// Eq. A.3, in exact digits and, by Ipopt, through Eqs A.6-A.9
 TEST(PotentialCertainty, RandomPairs) {
   judge_pairs<2>(1, 0, 500);
   judge_pairs<3>(2, 0, 500);
@@ -171,7 +172,8 @@ TEST(PotentialCertainty, ValuesWithoutSpheres) {
 }
 
 #ifdef VOUSSOIR_HAS_IPOPT
-// Two spheres: A.10 without s_A = s_B minimises D_A / R_A + D_B / R_B, which is least at the centre of the smaller one.
+// Two spheres: Eq. A.10 without s_A = s_B minimises D_A / R_A + D_B / R_B, which is least at the centre of the smaller
+// one.
 TEST(PotentialOutside, WithoutTheLinkTheProgramLeavesTheContact) {
   PotentialShape<3> a, b;
   a.corner_radius = b.corner_radius = a.sphericity = b.sphericity = 1;

@@ -43,6 +43,7 @@ void expect_spheres() {
     ASSERT_NEAR(c.value, (distance / size) * (distance / size) - 1, 2 * ulps / std::min(a, b));
   }
 }
+// Eq. A.3
 TEST(PotentialContact, OfSpheresIsTheClosedForm) {
   expect_spheres<2>();
   expect_spheres<3>();
@@ -70,6 +71,7 @@ void expect_faces() {
       EXPECT_NEAR(c.ratio, 1, 16 * epsilon / r);
     }
 }
+// Eq. A.3
 TEST(PotentialContact, OfTwoCubesFaceToFaceIsHalfWay) {
   expect_faces<2>();
   expect_faces<3>();

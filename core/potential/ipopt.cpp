@@ -31,8 +31,8 @@ struct Side {
   Index planes() const { return static_cast<Index>(potential.planes.size()); }
 };
 
-// Variables: x, the p of A, the p of B, then t, or s_A and s_B, or t_A and t_B. Constraints: one for each plane, then
-// the two cones.
+// Variables: x, the p of A, the p of B (Eq. A.6, in the units of Eq. A.7), then t, or s_A and s_B, or t_A and t_B.
+// Constraints: one for each plane, with the lengths of Eq. A.9, then the two cones, Eq. A.8 against the last variables.
 template <int Dim>
 class ConeProgram : public Ipopt::TNLP {
  public:

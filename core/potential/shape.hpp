@@ -1,5 +1,5 @@
 // A potential particle (Houlsby 2009; Boon 2013, appendix A): a convex body as one function of planes, rounded where
-// they meet. Eq. A.2 in its squared form, whose constants add up to one:
+// they meet. Eq. A.2 (Eq. A.1 over squares of lengths), its constants added up to one:
 //   f(x) = (1 - k) Σ <a_i·x - d_i>² / r² + k |x - c|² / R² - 1,   <s> = max(s, 0);
 // inside f < 0, on the surface f = 0. f is convex and once differentiable; its second derivative jumps where the point
 // passes a plane.

@@ -59,6 +59,7 @@ void expect_function_and_derivatives() {
     }
   }
 }
+// Eq. A.2
 TEST(PotentialShape, IsEquationA2AndItsDerivatives) {
   expect_function_and_derivatives<2>();
   expect_function_and_derivatives<3>();
@@ -80,6 +81,7 @@ void expect_same_in_any_frame() {
     ASSERT_NEAR(value<Dim>(moved, there), value<Dim>(own, x), allowed);
   }
 }
+// Eqs A.4 and A.5
 TEST(PotentialShape, HasTheSameValueAtAPointOfAMovedBody) {
   expect_same_in_any_frame<2>();
   expect_same_in_any_frame<3>();

@@ -159,6 +159,7 @@ bool has_planes(const Scene& scene) {
 
 }  // namespace
 
+// the offset of a plane with a known point is n·x0 (Eq. 3.6)
 template <>
 HalfSpace<3> to_half_space(const PlaneSpec& plane, const Vector<3>& origin) {
   const Vector<3> normal =

@@ -172,6 +172,7 @@ TEST(Prepare, CutsTheWedgeAndResolvesSelectors) {
   EXPECT_LT(mass, 2000 * 8 * 8 * 4.0);
 }
 
+// Eq. 3.6
 TEST(Prepare, DoesNotDependOnWhereTheSceneLies) {
   // 2^20 m: the coordinates of the moved scene are exact
   std::string moved = wedge;

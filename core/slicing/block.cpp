@@ -223,7 +223,7 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
   result.status = judge(planes, ball);
   if (result.status != BlockStatus::ok) return result;
 
-  // redundant planes have no loop and go; of equal ones the last, and with it the newest joint, stays
+  // redundant planes (Eq. 3.8) have no loop and go; of equal ones the last, and with it the newest joint, stays
   const Surface<Dim> all = surface_around(planes, ball);
   result.status = judge(all, -ball.value);
   if (result.status != BlockStatus::ok) return result;

@@ -55,6 +55,7 @@ Vector<3> centroid_of(const Solid& solid) {
   return {to_double(solid.centroid[0]), to_double(solid.centroid[1]), to_double(solid.centroid[2])};
 }
 
+// Eq. 3.7
 TEST(ExactSlicing, CellsOfIntegerPlanesAreTheReferees) {
   Random random(71);
   int cells = 0;

@@ -8,6 +8,7 @@
 
 namespace voussoir {
 
+// the lines of Eqs 3.9 and 3.10, turned and moved to where the joint lies: Eqs 3.14 and 3.15
 Extent<3> polygon_extent(const Vector<3>& normal, const Vector<3>& point, const std::vector<Vector<2>>& stated) {
   Extent<3> extent;
   const std::vector<Vector<2>> corners = counter_clockwise(stated);

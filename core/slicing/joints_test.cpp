@@ -60,6 +60,7 @@ Cut<2> trace(const Vector<2>& normal, const Vector<2>& from, const Vector<2>& to
 
 // ---- outlines ---------------------------------------------------------------------------------------------------
 
+// Eqs 3.11-3.13
 TEST(Extent, AxesFollowStrikeAndDip) {
   Random random(61);
   for (int i = 0; i < 100; ++i) {
@@ -87,6 +88,7 @@ double area(const Extent<3>& extent, const Vector<3>& normal) {
   return prism.mass.volume;
 }
 
+// Eqs 3.9, 3.10, 3.14, 3.15
 TEST(Extent, OutlinesHaveTheirAreas) {
   Random random(62);
   for (int i = 0; i < 20; ++i) {
@@ -107,6 +109,7 @@ TEST(Extent, OutlinesHaveTheirAreas) {
   EXPECT_TRUE(polygon_extent(z, {0, 0, 0}, star).infinite());
 }
 
+// Eq. 3.16
 TEST(Extent, AJointCutsRightThroughWhatItMeetsAndNothingElse) {
   const Cut<3> floor{{z, 0}, 0};
   EXPECT_EQ(count({floor, wall(x, 0.2, 0.8, 1)}), 3u);    // inside the upper half: only that is cut
@@ -155,6 +158,7 @@ std::multiset<double> brute_force(const HalfSpaces<3>& domain, const std::vector
   return volumes;
 }
 
+// Eq. 3.16
 TEST(Extent, BlocksAreThoseOfBruteForce) {
   Random random(63);
   for (int i = 0; i < 4; ++i) {

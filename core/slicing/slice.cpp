@@ -41,8 +41,9 @@ struct Harvest {
   SlicingCounters counters;
 };
 
-// Whether a block may reach to both sides of the plane, and below every bound of the extent: what the linear program
-// would find deeper than its tolerance has vertices deeper than half of it.
+// Whether a block may reach to both sides of the plane, and below every bound of the extent, by ball and vertices in
+// place of the programs of Eq. 3.17: what the linear program would find deeper than its tolerance has vertices deeper
+// than half of it.
 template <int Dim>
 bool may_meet(const Cut<Dim>& cut, const Draft<Dim>& block) {
   const Vector<Dim>& centre = block.ball.point;

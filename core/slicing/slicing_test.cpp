@@ -85,6 +85,7 @@ TEST(MakeBlock, NamesWhatIsWrong) {
   EXPECT_EQ(make_block<3>(bad, std::vector<int>(6, no_joint)).plane, 2);
 }
 
+// Eq. 3.8
 TEST(MakeBlock, NormalisesAndDropsRedundantPlanes) {
   Random random(21);
   for (int i = 0; i < 50; ++i) {
@@ -285,6 +286,7 @@ TEST(Slice, ACubeCutAcrossItsDiagonalShowsAHexagon) {
 
 // ---- properties -----------------------------------------------------------------------------------------------------
 
+// Eq. 3.7
 TEST(Slice, TouchingPlanesCutNothing) {
   const Polytope<3> cube = shapes::block<3>(shapes::cube<3>(1));
   SlicingCounters counters;

@@ -243,6 +243,7 @@ TEST(Tiling, AnyNumberOfThreadsMakesTheSameBits) {
     expect_same_bits(blocks, sliced<3>(cube<3>(1), cuts, threads));
 }
 
+// what replaces Eq. 3.17
 TEST(Tiling, CullingChangesNothingButTheNumberOfPrograms) {
   const std::vector<Cut<3>> cuts = mixed_joints(51, 120);
   SlicingLimits limits;

@@ -89,8 +89,8 @@ JointForce<Dim> answer_of_laws(const JointProperties& properties, double frictio
   return answer;
 }
 
-// A contact's normal dashpot over the root of its normal stiffness per area, N s/m; `fraction` of the contact's mass
-// goes with this area. Between two immobile bodies there is nothing to damp.
+// A contact's normal dashpot, 2ξ √(m kn A) (Eq. 6.9), over the root of its normal stiffness per area, N s/m; `fraction`
+// of the contact's mass goes with this area. Between two immobile bodies there is nothing to damp.
 template <int Dim>
 [[gnu::always_inline]] inline double dashpot_of(const Settings& settings, const State<Dim>& state,
                                                 const PairMotion<Dim>& motion, double area, double fraction = 1) {

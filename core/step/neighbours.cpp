@@ -64,7 +64,8 @@ double moved(const Body<Dim>& body, const Placement<Dim>& then, const Motion<Dim
 // of a coordinate, what rounding may have cut off
 constexpr double coordinate_rounding = 8 * std::numeric_limits<double>::epsilon();
 
-// the box around a part, widened by `margin` and by what rounding may have cut off
+// the box around a part, from its vertices where they now are (Eq. C.1), widened by `margin` and by what rounding may
+// have cut off
 template <int Dim>
 Box<Dim> bounds(const Model<Dim>& model, const State<Dim>& state, int part, double margin) {
   constexpr double infinity = std::numeric_limits<double>::infinity();

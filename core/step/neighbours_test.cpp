@@ -198,6 +198,7 @@ void expect_none_missed(std::uint64_t seed, bool clumps) {
   EXPECT_LT(listed_pairs, boxes);
 }
 
+// boxes from Eq. C.1
 TEST(Neighbours, NoneThatMayTouchIsMissed3D) {
   expect_none_missed<3>(401, false);
 }

@@ -26,6 +26,7 @@ BoltSpring<Dim> spring_of(double length) {
   return spring;
 }
 
+// Eqs 5.1 and 5.2
 TEST(BoltSpring, FollowsAnOpeningAndSlippingJoint) {
   BoltProperties p = bar();
   p.pretension = F0;

@@ -192,6 +192,7 @@ std::vector<SectionForces> forces_at_nodes(const Lining& lining, const std::vect
   return at_nodes;
 }
 
+// Eqs I.1-I.4: the shear of Eq. I.1 is in the waves from n = 2 on; radial pressures have no moment, so its C is 0
 std::vector<double> smoothed_moments(const Lining& lining, const std::vector<SectionForces>& at_nodes) {
   const std::size_t sides = lining.sides.size();
   if (!lining.closed || sides < 5) return {};

@@ -104,8 +104,8 @@ TEST(Interface, PullsUntilItsBondBreaks) {
   EXPECT_NEAR(broken.friction, 0.5 * 1e9 * length * std::pow(1.001 * strength, 2), 1e-9);
 }
 
-// An even pressure on a polygon makes moments on its sides, and none on the circle that it stands for; pressures that
-// differ from side to side by a cosine make the ring's moments.
+// Eqs I.1-I.3. An even pressure on a polygon makes moments on its sides, and none on the circle that it stands for;
+// pressures that differ from side to side by a cosine make the ring's moments.
 TEST(Smoothing, LeavesWhatARingWouldCarry) {
   constexpr int sides = 24, on_side = 8;
   constexpr double radius = 5, pressure = 1e5;

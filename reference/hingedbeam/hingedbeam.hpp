@@ -29,7 +29,7 @@ double hinged_beam_geometric_limit(const HingedBeam& beam);
 // from the edges on an overlap of 2δ/3, so H = K depth θ/3 and W = 4 K depth² θ/(9 length). No snap-through.
 HingedBeamLoad hinged_beam_first_order(const HingedBeam& beam, double rotation);
 
-// Equations E.1 and E.2, equilibrium of the deformed beam: corner penetration δ = (L1 cosθ + L2 sinθ - L1)/2, centroid
+// Eqs E.1 and E.2, equilibrium of the deformed beam: corner penetration δ = (L1 cosθ + L2 sinθ - L1)/2, centroid
 // of the overlap y = δ (cotθ - tanθ)/3 from the corner, overlap d = δ (2 + tan²θ)/3 there, arm l = L2 cosθ - L1 sinθ
 // - 2y, thrust H = K d, weight W = 2 H l/L1. Tall walls, horizontal forces; the weight's arm stays L1/2. 0 < θ.
 HingedBeamLoad hinged_beam_second_order(const HingedBeam& beam, double rotation);

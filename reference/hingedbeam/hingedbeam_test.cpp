@@ -57,7 +57,7 @@ TEST(HingedBeam, true_arm_normal_and_abutments_have_their_published_numbers) {
   }
 }
 
-// with level forces on tall walls clipping is the closed form, but for the weight's arm
+// Eqs E.1 and E.2: with level forces on tall walls clipping is the closed form, but for the weight's arm
 TEST(HingedBeam, clipping_agrees_with_the_closed_form) {
   for (const double rotation : {0.001, 0.02, 0.1, 0.2, 0.3}) {
     const HingedBeamLoad closed = hinged_beam_second_order(beam, rotation);

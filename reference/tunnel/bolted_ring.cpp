@@ -57,7 +57,7 @@ Displacement beyond_bolts(const BoltedRing& ring, double rho) {
   return {1 / rho - rho * pull, -1 / (rho * rho) - pull};
 }
 
-// Radial and hoop stress increments of the rock over 2G, tension positive.
+// Radial and hoop stress increments of the rock over 2G, tension positive: Eqs 5.10 and 5.11 with λ = 2Gν/(1 - 2ν).
 double radial_increment(Displacement u, double rho, double nu) {
   return ((1 - nu) * u.slope + nu * u.value / rho) / (1 - 2 * nu);
 }

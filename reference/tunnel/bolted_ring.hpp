@@ -5,8 +5,9 @@
 // A circular opening in elastic rock under a hydrostatic stress, with radial bolts smeared into the rock around it.
 //
 // Source: Carranza-Torres (2009), Analytical and numerical study of the mechanics of rockbolt reinforcement around
-// tunnels in rock masses, Rock Mech. Rock Eng. 42, 175-228, as used by Boon (2013), section 5.4.4, Eq. 5.3 and appendix
-// G. The equation below was derived again from equilibrium; plane strain, tension positive, u the outward displacement:
+// tunnels in rock masses, Rock Mech. Rock Eng. 42, 175-228, as used by Boon (2013), section 5.4.4, Eqs 5.3
+// and G.3. The equation below was derived again from equilibrium; plane strain, tension positive, u the outward
+// displacement:
 //
 //   rho = r/a,  beta = K_a s_mean / (s_theta s_z 2G),  b = beta (1 - 2 nu)/(1 - nu)
 //   rho (rho + b) u'' + rho u' - u = 0          within the bolts' length

@@ -16,6 +16,7 @@ BoltedRing boon_ring(double shear_modulus, double poisson_ratio) {
   return {5, 662175, shear_modulus, poisson_ratio, 0.2e9, 0.77, 7, 5 * 11.25 * degree, 1};
 }
 
+// Eqs 5.3 and G.3
 TEST(BoltedRing, boon_wall_bolt_forces) {
   EXPECT_NEAR(bolted_ring_at(boon_ring(0.385e9, 0.2), 5).bolt_force / 1e3, 113.27, 0.006);
   EXPECT_NEAR(bolted_ring_at(boon_ring(1.604e9, 0.2), 5).bolt_force / 1e3, 30.55, 0.006);
@@ -47,7 +48,7 @@ TEST(BoltedRing, stresses_are_in_equilibrium) {
     const BoltedRingState here = bolted_ring_at(ring, r);
     const double rock_and_bolts = here.radial_stress, hoop = here.hoop_stress;  // bolts carry no hoop stress
     EXPECT_NEAR(slope + (rock_and_bolts - hoop) / r, 0, 1e-6 * 662175);
-    // Hooke's law in the rock alone: hoop strain u/r from the stresses
+    // Hooke's law (Eqs 5.10 and 5.11) in the rock alone: hoop strain u/r from the stresses
     const double bolts = -here.bolt_force / (ring.tangential_spacing * ring.longitudinal_spacing * r / ring.radius);
     const double rock = here.radial_stress - 662175 - (r <= 12 ? bolts : 0);
     const double strain = ((1 - 0.2) * (hoop - 662175) - 0.2 * rock) / (2 * 0.385e9);

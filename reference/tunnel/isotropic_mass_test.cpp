@@ -52,8 +52,8 @@ TEST(IsotropicMass, moduli_and_back) {
   EXPECT_THROW(isotropic_stiffnesses({1e9, 0.5}, 1), std::invalid_argument);
 }
 
-// Any uniform stress on the rim: every spring carries it exactly, no block turns, and blocks far apart move as the
-// isotropic solid does, but for the jumps of fewer than two joints of each set.
+// Hooke's law, Eqs 5.10 and 5.11. Any uniform stress on the rim: every spring carries it exactly, no block turns, and
+// blocks far apart move as the isotropic solid does, but for the jumps of fewer than two joints of each set.
 TEST(IsotropicMass, uniform_stress_is_exact) {
   const Tensor stress{{{1.3e6, -0.4e6}, {-0.4e6, 0.5e6}}};  // tension positive
   const double spacing = 1, half = 8, kn = 5e9, ks = 0.5e9;
@@ -123,9 +123,9 @@ Point pressed_stress(double half, double kn, double ks, double strain, int along
   return stress;
 }
 
-// Oedometer, along either axis: G = (s1 - s3)/2e, nu = s3/(s1 + s3). The rim, blocks that follow the strain by their
-// centroids, cannot give as the mass does: an error of a spacing over the width, 1/57 for the larger mass, that falls
-// with the width.
+// Oedometer, along either axis: G = (s1 - s3)/2e, nu = s3/(s1 + s3), Eqs 5.12 and 5.13. The rim, blocks that follow the
+// strain by their centroids, cannot give as the mass does: an error of a spacing over the width, 1/57 for the larger
+// mass, that falls with the width.
 TEST(IsotropicMass, oedometer) {
   const double kn = 5e9, ks = 0.5e9, strain = 1e-4;
   const IsotropicModuli moduli = isotropic_moduli(1, kn, ks);

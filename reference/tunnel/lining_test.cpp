@@ -23,13 +23,14 @@ RingLining boon_ring(double horizontal_ratio) {
   return {5, 662175, horizontal_ratio, 2 * 0.385e9 * 1.2, 0.2, 25e9, 0.3, 0.3 * 0.3 * 0.3 / 12, 0};
 }
 
+// Eqs 5.14 and H.6
 TEST(SoftLining, boon_hoop_forces) {
   EXPECT_NEAR(lining_hoop_force(boon_lining(1e6)) / 1e3, 21.29, 0.006);
   EXPECT_NEAR(lining_hoop_force(boon_lining(0.1e9)) / 1e3, 1084.3, 0.06);
   EXPECT_NEAR(lining_hoop_force(boon_lining(1e9)) / 1e3, 1985.7, 0.06);
 }
 
-// Appendix H as three springs that share one pressure: iterate on the pressure instead of solving.
+// Eqs H.1-H.6 as three springs that share one pressure: iterate on the pressure instead of solving.
 TEST(SoftLining, compatibility_of_displacements) {
   const SoftLining l = boon_lining(0.1e9);
   double low = 0, high = l.in_situ_pressure;

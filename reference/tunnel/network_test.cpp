@@ -57,8 +57,9 @@ TEST(Network, hung_block) {
   EXPECT_NEAR(displacement(network, lever, 1, {0.8, 0.1})[1], -4.5e4 / 2e8, 1e-15);
 }
 
-// Square blocks of side L on each other, pressed, pushed and turned at the top: every joint shortens by N/(kn L), slips
-// by V/(ks L) and turns by M over kn L³/12, or kn L³/16 where its two points have no spread of their own.
+// As stiff as a mass with a joint every L, E = kn L and G = ks L (Eqs 5.6, 5.7, 6.1, 6.2). Square blocks of side L on
+// each other, pressed, pushed and turned at the top: every joint shortens by N/(kn L), slips by V/(ks L) and turns by M
+// over kn L³/12, or kn L³/16 where its two points have no spread of their own.
 TEST(Network, column) {
   constexpr int count = 6;
   constexpr double side = 2, pressed = 3e5, pushed = 1e4;

@@ -154,7 +154,7 @@ TEST(RingMoment, limits_and_scaling) {
   EXPECT_THROW(ring_under_vertical_pressure(1, 0, 0), std::invalid_argument);
 }
 
-// Appendix I: cut the ring at the crown, integrate, close it by mean and first harmonics of the cut ring's moment.
+// Eqs I.1-I.3: cut the ring at the crown, integrate, close it by mean and first harmonics of the cut ring's moment.
 TEST(RingMoment, ring_moments_by_cutting_and_closing) {
   const int count = 720;
   const double a = 5;

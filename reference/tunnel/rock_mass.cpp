@@ -89,6 +89,14 @@ std::vector<Trace> draw_traces(const Point& low, const Point& high, double densi
 }
 
 // The largest circle touches three sides: all threes are tried, for polygons have few.
+SpacedJointsModuli spaced_joints_moduli(double spacing, double normal_stiffness, double shear_stiffness,
+                                        double poisson_ratio) {
+  require(spacing > 0 && normal_stiffness > 0 && shear_stiffness > 0, "spacing and stiffnesses must be positive");
+  require(poisson_ratio >= 0 && poisson_ratio < 0.5, "Poisson's ratio must lie in 0..0.5, 0.5 excluded");
+  const double young = normal_stiffness * spacing;
+  return {young, shear_stiffness * spacing, young / (2 * (1 + poisson_ratio))};
+}
+
 double inscribed_radius(const Polygon& polygon) {
   require(polygon.size() >= 3, "a polygon needs three corners");
   const Point origin = polygon[0];

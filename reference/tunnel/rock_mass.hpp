@@ -30,9 +30,19 @@ std::vector<Polygon> cut_by_traces(const Polygon& whole, const std::vector<Trace
 // The traces of several sets, one of each in turn.
 std::vector<Trace> in_turn(const std::vector<std::vector<Trace>>& sets);
 
+// Moduli of rock with a joint every `spacing` (m), of stiffness kn and ks (Pa/m), between blocks that do not deform
+// (Goodman 1989; Boon 2013, table 5.3). Throws std::invalid_argument unless all are positive and 0 <= nu < 0.5.
+struct SpacedJointsModuli {
+  double young_modulus = 0;            // kn s, Pa: Eq. 5.6
+  double shear_modulus = 0;            // ks s, Pa: Eq. 5.7
+  double isotropic_shear_modulus = 0;  // kn s/(2 (1 + nu)), Pa: Eq. 5.9, which is Eq. 5.8 with Eq. 5.6
+};
+SpacedJointsModuli spaced_joints_moduli(double spacing, double normal_stiffness, double shear_stiffness,
+                                        double poisson_ratio);
+
 struct OedometerAnswer {
-  double shear_modulus = 0;    // (s1 - s3)/(2 e1), Pa
-  double poisson_ratio = 0;    // s3/(s1 + s3)
+  double shear_modulus = 0;    // (s1 - s3)/(2 e1), Pa: Eq. 5.12
+  double poisson_ratio = 0;    // s3/(s1 + s3): Eq. 5.13
   double axial = 0, side = 0;  // s1, s3 over e1, Pa, compression positive
 };
 

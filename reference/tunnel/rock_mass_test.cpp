@@ -67,6 +67,18 @@ TEST(RockMass, traces_are_drawn_as_stated) {
   EXPECT_THROW(draw_traces({0, 0}, {0, 1}, 1, 0, 0, 1, 1), std::invalid_argument);
 }
 
+// Eqs 5.6-5.9: the moduli of table 5.3, rounded as printed; where kn = 2 (1 + nu) ks both shear moduli are one
+TEST(RockMass, spaced_joints) {
+  const SpacedJointsModuli printed = spaced_joints_moduli(0.77, 5e9, 0.5e9, 0.2);
+  EXPECT_NEAR(printed.shear_modulus / 1e9, 0.385, 0.0005);
+  EXPECT_NEAR(printed.isotropic_shear_modulus / 1e9, 1.604, 0.0005);
+  EXPECT_NEAR(printed.young_modulus, 2 * 1.2 * printed.isotropic_shear_modulus, 1e-3);
+  const SpacedJointsModuli isotropic = spaced_joints_moduli(2, 2.6e9, 1e9, 0.3);
+  EXPECT_NEAR(isotropic.shear_modulus, isotropic.isotropic_shear_modulus, 1e-3);
+  EXPECT_THROW(spaced_joints_moduli(0, 1, 1, 0.2), std::invalid_argument);
+  EXPECT_THROW(spaced_joints_moduli(1, 1, 1, 0.5), std::invalid_argument);
+}
+
 // Squares in columns: n + 1 joints of kn over the height, nothing sideways; pressed sideways the same with its numbers.
 TEST(RockMass, oedometer_of_columns) {
   std::vector<Polygon> squares;

@@ -1,0 +1,56 @@
+#pragma once
+// Equations, thesis cases and promises by the tests and checks that verify them: made from the lists, from what the
+// sources name, and from the sources of the checks.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reports/equation_names.hpp"
+#include "reports/matrix_lists.hpp"
+#include "verification/verdicts.hpp"
+
+namespace voussoir::reports {
+
+// so many equations at most may stand without a test that names them
+constexpr int most_not_verified = 15;
+
+struct Matrix {
+  std::vector<Equation> equations;
+  std::vector<ThesisCase> thesis_cases;
+  std::vector<Promise> promises;
+  std::vector<Ground> grounds;
+  SourceNames names;
+  std::string readme;  // README.md, every run of blanks and line ends one blank
+};
+
+// The lists of reports/ and the sources of a repository. Throws std::runtime_error for a list that cannot be read.
+Matrix read_matrix(const std::filesystem::path& repository);
+
+// Where an equation is, each file or test once, in order.
+struct Whereabouts {
+  std::vector<std::string> code;        // files of the method, the program or a case
+  std::vector<std::string> references;  // files of closed forms
+  std::vector<std::string> tests;       // Suite.Name
+  std::vector<std::string> cases;       // whose checks name it in their source, as their code states it
+};
+Whereabouts whereabouts(const Matrix& matrix, const Equation& equation);
+
+enum class Verified { yes, not_verified, left_out };
+Verified verified(const Equation& equation);
+
+// How many checks of each case rest on an equation or on a ground, by what their sources name.
+struct CaseChecks {
+  std::string case_name;
+  int checks = 0;
+};
+std::vector<CaseChecks> checks_on_equation(const verification::Verdicts& verdicts, const std::string& number);
+std::vector<CaseChecks> checks_on_ground(const verification::Verdicts& verdicts, const std::string& name);
+
+// What is wrong, a line each, with file and repair; empty when nothing is. Of the sources and the lists: a name without
+// equation, an equation without code or test, a test that there is not, too much that is not verified.
+std::vector<std::string> problems(const Matrix& matrix);
+// Of the checks: a source that names neither an equation, nor a ground, nor a reference, or an equation that there is
+// not.
+std::vector<std::string> problems(const Matrix& matrix, const verification::Verdicts& verdicts);
+
+}  // namespace voussoir::reports

@@ -1,0 +1,15 @@
+#pragma once
+// The matrix as pages of the manual: equations by tests, the thesis's cases by ours, promises by tests, and what checks
+// rest on.
+#include <string>
+
+#include "reports/matrix.hpp"
+
+namespace voussoir::reports {
+
+std::string equations_page(const Matrix& matrix, const verification::Verdicts& verdicts);
+std::string thesis_page(const Matrix& matrix);
+std::string promises_page(const Matrix& matrix);
+std::string grounds_page(const Matrix& matrix, const verification::Verdicts& verdicts);
+
+}  // namespace voussoir::reports
