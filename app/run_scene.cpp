@@ -1,9 +1,9 @@
 #include "app/run_scene.hpp"
 
 #include "app/bad_input.hpp"
-#include "app/effective_scene.hpp"
 #include "core/output/fingerprint.hpp"
 #include "core/output/version.hpp"
+#include "core/scene/effective_scene.hpp"
 #include "core/scene/plausibility.hpp"
 #include "core/scene/scene.hpp"
 #ifdef VOUSSOIR_HAS_GLPK

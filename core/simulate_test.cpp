@@ -10,6 +10,8 @@
 
 #include "core/checkpoint/checkpoint.hpp"
 #include "core/motion/free_fall.hpp"
+#include "core/output/paraview.hpp"
+#include "core/snapshot.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir {
@@ -312,6 +314,46 @@ TEST(Bonds, AreNotSpokenOfWhereNoStageMakesAny) {
   const Results none = results_of(bonded_block(0, 0, 0, {stage_of("settle", SettlePlan{})}));
   ASSERT_EQ(none.warnings.size(), 1u);
   EXPECT_NE(none.warnings[0].find("no bond"), std::string::npos);
+}
+
+// ---- between steps ----------------------------------------------------------------------------------------------
+
+std::string drawn(const Model<2>& model, const State<2>& state) {
+  return vtp(contact_points(model, state, state.time)) + vtp(force_lines(model, state, state.time));
+}
+
+TEST(Snapshot, IsWhatFramesShowWithinStagesAndAtTheirEnds) {
+  StagePlan slide = stage_of("slide", RunPlan{.duration = 0.05});
+  slide.change.friction = 20 * degree;
+  StagePlan lost = stage_of("lost", SettlePlan{});
+  lost.change.remove.push_back({.names = {"block"}, .above = {}, .below = {}, .inside = {}});
+  Prepared<2> scene = block_on_slope({stage_of("settle", SettlePlan{}), slide});
+  scene.output.frame_interval = 0.01;
+  for (const bool fails : {false, true}) {
+    if (fails) scene.stages.push_back(lost);
+    Progress<2> progress = initial_progress(scene);
+    std::string before, frame;
+    int compared = 0;
+    Watcher<2> watcher;
+    watcher.pause = [&](const Progress<2>& now) {
+      const Snapshot<2> shown = snapshot(scene, now);
+      before = drawn(shown.model, shown.state);
+      return false;
+    };
+    watcher.frame = [&](const Model<2>& model, const State<2>& state, double time) {
+      frame = drawn(model, state);
+      const bool within = progress.stage_under_way && time < progress.stage_began + 0.045;
+      if (!within || progress.stage != 1) return;
+      EXPECT_EQ(frame, before);
+      ++compared;
+    };
+    EXPECT_TRUE(simulate(scene, progress, watcher));
+    EXPECT_EQ(progress.results.outcome, fails ? Outcome::incomplete : Outcome::done);
+    EXPECT_GE(compared, 4);
+    const Snapshot<2> end = snapshot(scene, progress);
+    EXPECT_EQ(drawn(end.model, end.state), frame);
+    EXPECT_EQ(end.state.contacts.empty() || !end.state.contacts.front().touching(), fails);
+  }
 }
 
 // ---- what ends a run early, and what is kept then -------------------------------------------------------------------

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "app/effective_scene.hpp"
+#include "core/scene/effective_scene.hpp"
 #include "core/scene/plausibility.hpp"
 #include "core/scene/scene.hpp"
 #include "fuzz/require.hpp"

@@ -20,7 +20,7 @@ constexpr int longest_file = 500;  // lines; a longer one holds two ideas
 constexpr int one_screen = 60;     // lines of core/step.cpp: the whole method at a glance
 
 constexpr std::array top_folders{"text",  "core",       "app",     "reference", "verification",
-                                 "cases", "benchmarks", "reports", "fuzz"};
+                                 "cases", "benchmarks", "reports", "fuzz",      "python"};
 
 // What stands on what in a folder of the core, from the ground up: a line may include the lines before its own. A name
 // is a folder, or a header with its source; a source without a header stands above the one that declares what it
@@ -45,7 +45,7 @@ const std::vector<Order> orders{
       {"run", "take_out"},
       {"reduction"},
       {"progress", "history"},
-      {"checkpoint", "simulate", "begin"}}},
+      {"checkpoint", "simulate", "snapshot", "begin"}}},
     {"core/geometry", {{"types"}, {"half_space"}, {"polytope", "surface"}, {"outline"}}},
     {"core/law",
      {{"joint_properties", "joint_state", "face_friction"}, {"elastic_coulomb"}, {"joint_law"}, {"joint_path"}}},
@@ -84,7 +84,7 @@ const std::vector<Order> orders{
     {"core/scene",
      {{"scene_error"},
       {"node"},
-      {"key_row"},
+      {"key_row", "effective_scene"},
       {"scene_text", "scene_spec"},
       {"keys", "toml_text", "accuracy_target"},
       {"check_keys"},
@@ -132,6 +132,7 @@ const std::vector<Reach> reaches{
     {"reports",
      {"verification", "text", "core/accuracy.hpp"}},  // what the accuracy levels promise, which reports judge
     {"fuzz", {"core", "app", "text"}},
+    {"python", {"core", "text"}},
 };
 
 std::string top_folder(std::string_view path) {

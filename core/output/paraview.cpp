@@ -204,10 +204,10 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
   PolyData data;
   data.kind = PolyData::Cells::vertices;
   data.time = time;
-  DataArray body_a{"body_a", 1, true, {}}, body_b{"body_b", 1, true, {}}, properties{"properties", 1, true, {}},
-      normal{"normal", 3, false, {}}, force{"force", 3, false, {}}, overlap{"overlap", 1, false, {}},
-      area{"area", 1, false, {}}, slip{"plastic_slip", 1, false, {}}, bond{"bonded", 1, true, {}},
-      mobilised{"mobilised_friction_deg", 1, false, {}};
+  DataArray body_a{"body_a", 1, true, {}}, body_b{"body_b", 1, true, {}}, joint{"joint", 1, true, {}},
+      properties{"properties", 1, true, {}}, normal{"normal", 3, false, {}}, force{"force", 3, false, {}},
+      overlap{"overlap", 1, false, {}}, area{"area", 1, false, {}}, slip{"plastic_slip", 1, false, {}},
+      bond{"bonded", 1, true, {}}, mobilised{"mobilised_friction_deg", 1, false, {}};
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     const Contact<Dim>& contact = state.contacts[i];
     if (!contact.touching()) continue;
@@ -221,6 +221,7 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
       data.points.push_back(in_space(Vector<Dim>(model.origin + (centroid + point))));
       body_a.values.push_back(a);
       body_b.values.push_back(b);
+      joint.values.push_back(contact.joint);
       properties.values.push_back(contact.properties);
       append<Dim>(normal, contact.geometry.normal);
       append<Dim>(force, carried);
@@ -235,8 +236,8 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
     for (const SubContact<Dim>& s : subs_of(state, i))
       if (s.area > 0) add(s.point, s.force, s.overlap, s.area, s.history);
   }
-  data.point_data = {body_a, body_b, properties, normal, force, overlap, area, slip, bond, mobilised};
-  data.names = {{"property_names", names_of(model.properties)}};
+  data.point_data = {body_a, body_b, joint, properties, normal, force, overlap, area, slip, bond, mobilised};
+  data.names = {{"joint_names", names_of(model.joints)}, {"property_names", names_of(model.properties)}};
   return data;
 }
 

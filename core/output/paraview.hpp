@@ -22,8 +22,9 @@ namespace voussoir {
 template <int Dim>
 PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double time, const JointSets& sets = {});
 
-// The contacts that touch, one point each. Point data: body_a, body_b, properties, normal (from a to b), force (N, on
-// b), overlap (m), area (m²; 2-D: m; 0 where no law asked for it). Field data: property_names.
+// The contacts that touch, one point each. Point data: body_a, body_b, joint (between them, -1 none), properties,
+// normal (from a to b), force (N, on b), overlap (m), area (m²; 2-D: m; 0 where no law asked for it), plastic_slip (m),
+// bonded, mobilised_friction_deg. Field data: joint_names, property_names.
 template <int Dim>
 PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double time);
 

@@ -114,7 +114,8 @@ std::string value_text(const Node& node) {
 }
 
 std::string place_text(const Place& place) {
-  const std::string source = place.source ? *place.source : "scene";
+  std::string source = place.source ? *place.source : "scene";
+  if (place.override_text) source += ": --set " + *place.override_text;
   return place.line > 0 ? source + ":" + std::to_string(place.line) : source;
 }
 
@@ -128,12 +129,25 @@ std::string complaint(const Subject& table, std::string_view key, const std::str
   return place_text(table.node->place) + ": " + one_line(path, 200) + " is missing: " + rule;
 }
 
+namespace {
+
+SceneError error_at(const Place& place, const std::string& message, const std::string& key) {
+  return SceneError(message, place.source ? *place.source : "", place.line, key);
+}
+
+}  // namespace
+
+void refuse(const Place& place, const std::string& message, const std::string& key) {
+  throw error_at(place, place_text(place) + ": " + message, key);
+}
+
 void refuse(const Node& node, const std::string& path, const std::string& rule) {
-  throw SceneError(complaint(node, path, rule));
+  throw error_at(node.place, complaint(node, path, rule), path);
 }
 
 void refuse(const Subject& table, std::string_view key, const std::string& rule) {
-  throw SceneError(complaint(table, key, rule));
+  const Node* value = table.node->find(key);
+  throw error_at(value ? value->place : table.node->place, complaint(table, key, rule), key_path(table.path, key));
 }
 
 void require_plain_text(const Node& node, const std::string& path) {

@@ -12,10 +12,11 @@
 
 namespace voussoir {
 
-// Where a value was written. The source of an override is the file and the whole override; it has no line.
+// Where a value was written. An override, that of the file which it changes, has no line.
 struct Place {
   std::shared_ptr<const std::string> source;
   int line = 0;
+  std::shared_ptr<const std::string> override_text{};
 };
 
 struct Member;
@@ -64,6 +65,9 @@ std::string place_text(const Place& place);
 // "place: path = value: rule"; a key that is absent is reported at its table's line as missing
 std::string complaint(const Node& node, const std::string& path, const std::string& rule);
 std::string complaint(const Subject& table, std::string_view key, const std::string& rule);
+
+// "place: message"
+[[noreturn]] void refuse(const Place& place, const std::string& message, const std::string& key = {});
 
 // throws the complaint as a SceneError
 [[noreturn]] void refuse(const Node& node, const std::string& path, const std::string& rule);

@@ -25,7 +25,7 @@ std::vector<std::string> segments_of(std::string_view path) {
 }
 
 [[noreturn]] void fail(const Place& place, const std::string& path, const std::string& rule) {
-  throw SceneError(place_text(place) + ": " + one_line(path, 200) + ": " + rule);
+  refuse(place, one_line(path, 200) + ": " + rule, path);
 }
 
 // a table of a list, by name or else by number from 1
@@ -88,7 +88,8 @@ Target find_target(Node& scene, const std::vector<std::string>& segments, const 
 }  // namespace
 
 void apply_override(Node& scene, const std::string& text, const std::string& file) {
-  const Place place{std::make_shared<const std::string>(file + ": --set " + one_line(text, 120)), 0};
+  const Place place{std::make_shared<const std::string>(file), 0,
+                    std::make_shared<const std::string>(one_line(text, 120))};
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) fail(place, trimmed(text), "has no '='; write for example --set joints.A.dip=65");
   const Target target = find_target(scene, segments_of(std::string_view(text).substr(0, equals)), place);

@@ -153,20 +153,20 @@ std::vector<InitialVelocitySpec> read_initial_velocity(const Subject& scene) {
 
 }  // namespace
 
-Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& overrides) {
-  const auto source = std::make_shared<const std::string>(one_line(name, 1000));
-  // the tree: parsed, laid over its base, overridden, held against the key table
+Scene read_tree(Node stated, const std::string& name, const std::vector<std::string>& overrides) {
+  const std::string file = one_line(name, 1000);
+  // the tree: laid over its base, overridden, held against the key table
   Scene scene;
-  const auto tree = std::make_shared<Node>(
-      with_base(parse_toml(text, source), std::filesystem::path(name).parent_path(), scene.files));
+  const auto tree =
+      std::make_shared<Node>(with_base(std::move(stated), std::filesystem::path(name).parent_path(), scene.files));
   for (const std::string& text_of_override : overrides)
-    apply_override(*tree, text_of_override, *source);
+    apply_override(*tree, text_of_override, file);
   const std::vector<std::string> from_level = apply_accuracy_level(*tree);
   check_keys(*tree);
   accuracy_target(*tree);
 
   // from here on every value has the right type and lies in its range
-  scene.file = *source;
+  scene.file = file;
   scene.tree = tree;
   scene.from_level = from_level;
   const Subject top{tree.get(), ""};
@@ -190,6 +190,11 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   scene.linings = read_linings(top, scene.dimension);
   scene.monitors = read_monitors(top);
   return scene;
+}
+
+Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& overrides) {
+  const auto source = std::make_shared<const std::string>(one_line(name, 1000));
+  return read_tree(parse_toml(text, source), name, overrides);
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

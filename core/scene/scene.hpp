@@ -18,6 +18,10 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 // the same for a text; `name` stands for the file in errors
 Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& overrides = {});
 
+// The same for a tree from elsewhere than a text, whose values say where they were stated. Files that it names lie in
+// the folder of `name`, or where the program stands.
+Scene read_tree(Node tree, const std::string& name, const std::vector<std::string>& overrides = {});
+
 // Cuts the domain, builds bodies, assigns properties, resolves selectors and monitors. Throws SceneError where the
 // scene makes no sense. Dim must be scene.dimension.
 template <int Dim>

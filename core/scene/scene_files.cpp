@@ -141,7 +141,7 @@ void add_tables(const Node& scene, const fs::path& folder, const char* file_key,
     std::string place = shown;
     for (const int number : {fault.line, fault.column})
       if (number > 0) place += ":" + std::to_string(number);
-    throw SceneError(place + ": " + fault.what());
+    throw SceneError(place + ": " + fault.what(), printable(shown), fault.line);
   }
 }
 

@@ -10,7 +10,7 @@ std::string file_text(const std::filesystem::path& file) {
   try {
     return read_file(file, largest_scene_file);
   } catch (const ReadFault& fault) {
-    throw SceneError(printable(file.string()) + ": " + fault.what());
+    throw SceneError(printable(file.string()) + ": " + fault.what(), printable(file.string()));
   }
 }
 

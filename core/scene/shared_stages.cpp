@@ -165,7 +165,7 @@ std::optional<Difference> difference(const std::string& path, const Node& here, 
       "or make the state to begin with from this scene (voussoir run --until)",
       d.there ? "is " + value_text(*d.there) : "is not stated", name, one_line(stage, 60));
   if (d.here) refuse(*d.here, d.path, rule);
-  throw SceneError(fmt::format("{}: {} is missing: {}", place_text(d.place), one_line(d.path, 200), rule));
+  refuse(d.place, fmt::format("{} is missing: {}", one_line(d.path, 200), rule), d.path);
 }
 
 // the monitors that are stated in the same words

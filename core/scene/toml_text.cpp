@@ -84,9 +84,8 @@ Node converted(const toml::node& from, const Document& document) {
     node.kind = Node::Kind::number;
     node.number = number->get() + 0.0;  // -0 is 0, or a scene would not read back to itself
     if (node.number == 0 && document.states_more_than_zero(from.source().begin))
-      throw SceneError(
-          place_text(node.place) +
-          ": a number is too small for the machine and would count as zero; write 0, or correct the exponent");
+      refuse(node.place,
+             "a number is too small for the machine and would count as zero; write 0, or correct the exponent");
   } else if (const auto* boolean = from.as_boolean()) {
     node.kind = Node::Kind::boolean;
     node.boolean = boolean->get();
@@ -150,7 +149,8 @@ std::string repair_hint(std::string_view description, std::string_view line) {
 // What a text claims, before anything is allocated for it. Keys of very many parts would nest tables until the stack
 // ends (the library limits nested values only); and every value needs a comma, an equals sign or a bracket.
 void require_sane_size(std::string_view text, const std::string& source) {
-  if (text.size() > largest_scene_file) throw SceneError(source + ": larger than 16 MB; a scene must be smaller");
+  if (text.size() > largest_scene_file)
+    throw SceneError(source + ": larger than 16 MB; a scene must be smaller", source);
   constexpr int most_dots = 100;
   constexpr int most_values = 1'000'000;  // a few hundred bytes of memory each
   int line = 1, dots = 0, values = 0;
@@ -160,15 +160,17 @@ void require_sane_size(std::string_view text, const std::string& source) {
     if (c == '.' && ++dots > most_dots)
       throw SceneError(
           source + ":" + std::to_string(line) +
-          ": more than 100 dots in a row: keys must not nest so deeply; a scene needs three levels at most");
+              ": more than 100 dots in a row: keys must not nest so deeply; a scene needs three levels at most",
+          source, line);
     if ((c == ',' || c == '=' || c == '[' || c == '{') && ++values > most_values)
-      throw SceneError(source + ":" + std::to_string(line) +
-                       ": more than a million values: a scene must be smaller; divide it");
+      throw SceneError(
+          source + ":" + std::to_string(line) + ": more than a million values: a scene must be smaller; divide it",
+          source, line);
   }
 }
 
 Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>& source) {
-  if (is_utf_16(text)) throw SceneError(*source + ": " + save_as_utf_8);
+  if (is_utf_16(text)) refuse(Place{source, 0}, save_as_utf_8);
   require_sane_size(text, *source);
   const WithoutTraps without_traps;  // "1e400" overflows inside the library on its way to a parse error
   try {
@@ -176,9 +178,9 @@ Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>&
     root.place.line = 1;
     return root;
   } catch (const toml::parse_error& error) {
-    throw SceneError(*source + ":" + std::to_string(error.source().begin.line) +
-                     ": not valid TOML: " + one_line(error.description(), 300) +
-                     repair_hint(error.description(), line_of(text, error.source().begin.line)));
+    refuse(Place{source, static_cast<int>(error.source().begin.line)},
+           "not valid TOML: " + one_line(error.description(), 300) +
+               repair_hint(error.description(), line_of(text, error.source().begin.line)));
   }
 }
 
@@ -195,9 +197,9 @@ Node parse_toml_value(std::string_view text, const Place& place) {
     value = std::move(document.members.at(0).value);
   } catch (const std::exception&) {
     if (!is_bare_word(text))
-      throw SceneError(*source +
-                       ": the value is not valid TOML; write a number (65), a list ([0, 0, -9.81]), true or " +
-                       "false, or a text (a word, or \"in quotes\")");
+      refuse(place,
+             "the value is not valid TOML; write a number (65), a list ([0, 0, -9.81]), true or false, or a text (a "
+             "word, or \"in quotes\")");
     value.kind = Node::Kind::text;
     value.text = text;
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/scene/scene.hpp"
+#include "text/plain_text.hpp"
 
 namespace voussoir::bad_scenes {
 
@@ -83,12 +84,22 @@ inline int marked_line(const std::string& text) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + mark, '\n'));
 }
 
+// What an error holds besides its message must be what the message says.
+inline void expect_parts(const SceneError& error) {
+  const std::string message = error.what();
+  EXPECT_EQ(error.file, "scene.toml") << message;
+  const std::string place = error.file + (error.line > 0 ? ":" + std::to_string(error.line) : "") + ": ";
+  EXPECT_TRUE(message.starts_with(place)) << message << "\nexpected place " << place;
+  EXPECT_NE(message.find(one_line(error.key, 200)), std::string::npos) << message << "\nexpected key " << error.key;
+}
+
 // what reading and preparing a scene complains about; empty when it does not
 inline std::string complaint_about(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
     const Scene scene = parse_scene(text, "scene.toml", overrides);
     scene.dimension == 2 ? void(prepare<2>(scene)) : void(prepare<3>(scene));
   } catch (const SceneError& error) {
+    expect_parts(error);
     return error.what();
   }
   return "";

@@ -1,4 +1,4 @@
-#include "app/effective_scene.hpp"
+#include "core/scene/effective_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -29,8 +29,22 @@ std::string key_text(const std::string& key) {
   return bare ? key : quoted(key);
 }
 
-// a value after `key =`; tables and lists on one line
-std::string value(const Node& node) {
+bool is_list_of_tables(const Node& node) {
+  return node.kind == Node::Kind::list && !node.items.empty() &&
+         std::all_of(node.items.begin(), node.items.end(),
+                     [](const Node& item) { return item.kind == Node::Kind::table; });
+}
+
+std::string lines(const Node& table) {
+  std::string text;
+  for (const Member& member : table.members)
+    text += key_text(member.key) + " = " + toml_value(member.value) + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string toml_value(const Node& node) {
   std::string text;
   switch (node.kind) {
     case Node::Kind::boolean:
@@ -43,32 +57,17 @@ std::string value(const Node& node) {
       return quoted(node.text);
     case Node::Kind::list:
       for (const Node& item : node.items)
-        text += (text.empty() ? "" : ", ") + value(item);
+        text += (text.empty() ? "" : ", ") + toml_value(item);
       return "[" + text + "]";
     case Node::Kind::table:
       for (const Member& member : node.members)
-        text += (text.empty() ? "" : ", ") + key_text(member.key) + " = " + value(member.value);
+        text += (text.empty() ? "" : ", ") + key_text(member.key) + " = " + toml_value(member.value);
       return text.empty() ? "{}" : "{ " + text + " }";
     case Node::Kind::date:
       break;  // no key of a scene takes one
   }
   return "\"\"";
 }
-
-bool is_list_of_tables(const Node& node) {
-  return node.kind == Node::Kind::list && !node.items.empty() &&
-         std::all_of(node.items.begin(), node.items.end(),
-                     [](const Node& item) { return item.kind == Node::Kind::table; });
-}
-
-std::string lines(const Node& table) {
-  std::string text;
-  for (const Member& member : table.members)
-    text += key_text(member.key) + " = " + value(member.value) + "\n";
-  return text;
-}
-
-}  // namespace
 
 std::string toml_text(const Node& scene) {
   std::string values, tables;
@@ -80,7 +79,7 @@ std::string toml_text(const Node& scene) {
       for (const Node& item : member.value.items)
         tables += "\n[[" + key + "]]\n" + lines(item);
     else
-      values += key + " = " + value(member.value) + "\n";
+      values += key + " = " + toml_value(member.value) + "\n";
   }
   return values + tables;
 }

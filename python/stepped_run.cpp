@@ -1,0 +1,210 @@
+#include "python/stepped_run.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "core/output/atomic_file.hpp"
+#include "core/output/bolts_csv.hpp"
+#include "core/output/fingerprint.hpp"
+#include "core/output/history_csv.hpp"
+#include "core/output/lining_csv.hpp"
+#include "core/output/paraview.hpp"
+#include "core/output/results_json.hpp"
+#include "core/output/version.hpp"
+#include "core/scene/accuracy_target.hpp"
+#include "core/scene/effective_scene.hpp"
+#include "core/scene/plausibility.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulate.hpp"
+#include "core/snapshot.hpp"
+#include "core/state_hash.hpp"
+
+namespace voussoir::python {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the program does and this cannot is refused: another answer in silence would be worse.
+void refuse_what_needs_the_program(const Scene& scene) {
+  const Subject top{scene.tree.get(), ""};
+  if (const auto contact = child(top, "contact")) {
+    if (scene.settings.contact.lp == LpSolver::glpk)
+      refuse(*contact, "lp", "Python has no GLPK; write lp = \"own\", or run the scene by 'voussoir run'");
+    if (scene.settings.contact.centre != CentreSolver::own)
+      refuse(*contact, "centre", "Python has no Ipopt; write centre = \"own\", or run the scene by 'voussoir run'");
+  }
+  const auto accuracy = child(top, "accuracy");
+  if (!accuracy) return;
+  const Node* budget = accuracy->node->find("budget");
+  const char* key = budget && budget->boolean ? "budget" : accuracy_target(*scene.tree) ? "error" : nullptr;
+  if (key) refuse(*accuracy, key, "takes several runs, which 'voussoir run' makes; leave it out here");
+}
+
+std::vector<std::pair<std::string, bool>> features() {
+  return {{"glpk", false}, {"ipopt", false}, {"fast_arithmetic", fast_arithmetic()}};
+}
+
+// Makes the folder ready for files of this run.
+void claim(const fs::path& folder, bool overwrite, const std::vector<fs::path>& inputs) {
+  std::error_code error;
+  if (fs::exists(folder / "run.json", error))
+    throw FileInTheWay("'" + folder.string() + "' holds a run of the program: save into another folder");
+  std::vector<fs::path> files = series_files(folder);
+  for (const char* name : {"scene.toml", "history.csv", "bolts.csv", "lining.csv", "results.json"})
+    if (fs::exists(folder / name, error)) files.push_back(name);
+  for (const fs::path& name : files) {
+    const std::string shown = "'" + (folder / name).string() + "'";
+    const auto is_it = [&](const fs::path& input) { return fs::equivalent(input, folder / name, error); };
+    if (std::ranges::any_of(inputs, is_it))
+      throw FileInTheWay(shown + " is read by this scene: save into another folder");
+    if (!overwrite) throw FileInTheWay(shown + " is there already: save into another folder, or with overwrite=True");
+  }
+  prepare_folder(folder);
+  for (const fs::path& name : files)
+    remove_file(folder / name);
+}
+
+template <int Dim>
+class SteppedRunOf : public SteppedRun {
+ public:
+  SteppedRunOf(std::shared_ptr<const OpenedScene> scene, int threads)
+      : scene_(std::move(scene)), prepared_(std::get<Prepared<Dim>>(scene_->prepared)) {
+    prepared_.settings.threads = threads;
+    progress_ = initial_progress(prepared_);
+    show_motions();
+  }
+
+  bool advance(long long steps, const std::function<bool()>& stop) override {
+    if (broken_) throw std::runtime_error("an error has ended this run; start another one");
+    if (done_) return false;
+    Watcher<Dim> watcher;
+    watcher.pause = [&](const Progress<Dim>&) { return stop() || steps-- <= 0; };
+    broken_ = true;
+    done_ = simulate(prepared_, progress_, watcher);
+    broken_ = false;
+    return !done_;
+  }
+
+  bool done() const override { return done_; }
+  int dimension() const override { return Dim; }
+  double time() const override { return progress_.state.time; }
+  long long steps() const override { return progress_.state.counters.steps; }
+  std::string state_hash() const override { return voussoir::state_hash(model(), progress_.state); }
+
+  std::string stage() const override {
+    const int last = static_cast<int>(prepared_.stages.size()) - 1;
+    return last < 0 ? "" : prepared_.stages[std::min(progress_.stage, last)].name;
+  }
+
+  std::vector<std::string> body_names() const override {
+    std::vector<std::string> names;
+    for (const Body<Dim>& body : model().bodies)
+      names.push_back(body.name);
+    names.resize(progress_.state.motions.size());  // before the first step a stage's bodies are not there yet
+    return names;
+  }
+
+  std::shared_ptr<const MotionArrays> motions() const override { return motions_; }
+
+  void show_motions() override {
+    const std::vector<Motion<Dim>>& moved = progress_.state.motions;
+    const std::size_t bodies = moved.size();
+    if (!motions_ || motions_->bodies != static_cast<int>(bodies)) {
+      motions_ = std::make_shared<MotionArrays>();
+      motions_->bodies = static_cast<int>(bodies);
+      motions_->displacement.resize(bodies * Dim);
+      motions_->rotation.resize(bodies * spin_freedoms<Dim>);
+      motions_->velocity.resize(bodies * Dim);
+    }
+    for (std::size_t b = 0; b < bodies; ++b) {
+      const Spin<Dim> turned = rotation_vector(moved[b].rotation);
+      std::copy_n(moved[b].displacement.data(), Dim, motions_->displacement.data() + b * Dim);
+      std::copy_n(moved[b].velocity.data(), Dim, motions_->velocity.data() + b * Dim);
+      std::copy_n(turned.data(), spin_freedoms<Dim>, motions_->rotation.data() + b * spin_freedoms<Dim>);
+    }
+  }
+
+  PolyData contacts() const override {
+    const Snapshot<Dim> now = snapshot(prepared_, progress_);
+    return contact_points(now.model, now.state, now.state.time);
+  }
+
+  PolyData surface() const override {
+    return block_faces(model(), progress_.state, progress_.state.time, prepared_.joint_sets);
+  }
+
+  std::string results() const override {
+    if (done_) return results_json(progress_.results, record());
+    Results so_far = progress_.results;
+    so_far.counters = progress_.state.counters;
+    so_far.energy = progress_.state.energy;
+    so_far.state_hash = state_hash();
+    return results_json(so_far, record());
+  }
+
+  History history() const override { return history_so_far(progress_); }
+
+  void save(const fs::path& folder, bool overwrite) override {
+    if (!saved_ || saved_->folder != folder) {
+      claim(folder, overwrite, scene_->stated.files);
+      saved_ = FrameSeries{.folder = folder, .sets = prepared_.joint_sets};
+      write_file(folder / "scene.toml", scene_->text);
+    }
+    const Results& results = progress_.results;
+    write_history_csv(folder / "history.csv", history());
+    if (!results.bolts.empty()) write_bolts_csv(folder / "bolts.csv", results.bolts);
+    if (!results.linings.empty()) write_lining_csv(folder / "lining.csv", results.linings);
+    if (const Snapshot<Dim> now = snapshot(prepared_, progress_);
+        saved_->times.empty() || saved_->times.back() != now.state.time)
+      write_frame(*saved_, now.model, now.state, now.state.time);
+    if (done_) write_results_json(folder / "results.json", results, record());
+  }
+
+ private:
+  Model<Dim> model() const { return model_of(prepared_, progress_); }
+
+  RunRecord record() const {
+    RunRecord record;
+    record.title = prepared_.title;
+    record.dimension = Dim;
+    record.input_hash = scene_->hash;
+    record.features = features();
+    record.warnings = scene_->warnings;
+    record.threads = prepared_.settings.threads;
+    return record;
+  }
+
+  std::shared_ptr<const OpenedScene> scene_;
+  Prepared<Dim> prepared_;
+  Progress<Dim> progress_;
+  bool done_ = false, broken_ = false;
+  std::shared_ptr<MotionArrays> motions_;
+  std::optional<FrameSeries> saved_;
+};
+
+template <int Dim>
+void cut(OpenedScene& scene) {
+  Prepared<Dim> prepared = prepare<Dim>(scene.stated);
+  scene.warnings = implausible_values<Dim>(scene.stated, prepared);
+  scene.prepared = std::move(prepared);
+}
+
+}  // namespace
+
+std::shared_ptr<const OpenedScene> open_scene(Scene stated) {
+  refuse_what_needs_the_program(stated);
+  const auto scene = std::make_shared<OpenedScene>();
+  scene->stated = std::move(stated);
+  scene->text = toml_text(*scene->stated.tree);
+  scene->hash = fingerprint(canonical_text(scene->stated));
+  scene->stated.dimension == 2 ? cut<2>(*scene) : cut<3>(*scene);
+  return scene;
+}
+
+std::unique_ptr<SteppedRun> start(const std::shared_ptr<const OpenedScene>& scene, int threads) {
+  if (scene->stated.dimension == 2) return std::make_unique<SteppedRunOf<2>>(scene, threads);
+  return std::make_unique<SteppedRunOf<3>>(scene, threads);
+}
+
+}  // namespace voussoir::python
