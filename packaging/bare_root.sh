@@ -39,7 +39,7 @@ g++ -std=c++20 -O2 /usr/share/doc/libvoussoir-dev/examples/sliding_block/main.cp
 if compgen -G './python3-voussoir_*.deb' >/dev/null; then
   echo "the Python module"
   install ./python3-voussoir_*.deb
-  (cd / && python3 -c "import voussoir; print(voussoir.__file__)")
+  (cd / && python3 -c "import voussoir; assert voussoir.__version__ == \"$version\", voussoir.__version__")
 else
   echo "no Python module was built"
 fi
