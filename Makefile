@@ -4,7 +4,7 @@ PRESET ?= release
 BUILD  := $(if $(filter release,$(PRESET)),build,build-$(PRESET))
 JOBS   ?= $(shell nproc)
 
-.PHONY: help packages configure build test test-long coverage reports benchmark run format clean
+.PHONY: help packages configure build test test-long coverage reports benchmark deb run format clean
 
 help:
 	@echo "make test                verify: build and run every test (PRESET=dev|asan|tsan for other builds)"
@@ -13,6 +13,7 @@ help:
 	@echo "make reports             figures, studies and the verification manual: $(BUILD)/reports/manual-VERSION.html"
 	@echo "make benchmark           time the kernels and their peers, and twenty thousand falling blocks, an hour of two cores"
 	@echo "                         (VOUSSOIR_FALL_BLOCKS=2000: minutes; VOUSSOIR_BENCHMARK=quick: the contact kernel, a minute)"
+	@echo "make deb                 Debian packages, without Ipopt: build-packages/*.deb"
 	@echo "make run SCENE=file      run one scene (OUT=folder SET='key=value …')"
 
 packages:
@@ -43,6 +44,10 @@ reports: build
 benchmark: configure
 	@cmake --build $(BUILD) --parallel $(JOBS) --target benchmarks
 	@cmake/run_benchmarks.sh $(BUILD)
+
+deb: packages
+	@cmake/install_packages.sh dpkg-dev file lintian
+	@cmake/make_packages.sh $(CURDIR)/build-packages $(JOBS)
 
 run: build
 	@test -n "$(SCENE)" || { echo "make run: name a scene, e.g. make run SCENE=cases/wedge/scene.toml"; exit 2; }

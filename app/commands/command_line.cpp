@@ -16,7 +16,9 @@
 
 #include "app/bad_input.hpp"
 #include "app/claimed_folder.hpp"
+#include "app/commands/command_pages.hpp"
 #include "app/commands/commands.hpp"
+#include "app/commands/exit_codes.hpp"
 #include "app/interruption.hpp"
 #include "app/message.hpp"
 #include "app/run_scene.hpp"
@@ -82,7 +84,7 @@ CLI::Validator plain_text() {
 }
 
 void add_out(CLI::App* command, std::filesystem::path& out, const std::string& meaning, bool required = false) {
-  command->add_option("--out", out, meaning)->check(plain_text())->required(required);
+  command->add_option("--out", out, meaning)->check(plain_text())->required(required)->type_name("FOLDER");
 }
 
 void add_overwrite(CLI::App* command, bool& overwrite) {
@@ -92,7 +94,10 @@ void add_overwrite(CLI::App* command, bool& overwrite) {
 }
 
 void add_scene(CLI::App* command, SceneArguments& arguments) {
-  command->add_option("scene", arguments.scene, "scene file (TOML)")->required()->check(plain_text());
+  command->add_option("scene", arguments.scene, "scene file (TOML)")
+      ->required()
+      ->check(plain_text())
+      ->type_name("FILE");
   command
       ->add_option("--set", arguments.overrides,
                    "key=value: replaces a value of the scene; tables of a list by their name, e.g. joints.A.dip=65")
@@ -128,7 +133,8 @@ void add_run(CLI::App& program, RunArguments& arguments, Action& action) {
           "--begin", arguments.begin,
           "folder of a run of the same blocks and first stages that kept its end: begin there, with the results "
           "of the whole run")
-      ->check(plain_text());
+      ->check(plain_text())
+      ->type_name("FOLDER");
   command->add_flag("--budget", arguments.budget,
                     "vary what was chosen, one thing at a time, in runs beside the answer: every value then says what "
                     "moves it, and its error bar covers that (accuracy.budget)");
@@ -139,7 +145,10 @@ void add_run(CLI::App& program, RunArguments& arguments, Action& action) {
 
 void add_resume(CLI::App& program, ResumeArguments& arguments, Action& action) {
   CLI::App* command = program.add_subcommand("resume", "continue with a run that was interrupted");
-  command->add_option("folder", arguments.folder, "the folder of its results")->required()->check(plain_text());
+  command->add_option("folder", arguments.folder, "the folder of its results")
+      ->required()
+      ->check(plain_text())
+      ->type_name("FOLDER");
   command->add_option("--threads", arguments.threads, "number of threads (default: as before)")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--quiet", arguments.quiet, "no progress and no summary");
@@ -241,7 +250,7 @@ void add_joint_test(CLI::App& program, JointTestArguments& arguments, Action& ac
 void add_import(CLI::App& program, ImportArguments& arguments, Action& action) {
   CLI::App* command = program.add_subcommand(
       "import", "joints of a scan, a drawing or a fracture network as a table that scenes read (joints_file)");
-  command->add_option("file", arguments.file, "the file")->required()->check(plain_text());
+  command->add_option("file", arguments.file, "the file")->required()->check(plain_text())->type_name("FILE");
   command
       ->add_option(
           "--as", arguments.format,
@@ -251,7 +260,8 @@ void add_import(CLI::App& program, ImportArguments& arguments, Action& action) {
       ->check(CLI::IsMember({"facets", "fab", "dxf", "traces"}));
   command->add_option("--out", arguments.out, "the table, e.g. joints.csv beside the scene")
       ->required()
-      ->check(plain_text());
+      ->check(plain_text())
+      ->type_name("FILE");
   command
       ->add_option("--shift", arguments.shift,
                    "x,y,z in m, added to every coordinate, e.g. --shift=-458000,-5210000,-900 (traces leave out z)")
@@ -283,8 +293,9 @@ void add_work(CLI::App* command, int& jobs, int& threads, double& time_limit, bo
 void add_plan(CLI::App* command, StudyArguments& arguments) {
   // of `voussoir study` itself, which has parts that are asked otherwise
   const auto optional = [](CLI::Option* option) { return option->check(plain_text()); };
-  optional(command->add_option("plan", arguments.plan, "study.toml"));
-  optional(command->add_option("--out", arguments.out, "folder of study.csv; what it holds of this study is kept"));
+  optional(command->add_option("plan", arguments.plan, "study.toml"))->type_name("FILE");
+  optional(command->add_option("--out", arguments.out, "folder of study.csv; what it holds of this study is kept"))
+      ->type_name("FOLDER");
   command->add_flag("--overwrite", arguments.overwrite, "replace what the folder holds of anything but a study");
 }
 
@@ -303,7 +314,7 @@ void add_study_parts(CLI::App* study, AllStudyArguments& all, Action& action) {
 
   WorkArguments& work = all.work;
   CLI::App* run = study->add_subcommand("run", "do what is not done of a planned study, beside others that do so");
-  run->add_option("folder", work.folder, "of the study")->required()->check(plain_text());
+  run->add_option("folder", work.folder, "of the study")->required()->check(plain_text())->type_name("FOLDER");
   run->add_option("--rows", work.rows, "only these, e.g. 120-139,7 (default: all)")->check(plain_text());
   run->add_option("--chunk", work.chunk, "k/n: the k-th of n shares of them, of about equal cost")->check(plain_text());
   add_work(run, work.jobs, work.threads, work.time_limit, work.quiet);
@@ -313,11 +324,12 @@ void add_study_parts(CLI::App* study, AllStudyArguments& all, Action& action) {
   CLI::App* gather = study->add_subcommand("gather", "write study.csv, and name rows that are missing or differ");
   gather->add_option("folders", all.folders, "of the study and of copies that others worked at")
       ->required()
-      ->check(plain_text());
+      ->check(plain_text())
+      ->type_name("FOLDER");
   gather->callback([&] { action = [&] { return study_gather_command(all.folders); }; });
 
   CLI::App* status = study->add_subcommand("status", "what is done, going on, failed and missing");
-  status->add_option("folder", work.folder, "of the study")->required()->check(plain_text());
+  status->add_option("folder", work.folder, "of the study")->required()->check(plain_text())->type_name("FOLDER");
   status->callback([&] { action = [&] { return study_status_command(all.work.folder); }; });
 }
 
@@ -338,6 +350,36 @@ void add_study(CLI::App& program, AllStudyArguments& all, Action& action) {
     require_plan(all.study);
     action = [&] { return study_command(all.study); };
   });
+}
+
+struct DocsArguments {
+  bool manual = false, completion = false;
+};
+
+void add_docs(CLI::App& program, DocsArguments& arguments, Action& action) {
+  CLI::App* command =
+      program.add_subcommand("docs", "every key of scenes and studies and every column of history.csv, as Markdown");
+  CLI::Option* manual =
+      command->add_flag("--man", arguments.manual, "instead, the page that man voussoir shows (troff)");
+  command
+      ->add_flag("--completion", arguments.completion, "instead, what bash sources to complete the program's arguments")
+      ->excludes(manual);
+  command->callback([&] {
+    if (arguments.manual || arguments.completion)
+      action = [&] {
+        fmt::print("{}", arguments.manual ? manual_page(program) : bash_completion(program));
+        return ExitCode::done;
+      };
+    else
+      action = docs_command;
+  });
+}
+
+std::string exit_codes_text() {
+  std::string text = "Exit codes: ";
+  for (const auto& [code, meaning] : exit_code_meanings)
+    text += fmt::format("{} {}, ", static_cast<int>(code), meaning);
+  return text + fmt::format("{} + n {}.", static_cast<int>(ExitCode::signal), ended_by_signal);
 }
 
 ExitCode exit_code(OutputError::Kind kind) {
@@ -394,10 +436,7 @@ int parse_and_act(int argument_count, char** arguments) {
   CLI::App program("Distinct element models of jointed rock, verified.", "voussoir");
   program.set_version_flag("--version", version_text);
   program.require_subcommand(1);
-  program.footer(
-      "Exit codes: 0 done, 1 a goal was not reached, 2 bad input, 3 the folder is in use by another run, 4 numerical "
-      "failure, 5 a result could not be written, 6 disk full, 7 folder not writable, 8 not enough memory, 128 + n "
-      "ended by signal n (with a checkpoint).");
+  program.footer(exit_codes_text());
 
   Action action;
   RunArguments run;
@@ -408,6 +447,7 @@ int parse_and_act(int argument_count, char** arguments) {
   JointTestArguments joint_test;
   ImportArguments imported;
   AllStudyArguments study;
+  DocsArguments docs;
   add_run(program, run, action);
   add_resume(program, resume, action);
   add_check(program, check, action);
@@ -416,9 +456,7 @@ int parse_and_act(int argument_count, char** arguments) {
   add_joint_test(program, joint_test, action);
   add_import(program, imported, action);
   add_study(program, study, action);
-  CLI::App* docs =
-      program.add_subcommand("docs", "every key of scenes and studies and every column of history.csv, as Markdown");
-  docs->callback([&] { action = docs_command; });
+  add_docs(program, docs, action);
 
   try {
     program.parse(argument_count, arguments);

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# bare_root_test.sh SOURCE FOLDER VERSION: makes the packages in FOLDER and installs them in a bare Debian 12 root, by bare_root.sh, which
+# uses them there. Skipped by name where the root cannot be made.
+set -euo pipefail
+source=$1 folder=$2 version=$3
+for tool in mmdebstrap lintian dpkg-shlibdeps file; do
+  command -v $tool >/dev/null || { echo "skipped: $tool is not installed (Debian: mmdebstrap, lintian, dpkg-dev, file)"; exit 77; }
+done
+[ "$(id -u)" = 0 ] || { echo "skipped: a root is made by root alone"; exit 77; }
+
+"$source/cmake/make_packages.sh" "$folder/build" "$(nproc)"
+rm -rf "$folder/packages"
+mkdir -p "$folder/packages"
+cp "$folder"/build/*.deb "$source/packaging/bare_root.sh" "$source/app/testing/console_page.sh" "$folder/packages"
+
+# $1 is mmdebstrap's root
+mmdebstrap --variant=minbase --mode=root --format=null --customize-hook="copy-in '$folder/packages' /" \
+  --customize-hook="chroot \"\$1\" bash /packages/bare_root.sh $version" bookworm /dev/null
+echo "packages of version $version work in a bare root"
