@@ -80,9 +80,9 @@ bool value_moved(double before, const Row& now) {
   return std::abs(now.computed - before) > rounding;
 }
 
-// the section "## Unreleased" of a changelog
-std::string_view unreleased(std::string_view changelog) {
-  const auto begin = changelog.find("## Unreleased");
+// the first section of a changelog: what comes next
+std::string_view newest(std::string_view changelog) {
+  const auto begin = changelog.find("## ");
   if (begin == std::string_view::npos) return {};
   const auto end = changelog.find("\n## ", begin);
   return changelog.substr(begin, end == std::string_view::npos ? end : end - begin);
@@ -155,7 +155,7 @@ std::vector<Moved> moved_since(const PastVersion& past, const Verdicts& verdicts
 
 std::vector<std::string> mark_announced(std::vector<Moved>& moved, std::string_view changelog) {
   std::vector<std::string> idle;
-  std::istringstream lines{std::string(unreleased(changelog))};
+  std::istringstream lines{std::string(newest(changelog))};
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with("- Moved:")) continue;
     const auto words = words_in_backticks(line);
