@@ -5,7 +5,7 @@
 // Runs promise equal bits, so a value has moved when it differs beyond rounding, and a count of contact evaluations
 // when it differs at all. Rounding is `rounding_share` of the value, which other last bits of a closed form stay far
 // below, or `tolerance_share` of the check's tolerance, for values that are rounding themselves. Times by the clock are
-// kept to be drawn, never compared. A change that means to move a value says so under `## Unreleased` of CHANGELOG.md:
+// kept to be drawn, never compared. A change that means to move a value says so in the first section of CHANGELOG.md:
 //
 //   - Moved: `wedge`: `critical friction`, since …      (without the quantity: all of the case)
 #include <filesystem>

@@ -71,7 +71,7 @@ TEST_F(History, TellsOldAndNewOfWhatMoved) {
   EXPECT_EQ(describe(gone[0], "0.10.0"), "wedge: steps: is gone, was 3 in 0.10.0");
 }
 
-TEST_F(History, AMoveMustBeAnnouncedAsUnreleased) {
+TEST_F(History, AMoveMustBeAnnouncedInTheFirstSection) {
   const auto announced = [](const std::string& changelog, std::size_t idle = 0) {
     Verdicts now = verdicts(30.03);
     now.moved = moved_since(newest(), now);
@@ -79,13 +79,13 @@ TEST_F(History, AMoveMustBeAnnouncedAsUnreleased) {
     return all_announced(now);
   };
   EXPECT_FALSE(announced(""));
-  EXPECT_FALSE(announced("# Changelog\n\n## Unreleased\n\n- Faster.\n"));
-  EXPECT_TRUE(
-      announced("# Changelog\n\n## Unreleased\n\n- Moved: `wedge`: `critical friction`, since the step halved\n"));
-  EXPECT_TRUE(announced("## Unreleased\n- Moved: `wedge`, all of it\n## 0.10.0\n"));
-  EXPECT_FALSE(announced("## Unreleased\n- Moved: `wedge`: `steps`\n", 1));
-  EXPECT_FALSE(announced("## Unreleased\n- Moved: `slump`\n", 1));
-  EXPECT_FALSE(announced("## 0.10.0\n- Moved: `wedge`\n"));  // said of an earlier version
+  EXPECT_FALSE(announced("# Changelog\n\n## 0.11.0 (unreleased)\n\n- Faster.\n"));
+  EXPECT_TRUE(announced(
+      "# Changelog\n\n## 0.11.0 (unreleased)\n\n- Moved: `wedge`: `critical friction`, since the step halved\n"));
+  EXPECT_TRUE(announced("## 0.11.0 (unreleased)\n- Moved: `wedge`, all of it\n## 0.10.0\n"));
+  EXPECT_FALSE(announced("## 0.11.0 (unreleased)\n- Moved: `wedge`: `steps`\n", 1));
+  EXPECT_FALSE(announced("## 0.11.0 (unreleased)\n- Moved: `slump`\n", 1));
+  EXPECT_FALSE(announced("## 0.11.0\n## 0.10.0\n- Moved: `wedge`\n"));  // said of an earlier version
 }
 
 TEST_F(History, StandsInTheTable) {

@@ -36,7 +36,7 @@ void compare(Verdicts& verdicts, const fs::path& folder, const fs::path& changel
     fmt::print("MOVED {}{}\n", describe(moved, verdicts.compared_with), moved.announced ? " (announced)" : "");
   if (!all_announced(verdicts))
     fmt::print(
-        "What is meant to move is said under Unreleased in CHANGELOG.md: - Moved: `case`: `quantity`, since …\n");
+        "What is meant to move is said in the first section of CHANGELOG.md: - Moved: `case`: `quantity`, since …\n");
   for (const std::string& line : idle)
     fmt::print("note: CHANGELOG.md announces what did not move since {}: {}\n", verdicts.compared_with, line);
 }
