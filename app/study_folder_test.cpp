@@ -95,17 +95,46 @@ TEST_F(PlannedStudy, OneProcessAndChunksAtOnceGiveTheSameFile) {
   EXPECT_EQ(table("moved"), whole);
 }
 
-TEST_F(PlannedStudy, GnuParallelGivesTheSameFile) {
-  if (std::system("parallel --version 2>/dev/null </dev/null | grep -q 'GNU parallel'") != 0)
+// examples/cluster, run by a shell that finds the program by its name
+class ClusterExamples : public PlannedStudy {
+ protected:
+  // what it said; nothing: all went well
+  std::string complaint(const std::string& command) const {
+    const std::string line = fmt::format("cd '{}' && PATH='{}':\"$PATH\" {} >said 2>&1 </dev/null", folder_.string(),
+                                         fs::path(VOUSSOIR_PROGRAM).parent_path().string(), command);
+    return std::system(line.c_str()) == 0 ? "" : read(folder_ / "said");
+  }
+  const std::string examples_ = VOUSSOIR_SOURCE_DIR "/examples/cluster/";
+};
+
+TEST_F(ClusterExamples, GnuParallelGivesTheSameFile) {
+  if (!complaint("parallel --version | grep -q 'GNU parallel'").empty())
     GTEST_SKIP() << "GNU parallel is not installed (package parallel)";
-  const std::string whole = whole_table(), out = planned("out");
-  const std::string command = fmt::format(
-      "parallel --will-cite --jobs 4 '{}' study run '{}' --jobs 1 --chunk {{}}/6 ::: 1 2 3 4 5 6 >'{}' "
-      "2>&1 </dev/null",
-      VOUSSOIR_PROGRAM, out, at("said"));
-  ASSERT_EQ(std::system(command.c_str()), 0) << read(at("said"));
+  const std::string whole = whole_table(), out = planned("a folder");
+  EXPECT_EQ(complaint(fmt::format("'{}parallel.sh' '{}' 6 --jobs 4", examples_, out)), "");
   EXPECT_EQ(study({"gather", out}).code, 0);
-  EXPECT_EQ(table("out"), whole);
+  EXPECT_EQ(table("a folder"), whole);
+}
+
+using ClusterExamplesLong = ClusterExamples;
+
+// snakemake is most of a gigabyte: it is not among the packages of the tests
+TEST_F(ClusterExamplesLong, SnakemakeGivesTheSameFile) {
+  if (!complaint("snakemake --version").empty()) GTEST_SKIP() << "Snakemake is not installed (package snakemake)";
+  const std::string whole = whole_table();
+  const std::string command = fmt::format(
+      "snakemake --quiet --cores 4 --snakefile '{}Snakefile' --config plan=study.toml folder='a folder' shares=6",
+      examples_);
+  EXPECT_EQ(complaint(command), "");
+  EXPECT_EQ(table("a folder"), whole);
+
+  // what is there stays; what is lost is done again, alone
+  const fs::file_time_type before = fs::last_write_time(run_of("a folder", 8) / "results.json");
+  fs::remove_all(run_of("a folder", 7));
+  fs::remove_all(folder_ / "a folder.shares");
+  EXPECT_EQ(complaint(command), "");
+  EXPECT_EQ(table("a folder"), whole);
+  EXPECT_EQ(fs::last_write_time(run_of("a folder", 8) / "results.json"), before);
 }
 
 TEST_F(PlannedStudy, StatusAndGatherNameWhatIsMissing) {
