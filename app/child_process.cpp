@@ -8,17 +8,19 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
 #include "app/bad_input.hpp"
+#include "app/digest.hpp"
 #include "core/output/atomic_file.hpp"
+#include "text/read_file.hpp"
 
 namespace voussoir {
 namespace {
 
 // the very file, even after another was built in its place
 const char* const this_program = "/proc/self/exe";
+
+constexpr std::uintmax_t largest_program = 4ull << 30;  // bytes
 
 // between fork and exec: nothing that asks for memory or a lock
 [[noreturn]] void become_program(char* const* arguments, int input, int messages, pid_t parent) {
@@ -75,12 +77,15 @@ double ChildProcess::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
 }
 
-std::string program_bytes() {
-  std::ifstream file(this_program, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (bytes.empty())
-    throw BadInput("the program cannot read its own file, so results cannot be distinguished from older ones");
-  return bytes;
+const std::string& program_digest() {
+  static const std::string of_program = [] {
+    try {
+      return digest(read_file(this_program, largest_program));
+    } catch (const ReadFault&) {
+      throw BadInput("the program cannot read its own file, so results cannot be distinguished from older ones");
+    }
+  }();
+  return of_program;
 }
 
 }  // namespace voussoir

@@ -37,7 +37,7 @@ class ChildProcess {
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
-// the file that this process was started from, byte for byte
-std::string program_bytes();
+// Of the file that this process was started from. Throws BadInput where that cannot be read.
+const std::string& program_digest();
 
 }  // namespace voussoir

@@ -77,7 +77,8 @@ void write_options(const fs::path& folder, const RunOptions& options) {
                                        {"keep", options.keep},
                                        {"warnings", options.warnings},
                                        {"rounds", rounds_json(options.rounds)},
-                                       {"settings", options.settings}};
+                                       {"settings", options.settings},
+                                       {"origins", origins_json(options.origins)}};
   write_file(folder / "run.json", json.dump(2) + "\n");
 }
 
@@ -95,7 +96,8 @@ RunOptions read_options(const fs::path& folder) {
                              json.value("keep", false),
                              json.at("warnings"),
                              rounds_of(json.value("rounds", nlohmann::json::array())),
-                             json.value("settings", std::vector<std::string>())};
+                             json.value("settings", std::vector<std::string>()),
+                             origins_of(json.value("origins", nlohmann::json::array()))};
     if (options.threads < 1 || options.threads > most_threads || options.checkpoint_steps < 0 ||
         !(options.checkpoint_seconds >= 0))
       throw BadInput(

@@ -32,6 +32,7 @@ struct RunOptions {
   std::vector<std::string> warnings;       // what looked implausible in the scene as it was given, with its lines
   std::vector<AccuracyRound> rounds = {};  // that are done
   std::vector<std::string> settings = {};  // overrides of scene.toml in the round under way
+  std::vector<Origin> origins = {};        // of all processes that had a part in it
 };
 
 // throws OutputError

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "app/digest.hpp"
 #include "app/testing/planned_study.hpp"
 
 namespace voussoir {
@@ -153,10 +154,16 @@ TEST_F(StudyFaults, AnotherProgramIsRefusedUnlessAskedFor) {
   Launch launch{.arguments = {"study", "run", out}};
   expect_one_line(Process(other, launch, at("caught")).wait(), 2, "was planned by another program");
   EXPECT_FALSE(fs::exists(out + "/runs"));
+  EXPECT_EQ(study({"run", out, "--rows", "1-20"}).code, 0);
   launch.arguments.push_back("--any-program");
   EXPECT_EQ(Process(other, launch, at("caught")).wait().code, 0);
-  EXPECT_EQ(study({"gather", out}).code, 0);
+  const Ended gathered = study({"gather", out});
+  EXPECT_EQ(gathered.code, 0);
   EXPECT_EQ(table("out"), whole);
+  EXPECT_NE(gathered.out.find("rows 1-20,32 computed by the program that planned them, "), std::string::npos)
+      << gathered.out;
+  EXPECT_NE(gathered.out.find("computed by program " + digest(read(other)) + ", "), std::string::npos) << gathered.out;
+  expect_one_line(gathered, 0, "warning: 2 programs computed these rows");
 }
 
 // ---- kills --------------------------------------------------------------------------------------------------------

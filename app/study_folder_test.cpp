@@ -5,8 +5,10 @@
 #include <sstream>
 
 #include "app/bad_input.hpp"
+#include "app/claimed_folder.hpp"
 #include "app/commands/row_ranges.hpp"
 #include "app/digest.hpp"
+#include "app/origin.hpp"
 #include "app/testing/planned_study.hpp"
 
 namespace voussoir {
@@ -95,17 +97,46 @@ TEST_F(PlannedStudy, OneProcessAndChunksAtOnceGiveTheSameFile) {
   EXPECT_EQ(table("moved"), whole);
 }
 
-TEST_F(PlannedStudy, GnuParallelGivesTheSameFile) {
-  if (std::system("parallel --version 2>/dev/null </dev/null | grep -q 'GNU parallel'") != 0)
+// examples/cluster, run by a shell that finds the program by its name
+class ClusterExamples : public PlannedStudy {
+ protected:
+  // what it said; nothing: all went well
+  std::string complaint(const std::string& command) const {
+    const std::string line = fmt::format("cd '{}' && PATH='{}':\"$PATH\" {} >said 2>&1 </dev/null", folder_.string(),
+                                         fs::path(VOUSSOIR_PROGRAM).parent_path().string(), command);
+    return std::system(line.c_str()) == 0 ? "" : read(folder_ / "said");
+  }
+  const std::string examples_ = VOUSSOIR_SOURCE_DIR "/examples/cluster/";
+};
+
+TEST_F(ClusterExamples, GnuParallelGivesTheSameFile) {
+  if (!complaint("parallel --version | grep -q 'GNU parallel'").empty())
     GTEST_SKIP() << "GNU parallel is not installed (package parallel)";
-  const std::string whole = whole_table(), out = planned("out");
-  const std::string command = fmt::format(
-      "parallel --will-cite --jobs 4 '{}' study run '{}' --jobs 1 --chunk {{}}/6 ::: 1 2 3 4 5 6 >'{}' "
-      "2>&1 </dev/null",
-      VOUSSOIR_PROGRAM, out, at("said"));
-  ASSERT_EQ(std::system(command.c_str()), 0) << read(at("said"));
+  const std::string whole = whole_table(), out = planned("a folder");
+  EXPECT_EQ(complaint(fmt::format("'{}parallel.sh' '{}' 6 --jobs 4", examples_, out)), "");
   EXPECT_EQ(study({"gather", out}).code, 0);
-  EXPECT_EQ(table("out"), whole);
+  EXPECT_EQ(table("a folder"), whole);
+}
+
+using ClusterExamplesLong = ClusterExamples;
+
+// snakemake is most of a gigabyte: it is not among the packages of the tests
+TEST_F(ClusterExamplesLong, SnakemakeGivesTheSameFile) {
+  if (!complaint("snakemake --version").empty()) GTEST_SKIP() << "Snakemake is not installed (package snakemake)";
+  const std::string whole = whole_table();
+  const std::string command = fmt::format(
+      "snakemake --quiet --cores 4 --snakefile '{}Snakefile' --config plan=study.toml folder='a folder' shares=6",
+      examples_);
+  EXPECT_EQ(complaint(command), "");
+  EXPECT_EQ(table("a folder"), whole);
+
+  // what is there stays; what is lost is done again, alone
+  const fs::file_time_type before = fs::last_write_time(run_of("a folder", 8) / "results.json");
+  fs::remove_all(run_of("a folder", 7));
+  fs::remove_all(folder_ / "a folder.shares");
+  EXPECT_EQ(complaint(command), "");
+  EXPECT_EQ(table("a folder"), whole);
+  EXPECT_EQ(fs::last_write_time(run_of("a folder", 8) / "results.json"), before);
 }
 
 TEST_F(PlannedStudy, StatusAndGatherNameWhatIsMissing) {
@@ -164,6 +195,122 @@ TEST_F(PlannedStudy, CopiesThatWorkedApartAreGathered) {
   std::string other = study_plan;
   write("study.toml", other.replace(other.find("1.1e8"), 5, "1.15e8"));
   expect_one_line(study({"gather", first, planned("third")}), 2, "holds another study than");
+}
+
+// ---- the C library's functions --------------------------------------------------------------------------------------
+
+TEST(PortableMath, IsAskedForBesideWhatIsStated) {
+  EXPECT_EQ(with_portable_math(""), "glibc.cpu.hwcaps=-FMA,-FMA4");
+  EXPECT_EQ(with_portable_math("glibc.malloc.check=3"), "glibc.malloc.check=3:glibc.cpu.hwcaps=-FMA,-FMA4");
+  EXPECT_EQ(with_portable_math("glibc.cpu.hwcaps=-AVX2:glibc.malloc.check=3"),
+            "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4:glibc.malloc.check=3");
+  for (const char* text : {"", "a=1", "glibc.cpu.hwcaps=-AVX2", "a=1:glibc.cpu.hwcaps=-AVX2:b=2"})
+    EXPECT_EQ(with_portable_math(with_portable_math(text)), with_portable_math(text)) << "asked for twice";
+}
+
+// on a processor with fused multiply-adds; one without is what glibc's tunable makes of it
+class OtherProcessor : public PlannedStudy {
+ protected:
+  static constexpr int rows = 6;
+
+  OtherProcessor() {
+    write("scene.toml", read(fs::path(VOUSSOIR_SOURCE_DIR) / "cases/shaking/scene.toml"));
+    std::string slow = cubes_scene(2, 2, 2, 1.0, 10);
+    write("slow.toml", slow.replace(slow.find("\"top\""), 5, "\"block\""));
+    write("study.toml", R"(
+scene = "scene.toml"
+quantity = "block_displacement_x"
+[[sweep]]
+name = "density"
+key = "density"
+values = [1500, 1750, 2250, 2500, 2750]
+)");
+  }
+
+  Ended there(std::vector<std::string> arguments) const {
+    return run({.arguments = std::move(arguments), .environment = {{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA"}}});
+  }
+  static std::string functions_in(const std::string& text) { return text.substr(text.find("fnv1a64:"), 24); }
+  bool is_other() const {
+    return functions_in(there({"--version"}).out) != functions_in(run({.arguments = {"--version"}}).out);
+  }
+  // rows 1 to 3 here, 4 to 6 there
+  std::string done_in_halves(const std::string& name, const std::vector<std::string>& options) const {
+    std::vector<std::string> first{"study", "run", planned(name), "--rows", "1-3"}, second = first;
+    second.back() = "4-6";
+    for (std::vector<std::string>* half : {&first, &second})
+      half->insert(half->end(), options.begin(), options.end());
+    EXPECT_EQ(run({.arguments = first}).code, 0);
+    EXPECT_EQ(there(second).code, 0);
+    return at(name);
+  }
+};
+
+TEST_F(OtherProcessor, GatherNamesItAndWarns) {
+  if (!is_other()) GTEST_SKIP() << "this processor has no fused multiply-adds";
+  const std::string here_functions = functions_in(run({.arguments = {"--version"}}).out),
+                    there_functions = functions_in(there({"--version"}).out);
+  const std::string halves = done_in_halves("halves", {});
+  const Ended gathered = study({"gather", halves});
+  EXPECT_EQ(gathered.code, 0);
+  EXPECT_NE(gathered.out.find("rows 1-3 computed by the program that planned them, math functions " + here_functions +
+                              "\nrows 4-6 computed by the program that planned them, math functions " +
+                              there_functions + "\n"),
+            std::string::npos)
+      << gathered.out;
+  expect_one_line(gathered, 0, "warning: these rows were computed with 2 kinds of the C library's functions");
+
+  // it matters: the same rows differ
+  const std::string whole = planned("whole");
+  EXPECT_EQ(study({"run", whole}).code, 0);
+  const Ended both = study({"gather", whole, halves});
+  EXPECT_EQ(both.code, 1);
+  EXPECT_NE(both.out.find("' differ, and so does what computed them\n"), std::string::npos) << both.out;
+  EXPECT_NE(both.out.find("\nrows 1-6 computed by"), std::string::npos) << both.out;
+  EXPECT_EQ(both.err, "");
+}
+
+TEST_F(OtherProcessor, PortableMathGivesItTheSameBits) {
+  const std::string halves = done_in_halves("halves", {"--portable-math"});
+  const Ended gathered = study({"gather", halves});
+  EXPECT_EQ(gathered.code, 0);
+  EXPECT_EQ(gathered.err, "");
+  EXPECT_NE(gathered.out.find("rows 1-6 computed by the program that planned them, math functions " +
+                              functions_in(there({"--version"}).out) + " (portable)\n"),
+            std::string::npos)
+      << gathered.out;
+  EXPECT_EQ(study({at("study.toml"), "--portable-math", "--out", at("whole")}).code, 0);
+  Contents by_halves = contents_of(halves + "/runs"), by_one = contents_of(at("whole") + "/runs");
+  for (Contents* const contents : {&by_halves, &by_one})
+    std::erase_if(*contents, [](const auto& file) { return file.first.ends_with(worker_file); });
+  expect_equal(by_halves, by_one, "rows of two processors");
+  EXPECT_EQ(table("halves"), table("whole"));
+}
+
+TEST_F(OtherProcessor, ARowThatMovesThereNamesBoth) {
+  if (!is_other()) GTEST_SKIP() << "this processor has no fused multiply-adds";
+  std::string plan = read(at("study.toml"));
+  write("study.toml", plan + "[[sweep]]\nscene = \"slow.toml\"\nname = \"slow\"\nkey = \"density\"\nvalues = [2000]\n");
+  const std::string out = planned("out");
+  const nlohmann::json row = manifest_line("out", rows + 1);
+  const fs::path folder = run_of("out", rows + 1);
+  std::vector<std::string> arguments =
+      run_arguments(out + "/" + row["scene"].get<std::string>(), folder.string(), 1000);
+  for (const std::string text : row["set"])
+    arguments.insert(arguments.end(), {"--set", text});
+  {
+    const Process begun = start({.arguments = arguments});
+    ASSERT_TRUE(wait_until([&] { return fs::exists(folder / "checkpoint"); }));
+  }
+  EXPECT_EQ(there({"study", "run", out, "--rows", std::to_string(rows + 1)}).code, 0);
+  const nlohmann::json origins = nlohmann::json::parse(read(folder / "results.json"))["program"]["origins"];
+  ASSERT_EQ(origins.size(), 2u);
+  EXPECT_NE(origins[0]["math_functions"], origins[1]["math_functions"]);
+  EXPECT_EQ(origins[0]["program_hash"], origins[1]["program_hash"]);
+  const Ended gathered = study({"gather", out});
+  EXPECT_NE(gathered.out.find("; and in part by the program that planned them, math functions "), std::string::npos)
+      << gathered.out;
+  EXPECT_NE(gathered.err.find("with 2 kinds"), std::string::npos) << gathered.err;
 }
 
 // the first that needs it makes what rows begin with; the others wait for it

@@ -110,7 +110,7 @@ const std::vector<Order> orders{
       {"newton"}}},
     {"core/output",
      {{"fingerprint", "version", "output_error", "vtp"},
-      {"atomic_file"},
+      {"atomic_file", "origin"},
       {"history_csv", "bolts_csv", "lining_csv", "paraview", "results_json"}}},
     {"core/reduction", {{"reduction"}}},
     {"core/checkpoint", {{"fields"}, {"checkpoint"}}},

@@ -22,6 +22,7 @@
 #include "app/interruption.hpp"
 #include "app/message.hpp"
 #include "app/run_scene.hpp"
+#include "core/output/origin.hpp"
 #include "core/output/output_error.hpp"
 #include "core/output/version.hpp"
 #include "core/scene/scene_error.hpp"
@@ -54,8 +55,8 @@ std::string version_text() {
   std::string text = fmt::format("voussoir {} ({})\nbuilt by {}\n", version(), commit(), compiler());
   for (const auto& [name, built_in] : features())
     text += fmt::format("{:<15} {}\n", name, built_in ? "yes" : "no");
-  text.pop_back();
-  return text;
+  return text + fmt::format("{:<15} {}, a hash of the C library's functions on this processor", "math functions",
+                            math_functions_hash());
 }
 
 // Within the range, and finite: nan would pass every comparison.
@@ -279,15 +280,18 @@ struct AllStudyArguments {
   std::vector<std::filesystem::path> folders;
 };
 
-void add_work(CLI::App* command, int& jobs, int& threads, double& time_limit, bool& quiet) {
-  command->add_option("--jobs", jobs, "runs at the same time (default: as many as there are cores)")
+void add_work(CLI::App* command, WorkOptions& work) {
+  command->add_option("--jobs", work.jobs, "runs at the same time (default: as many as there are cores)")
       ->check(CLI::Range(1, 1024));
   command
-      ->add_option("--time-limit", time_limit,
+      ->add_option("--time-limit", work.time_limit,
                    "seconds of wall clock after which a run counts as failed (default: none)")
       ->check(finite(least_positive, largest));
-  add_threads(command, threads);
-  command->add_flag("--quiet", quiet, "no progress");
+  add_threads(command, work.threads);
+  command->add_flag(
+      "--portable-math", work.portable_math,
+      "run with the functions of the C library that every x86-64 processor has, for the same bits on all");
+  command->add_flag("--quiet", work.quiet, "no progress");
 }
 
 void add_plan(CLI::App* command, StudyArguments& arguments) {
@@ -317,7 +321,7 @@ void add_study_parts(CLI::App* study, AllStudyArguments& all, Action& action) {
   run->add_option("folder", work.folder, "of the study")->required()->check(plain_text())->type_name("FOLDER");
   run->add_option("--rows", work.rows, "only these, e.g. 120-139,7 (default: all)")->check(plain_text());
   run->add_option("--chunk", work.chunk, "k/n: the k-th of n shares of them, of about equal cost")->check(plain_text());
-  add_work(run, work.jobs, work.threads, work.time_limit, work.quiet);
+  add_work(run, work.options);
   run->add_flag("--any-program", work.any_program, "work at a study that another program has planned");
   run->callback([&] { action = [&] { return study_run_command(all.work); }; });
 
@@ -338,7 +342,7 @@ void add_study(CLI::App& program, AllStudyArguments& all, Action& action) {
       "study", "run a scene with settings changed: one at a time, in every combination, or at random");
   StudyArguments& arguments = all.study;
   add_plan(command, arguments);
-  add_work(command, arguments.jobs, arguments.threads, arguments.time_limit, arguments.quiet);
+  add_work(command, arguments.options);
   add_study_parts(command, all, action);
   command->require_subcommand(0, 1);
   command->callback([&all, &action, command] {

@@ -93,14 +93,20 @@ struct ImportArguments {
   bool overwrite = false;
 };
 
+// how the runs of a study are done
+struct WorkOptions {
+  int jobs = 0;                // at the same time; 0: as many as there are cores
+  int threads = 1;             // of each run
+  double time_limit = 0;       // s of wall clock for each run; 0: none
+  bool portable_math = false;  // with the C library's functions that every x86-64 processor has
+  bool quiet = false;
+};
+
 struct StudyArguments {
   std::filesystem::path plan;
   std::filesystem::path out;
-  int jobs = 0;           // runs at the same time; 0: as many as there are cores
-  int threads = 1;        // of each run
-  double time_limit = 0;  // s of wall clock for each run; 0: none
   bool overwrite = false;
-  bool quiet = false;
+  WorkOptions options = {};
 };
 
 // of a process that works at the rows of a planned study
@@ -108,11 +114,8 @@ struct WorkArguments {
   std::filesystem::path folder;
   std::string rows;          // "120-139,7"; empty: all
   std::string chunk;         // "k/n": that share of them
-  int jobs = 0;              // as of StudyArguments
-  int threads = 1;           // of each run
-  double time_limit = 0;     // s
   bool any_program = false;  // though another one has planned it
-  bool quiet = false;
+  WorkOptions options = {};
 };
 
 // runs a scene and writes results.json, history.csv, scene.toml and ParaView's files

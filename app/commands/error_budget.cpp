@@ -13,8 +13,8 @@
 #include "app/commands/budget_variations.hpp"
 #include "app/commands/study_found.hpp"
 #include "app/commands/study_runs.hpp"
+#include "app/digest.hpp"
 #include "core/accuracy.hpp"
-#include "core/output/fingerprint.hpp"
 #include "core/reduction/reduction.hpp"
 #include "core/scene/accuracy_target.hpp"
 #include "core/scene/scene.hpp"
@@ -122,7 +122,7 @@ std::vector<std::string> budget_folders(const LoadedScene& scene) {
 }
 
 BudgetRuns budget_runs(const LoadedScene& stated, int round, const std::vector<std::string>& settings) {
-  const std::string run = folder_name(stated.hash + fingerprint(program_bytes()));
+  const std::string run = digest(stated.hash + program_digest());
   return {round == 0 ? run : fmt::format("{}-{}", run, round + 1), settings};
 }
 

@@ -13,6 +13,7 @@
 #include "app/commands/progress_line.hpp"
 #include "app/interruption.hpp"
 #include "app/message.hpp"
+#include "app/origin.hpp"
 #include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "core/output/atomic_file.hpp"
@@ -43,6 +44,7 @@ RunRecord record_of(const LoadedScene& scene, const RunOptions& options) {
   record.features = features();
   record.threads = options.threads;
   record.rounds = options.rounds;
+  record.origins = options.origins;
   return record;
 }
 
@@ -277,12 +279,14 @@ void end_with(const std::string& stage, LoadedScene& scene) {
       scene.prepared);
 }
 
-// where a run begins that does not begin at the start; `inputs` gains what is read for that
-std::optional<AnyProgress> begun_at(const fs::path& other, const LoadedScene& scene, std::vector<fs::path>& inputs) {
+// Where a run begins that does not begin at the start. `inputs` gains what is read for that, `options` who computed it.
+std::optional<AnyProgress> begun_at(const fs::path& other, const LoadedScene& scene, std::vector<fs::path>& inputs,
+                                    RunOptions& options) {
   if (other.empty()) return std::nullopt;
   std::vector<std::string> remarks;
   AnyProgress begun = progress_at_end(other, scene, remarks);
   print_warnings(remarks);
+  options.origins = read_options(other).origins;
   for (const fs::path& file : files_begun_with(other))
     inputs.push_back(file);
   return begun;
@@ -334,7 +338,8 @@ ExitCode run_command(const RunArguments& arguments) {
   if (!arguments.quiet) print_warnings(options.warnings);
 
   std::vector<fs::path> inputs = scene.files;
-  std::optional<AnyProgress> begun = begun_at(arguments.begin, scene, inputs);
+  std::optional<AnyProgress> begun = begun_at(arguments.begin, scene, inputs, options);
+  add_origin(options.origins, this_origin());
   if (!wants_budget(scene)) scene.stated.reset();
 
   // the folder is ours alone, and says what is run before the first step
@@ -374,6 +379,8 @@ ExitCode resume_command(const ResumeArguments& arguments) {
                     "'voussoir run'",
                     (folder / "scene.toml").string()));
   refuse_inputs(folder, resume_outputs(), scene.files);
+  if (!holds_checkpoints(folder) && options.rounds.empty()) options.origins.clear();  // nothing of theirs is left
+  if (add_origin(options.origins, this_origin())) write_options(folder, options);
   return carry_out(scene, {folder, options, arguments.quiet});
 }
 

@@ -7,7 +7,6 @@
 #include "app/commands/study_folder.hpp"
 #include "app/commands/study_gather.hpp"
 #include "app/commands/study_work.hpp"
-#include "app/digest.hpp"
 
 namespace voussoir {
 namespace {
@@ -22,7 +21,7 @@ struct PlannedStudy {
 
 PlannedStudy plan_study(const fs::path& file, const fs::path& out, bool overwrite) {
   const StudyPlan plan = read_study_plan(file);
-  const std::string program = digest(program_bytes());
+  const std::string program = program_digest();
   const std::vector<PlannedRow> rows = rows_of_plan(plan, program);
   const std::vector<InputFile> input = input_files(file, rows);
   std::vector<fs::path> inputs;
@@ -45,13 +44,7 @@ ExitCode study_plan_command(const StudyArguments& arguments) {
 
 ExitCode study_command(const StudyArguments& arguments) {
   const PlannedStudy planned = plan_study(arguments.plan, arguments.out, arguments.overwrite);
-  WorkArguments work;
-  work.folder = arguments.out;
-  work.jobs = arguments.jobs;
-  work.threads = arguments.threads;
-  work.time_limit = arguments.time_limit;
-  work.quiet = arguments.quiet;
-  const RunsEnded ended = work_at(planned.study, planned.study.rows, work, arguments.plan.string());
+  const RunsEnded ended = work_at(planned.study, planned.study.rows, arguments.options, arguments.plan.string());
   if (ended.interrupted) return tell_interruption(arguments.out);
   return write_gathered(planned.study, gather(planned.study, {arguments.out}),
                         fmt::format("{} different runs, {} of them kept from before\n", ended.runs, ended.kept));

@@ -65,6 +65,8 @@ std::optional<Value> value_of(const nlohmann::json& values, const std::string& n
 
 RunFound found_in_json(const nlohmann::json& results, const fs::path& folder, const StudyPlan& plan) {
   RunFound found;
+  const nlohmann::json program = results.value("program", nlohmann::json::object());
+  found.origins = origins_of(program.value("origins", nlohmann::json::array()));
   if (results.contains("counters")) {  // limit analysis takes no steps
     found.contact_evaluations = results.at("counters").at("contact_evaluations");
     found.steps = results.at("counters").at("steps");

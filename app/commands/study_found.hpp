@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/commands/study_plan.hpp"
+#include "core/output/origin.hpp"
 #include "core/results.hpp"
 
 namespace voussoir {
@@ -15,6 +17,7 @@ struct RunFound {
   std::string status = "ok";  // or why there is no result
   long long contact_evaluations = 0, steps = 0;
   double seconds = 0;
+  std::vector<Origin> origins = {};  // of all that computed it; empty where it does not say
 };
 
 // reads results.json, and history.csv where the plan takes the quantity from there

@@ -12,7 +12,7 @@
 #include "app/commands/row_ranges.hpp"
 #include "app/commands/study_findings.hpp"
 #include "app/commands/study_found.hpp"
-#include "app/digest.hpp"
+#include "app/message.hpp"
 #include "app/run_folder.hpp"
 #include "core/output/atomic_file.hpp"
 #include "text/plain_text.hpp"
@@ -44,8 +44,9 @@ std::string agreed_bits(const fs::path& folder, const RunFound& found) {
 
 struct RowFound {
   RunFound found{.status = "missing"};
-  bool is_missing = true;
+  bool is_missing = true, has_results = false;
   std::optional<std::pair<fs::path, fs::path>> differing = {};
+  bool other_origins = false;  // of these two
 };
 
 RowFound found_at(const PlannedRow& row, const StudyPlan& plan, const std::vector<fs::path>& folders) {
@@ -56,17 +57,18 @@ RowFound found_at(const PlannedRow& row, const StudyPlan& plan, const std::vecto
     const fs::path run = runs_of(folder, row);
     if (!holds_results(run)) {
       const std::string failure = noted_failure(run);
-      if (!failure.empty() && at.is_missing) at = {RunFound{.status = one_line(failure, 1000)}, false, {}};
+      if (!failure.empty() && at.is_missing) at = {RunFound{.status = one_line(failure, 1000)}, false};
       continue;
     }
     const RunFound found = found_in(run, plan);
     const std::string these = agreed_bits(run, found);
     if (!first) {
-      at = {found, false, {}};
+      at = {found, false, true};
       first = folder;
       bits = these;
     } else if (these != bits && !at.differing) {
       at.differing = std::pair(*first, folder);
+      at.other_origins = found.origins != at.found.origins;
     }
   }
   return at;
@@ -81,10 +83,13 @@ Gathered gather(const StudyFolder& study, const std::vector<fs::path>& folders) 
     RowFound& at = found[row.row] = found_at(row, study.plan, folders);
     if (at.is_missing) gathered.missing.insert(row.row);
   }
-  for (const auto& [row, at] : found)
+  for (const auto& [row, at] : found) {
     if (at.differing)
-      gathered.differences.push_back(fmt::format("row {}: its results in '{}' and '{}' differ", row,
-                                                 at.differing->first.string(), at.differing->second.string()));
+      gathered.differences.push_back(fmt::format("row {}: its results in '{}' and '{}' differ{}", row,
+                                                 at.differing->first.string(), at.differing->second.string(),
+                                                 at.other_origins ? ", and so does what computed them" : ""));
+    if (at.has_results) add_row(gathered.origins, row, at.found.origins);
+  }
   gathered.rows = table_of(study.plan, [&](int row) { return found.at(row).found; });
   return gathered;
 }
@@ -98,6 +103,10 @@ ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, cons
   const auto failed =
       std::count_if(gathered.rows.begin(), gathered.rows.end(), [](const StudyRow& row) { return !row.result; });
   fmt::print("{} settings, {} failed: {}\n{}", gathered.rows.size(), failed, file.string(), remark);
+  for (const std::string& line : origin_lines(gathered.origins, study.program_digest))
+    fmt::print("{}\n", line);
+  for (const std::string& warning : origin_warnings(gathered.origins))
+    tell("voussoir: warning: {}\n", warning);
   for (const std::string& line : findings.lines)
     fmt::print("{}\n", line);
   for (const StudyRow& row : gathered.rows)

@@ -8,6 +8,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/study_folder.hpp"
+#include "app/commands/study_origins.hpp"
 #include "app/commands/study_table.hpp"
 
 namespace voussoir {
@@ -16,6 +17,7 @@ struct Gathered {
   std::vector<StudyRow> rows;
   std::set<int> missing;                 // neither results nor a failure
   std::vector<std::string> differences;  // two results of a row that are not the same, a line each
+  std::vector<RowOrigins> origins;       // of the rows that have results
 };
 
 // the first folder's results come first; all hold the same plan

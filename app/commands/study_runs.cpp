@@ -22,7 +22,6 @@
 #include "app/message.hpp"
 #include "app/run_folder.hpp"
 #include "core/output/atomic_file.hpp"
-#include "core/output/fingerprint.hpp"
 #include "text/read_file.hpp"
 
 namespace voussoir {
@@ -242,12 +241,6 @@ class Runs {
 };
 
 }  // namespace
-
-std::string folder_name(const std::string& what) {
-  std::string name = fingerprint(what);
-  std::replace(name.begin(), name.end(), ':', '-');
-  return name;
-}
 
 std::string noted_failure(const fs::path& folder) {
   try {

@@ -19,9 +19,6 @@ struct StudyRun {
   std::filesystem::path begin = {};  // the folder of the run at whose end it begins; empty: at the start
 };
 
-// of a run, from the text of all that makes it what it is
-std::string folder_name(const std::string& what);
-
 // What to do about a run that another process works at. nobody: there is none, and no lock and no note of a failure is
 // kept in the run's folder.
 enum class Others { nobody, leave_theirs, wait_for_theirs };

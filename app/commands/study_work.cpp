@@ -11,9 +11,9 @@
 #include "app/child_process.hpp"
 #include "app/commands/row_ranges.hpp"
 #include "app/commands/study_found.hpp"
-#include "app/digest.hpp"
 #include "app/interruption.hpp"
 #include "app/message.hpp"
+#include "app/origin.hpp"
 #include "app/run_folder.hpp"
 
 namespace voussoir {
@@ -46,7 +46,7 @@ void tell_generations(const std::vector<StudyRun>& generations, const RunsEnded&
 }
 
 void require_program(const StudyFolder& study, bool any) {
-  if (any || digest(program_bytes()) == study.program_digest) return;
+  if (any || program_digest() == study.program_digest) return;
   throw BadInput(
       fmt::format("'{}' was planned by another program, {}: work at it with that one, plan it again, or add "
                   "--any-program",
@@ -89,9 +89,10 @@ fs::path run_folder_of(const StudyFolder& study, const PlannedRow& row) {
   return study.folder / "runs" / row.run.name;
 }
 
-RunsEnded work_at(const StudyFolder& study, const std::vector<PlannedRow>& rows, const WorkArguments& arguments,
+RunsEnded work_at(const StudyFolder& study, const std::vector<PlannedRow>& rows, const WorkOptions& how,
                   const std::string& plan_name) {
-  RunsOptions options{study.folder / "runs", arguments.jobs, arguments.threads, arguments.time_limit, arguments.quiet};
+  if (how.portable_math) ask_for_portable_math();
+  RunsOptions options{study.folder / "runs", how.jobs, how.threads, how.time_limit, how.quiet};
   if (options.jobs == 0) options.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   options.others = Others::wait_for_theirs;
   const std::vector<StudyRun> generations = needed_generations(study, rows);
@@ -124,7 +125,7 @@ ExitCode study_run_command(const WorkArguments& arguments) {
   require_program(study, arguments.any_program);
   const std::vector<PlannedRow> rows = chosen_rows(study, arguments);
   const SharedFolderLock lock(arguments.folder);
-  const RunsEnded ended = work_at(study, rows, arguments, arguments.folder.string());
+  const RunsEnded ended = work_at(study, rows, arguments.options, arguments.folder.string());
   if (ended.interrupted) return tell_interruption(arguments.folder);
 
   std::vector<std::string> failed;

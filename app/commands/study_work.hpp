@@ -11,7 +11,7 @@ namespace voussoir {
 
 // Does what is not done of these rows, in their order, and first what they begin with. `plan_name` is what a complaint
 // about the plan names. Throws as carry_out_runs.
-RunsEnded work_at(const StudyFolder& study, const std::vector<PlannedRow>& rows, const WorkArguments& arguments,
+RunsEnded work_at(const StudyFolder& study, const std::vector<PlannedRow>& rows, const WorkOptions& how,
                   const std::string& plan_name);
 
 // the exit code of a worker that a signal stopped, told in one line

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/limit/limit_files.hpp"
+#include "app/origin.hpp"
 #include "core/output/version.hpp"
 
 namespace voussoir {
@@ -71,7 +72,10 @@ std::string limit_json(const LimitAnalysis& analysis) {
   json["title"] = analysis.title;
   json["input_hash"] = analysis.input_hash;
   json["warnings"] = analysis.warnings;
-  json["program"] = {{"version", version()}, {"commit", commit()}, {"compiler", compiler()}};
+  json["program"] = {{"version", version()},
+                     {"commit", commit()},
+                     {"compiler", compiler()},
+                     {"origins", origins_json({this_origin()})}};
   json["sought"] = analysis.sought;
   json["status"] = analysis.answered ? "done" : analysis.status == LimitStatus::solver_failed ? "failed" : "incomplete";
   json["message"] = analysis.message;

@@ -138,6 +138,16 @@ TEST(ResultsJson, HoldsWhatTheRunFound) {
   EXPECT_EQ(json["timing"]["seconds"], 1.5);
 }
 
+TEST(ResultsJson, NamesItsOriginsOnce) {
+  RunRecord record;
+  EXPECT_TRUE(add_origin(record.origins, {"program", math_functions_hash(), false}));
+  EXPECT_FALSE(add_origin(record.origins, {"program", math_functions_hash(), false}));
+  EXPECT_TRUE(add_origin(record.origins, {"program", "of another processor", true}));
+  const auto json = nlohmann::json::parse(results_json(some_results(), record));
+  EXPECT_EQ(json["program"]["origins"].size(), 2u);
+  EXPECT_EQ(origins_of(json["program"]["origins"]), record.origins);
+}
+
 TEST(ResultsJson, NamesTheNumbersItCannotHold) {
   Results results = some_results();
   results.values[1].second.value = std::numeric_limits<double>::quiet_NaN();

@@ -110,7 +110,11 @@ Json program_json(const RunRecord& record) {
   Json features = Json::object();
   for (const auto& [name, built_in] : record.features)
     features[name] = built_in;
-  return {{"version", version()}, {"commit", commit()}, {"compiler", compiler()}, {"features", features}};
+  return {{"version", version()},
+          {"commit", commit()},
+          {"compiler", compiler()},
+          {"features", features},
+          {"origins", origins_json(record.origins)}};
 }
 
 std::string complete_message(const Results& results, const NumberWriter& number) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/output/origin.hpp"
 #include "core/results.hpp"
 
 namespace voussoir {
@@ -30,6 +31,7 @@ struct RunRecord {
   std::vector<std::string> warnings;                   // what looked implausible before the run
   int threads = 1;
   std::vector<AccuracyRound> rounds = {};
+  std::vector<Origin> origins = {};  // of all that had a part in it
 };
 
 // "done", "incomplete", "failed"
@@ -38,8 +40,9 @@ std::string outcome_name(Outcome outcome);
 // Energies in J (2-D: J per metre): now kinetic, elastic, potential; until now lost to friction and damping, put in by
 // external work, unexplained; `closure` is the largest unexplained of the run over its largest energy
 // (core/energy.hpp). Numbers have the digits to be read back exactly. JSON knows no NaN: a number that is not finite
-// becomes null and the message says which. What depends on the machine (seconds, threads) stands under `timing` alone:
-// the rest is the same for the same input.
+// becomes null and the message says which. What depends on the machine stands under `timing` (seconds,
+// threads) and `program` (of `origins` the C library's functions) alone: the rest is the same for the same input and
+// origin.
 std::string results_json(const Results& results, const RunRecord& record);
 
 // throws OutputError
