@@ -42,19 +42,6 @@ ImportedJoints read(const ImportArguments& arguments) {
   }
 }
 
-// one file beside others that are not ours: no lock and no list
-void require_free(const fs::path& out, const fs::path& input, bool overwrite) {
-  const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
-  refuse_inputs(folder, {"import", {out.filename().string()}}, {input});
-  std::error_code error;
-  const fs::file_status status = fs::symlink_status(out, error);
-  if (fs::is_directory(status)) throw BadInput(fmt::format("'{}' is a folder; name a file with --out", out.string()));
-  if (fs::exists(status) && !overwrite)
-    throw BadInput(fmt::format(
-        "'{}' is there and would be replaced: choose another name with --out, or add --overwrite", out.string()));
-  prepare_folder(folder);
-}
-
 // ---- the report
 
 std::string line_text(int line) {
@@ -158,8 +145,8 @@ ExitCode import_command(const ImportArguments& arguments) {
   const fs::path& out = arguments.out;
   const fs::path figure = fs::path(out).replace_filename(out.stem().string() + "_stereonet.svg");
   const bool in_space = found.dimension == 3;
-  require_free(out, arguments.file, arguments.overwrite);
-  if (in_space) require_free(figure, arguments.file, arguments.overwrite);
+  claim_file(out, "import", {arguments.file}, arguments.overwrite);
+  if (in_space) claim_file(figure, "import", {arguments.file}, arguments.overwrite);
   write_file(out, table);
   if (in_space) write_file(figure, stereonet(found, arguments.file));
   std::string report = fmt::format("joints: {}, {}-D\n", found.joints.size(), found.dimension) + box_text(found) +

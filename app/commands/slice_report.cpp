@@ -245,8 +245,13 @@ std::string report_text(const Sample<Dim>& sample, const BlockSizes& blocks) {
         "such joints were a Poisson process.\n\n",
         sample.domain.mass.volume, cubic);
   if (!sample.single.empty())
-    text += fmt::format("{} stated {} without a set.\n\n", sample.single.size(),
-                        sample.single.size() == 1 ? "joint is" : "joints are");
+    text += fmt::format("{} stated without a set.\n\n",
+                        sample.single.size() == 1 ? "1 joint is" : fmt::format("{} joints are", sample.single.size()));
+  const auto confined = std::ranges::count_if(
+      sample.scene.joints, [](const JointSpec& spec) { return spec.within || !spec.ends_at.empty(); });
+  if (confined > 0)
+    text += fmt::format(
+        "Of {} stated joints within or ends_at is not counted here: intensities are too high by that.\n\n", confined);
   for (const MeasuredSet<Dim>& set : sample.measured)
     text += measured_text<Dim>(set);
   for (std::size_t s = 0; s < sample.sets.size(); ++s)

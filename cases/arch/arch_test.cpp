@@ -90,7 +90,7 @@ TEST(Arch, OfOneStoneThatIsRepeatedIsTheSame) {
        Kind::exact,
        "the corners that scene.toml states one by one",
        0,
-       {2e-12, 0},
+       {1.5e-12, 0},
        "scene.toml writes twelve decimals: half of the last in each coordinate of a corner and of the stone that "
        "is turned is 1.4e-12"},
       most);

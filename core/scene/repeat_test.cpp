@@ -1,5 +1,6 @@
 // [[repeat]]: copies of blocks, joints and bolts hold against what is stated one by one.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -114,7 +115,9 @@ vertices = [[1, 0, 0], [2, 0, 0], [1, 1, 0], [2, 1, 0], [1, 0, 0.5], [2, 0, 0.5]
 }
 
 TEST(Repeat, TurnsJointsWithTheirOutlinesAndSides) {
-  const std::string joint = R"(domain = { box = { min = [-9, -9, -9], max = [9, 9, 9] } }
+  const std::string joint = R"(
+[domain]
+box = { min = [-9, -9, -9], max = [9, 9, 9] }
 [[joints]]
 name = "A"
 dip = 40
@@ -146,7 +149,7 @@ width = 2
 
   // over the top: what lay below lies above
   const std::string boundary =
-      "domain = { box = { min = [-1, -1], max = [1, 1] } }\n[[joints]]\nname = \"A\"\ndip = 30\ndip_direction = 90\n"
+      "[domain]\nbox = { min = [-1, -1], max = [1, 1] }\n[[joints]]\nname = \"A\"\ndip = 30\ndip_direction = 90\n"
       "point = [0, 0.5]\nkind = \"boundary\"\nwhole = \"above\"\n[[repeat]]\njoints = [\"A\"]\ncount = 2\nturn_deg = "
       "180\nabout = [0, 0]\n";
   const Scene flat = parse(2, boundary);
@@ -159,8 +162,13 @@ width = 2
 }
 
 TEST(Repeat, TurnsBoltsAndTheirFans) {
-  const std::string bolts = R"(domain = { box = { min = [-9, -9, -9], max = [9, 9, 9] } }
-joints = [{ name = "A", dip = 0, point = [0, 0, 0] }]
+  const std::string bolts = R"(
+[domain]
+box = { min = [-9, -9, -9], max = [9, 9, 9] }
+[[joints]]
+name = "A"
+dip = 0
+point = [0, 0, 0]
 [[bolts]]
 name = "single"
 from = [1, 0, -3]
@@ -264,7 +272,9 @@ TEST(Repeat, ATableOfACopysNameChangesIt) {
 
 TEST(Repeat, JointsThatEndAtOneThatGoesAlongFollow) {
   // steps: a riser at each tread's end
-  const std::string steps = R"(domain = { box = { min = [-5, -5], max = [5, 5] } }
+  const std::string steps = R"(
+[domain]
+box = { min = [-5, -5], max = [5, 5] }
 [[joints]]
 name = "tread"
 dip = 0
