@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -92,7 +93,8 @@ NameSet copies_to_come(const Node& scene, const RepeatedList& list) {
   double made = 1;
   for (const Node& item : repeats->items) {
     const Node *names = item.find(list.key), *count = item.find("count");
-    if (!names || !count || !(count->number >= 2)) continue;
+    if (!names || !count || !std::isfinite(count->number) || !(count->number >= 2 && count->number <= most_values))
+      continue;
     Names stated;
     for (const Node& name : names->items)
       stated.push_back(name.text);

@@ -311,6 +311,7 @@ TEST(Repeat, WhatCannotBeRepeatedIsSaid) {
       {repeat("joints = [\"A\"]\ncount = 2\nshift = [1, 0, 0]"), "repeat.1.joints", "no joint named 'A'"},
       {repeat("blocks = [\"stone\"]\nshift = [1, 0, 0]"), "repeat.1.count", "is missing"},
       {repeat("blocks = [\"stone\"]\ncount = 1\nshift = [1, 0, 0]"), "repeat.1.count", "between 2 and 10000"},
+      {repeat("blocks = [\"stone\"]\ncount = nan\nshift = [1, 0, 0]"), "repeat.1.count", "finite number"},
       {repeat("blocks = [\"stone\"]\ncount = 2.5\nshift = [1, 0, 0]"), "repeat.1.count", "whole number"},
       {repeat(two), "repeat.1.shift", "in one place"},
       {repeat(two + "shift = [0, 0, 0]"), "repeat.1.shift", "in one place"},
