@@ -295,4 +295,16 @@ ClaimedFolder::ClaimedFolder(const fs::path& folder, const Outputs& outputs, con
   write_made(folder, outputs);
 }
 
+void claim_file(const fs::path& file, const std::string& command, const std::vector<fs::path>& inputs, bool overwrite) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  refuse_inputs(folder, {command, {file.filename().string()}}, inputs);
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(file, error);
+  if (fs::is_directory(status)) throw BadInput(fmt::format("'{}' is a folder; name a file with --out", file.string()));
+  if (fs::exists(status) && !overwrite)
+    throw BadInput(fmt::format(
+        "'{}' is there and would be replaced: choose another name with --out, or add --overwrite", file.string()));
+  prepare_folder(folder);
+}
+
 }  // namespace voussoir

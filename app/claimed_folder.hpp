@@ -104,4 +104,9 @@ class ClaimedFolder {
   FolderLock lock_;
 };
 
+// One file in a folder that is not ours alone: no lock and no list. Refuses a folder of its name, an input, and without
+// `overwrite` what is there; makes the folder if need be. Throws BadInput, OutputError.
+void claim_file(const std::filesystem::path& file, const std::string& command,
+                const std::vector<std::filesystem::path>& inputs, bool overwrite);
+
 }  // namespace voussoir

@@ -1,6 +1,8 @@
 // `voussoir slice` with its report and its formats, as users meet it.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "app/testing/program.hpp"
 
 namespace voussoir {
@@ -80,6 +82,57 @@ TEST_F(SliceReport, WritesTablesFiguresAndFormats) {
       EXPECT_EQ(cells(theirs[i])[3], cells(ours[i])[3]) << name;
     }
   }
+}
+
+// how many poles of each colour a stereonet has
+std::map<std::string, int> poles_of(const std::string& figure) {
+  std::map<std::string, int> poles;
+  for (const std::string& line : lines_of(figure))
+    if (const std::size_t at = line.find("r=\"2\" fill=\""); at != std::string::npos) ++poles[line.substr(at + 12, 7)];
+  return poles;
+}
+
+// joints of a table are judged by its column `set`, and never called drawn
+TEST_F(SliceReport, ReportsListedJointsByTheirSet) {
+  std::string table = "name,set,x_m,y_m,z_m,dip_deg,dip_direction_deg\n";
+  for (int k = 0; k < 6; ++k)
+    table += fmt::format("b{0},bedding,5,5,{1},{2},{3}\n", k, 1 + 1.5 * k, 10 + (k % 2 ? 2 : -2), 90);
+  for (int k = 0; k < 4; ++k)
+    table += fmt::format("s{0},steep,{1},5,5,90,{2}\n", k, 2 + 2 * k, k % 2 ? 270 : 90);
+  table += "single,,5,5,5,45,200\n";
+  write("joints.csv", table);
+  write("scene.toml",
+        "joints_file = \"joints.csv\"\ndimension = 3\ndomain = { box = { min = [0, 0, 0], max = [10, 10, 10] } }\n" +
+            head);
+  Ended ended = run("slice scene.toml --out out --report");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  std::string report = read(folder_ / "out/report.md");
+  EXPECT_EQ(report.find("Drawn"), std::string::npos) << report;
+  EXPECT_NE(report.find("were not drawn"), std::string::npos) << report;
+  for (const char* part :
+       {"## bedding (stated)", "| joints | 1 | 6 |", "| mean dip | deg | 10.0 |", "| mean dip direction | deg | 90.0 |",
+        "## steep (stated)", "| joints | 1 | 4 |", "| mean dip | deg | 90.0 |", "1 joint is stated without a set"})
+    EXPECT_NE(report.find(part), std::string::npos) << part << "\n" << report;
+  // four squares of 100 m2 in 1000 m3; on every scanline at 2 m
+  EXPECT_NE(report.find("| P32, area per volume | 1/m | 0.4 |"), std::string::npos) << report;
+  EXPECT_NE(report.find("| spacing along the mean normal | m | 2 |"), std::string::npos) << report;
+  std::string net = read(folder_ / "out/stereonet.svg");
+  for (const char* part : {">bedding, stated (6)<", ">steep, stated (4)<", ">without a set (1)<"})
+    EXPECT_NE(net.find(part), std::string::npos) << part;
+  std::map<std::string, int> poles = poles_of(net);
+  EXPECT_EQ(poles.size(), 3u);
+  EXPECT_EQ(poles["#0072b2"], 6);
+  EXPECT_EQ(poles["#d55e00"], 4);
+
+  // beside sets that are drawn, each is called what it is
+  write("both.toml",
+        "base = \"scene.toml\"\n[[joint_sets]]\nname = \"bedding\"\ndip = 30\ndip_direction = 10\nspacing = 3\n");
+  ended = run("slice both.toml --out both --report");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  report = read(folder_ / "both/report.md");
+  for (const char* part : {"Drawn in unbounded rock", "## bedding (stated)", "## bedding\n"})
+    EXPECT_NE(report.find(part), std::string::npos) << part;
+  EXPECT_EQ(poles_of(read(folder_ / "both/stereonet.svg")).size(), 4u);
 }
 
 TEST_F(SliceReport, ReportsFiniteJoints) {

@@ -247,11 +247,18 @@ TEST(Since, ASimulationTakesItsCountThroughAnExcavation) {
   EXPECT_GT(std::abs(whole.state.motions[block].rotation.angle), 1e-6) << "else there was nothing to carry";
 }
 
+// a monitor of the block beside the opening, which counts from the start of a stage
+std::string counted(const std::string& stage) {
+  return "[[monitors]]\nname = \"" + stage + "\"\nquantities = [\"displacement\"]\ninside = [2, 5]\nsince_start = \"" +
+         stage + "\"\n";
+}
+
 // The rows of a simulation: nothing until the stage has ended, the same bits after a pause at any step.
 TEST(Since, ASimulationCountsFromThereAndResumesTheSame) {
   const Prepared<2> scene =
       scene_of(rock + wall("[90]", "since = \"stress\"\n") +
-               "[[monitors]]\nname = \"all\"\nquantities = [\"displacement\"]\ninside = [2, 5]\n");
+               "[[monitors]]\nname = \"all\"\nquantities = [\"displacement\"]\ninside = [2, 5]\n" + counted("stress") +
+               counted("dig") + counted("last"));
   Progress<2> whole = initial_progress(scene);
   ASSERT_TRUE(simulate<2>(scene, whole, {}));
   ASSERT_EQ(whole.results.outcome, Outcome::done) << whole.results.message;
@@ -264,6 +271,16 @@ TEST(Since, ASimulationCountsFromThereAndResumesTheSame) {
       settled = row[4];
     }
   EXPECT_LT(settled, -1e-5) << "the rock has moved in the first stage";
+  // from the start of the first stage: as without it; of the second: from where the first ended; of the last: nothing
+  // until the second has ended
+  double dug = 0;
+  for (const std::vector<double>& row : history.rows) {
+    if (row[1] == 2) dug = row[4];
+    EXPECT_EQ(row[6], row[4]);
+    EXPECT_EQ(row[8], row[1] == 1 ? 0 : row[4] - settled);
+    EXPECT_EQ(row[10], row[1] == 3 ? row[4] - dug : 0);
+  }
+  EXPECT_GT(dug - settled, 1e-6) << "digging has lifted it";
   // the floor's joint, 8 m at 1 GPa/m, bears 4 m2 of rock less, and the crown rises with its block. Rest leaves 1e-9 of
   // the mean contact force, at most 1 MN, over the joint's 8 GN/m
   EXPECT_NEAR(history.rows.back()[2], -4 * 2000 * 10 / 8e9, 1e-9 * 1e6 / 8e9);

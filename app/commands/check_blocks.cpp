@@ -10,6 +10,7 @@
 #include "app/commands/check_support.hpp"
 #include "core/potential/particle.hpp"
 #include "core/scene/bodies.hpp"
+#include "core/scene/joint_ends.hpp"
 #include "core/scene/joint_outline.hpp"
 #include "core/scene/region.hpp"
 
@@ -69,7 +70,8 @@ void print_missing_joints(const Scene& scene, const Model<Dim>& model) {
   const Polytope<Dim> domain = make_domain<Dim>(scene, model.origin);
   std::size_t missing = 0;
   std::string names;
-  for (const JointSpec& joint : scene.joints) {
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    const JointSpec& joint = scene.joints[j];
     const HalfSpace<Dim> plane = to_half_space<Dim>(joint.plane, model.origin);
     Outline<Dim> outline;
     if (scene.slicing.ends != JointEnds::ignored) outline = outline_of<Dim>(joint, plane.normal, model.origin);
@@ -77,6 +79,8 @@ void print_missing_joints(const Scene& scene, const Model<Dim>& model) {
     if (joint.within)
       for (const HalfSpace<Dim>& bound : region_planes<Dim>(*joint.within, model.origin))
         solid.faces.push_back(bound);
+    for (const HalfSpace<Dim>& bound : end_bounds<Dim>(scene, j, domain, model.origin))
+      solid.faces.push_back(bound);
     if (measure_inside(plane, outline, solid) > 0) continue;
     if (missing++ < most_named) names += (names.empty() ? "" : ", ") + joint.name;
   }

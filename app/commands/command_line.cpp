@@ -166,9 +166,10 @@ void add_slice(CLI::App& program, SliceArguments& arguments, Action& action) {
   CLI::App* command = program.add_subcommand("slice", "cut the blocks and write them, without running");
   add_scene(command, arguments.scene);
   add_out(command, arguments.out, "folder of blocks.vtp and blocks.csv", true);
-  command->add_flag(
-      "--report", arguments.report,
-      "hold the joint sets against what was stated: report.md, joints.csv, stereonet, spacings, block sizes");
+  command->add_flag("--report", arguments.report,
+                    "joint sets against what was stated, listed joints by their set: report.md, joints.csv, stereonet, "
+                    "spacings, block "
+                    "sizes");
   command->add_flag("--planes", arguments.planes,
                     "the planes of the blocks: block_planes.csv, readable as blocks_file");
   command->add_flag("--stl", arguments.stl, "the blocks as blocks.stl (ASCII; 3-D)");
@@ -272,6 +273,20 @@ void add_import(CLI::App& program, ImportArguments& arguments, Action& action) {
       ->check(finite(-largest, largest));
   command->add_flag("--overwrite", arguments.overwrite, "replace the table; the file that is read is never replaced");
   command->callback([&] { action = [&] { return import_command(arguments); }; });
+}
+
+void add_export(CLI::App& program, ExportArguments& arguments, Action& action) {
+  CLI::App* command = program.add_subcommand(
+      "export", "blocks, joints and properties of a scene in space as text for another program, which is not run here");
+  add_scene(command, arguments.scene);
+  command
+      ->add_option("--as", arguments.format,
+                   "3dec: a data file of 3DEC 7, polyhedra by their faces; yade: a script for YADE with PotentialBlock")
+      ->required()
+      ->check(CLI::IsMember({"3dec", "yade"}));
+  command->add_option("--out", arguments.out, "the file, e.g. scene.dat or scene.py")->required()->check(plain_text());
+  add_overwrite(command, arguments.overwrite);
+  command->callback([&] { action = [&] { return export_command(arguments); }; });
 }
 
 struct AllStudyArguments {
@@ -450,6 +465,7 @@ int parse_and_act(int argument_count, char** arguments) {
   LimitArguments limit;
   JointTestArguments joint_test;
   ImportArguments imported;
+  ExportArguments to_export;
   AllStudyArguments study;
   DocsArguments docs;
   add_run(program, run, action);
@@ -459,6 +475,7 @@ int parse_and_act(int argument_count, char** arguments) {
   add_limit(program, limit, action);
   add_joint_test(program, joint_test, action);
   add_import(program, imported, action);
+  add_export(program, to_export, action);
   add_study(program, study, action);
   add_docs(program, docs, action);
 

@@ -102,6 +102,13 @@ struct WorkOptions {
   bool quiet = false;
 };
 
+struct ExportArguments {
+  SceneArguments scene;
+  std::string format;         // 3dec, yade
+  std::filesystem::path out;  // a file
+  bool overwrite = false;
+};
+
 struct StudyArguments {
   std::filesystem::path plan;
   std::filesystem::path out;
@@ -140,6 +147,9 @@ ExitCode joint_test_command(const JointTestArguments& arguments);
 
 // joints of another program's file as a table that scenes read, and a report on stdout
 ExitCode import_command(const ImportArguments& arguments);
+
+// a scene's blocks, joints and properties as text for another program
+ExitCode export_command(const ExportArguments& arguments);
 
 // runs a scene as it is and with one setting changed at a time, in processes side by side; writes study.csv. What was
 // done before is kept while scene and program are the same.

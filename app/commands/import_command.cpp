@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,8 +9,9 @@
 #include "app/bad_input.hpp"
 #include "app/claimed_folder.hpp"
 #include "app/commands/commands.hpp"
-#include "app/dip_angles.hpp"
+#include "app/commands/svg_figure.hpp"
 #include "app/import/formats.hpp"
+#include "app/orientation.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/scene/scene_text.hpp"
 #include "text/plain_text.hpp"
@@ -40,19 +40,6 @@ ImportedJoints read(const ImportArguments& arguments) {
       if (number > 0) place += ":" + std::to_string(number);
     throw BadInput(place + ": " + fault.what());
   }
-}
-
-// one file beside others that are not ours: no lock and no list
-void require_free(const fs::path& out, const fs::path& input, bool overwrite) {
-  const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
-  refuse_inputs(folder, {"import", {out.filename().string()}}, {input});
-  std::error_code error;
-  const fs::file_status status = fs::symlink_status(out, error);
-  if (fs::is_directory(status)) throw BadInput(fmt::format("'{}' is a folder; name a file with --out", out.string()));
-  if (fs::exists(status) && !overwrite)
-    throw BadInput(fmt::format(
-        "'{}' is there and would be replaced: choose another name with --out, or add --overwrite", out.string()));
-  prepare_folder(folder);
 }
 
 // ---- the report
@@ -108,40 +95,43 @@ std::string dropped_text(const ImportedJoints& found) {
   return text;
 }
 
-// Of normals that have no sign: the axis of the largest moment. Fisher's constant is that of the normals turned to its
-// side (Fisher 1953), 3-D alone.
 template <int Dim>
 std::string orientation_text(const std::vector<const JointRow*>& joints) {
-  using Matrix = Eigen::Matrix<double, Dim, Dim>;
-  Matrix moments = Matrix::Zero();
-  for (const JointRow* joint : joints) {
-    const Vector<Dim> normal(joint->normal.data());
-    moments += normal * normal.transpose();
-  }
-  Vector<Dim> mean = Eigen::SelfAdjointEigenSolver<Matrix>(moments).eigenvectors().col(Dim - 1);
-  if (mean[Dim - 1] < 0) mean = -mean;
-  Vector<Dim> sum = Vector<Dim>::Zero();
-  for (const JointRow* joint : joints) {
-    const Vector<Dim> normal(joint->normal.data());
-    sum += normal.dot(mean) < 0 ? Vector<Dim>(-normal) : normal;
-  }
-  const DipAndDirection angles = angles_of(mean);
-  const auto n = static_cast<double>(joints.size());
-  const bool scattered = Dim == 3 && n > 1 && n - sum.norm() > n * std::numeric_limits<double>::epsilon();
-  return fmt::format("{:>8} {:>8.1f} {:>14.1f} {:>10}\n", joints.size(), angles.dip, angles.direction,
-                     scattered ? fmt::format("{:.4g}", (n - 1) / (n - sum.norm())) : "-");
+  std::vector<Vector<Dim>> normals;
+  for (const JointRow* joint : joints)
+    normals.emplace_back(joint->normal.data());
+  const MeanOrientation mean = mean_orientation<Dim>(normals);
+  return fmt::format("{:>8} {:>8.1f} {:>14.1f} {:>10}\n", joints.size(), mean.angles.dip, mean.angles.direction,
+                     mean.fisher_constant ? fmt::format("{:.4g}", *mean.fisher_constant) : "-");
+}
+
+using Sets = std::map<std::string, std::vector<const JointRow*>>;
+
+Sets sets_of(const ImportedJoints& found) {
+  Sets sets;
+  for (const JointRow& joint : found.joints)
+    sets[joint.set].push_back(&joint);
+  return sets;
 }
 
 std::string sets_text(const ImportedJoints& found) {
-  std::map<std::string, std::vector<const JointRow*>> sets;
-  for (const JointRow& joint : found.joints)
-    sets[joint.set].push_back(&joint);
   std::string text =
       fmt::format("{:<24} {:>8} {:>8} {:>14} {:>10}\n", "set", "joints", "dip deg", "direction deg", "Fisher's k");
-  for (const auto& [name, joints] : sets)
+  for (const auto& [name, joints] : sets_of(found))
     text += fmt::format("{:<24} {}", name.empty() ? "(none)" : name,
                         found.dimension == 3 ? orientation_text<3>(joints) : orientation_text<2>(joints));
   return text;
+}
+
+std::string stereonet(const ImportedJoints& found, const fs::path& file) {
+  std::vector<PoleSet> poles;
+  for (const auto& [name, joints] : sets_of(found)) {
+    PoleSet set{fmt::format("{} ({})", name.empty() ? "(none)" : name, joints.size()), {}};
+    for (const JointRow* joint : joints)
+      set.poles.push_back(pole_of(Vector<3>(joint->normal.data())));
+    poles.push_back(std::move(set));
+  }
+  return stereonet_svg("Poles of the joints of " + printable(file.filename().string()), poles);
 }
 
 }  // namespace
@@ -152,13 +142,19 @@ ExitCode import_command(const ImportArguments& arguments) {
   if (table.size() > largest_scene_file)
     throw BadInput(fmt::format("{}: its joints make a table of more than {} MB, which no scene reads; divide the file",
                                printable(arguments.file.string()), largest_scene_file >> 20));
-  require_free(arguments.out, arguments.file, arguments.overwrite);
-  write_file(arguments.out, table);
+  const fs::path& out = arguments.out;
+  const fs::path figure = fs::path(out).replace_filename(out.stem().string() + "_stereonet.svg");
+  const bool in_space = found.dimension == 3;
+  claim_file(out, "import", {arguments.file}, arguments.overwrite);
+  if (in_space) claim_file(figure, "import", {arguments.file}, arguments.overwrite);
+  write_file(out, table);
+  if (in_space) write_file(figure, stereonet(found, arguments.file));
   std::string report = fmt::format("joints: {}, {}-D\n", found.joints.size(), found.dimension) + box_text(found) +
                        out_of_plane_text(found) + dropped_text(found);
   for (const std::string& remark : found.remarks)
     report += remark + "\n";
-  fmt::print("{}{}table: {}\n", report, sets_text(found), arguments.out.string());
+  fmt::print("{}{}table: {}\n", report, sets_text(found), out.string());
+  if (in_space) fmt::print("stereonet: {}\n", figure.string());
   return ExitCode::done;
 }
 

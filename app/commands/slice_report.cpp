@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "app/commands/svg_figure.hpp"
-#include "app/dip_angles.hpp"
+#include "app/orientation.hpp"
 #include "core/exchange/tables.hpp"
 #include "core/joint_sets/statistics.hpp"
 #include "core/output/atomic_file.hpp"
@@ -21,6 +22,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// joints that the scene states one by one, in its file or a table, and calls a set
+template <int Dim>
+struct MeasuredSet {
+  std::string name;
+  std::vector<DrawnJoint<Dim>> joints;
+  MeanOrientation mean;
+  SetStatistics<Dim> statistics;  // what a set would state is 0 in them
+};
+
 // what all parts of the report look at
 template <int Dim>
 struct Sample {
@@ -30,7 +40,39 @@ struct Sample {
   Ball<Dim> ball;
   std::vector<DrawnSet<Dim>> sets;
   std::vector<SetStatistics<Dim>> statistics;
+  std::vector<MeasuredSet<Dim>> measured;
+  std::vector<Vector<Dim>> single;  // normals of joints without a set
 };
+
+// in the order of the scene
+template <int Dim>
+void add_measured(Sample<Dim>& sample) {
+  std::map<std::string, std::size_t> places;
+  for (const JointSpec& spec : sample.scene.joints) {
+    const HalfSpace<Dim> plane = to_half_space<Dim>(spec.plane, sample.origin);
+    if (spec.set.empty()) {
+      sample.single.push_back(plane.normal);
+      continue;
+    }
+    const auto [at, first] = places.try_emplace(spec.set, sample.measured.size());
+    if (first) sample.measured.push_back({spec.set, {}, {}, {}});
+    Outline<Dim> outline = outline_of<Dim>(spec, plane.normal, sample.origin);
+    outline.centre += sample.origin;
+    sample.measured[at->second].joints.push_back(
+        {plane.normal, to_vector<Dim>(spec.plane.point), 0, std::move(outline)});
+  }
+  for (MeasuredSet<Dim>& set : sample.measured) {
+    std::vector<Vector<Dim>> normals;
+    for (const DrawnJoint<Dim>& joint : set.joints)
+      normals.push_back(joint.normal);
+    set.mean = mean_orientation<Dim>(normals);
+    JointSet along;  // its mean normal is that of the scanlines
+    along.dip = set.mean.angles.dip * degree;
+    along.dip_direction = set.mean.angles.direction * degree;
+    along.intensity = 0;
+    set.statistics = measure<Dim>(along, set.joints, sample.ball, sample.domain, sample.origin);
+  }
+}
 
 template <int Dim>
 Sample<Dim> sample_of(const Scene& scene) {
@@ -38,11 +80,12 @@ Sample<Dim> sample_of(const Scene& scene) {
     refuse({scene.tree.get(), ""}, "domain",
            "joints are measured in a domain; add for example domain = { box = { min = …, max = … } }");
   const Vector<Dim> origin = find_origin<Dim>(scene);
-  Sample<Dim> sample{scene, origin, make_domain<Dim>(scene, origin), {}, {}, {}};
+  Sample<Dim> sample{scene, origin, make_domain<Dim>(scene, origin), {}, {}, {}, {}, {}};
   sample.ball = ball_around<Dim>(sample.domain, origin);
   sample.sets = draw_joint_sets<Dim>(scene, sample.domain, origin);
   for (const DrawnSet<Dim>& drawn : sample.sets)
     sample.statistics.push_back(measure<Dim>(drawn.spec->set, drawn.joints, sample.ball, drawn.solid, origin));
+  add_measured(sample);
   return sample;
 }
 
@@ -147,6 +190,30 @@ std::string set_text(const JointSet& set, const SetStatistics<Dim>& found) {
   return text + orientation_rows<Dim>(set, found) + size_rows<Dim>(set, found) + "\n";
 }
 
+template <int Dim>
+std::string measured_text(const MeasuredSet<Dim>& set) {
+  const SetStatistics<Dim>& found = set.statistics;
+  std::string text =
+      fmt::format("## {} (stated)\n\n| quantity | unit | measured | standard error |\n|---|---|---|---|\n", set.name);
+  const auto add = [&](const char* quantity, const char* unit, const std::string& value, double error = 0) {
+    text +=
+        fmt::format("| {} | {} | {} | {} |\n", quantity, unit, value, error > 0 ? fmt::format("{:.2g}", error) : "");
+  };
+  const auto add_estimate = [&](const char* quantity, const Estimate& value) {
+    add(quantity, "1/m", fmt::format("{:.5g}", value.value), value.error);
+  };
+  add("joints", "1", fmt::format("{}", set.joints.size()));
+  add("joints that meet the domain", "1", fmt::format("{}", found.inside));
+  add("mean dip", "deg", fmt::format("{:.1f}", set.mean.angles.dip));
+  add("mean dip direction", "deg", fmt::format("{:.1f}", set.mean.angles.direction));
+  if (set.mean.fisher_constant) add("Fisher's constant", "1", fmt::format("{:.4g}", *set.mean.fisher_constant));
+  add_estimate(Dim == 3 ? "P32, area per volume" : "P21, length per area", found.intensity);
+  add_estimate("P10 along the mean normal", found.frequency);
+  if (!found.spacings.empty())
+    add("spacing along the mean normal", "m", fmt::format("{:.5g}", moments_of(found.spacings).mean.value));
+  return text + "\n";
+}
+
 std::string block_text(const BlockSizes& blocks, int dimension) {
   const std::vector<double>& v = blocks.volumes;
   const char* unit = dimension == 3 ? "m³" : "m²";
@@ -161,13 +228,32 @@ std::string block_text(const BlockSizes& blocks, int dimension) {
 
 template <int Dim>
 std::string report_text(const Sample<Dim>& sample, const BlockSizes& blocks) {
-  std::string text = fmt::format(
-      "# Joints of {}\n\nDrawn in unbounded rock and measured inside the domain ({:.6g} {}). A standard error is that "
-      "of a "
-      "Poisson process: what another seed would change. Scanlines are as short as the domain is: they miss wide "
-      "spacings.\n\n",
-      sample.scene.title.empty() ? sample.scene.file : sample.scene.title, sample.domain.mass.volume,
-      Dim == 3 ? "m³" : "m²");
+  const char* const cubic = Dim == 3 ? "m³" : "m²";
+  std::string text =
+      fmt::format("# Joints of {}\n\n", sample.scene.title.empty() ? sample.scene.file : sample.scene.title);
+  if (!sample.sets.empty())
+    text += fmt::format(
+        "Drawn in unbounded rock and measured inside the domain ({:.6g} {}). A standard error is that of a Poisson "
+        "process: what another seed would change. Scanlines are as short as the domain is: they miss wide "
+        "spacings.\n\n",
+        sample.domain.mass.volume, cubic);
+  if (!sample.measured.empty())
+    text += fmt::format(
+        "Sets marked as stated were not drawn: they are the joints that the scene lists, by their `set`, as they lie "
+        "in "
+        "the domain ({:.6g} {}). The mean orientation is that of all of a set; the standard error what it would be if "
+        "such joints were a Poisson process.\n\n",
+        sample.domain.mass.volume, cubic);
+  if (!sample.single.empty())
+    text += fmt::format("{} stated without a set.\n\n",
+                        sample.single.size() == 1 ? "1 joint is" : fmt::format("{} joints are", sample.single.size()));
+  const auto confined = std::ranges::count_if(
+      sample.scene.joints, [](const JointSpec& spec) { return spec.within || !spec.ends_at.empty(); });
+  if (confined > 0)
+    text += fmt::format(
+        "Of {} stated joints within or ends_at is not counted here: intensities are too high by that.\n\n", confined);
+  for (const MeasuredSet<Dim>& set : sample.measured)
+    text += measured_text<Dim>(set);
   for (std::size_t s = 0; s < sample.sets.size(); ++s)
     text += set_text<Dim>(sample.sets[s].spec->set, sample.statistics[s]);
   text += block_text(blocks, Dim);
@@ -190,15 +276,17 @@ Points cumulative(const std::vector<double>& ascending, const std::vector<double
   return points;
 }
 
+Curve spacing_curve(const std::string& name, const std::vector<double>& spacings) {
+  return {Curve::Kind::line, name, cumulative(spacings, std::vector<double>(spacings.size(), 1.0))};
+}
+
 template <int Dim>
 std::string spacing_figure(const Sample<Dim>& sample) {
   Diagram diagram{"Spacing along the mean normals", "spacing (m)", "spacings up to this (%)", false, {}};
-  for (std::size_t s = 0; s < sample.sets.size(); ++s) {
-    const std::vector<double>& spacings = sample.statistics[s].spacings;
-    const std::string& name = sample.sets[s].spec->set.name;
-    diagram.curves.push_back(
-        {Curve::Kind::line, name, cumulative(spacings, std::vector<double>(spacings.size(), 1.0))});
-  }
+  for (const MeasuredSet<Dim>& set : sample.measured)
+    diagram.curves.push_back(spacing_curve(set.name + ", stated", set.statistics.spacings));
+  for (std::size_t s = 0; s < sample.sets.size(); ++s)
+    diagram.curves.push_back(spacing_curve(sample.sets[s].spec->set.name, sample.statistics[s].spacings));
   // what a Poisson process along a line has, for the widest set
   double rarest = 0, widest = 0;
   for (const SetStatistics<Dim>& found : sample.statistics) {
@@ -206,6 +294,7 @@ std::string spacing_figure(const Sample<Dim>& sample) {
     widest = std::max(widest, found.spacings.back());
     rarest = rarest == 0 ? found.stated_frequency : std::min(rarest, found.stated_frequency);
   }
+  if (sample.sets.empty()) return svg(diagram);
   Curve exponential{Curve::Kind::line, fmt::format("exponential, {:.3g} /m", rarest), {}};
   constexpr int steps = 100;
   for (int k = 0; k <= steps && rarest > 0; ++k)
@@ -226,14 +315,23 @@ std::string block_figure(const BlockSizes& blocks, int dimension) {
 
 std::string stereonet(const Sample<3>& sample) {
   std::vector<PoleSet> sets;
+  const auto add = [&](const std::string& name, std::size_t count) -> PoleSet& {
+    return sets.emplace_back(PoleSet{fmt::format("{} ({})", name, count), {}});
+  };
+  for (const MeasuredSet<3>& measured : sample.measured) {
+    PoleSet& set = add(measured.name + ", stated", measured.joints.size());
+    for (const DrawnJoint<3>& joint : measured.joints)
+      set.poles.push_back(pole_of(joint.normal));
+  }
+  if (!sample.single.empty()) {
+    PoleSet& set = add("without a set", sample.single.size());
+    for (const Vector<3>& normal : sample.single)
+      set.poles.push_back(pole_of(normal));
+  }
   for (const DrawnSet<3>& drawn : sample.sets) {
-    PoleSet set{fmt::format("{} ({})", drawn.spec->set.name, drawn.joints.size()), {}};
-    for (const DrawnJoint<3>& joint : drawn.joints) {
-      // the pole is the downward normal: it plunges as steeply as the joint is flat, away from the dip direction
-      const DipAndDirection angles = angles_of(joint.normal);
-      set.poles.emplace_back((angles.direction + 180) * degree, (90 - angles.dip) * degree);
-    }
-    sets.push_back(std::move(set));
+    PoleSet& set = add(drawn.spec->set.name, drawn.joints.size());
+    for (const DrawnJoint<3>& joint : drawn.joints)
+      set.poles.push_back(pole_of(joint.normal));
   }
   return stereonet_svg("Poles of the joints", sets);
 }

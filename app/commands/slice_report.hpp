@@ -1,4 +1,5 @@
-// What a scene's joint sets turned out to be, held against what was stated: a table, joints.csv and figures.
+// What a scene's joints are in its domain: sets that were drawn, held against what was stated, and those that the scene
+// lists, by their set; a table, joints.csv and figures.
 #pragma once
 
 #include <filesystem>

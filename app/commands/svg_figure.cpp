@@ -207,6 +207,7 @@ std::string svg_map(const MapFigure& figure) {
 }
 
 std::string stereonet_svg(const std::string& title, const std::vector<PoleSet>& sets) {
+  constexpr std::size_t most_named = 14;  // beside the net
   std::string text = head(title);
   for (const double fraction : {1.0, 2.0 / 3, 1.0 / 3}) {
     // circles of equal plunge: 0, 30, 60 degrees
@@ -226,10 +227,13 @@ std::string stereonet_svg(const std::string& title, const std::vector<PoleSet>& 
       text += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"{}\" fill-opacity=\"0.6\"/>\n",
                           middle_x + radius * std::sin(trend), middle_y - radius * std::cos(trend), colour(i));
     }
+    if (i >= most_named) continue;
     const double y = 80 + 22 * static_cast<double>(i);
     text += fmt::format("<circle cx=\"500\" cy=\"{}\" r=\"4\" fill=\"{}\"/>\n", y, colour(i)) +
             label(514, y + 4, "start", sets[i].title);
   }
+  if (sets.size() > most_named)
+    text += label(514, 84 + 22 * most_named, "start", fmt::format("and {} more", sets.size() - most_named));
   return text + label(500, height - 20, "start", "lower hemisphere, equal area") + "</svg>\n";
 }
 

@@ -54,6 +54,7 @@ std::string refusal(const std::string& text) {
 TEST(BadMonitors, OfWallsAndOfStagesAreRefusedWithAReasonAndARepair) {
   EXPECT_EQ(refusal(rock + monitor(wall + "angles_deg = [90, 0]\nsince = \"stress\"")), "");
   EXPECT_EQ(refusal(rock + monitor(block + "since = \"dig\"")), "");
+  EXPECT_EQ(refusal(rock + monitor(block + "since_start = \"later\"")), "");
   struct Case {
     std::string text, key, says;
   };
@@ -78,6 +79,11 @@ TEST(BadMonitors, OfWallsAndOfStagesAreRefusedWithAReasonAndARepair) {
       {monitor(block + "since = \"stres\""), "since", "stress"},
       {monitor(block + "since = \"later\""), "since", "last stage"},
       {monitor("inside = [3.8, 0]\nquantities = [\"displacement\", \"velocity\"]\nsince = \"dig\""), "since",
+       "velocity is no motion"},
+      {monitor(block + "since_start = \"digg\""), "since_start", "dig"},
+      {monitor(block + "since_start = 2"), "since_start", "text in double quotes"},
+      {monitor(block + "since_start = \"dig\"\nsince = \"stress\""), "since_start", "beside since"},
+      {monitor("inside = [3.8, 0]\nquantities = [\"velocity\"]\nsince_start = \"dig\""), "since_start",
        "velocity is no motion"},
       {monitor("joint = \"bed\"\nquantities = [\"contact_force\"]\nsince = \"dig\""), "since", "contact_force"},
   };

@@ -33,8 +33,6 @@ bool is_another(const Node& base, const Node& scene) {
   return false;
 }
 
-void lay_over(Node& base, const Node& scene);
-
 // a table of the list goes over the base's of the same name, or behind the others
 void lay_list_over(Node& base, const Node& scene) {
   std::map<std::string, std::size_t> places;  // by name, the first of it
@@ -54,6 +52,8 @@ void lay_list_over(Node& base, const Node& scene) {
   }
 }
 
+}  // namespace
+
 void lay_over(Node& base, const Node& scene) {
   for (const Member& member : scene.members) {
     Node* below = base.find(member.key);
@@ -66,6 +66,8 @@ void lay_over(Node& base, const Node& scene) {
   }
   base.place = scene.place;
 }
+
+namespace {
 
 void forget(Node& scene, std::initializer_list<std::string_view> keys) {
   std::erase_if(scene.members,

@@ -13,4 +13,7 @@ namespace voussoir {
 // The base lies in the scene's folder or below. `files` gains every file that was read.
 Node with_base(Node scene, const std::filesystem::path& folder, std::vector<std::filesystem::path>& files);
 
+// One tree over another, by the same rules.
+void lay_over(Node& base, const Node& scene);
+
 }  // namespace voussoir

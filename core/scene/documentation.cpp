@@ -49,7 +49,8 @@ quantities = ["displacement"]
 
 Every key can be changed on the command line: `--set joints.A.dip=35`, `--set gravity=[0,0,-1.62]`. Tables of a list are
 addressed by their name, or by their number from 1 where they have none (`--set fix.1.below=["B"]`). The value is
-written as in the file; a word needs no quotes. A key that the file leaves out can be set as well. So a name may hold
+written as in the file; a word needs no quotes. What [[repeat]] copies is addressed by its name, a copy by its own
+(`--set blocks.stone-3.density=2500`). A key that the file leaves out can be set as well. So a name may hold
 any characters but '.' and '=', and is unique in its list. Every text is one line of UTF-8 without control characters.
 
 A value outside the range that a key allows is refused. One outside its usual range is reported as a warning before the run:

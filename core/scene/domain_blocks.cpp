@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/scene/bodies.hpp"
+#include "core/scene/joint_ends.hpp"
 #include "core/scene/joint_outline.hpp"
 #include "core/scene/region.hpp"
 #include "core/slicing/clump.hpp"
@@ -97,17 +98,23 @@ bool excavated_by_stage(const Scene& scene, const std::string& name) {
 
 template <int Dim>
 std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
-  // the cuts: the scene's joints, then what outlines excavations
+  // the cuts: the scene's joints, then what outlines excavations; what ends at these, or at others, behind them
   std::vector<Cut<Dim>> cuts = cuts_of<Dim>(scene, model);
   std::vector<HalfSpaces<Dim>> regions;
+  std::vector<std::vector<int>> faces;
   for (const ExcavationSpec& spec : scene.excavations) {
     regions.push_back(region_planes<Dim>(spec.region, model.origin));
+    faces.emplace_back();
+    for (std::size_t f = 0; spec.outline && f < regions.back().size(); ++f)
+      faces.back().push_back(static_cast<int>(model.joints.size() + f));
     if (spec.outline) add_outline<Dim>(scene, spec, regions.back(), model, cuts);
   }
+  const Polytope<Dim> domain = make_domain<Dim>(scene, model.origin);
+  end_cuts<Dim>(scene, domain, model.origin, faces, cuts);
 
   SlicingCounters counters;
   const SlicingLimits limits = limits_of(scene);
-  std::vector<Polytope<Dim>> parts = slice<Dim>(make_domain<Dim>(scene, model.origin), cuts, limits, counters);
+  std::vector<Polytope<Dim>> parts = slice<Dim>(domain, cuts, limits, counters);
   if (counters.given_up)
     refuse({scene.tree.get(), ""}, "joints",
            "cut the domain into more than " + std::to_string(limits.most_blocks) +

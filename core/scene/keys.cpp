@@ -21,11 +21,12 @@ KeyRow completed(KeyRow row) {
 std::vector<KeyRow> all_rows() {
   using namespace keys;
   std::vector<KeyTable> tables{
-      top_keys(),         domain_keys(),  box_keys(),       domain_plane_keys(),   joint_keys(),
-      excavation_keys(),  region_keys(),  cylinder_keys(),  joint_property_keys(), block_keys(),
-      block_plane_keys(), label_keys(),   selector_keys(),  restrain_keys(),       motion_keys(),
-      accuracy_keys(),    contact_keys(), damping_keys(),   time_keys(),           equilibrium_keys(),
-      slicing_keys(),     stage_keys(),   stage_run_keys(), stage_reduce_keys(),   stage_change_keys()};
+      top_keys(),         domain_keys(),   box_keys(),      domain_plane_keys(),   joint_keys(),
+      excavation_keys(),  region_keys(),   cylinder_keys(), joint_property_keys(), block_keys(),
+      block_plane_keys(), copies_keys(),   label_keys(),    selector_keys(),       restrain_keys(),
+      motion_keys(),      accuracy_keys(), contact_keys(),  damping_keys(),        time_keys(),
+      equilibrium_keys(), slicing_keys(),  stage_keys(),    stage_run_keys(),      stage_reduce_keys(),
+      stage_change_keys()};
   for (KeyTable& table : stage_load_keys())
     tables.push_back(std::move(table));
   for (KeyTable& table : water_keys())

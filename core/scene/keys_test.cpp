@@ -178,6 +178,7 @@ TEST(Keys, AreReadIntoTheirMembers) {
     const Scene plain = parse(scene_of(row));
     const Values before = values_of(plain);
     if (row.members.empty() || row.type == KeyType::table || row.example == row.default_value) continue;
+    if (row.table == "copies") continue;  // a scene that has been read holds the copies alone (repeat_test.cpp)
     const std::string key = key_path(std::string(row.table), row.key);
     const std::string text = address(row) + "=" + std::string(row.example);
     ASSERT_TRUE(before.contains(key)) << text;

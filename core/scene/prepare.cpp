@@ -406,16 +406,21 @@ std::vector<int> bodies_of(const Scene& scene, const Model<Dim>& model, const Mo
   return bodies;
 }
 
-// the stage from whose end a monitor counts; -1: from the start
+// The stage from whose end a monitor counts; -1: from the start. Where a stage starts the one before it has ended.
 int since_of(const Scene& scene, const MonitorSpec& spec) {
-  if (spec.since.empty()) return -1;
+  if (spec.since.empty() && spec.since_start.empty()) return -1;
   std::vector<std::string> names;
   for (const StageSpec& stage : scene.stages)
     names.push_back(stage.plan.name);
-  const int index = index_of(names, spec.since);
-  if (index < 0) refuse(spec.body.subject, "since", "no stage of this name; " + suggestion(spec.since, names));
+  const bool from_start = spec.since.empty();
+  const char* const key = from_start ? "since_start" : "since";
+  const std::string& stage = from_start ? spec.since_start : spec.since;
+  const int index = index_of(names, stage);
+  if (index < 0) refuse(spec.body.subject, key, "no stage of this name; " + suggestion(stage, names));
+  if (from_start) return index - 1;
   if (index + 1 == static_cast<int>(names.size()))
-    refuse(spec.body.subject, "since", "is the last stage, after which nothing moves; name one before it");
+    refuse(spec.body.subject, key,
+           "is the last stage, after whose end nothing moves; name one before it, or write since_start instead");
   return index;
 }
 

@@ -18,6 +18,7 @@
 #include "core/scene/read_slicing.hpp"
 #include "core/scene/read_stages.hpp"
 #include "core/scene/read_water.hpp"
+#include "core/scene/repeat.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/scene/toml_text.hpp"
@@ -151,16 +152,33 @@ std::vector<InitialVelocitySpec> read_initial_velocity(const Subject& scene) {
   return all;
 }
 
+// Overrides of [[repeat]] come first, since they say which copies there are, and those of copies once they are made.
+void override_and_repeat(Node& tree, const std::vector<std::string>& overrides, const std::string& source) {
+  std::vector<std::string> of_tables, of_copies;
+  for (const std::string& text : overrides)
+    if (text.starts_with("repeat"))
+      apply_override(tree, text, source);
+    else
+      of_tables.push_back(text);
+  for (const std::string& text : of_tables)
+    if (addresses_copy(tree, text))
+      of_copies.push_back(text);
+    else
+      apply_override(tree, text, source);
+  repeat_tables(tree);
+  for (const std::string& text : of_copies)
+    apply_override(tree, text, source);
+}
+
 }  // namespace
 
 Scene read_tree(Node stated, const std::string& name, const std::vector<std::string>& overrides) {
   const std::string file = one_line(name, 1000);
-  // the tree: laid over its base, overridden, held against the key table
+  // the tree: laid over its base, overridden, repeats carried out, held against the key table
   Scene scene;
   const auto tree =
       std::make_shared<Node>(with_base(std::move(stated), std::filesystem::path(name).parent_path(), scene.files));
-  for (const std::string& text_of_override : overrides)
-    apply_override(*tree, text_of_override, file);
+  override_and_repeat(*tree, overrides, file);
   const std::vector<std::string> from_level = apply_accuracy_level(*tree);
   check_keys(*tree);
   accuracy_target(*tree);

@@ -72,6 +72,8 @@ std::vector<JointSpec> read_joints(const Subject& scene, int dimension) {
     joint.plane = read_plane(item, "joints", dimension);
     joint.outline = read_outline(item, dimension);
     if (const auto within = child(item, "within")) joint.within = read_region(*within, dimension);
+    if (!joint.ends_at.empty() && joint.kind == JointKind::boundary)
+      refuse(item, "ends_at", "stands beside kind = \"boundary\", whose whole side has no end; remove one of the two");
     joints.push_back(std::move(joint));
   }
   return joints;

@@ -270,12 +270,15 @@ void check_angles_and_since(const Subject& table, const MonitorSpec& monitor) {
   if (monitor.excavation.empty() && monitor.lining.empty() && angles)
     refuse(table, "angles_deg",
            "tells points of an opening's wall, or of a lining; write excavation or lining = its name, or remove it");
+  if (!monitor.since.empty() && !monitor.since_start.empty())
+    refuse(table, "since_start", "stands beside since; a monitor counts from one moment, remove one of the two");
+  const char* const since = monitor.since.empty() ? "since_start" : "since";
   for (const Monitored& followed : monitor.quantities)
-    if (!monitor.since.empty() && !counts_from_stage(followed.quantity))
-      refuse(table, "since",
+    if (table.node->find(since) && !counts_from_stage(followed.quantity))
+      refuse(table, since,
              fmt::format("{} is no motion that could be counted from a stage on; follow it in a monitor of its own, "
-                         "or remove since",
-                         followed.word));
+                         "or remove {}",
+                         followed.word, since));
 }
 
 MonitorSpec read_monitor(const Subject& table) {

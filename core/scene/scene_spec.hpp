@@ -78,6 +78,7 @@ struct JointSpec {
   JointKind kind = JointKind::rock;
   JointSide whole = JointSide::none;
   std::optional<RegionSpec> within;  // the subdomain that it is confined to
+  std::vector<std::string> ends_at;  // joints stated before it, and excavations
 };
 
 // what is taken out before anything else happens
@@ -237,9 +238,17 @@ struct MonitorSpec {
   std::string name, joint, water, bolts, lining;
   std::string excavation;      // of convergence
   std::vector<double> angles;  // deg, of convergence and lining_force
-  std::string since;           // a stage; empty: from the start
+  std::string since, since_start;  // a stage from whose end, or start, it counts; empty: from the start
   Over over{};
   std::vector<Monitored> quantities;
+};
+
+// [[repeat]]; a scene that has been read holds the copies alone
+struct CopiesSpec {
+  std::vector<std::string> blocks, joints, bolts;
+  int count = 0;
+  std::vector<double> shift, about, axis;  // m; empty: not stated
+  double turn = 0;                         // deg
 };
 
 struct Scene {

@@ -1,6 +1,7 @@
 // Joints with an end, kinds, excavations and slicing rules as a scene states them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -95,6 +96,126 @@ TEST(SlicingScene, AJointConfinedToASubdomainCutsWhatItMeetsThere) {
     ADD_FAILURE() << "accepted";
   } catch (const SceneError& error) {
     EXPECT_NE(std::string(error.what()).find("joint_sets.S.within"), std::string::npos) << error.what();
+  }
+}
+
+// what a scene is refused for; empty: it is taken
+std::string refusal(const std::string& rest, const std::vector<std::string>& overrides = {}) {
+  try {
+    square(rest, overrides);
+    return "";
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+}
+
+std::string level_joint(double x, double y, const std::string& more) {
+  return "[[joints]]\nname = \"level\"\ndip = 0\npoint = [" + std::to_string(x) + ", " + std::to_string(y) + "]\n" +
+         more;
+}
+
+// areas, ascending
+std::vector<double> areas(const Prepared<2>& prepared) {
+  std::vector<double> all;
+  for (const Body<2>& body : prepared.model.bodies)
+    all.push_back(body.mass / 2000);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+void expect_areas(const Prepared<2>& prepared, const std::vector<double>& expected) {
+  const std::vector<double> found = areas(prepared);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k)
+    EXPECT_NEAR(found[k], expected[k], 1e-12) << k;
+}
+
+TEST(SlicingScene, AJointEndsAtAnotherOnTheSideOfItsPoint) {
+  expect_areas(square(level_joint(0.3, 0.5, "ends_at = \"wall\"\n")), {0.5, 1.5, 2});
+  expect_areas(square(level_joint(-0.3, 0.5, "ends_at = [\"wall\"]\n")), {0.5, 1.5, 2});
+  const Prepared<2> right = square(level_joint(0.3, 0.5, "ends_at = \"wall\"\n"));
+  for (const Body<2>& body : right.model.bodies)
+    if (body.mass < 3999) EXPECT_GT(body.reference[0], 0);
+  // whatever the order of cutting would be, and healed: the joint parts what it reaches
+  for (const char* order : {"size", "given", "alternating"})
+    for (const char* ends : {"extended", "healed"})
+      EXPECT_EQ(square(level_joint(0.3, 0.5, "ends_at = \"wall\"\n") + "[slicing]\n",
+                       {std::string("slicing.order=") + order, std::string("slicing.ends=") + ends})
+                    .model.bodies.size(),
+                3u)
+          << order << " " << ends;
+  EXPECT_EQ(
+      square(level_joint(0.3, 0.5, "ends_at = \"wall\"\n") + "[slicing]\nends = \"ignored\"\n").model.bodies.size(),
+      4u);
+
+  // a finite joint, which would be cut last: the infinite one that ends at it waits. In the lower right quarter the
+  // trace is at x = 0.5, the low joint runs from the wall to it
+  const std::string trace_down =
+      "[[joints]]\nname = \"trace\"\ndip = 90\ndip_direction = 90\npoint = [0.5, -0.5]\nshape = \"trace\"\nlength = "
+      "0.9\n";
+  const std::string low = "[[joints]]\nname = \"low\"\ndip = 0\npoint = [0.2, -0.6]\nends_at = [\"wall\", \"trace\"]\n";
+  expect_areas(square(level_joint(0, 0, "") + trace_down + low), {0.2, 0.3, 0.5, 1, 1, 1});
+  // a chain: what ends at a joint that waits waits for it, too
+  const std::string upright =
+      "[[joints]]\nname = \"upright\"\ndip = 90\ndip_direction = 90\npoint = [0.25, -0.8]\nends_at = \"low\"\n";
+  expect_areas(square(level_joint(0, 0, "") + trace_down + low + upright), {0.1, 0.1, 0.3, 0.5, 1, 1, 1});
+}
+
+TEST(SlicingScene, AJointEndsAtAnExcavationsFace) {
+  const std::string box =
+      "[[excavations]]\nname = \"cut\"\nbox = { min = [-0.5, -0.5], max = [0.5, 0.5] }\noutline = true\n";
+  // two level joints, of which one comes from the right; the block right of the wall, of 2 - 0.5 m2, is cut there alone
+  const std::string from_right = level_joint(0.8, 0.2, "ends_at = \"cut\"\n");
+  expect_areas(square(box + from_right), {0.8 * 1 - 0.3 * 0.5, 1.2 * 1 - 0.7 * 0.5, 1.5});
+  expect_areas(square(box + level_joint(0.8, 0.2, "")), {0.65, 0.65, 0.85, 0.85});
+  // below the opening: from the right to the line of its right side, which the outline has cut as far as the block
+  // goes. Between that line and the wall the rock holds both parts together
+  expect_areas(square(box + level_joint(0.8, -0.8, "ends_at = \"wall\"\n")), {0.2, 1.3, 1.5});
+  EXPECT_NE(refusal(box + level_joint(0.8, -0.8, "ends_at = \"cut\"\n")).find("misses the excavation 'cut'"),
+            std::string::npos);
+  // inside: nothing of it is left when the opening is taken out
+  expect_areas(square(box + level_joint(0.2, 0.2, "ends_at = \"cut\"\n")), {1.5, 1.5});
+  // through a circle, from both sides, the faces are those that the joint meets
+  const std::string circle =
+      "[[excavations]]\nname = \"cut\"\ncylinder = { from = [0, 0], radius = 0.5, sides = 16 }\noutline = true\n";
+  for (const double x : {0.8, -0.8}) {
+    const Prepared<2> prepared = square(circle + level_joint(x, 0.2, "ends_at = \"cut\"\n"));
+    EXPECT_EQ(prepared.model.bodies.size(), 3u) << x;
+    EXPECT_NEAR(mass(prepared), 2000 * (4 - 16 * 0.25 * std::tan(std::numbers::pi / 16)), 1e-9);
+  }
+}
+
+TEST(SlicingScene, WhatAJointCannotEndAtIsSaid) {
+  const std::string box =
+      "[[excavations]]\nname = \"cut\"\nbox = { min = [-0.5, -0.5], max = [0.5, 0.5] }\noutline = true\n";
+  struct Case {
+    std::string text, key, says;
+  };
+  const std::string other = "[[joints]]\nname = \"other\"\ndip = 30\ndip_direction = 90\npoint = [0, 0.3]\n";
+  const std::vector<Case> cases{
+      {level_joint(0.3, 0.5, "ends_at = \"wal\"\n"), "ends_at", "did you mean 'wall'"},
+      {level_joint(0.3, 0.5, "ends_at = \"other\"\n") + other, "ends_at", "comes later"},
+      {level_joint(0.3, 0.5, "ends_at = \"S-1\"\n") +
+           "[[joint_sets]]\nname = \"S\"\ndip = 90\ndip_direction = 90\nspacing = 0.1\n",
+       "ends_at", "joints of sets are cut after"},
+      {level_joint(0.3, 0.5, "ends_at = \"level\"\n"), "ends_at", "the joint itself"},
+      {level_joint(0.3, 0.5, "ends_at = 5\n"), "ends_at", "list of names"},
+      {level_joint(0.3, 0.5, "ends_at = [\"wall\", \"wall\"]\n"), "ends_at", "twice"},
+      {level_joint(0.3, 0.5, "") + "[[joints]]\nname = \"bed\"\ndip = 0\npoint = [0.3, 0.6]\nends_at = \"level\"\n",
+       "ends_at", "parallel to 'level'"},
+      {level_joint(0, 0.5, "ends_at = \"wall\"\n"), "point", "lies on 'wall'"},
+      {level_joint(0.3, 0.5, "ends_at = \"wall\"\nkind = \"boundary\"\nwhole = \"below\"\n"), "ends_at", "boundary"},
+      {box + level_joint(0.5, 0.2, "ends_at = \"cut\"\n"), "point", "lies on 'cut'"},
+      {box.substr(0, box.find("outline")) + level_joint(0.8, 0.2, "ends_at = \"cut\"\n"), "ends_at", "outline = true"},
+      {box + level_joint(0.8, 0.2, "ends_at = \"cut\"\n") +
+           "[[joints]]\nname = \"cut\"\ndip = 60\ndip_direction = 90\npoint = [0, 0]\n",
+       "ends_at", "a joint and an excavation"},
+  };
+  for (const Case& c : cases) {
+    const std::string message = refusal(c.text);
+    EXPECT_EQ(message.find("scene.toml:"), 0u) << c.text << message;
+    EXPECT_NE(message.find(c.key), std::string::npos) << c.text << message;
+    EXPECT_NE(message.find(c.says), std::string::npos) << c.text << message;
   }
 }
 

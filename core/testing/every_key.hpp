@@ -114,6 +114,16 @@ planes = [{ normal = [1, 0, 0], offset = 11 }, { normal = [-2, 0, 0], offset = -
 [[blocks]]
 name = "by vertices"
 vertices = [[20, 0, 0], [21, 0, 0], [20, 1, 0], [20, 0, 1]]
+[[blocks]]
+name = "stone"
+box = { min = [30, 0, 0], max = [31, 1, 1] }
+[[repeat]]
+blocks = ["stone"]
+count = 2
+shift = [0, 0, 5]
+turn_deg = 12
+about = [30, 0, 0]
+axis = [0, 1, 0]
 [[water]]
 name = "lake"
 level = 0.2
@@ -365,6 +375,7 @@ inline std::string address(const KeyRow& row) {
                                                           {"repeat", "bolts.roof.repeat.1"},
                                                           {"linings", "linings.shell"},
                                                           {"label", "fix.1"},
+                                                          {"copies", "repeat.1"},
                                                           {"let_off", "stage.settle.let_off"},
                                                           {"selector", "fix.1"},
                                                           {"restrain", "restrain.1"},
@@ -399,7 +410,7 @@ inline std::string address(const KeyRow& row) {
     table = row.key == "mass_tolerance" ? "blocks.ball" : "blocks.rounded";
   if (row.table == "blocks.planes" && row.key == "point") table = "blocks.by planes.planes.5";
   if (row.table == "monitors" && row.key == "joint") table = "monitors.joint";
-  if (row.table == "monitors" && (row.key == "excavation" || row.key == "angles_deg" || row.key == "since"))
+  if (row.table == "monitors" && (row.key == "excavation" || row.key == "angles_deg" || row.key.starts_with("since")))
     table = "monitors.wall";
   if (row.table == "monitors" && row.key == "water") table = "monitors.lake";
   if (&scene_of(row) == &in_the_plane && row.table == "monitors") table = "monitors.crown";

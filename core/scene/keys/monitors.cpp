@@ -45,7 +45,9 @@ KeyTable monitor_keys() {
          "opposite points give the closure, with \"one\" each point has a column"},
     {.key = "since", .members = {in(&MonitorSpec::since, name)}, .example = "\"stress\"",
      .meaning = "displacement, rotation and convergence are counted from the end of this stage, and are 0 until then; "
-         "without it from the start"},
+         "without it, and without since_start, from the start"},
+    {.key = "since_start", .members = {in(&MonitorSpec::since_start, name)}, .example = "\"dig\"",
+     .meaning = "likewise from the start of this stage, before it digs or changes anything; this or since"},
   }};
 }
 // clang-format on

@@ -32,6 +32,7 @@ KeyTable restrain_keys();
 KeyTable motion_keys();
 KeyTable accuracy_keys();
 KeyTable contact_keys();
+KeyTable copies_keys();
 KeyTable damping_keys();
 KeyTable time_keys();
 KeyTable equilibrium_keys();

@@ -46,6 +46,8 @@ KeyTable top_keys() {
     {.key = "blocks_file", .type = text, .example = "\"blocks.obj\"",
      .meaning = "a file of convex blocks in the same folder: .csv of planes (columns block, normal_x, normal_y, normal_z, "
          "offset_m; if wanted part), .stl or .obj; [[blocks]] may add density, fixed, … to one of its name"},
+    {.key = "repeat", .type = tables, .holds = {"label", "copies"},
+     .meaning = "blocks, joints or bolts once more at equal steps, shifted, turned or both: an arch of one stone"},
     {.key = "water", .type = tables, .holds = {"water", "water_surface"},
      .meaning = "water in joints and around blocks: its pressure acts on their faces as total weight acts on their mass, so "
          "that contact forces are effective. It stands still: no flow, no drag, no added mass"},

@@ -1,0 +1,37 @@
+// A scene in space as text for another program: its blocks as they are before the first stage, the joints between them,
+// their properties. Neither program was there to run what is written, and the texts say so.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/prepared.hpp"
+#include "core/scene/scene_spec.hpp"
+
+namespace voussoir {
+
+// what both programs' texts are made of
+struct ExportedScene {
+  const Model<3>* model = nullptr;
+  std::string title;                  // of the scene, or its file
+  std::vector<int> joints;            // that cut blocks and let them part, ascending
+  std::vector<int> properties;        // that contacts have, the most common of the joints' first
+  std::vector<std::string> left_out;  // what the scene states besides and the text does not, one line each
+};
+
+// Throws SceneError, in one line, at what no such text can say without being another model: water, bolts, potential
+// particles, joint laws other than linear with constant friction.
+ExportedScene exported(const Scene& scene, const Prepared<3>& prepared, std::string_view program);
+
+// first lines of the text, each behind `comment`: what wrote it, that it was not run, units, what was left out
+std::string export_head(const ExportedScene& scene, std::string_view program, std::string_view comment);
+
+// a data file of 3DEC 7; blocks are polyhedra by their faces
+std::string three_dec_text(const ExportedScene& scene);
+
+// a Python script for YADE built with its PotentialBlock; blocks are half-spaces. Throws BadInput at more than one set
+// of joint properties, and at strength in tension and cohesion.
+std::string yade_text(const ExportedScene& scene);
+
+}  // namespace voussoir

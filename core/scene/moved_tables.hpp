@@ -1,0 +1,35 @@
+// Tables of a scene that state blocks, joints or bolts, as they read once these are moved: what [[repeat]] makes.
+#pragma once
+
+#include <string>
+
+#include "core/geometry/types.hpp"
+#include "core/scene/scene_spec.hpp"
+
+namespace voussoir {
+
+// x -> about + turn (x - about) + shift, in the file's coordinates
+template <int Dim>
+struct RigidMove {
+  bool turns = false;
+  Eigen::Matrix<double, Dim, Dim> turn = Eigen::Matrix<double, Dim, Dim>::Identity();
+  double degrees = 0;                                                    // 2-D: of the turn, counter-clockwise
+  Vector<Dim> about = Vector<Dim>::Zero(), shift = Vector<Dim>::Zero();  // m
+
+  Vector<Dim> operator()(const Vector<Dim>& point) const { return about + turn * (point - about) + shift; }
+};
+
+// From the stated one to a copy `times` steps on. Turns by multiples of 90 degrees are exact.
+template <int Dim>
+RigidMove<Dim> move_of(const CopiesSpec& spec, int times);
+
+// Each moves what a checked table states: places, directions, velocities. Throws SceneError where the keys of the table
+// cannot say what came of it; `path` is the table's address.
+template <int Dim>
+void move_block(Node& block, const RigidMove<Dim>& move);
+template <int Dim>
+void move_joint(Node& joint, const std::string& path, const RigidMove<Dim>& move);
+template <int Dim>
+void move_bolt(Node& bolt, const RigidMove<Dim>& move);
+
+}  // namespace voussoir
