@@ -29,13 +29,13 @@ export class Camera {
     return { eye, right, up: new Vector3().crossVectors(eye, right) };
   }
 
-  // all of the box, and something around it
-  fit() {
+  // all of the box, `times` as large, and something around it
+  fit(times = 1) {
     const { right, up } = this.axes(), { low, high, centre } = this.box;
     const extent = (axis) => Math.abs(axis.x) * (high[0] - low[0]) + Math.abs(axis.y) * (high[1] - low[1]) + Math.abs(axis.z) * (high[2] - low[2]);
     const { clientWidth: w, clientHeight: h } = this.element, inset = this.inset ?? { left: 0, right: 0, top: 0, bottom: 0 };
     const wide = Math.max(80, w - inset.left - inset.right), tall = Math.max(80, h - inset.top - inset.bottom);
-    this.perPixel = (1.06 * Math.max(extent(right) / wide, extent(up) / tall)) || 1;
+    this.perPixel = (1.06 * times * Math.max(extent(right) / wide, extent(up) / tall)) || 1;
     this.target.set(...centre);
     this.target.addScaledVector(right, ((inset.right - inset.left) / 2) * this.perPixel);
     this.target.addScaledVector(up, ((inset.top - inset.bottom) / 2) * this.perPixel);
@@ -121,7 +121,6 @@ export class Camera {
     else if (side) this.turn(side[0] * STEP, side[1] * STEP);
     else if (event.key === '+' || event.key === '=') this.zoom(0.87);
     else if (event.key === '-') this.zoom(1.15);
-    else if (event.key === 'Home') this.fit();
     else return;
     event.preventDefault();
   }

@@ -9,7 +9,15 @@ export const PRESSED = '#0072b2', PULLED = '#d55e00';
 const RAMP = ['#f2f6fa', '#c6dcec', '#8cbfe0', '#56a0d0', '#0072b2', '#7a5a80', '#d55e00', '#8f3500'];
 
 export const rgb = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
-export const groupColour = (run, group) => (group === run.noJoint ? ROCK : OKABE[group % OKABE.length]);
+
+// the eight, then darker, then lighter ones
+export function listColour(i) {
+  const colour = OKABE[i % OKABE.length], round = Math.floor(i / OKABE.length) % 3;
+  if (round === 0) return colour;
+  const mixed = rgb(colour).map((c) => (round === 1 ? 0.6 * c : 0.5 + 0.5 * c));
+  return `#${mixed.map((c) => Math.round(255 * c).toString(16).padStart(2, '0')).join('')}`;
+}
+export const groupColour = (run, group) => (group === run.noJoint ? ROCK : listColour(group));
 export const ramp = RAMP.map(rgb);
 
 export function rampColour(t) {

@@ -69,7 +69,7 @@ const shade = `
   uniform vec3 light;
   vec3 shaded(vec3 colour) {
     vec3 n = normalize(cross(dFdx(at), dFdy(at)));
-    return colour * (0.62 + 0.38 * max(0.0, dot(n, light)));
+    return colour * (0.78 + 0.22 * dot(n, light));
   }
 `;
 
@@ -138,7 +138,8 @@ export function edgeMaterial(uniforms) {
     ${bodyShader}
     uniform bool showFixed;
     varying vec3 at;
-    void main() { ${placed} }
+    // nearer to the eye than the faces that it bounds
+    void main() { ${placed} gl_Position.z -= 1e-4; }
   `, `
     ${clip}
     uniform vec3 colour;
@@ -187,5 +188,5 @@ export function pieceMaterial(uniforms) {
   `, `
     varying vec3 colour;
     void main() { gl_FragColor = vec4(colour, 1.0); }
-  `);
+  `, { transparent: true });
 }

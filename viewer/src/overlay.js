@@ -1,5 +1,5 @@
 // What lies on the picture, and goes into its PNG: title and time, legend with units, scale bar, directions, stereonet.
-import { digits, groupColour, OKABE, PRESSED, PULLED, rampColour, ROCK, withUnit } from './colours.js';
+import { digits, groupColour, listColour, PRESSED, PULLED, rampColour, ROCK, withUnit } from './colours.js';
 import { label, shortened, svg } from './svg.js';
 
 const MOST_ROWS = 12;
@@ -97,7 +97,7 @@ export class Overlay {
 
 function rowsOf(run, choice) {
   const rows = choice.label === 'joint properties'
-    ? run.head.properties.map((p, i) => [p.name, OKABE[i % OKABE.length]])
+    ? run.head.properties.map((p, i) => [p.name, listColour(i)])
     : run.groups.filter((group) => group.joints.length).map((group) => [group.name, groupColour(run, run.groups.indexOf(group))]);
   const shown = rows.slice(0, MOST_ROWS);
   if (rows.length > MOST_ROWS) shown.push([`and ${rows.length - MOST_ROWS} more`, 'none']);

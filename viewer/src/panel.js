@@ -26,7 +26,7 @@ export class Panel {
     this.element.append(
       this.slider('magnified', 'displacements', { min: 0, max: 3, step: 0.01 }, (v) => 10 ** v, (x) => Math.log10(x), (x) => `×${digits(x)}`),
       this.select('colour', 'colour', Object.entries(viewer.choices).map(([key, choice]) => [key, choice.label])),
-      this.select('forces', 'forces', [['none', 'none'], ['arrows', 'arrows at contacts'], ['network', 'network of centroids']]),
+      this.select('forces', 'forces', [['none', 'none'], ['arrows', 'arrows'], ['network', 'network']]),
       this.slider('forceSize', 'size of forces', { min: -1, max: 1, step: 0.02 }, (v) => 10 ** v, (x) => Math.log10(x), (x) => `×${digits(x)}`),
       ...(this.plane ? [] : this.section()),
       this.slider('exploded', 'exploded', { min: 0, max: 2, step: 0.02 }, (v) => v, (x) => x, (x) => `${Math.round(100 * x)} %`),

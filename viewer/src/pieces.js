@@ -1,6 +1,6 @@
 // Straight pieces that are some pixels wide: forces, bolts, linings, and edges in the plane.
 import { BufferAttribute, InstancedBufferAttribute, InstancedBufferGeometry, Mesh } from 'three';
-import { groupColour, latestShapes, PRESSED, PULLED, rampColour, rgb, share, HELD, OKABE, EDGE } from './colours.js';
+import { groupColour, latestShapes, listColour, PRESSED, PULLED, rampColour, rgb, share, HELD, OKABE, EDGE } from './colours.js';
 
 // along (0 begin, 1 end of the shaft or begin of the head, 2 tip), across, of the head
 const CORNERS = new Float32Array([0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0, 1, -1, 1, 2, 0, 1, 1, 1, 1]);
@@ -124,7 +124,7 @@ export function addJointEdges(pieces, { run, faces, bodies, look, frame, colours
 
 function edgeTint(run, face, number, { choice, values, legend }) {
   if (choice === 'set') return face.group === run.noJoint ? null : rgb(groupColour(run, face.group));
-  if (choice === 'properties') return face.properties < 0 ? null : rgb(OKABE[face.properties % OKABE.length]);
+  if (choice === 'properties') return face.properties < 0 ? null : rgb(listColour(face.properties));
   if (choice === 'friction') return values[number] < 0 ? null : rampColour(share(values[number], legend));
   return null;
 }

@@ -2,7 +2,7 @@
 import { Color, LineSegments, Mesh, Scene, Vector3, WebGLRenderer, WebGLRenderTarget, LineBasicMaterial, LinearSRGBColorSpace } from 'three';
 import { Bodies } from './bodies.js';
 import { bestAzimuth, Camera } from './camera.js';
-import { BODY, choices, FACE, frictionByFace, groupColour, OKABE, POINT, rgb, EDGE } from './colours.js';
+import { BODY, choices, FACE, frictionByFace, groupColour, listColour, POINT, rgb, EDGE } from './colours.js';
 import { START, TRIAL, nameOf } from './data.js';
 import { boxOf, edgeGeometry, faceGeometry, listFaces, polygonNormal } from './geometry.js';
 import { describe } from './info.js';
@@ -35,8 +35,8 @@ export class Viewer {
     this.look.frame = run.frames.length - 1;
     this.build();
     this.readAddress(address);
-    this.camera.fit();
     this.update();
+    this.fit();
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.picture);
   }
@@ -68,7 +68,7 @@ export class Viewer {
     const { run } = this;
     this.groups = listTexture(run.groups.length, { bytes: true });
     this.properties = listTexture(run.head.properties.length + 1, { bytes: true });
-    run.head.properties.forEach((_, i) => this.properties.values.set([...rgb(OKABE[i % OKABE.length]).map((c) => 255 * c), 255], 4 * (i + 1)));
+    run.head.properties.forEach((_, i) => this.properties.values.set([...rgb(listColour(i)).map((c) => 255 * c), 255], 4 * (i + 1)));
     this.properties.texture.needsUpdate = true;
     this.faceValues = listTexture(this.faces.length);
     this.uniforms = sharedUniforms(this.bodies, this.groups, this.properties, this.faceValues);
@@ -104,10 +104,10 @@ export class Viewer {
   }
 
   choose(group) { this.set({ chosen: this.look.chosen === group ? -1 : group }); }
-  fit() { this.camera.fit(); }
+  fit() { this.camera.fit(1 + this.look.exploded); }
   lookFrom(azimuth, height) {
     this.camera.look(azimuth, height);
-    this.camera.fit();
+    this.fit();
   }
 
   play() {
@@ -188,10 +188,12 @@ export class Viewer {
     u.chosenGroup.value = this.plane ? -1 : look.chosen;
     u.picked.value = look.shape;
     u.showFixed.value = look.showFixed;
-    u.opacity.value = look.forces === 'none' ? 1 : 0.3;
-    const through = look.forces !== 'none' && !this.plane;
-    u.opacity.value = through ? 0.28 : 1;
+    // forces and bolts lie inside of blocks
+    const through = look.forces !== 'none' || run.frames[look.frame].support.count > 0;
+    u.opacity.value = !through ? 1 : this.plane ? 0.5 : 0.28;
     this.mesh.material.depthWrite = !through;
+    this.pieces.mesh.material.depthTest = !through;
+    this.pieces.mesh.renderOrder = through ? 1 : 0;
     this.edges.material.uniforms.edgeOpacity.value = look.edges ? (through ? 0.55 : 1) : 0;
     this.edges.visible = look.edges;
     this.updateCut(choice);
@@ -221,7 +223,8 @@ export class Viewer {
     const { look } = this, plane = this.cutPlane();
     if (!plane) return '';
     const k = 'xyz'.indexOf(look.section), { origin } = this.run.head;
-    if (k >= 0) return `${look.section} = ${digits(plane.offset + origin[k])} m`;
+    const place = k >= 0 ? plane.offset + origin[k] : 0;
+    if (k >= 0) return `${look.section} = ${digits(Math.abs(place) < 1e-6 * this.box.radius ? 0 : place)} m`;
     const beyond = plane.offset - this.run.head.joints[look.section.slice(6)].offset;
     return Math.abs(beyond) < 1e-9 ? 'on the joint' : `${withUnit(Math.abs(beyond), 'm')} ${beyond > 0 ? 'above' : 'below'} it`;
   }
@@ -299,6 +302,9 @@ export class Viewer {
     this.uniforms.viewport.value.set(width, height);
     this.pickTarget?.dispose();
     this.pickTarget = new WebGLRenderTarget(Math.max(1, width * ratio), Math.max(1, height * ratio));
+    // room for what lies on the picture
+    const wide = width > 620, net = this.run.head.joints.length > 0;
+    if (this.camera) this.camera.inset = { left: wide ? 24 : 8, right: wide ? (net ? 178 : 96) : 8, top: 70, bottom: 56 };
     this.camera?.update();
   }
 
@@ -321,6 +327,7 @@ export class Viewer {
     this.picture.addEventListener('keydown', (event) => {
       if (event.key === 'Escape') this.set({ shape: -1, face: -1, chosen: -1 });
       else if (event.key === ' ' && event.target === canvas) this.play();
+      else if (event.key === 'Home' && event.target === canvas) this.fit();
       else return;
       event.preventDefault();
     });
