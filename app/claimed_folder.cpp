@@ -278,6 +278,10 @@ ReadingLock::~ReadingLock() {
   if (file_ >= 0) ::close(file_);
 }
 
+bool made_here(const fs::path& folder, const std::string& name) {
+  return is_made(made_in(folder), name);
+}
+
 void refuse_inputs(const fs::path& folder, const Outputs& outputs, const std::vector<fs::path>& inputs) {
   for (const fs::path& name : standing(folder, outputs))
     if (is_input(folder / name, inputs))

@@ -91,6 +91,9 @@ inline constexpr const char *messages_file = "messages.txt", *worker_file = ".wo
 void refuse_inputs(const std::filesystem::path& folder, const Outputs& outputs,
                    const std::vector<std::filesystem::path>& inputs);
 
+// Whether the folder's list says that a command made this file there, so that it may be replaced.
+bool made_here(const std::filesystem::path& folder, const std::string& name);
+
 // Locks the folder, refuses what must not be replaced, removes what an older command made there but for `inputs`, and
 // lists what will be written. Refused: inputs always; without `overwrite` whatever stands under a name to be written,
 // and an older command's results. Throws BadInput, FolderInUse, OutputError; a folder that is refused is left as it

@@ -5,7 +5,7 @@
 //   checkpoint, checkpoint.previous
 //   end_state                  of a run that is asked for it: where another run can begin (app/begin_run.hpp)
 //   history.csv, frames/, blocks.pvd, contacts.pvd; with bolts also bolts.pvd and bolts.csv, with
-//   linings linings.pvd and lining.csv; of a search also
+//   linings linings.pvd and lining.csv; view.bin, view.html where they are asked for; of a search also
 //   trial_blocks.pvd, trial_contacts.pvd results.json               comes last: where it is, the run is complete and
 //   the checkpoints are gone
 #pragma once

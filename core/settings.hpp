@@ -266,6 +266,10 @@ struct OutputPlan {
   double history_interval = 0;  // s between rows of history.csv; 0: about 200 rows a stage
   double frame_interval = 0;    // s between ParaView frames; 0: at the end of each stage only
   bool frames = true;
+  bool view = false;  // keep what the viewer shows (output/view.hpp)
+
+  // whether somebody asks for frames
+  bool any_frames() const { return frames || view; }
 };
 
 }  // namespace voussoir

@@ -85,7 +85,7 @@ struct Simulation {
   }
 
   void frame(const State<Dim>& now) {
-    if (!scene.output.frames) return;
+    if (!scene.output.any_frames()) return;
     if (watcher.frame) watcher.frame(model, now, now.time);
     progress.frames.push_back(now.time);
     const double interval = scene.output.frame_interval;
@@ -101,7 +101,7 @@ struct Simulation {
   }
 
   void trial_frame(const State<Dim>& now, int trial) {
-    if (!scene.output.frames) return;
+    if (!scene.output.any_frames()) return;
     if (watcher.trial_frame) watcher.trial_frame(model, now, trial);
     progress.trial_frames.push_back(trial);
   }

@@ -114,7 +114,8 @@ const std::vector<Order> orders{
     {"core/output",
      {{"fingerprint", "version", "output_error", "vtp"},
       {"atomic_file", "origin"},
-      {"history_csv", "bolts_csv", "lining_csv", "paraview", "results_json"}}},
+      {"history_csv", "bolts_csv", "lining_csv", "paraview", "results_json"},
+       {"view"}}},
     {"core/reduction", {{"reduction"}}},
     {"core/checkpoint", {{"fields"}, {"checkpoint"}}},
 };

@@ -139,6 +139,9 @@ void add_run(CLI::App& program, RunArguments& arguments, Action& action) {
   command->add_flag("--budget", arguments.budget,
                     "vary what was chosen, one thing at a time, in runs beside the answer: every value then says what "
                     "moves it, and its error bar covers that (accuracy.budget)");
+  command->add_flag("--view", arguments.view,
+                    "write view.html, one page in which the blocks can be turned, with the frames that ParaView would "
+                    "get (output.view)");
   add_overwrite(command, arguments.overwrite);
   command->add_flag("--quiet", arguments.quiet, "no progress and no summary");
   command->callback([&] { action = [&] { return run_command(arguments); }; });
@@ -156,6 +159,25 @@ void add_resume(CLI::App& program, ResumeArguments& arguments, Action& action) {
   command->callback([&] { action = [&] { return resume_command(arguments); }; });
 }
 
+void add_view(CLI::App& program, ViewArguments& arguments, Action& action) {
+  CLI::App* command = program.add_subcommand(
+      "view", "write the page in which the blocks of a run can be turned; the run was asked for --view");
+  command->add_option("folder", arguments.folder, "the folder of its results")->check(plain_text());
+  add_out(command, arguments.out, "the page (default: view.html in the folder)");
+  CLI::Option* fragment = command->add_flag(
+      "--fragment", arguments.fragment,
+      "instead of a page the piece of one, for a page that holds many of them and what --script writes once");
+  command->add_flag("--script", arguments.script, "what a page with fragments holds once; takes no folder")
+      ->excludes(fragment);
+  command
+      ->add_option("--poster", arguments.poster,
+                   "PNG that a fragment shows until it is clicked (viewer/poster.mjs makes it)")
+      ->needs(fragment)
+      ->check(plain_text());
+  command->add_flag("--overwrite", arguments.overwrite, "replace the file");
+  command->callback([&] { action = [&] { return view_command(arguments); }; });
+}
+
 void add_check(CLI::App& program, SceneArguments& arguments, Action& action) {
   CLI::App* command = program.add_subcommand("check", "say what a scene activates and what looks wrong");
   add_scene(command, arguments);
@@ -170,6 +192,7 @@ void add_slice(CLI::App& program, SliceArguments& arguments, Action& action) {
                     "joint sets against what was stated, listed joints by their set: report.md, joints.csv, stereonet, "
                     "spacings, block "
                     "sizes");
+  command->add_flag("--view", arguments.view, "view.html, one page in which the blocks can be turned");
   command->add_flag("--planes", arguments.planes,
                     "the planes of the blocks: block_planes.csv, readable as blocks_file");
   command->add_flag("--stl", arguments.stl, "the blocks as blocks.stl (ASCII; 3-D)");
@@ -460,6 +483,7 @@ int parse_and_act(int argument_count, char** arguments) {
   Action action;
   RunArguments run;
   ResumeArguments resume;
+  ViewArguments view;
   SceneArguments check;
   SliceArguments slice;
   LimitArguments limit;
@@ -470,6 +494,7 @@ int parse_and_act(int argument_count, char** arguments) {
   DocsArguments docs;
   add_run(program, run, action);
   add_resume(program, resume, action);
+  add_view(program, view, action);
   add_check(program, check, action);
   add_slice(program, slice, action);
   add_limit(program, limit, action);

@@ -41,6 +41,7 @@ struct RunArguments {
   std::string until;            // the stage after which it ends, its state kept; empty: the last
   bool keep = false;            // the state at the end
   bool budget = false;          // as if the scene stated accuracy.budget
+  bool view = false;            // as if the scene stated output.view
   bool overwrite = false;
   bool quiet = false;
 };
@@ -51,9 +52,19 @@ struct ResumeArguments {
   bool quiet = false;
 };
 
+struct ViewArguments {
+  std::filesystem::path folder;
+  std::filesystem::path out;  // empty: view.html in the folder
+  bool fragment = false;      // for a page that holds the viewer once and many of these
+  bool script = false;        // what such a page holds once; then no folder is read
+  std::filesystem::path poster;  // a picture to stand there until it is clicked; empty: none
+  bool overwrite = false;
+};
+
 struct SliceArguments {
   SceneArguments scene;
   std::filesystem::path out;
+  bool view = false;                              // view.html
   bool report = false;                            // on the joint sets, and joints.csv
   bool planes = false, stl = false, obj = false;  // further formats of the blocks
   bool overwrite = false;
@@ -131,6 +142,9 @@ ExitCode run_command(const RunArguments& arguments);
 // continues with a run that was interrupted, from its last checkpoint or from its begin; a complete one is left as it
 // is
 ExitCode resume_command(const ResumeArguments& arguments);
+
+// the page in which the blocks of a run can be turned, from what the run has kept for it
+ExitCode view_command(const ViewArguments& arguments);
 
 // says what a scene activates, what follows from its numbers, and what looks wrong; writes nothing
 ExitCode check_command(const SceneArguments& arguments);

@@ -16,12 +16,14 @@
 #include "app/origin.hpp"
 #include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
+#include "app/view/page.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/bolts_csv.hpp"
 #include "core/output/history_csv.hpp"
 #include "core/output/lining_csv.hpp"
 #include "core/output/paraview.hpp"
 #include "core/output/results_json.hpp"
+#include "core/output/view.hpp"
 #include "core/scene/toml_text.hpp"
 #include "text/plain_text.hpp"
 
@@ -127,9 +129,11 @@ class CheckpointClock {
   double seconds_ = 0;
 };
 
-// the path to the answer, and the trials that were taken back
+// The path to the answer, and the trials that were taken back; what the viewer shows has both. Those that the scene does
+// not ask for are not written.
 struct WrittenSeries {
-  FrameSeries frames, trials;
+  std::optional<FrameSeries> frames, trials;
+  std::optional<ViewSeries> view;
 };
 
 template <int Dim>
@@ -148,10 +152,14 @@ bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const R
   Watcher<Dim> watcher;
   watcher.progress = [&](const ProgressReport& report) { line.show(report); };
   watcher.frame = [&](const Model<Dim>& model, const State<Dim>& state, double time) {
-    write_frame(written.frames, model, state, time);
+    if (written.frames) write_frame(*written.frames, model, state, time);
+    if (written.view)
+      add_view_frame(*written.view, model, state, {ViewMoment::Kind::frame, time, progress.stage, 0});
   };
   watcher.trial_frame = [&](const Model<Dim>& model, const State<Dim>& state, int trial) {
-    write_frame(written.trials, model, state, trial);
+    if (written.trials) write_frame(*written.trials, model, state, trial);
+    if (written.view)
+      add_view_frame(*written.view, model, state, {ViewMoment::Kind::trial, state.time, progress.stage, trial});
   };
   watcher.ended = [&](const Progress<Dim>& now) {
     if (job.options.keep) save_end_state(job.folder, now, scene_hash);
@@ -171,14 +179,29 @@ bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const R
 
 // what the run so far has written beyond its checkpoint is cut off
 template <int Dim>
-WrittenSeries cut_back_to(const Progress<Dim>& progress, const JointSets& sets, const fs::path& folder) {
-  WrittenSeries written{cut_back(folder, progress.frames), cut_back(folder, progress.trial_frames, trial_series)};
-  written.frames.sets = written.trials.sets = sets;
-  std::set<std::string> lost = written.frames.lost;
-  lost.insert(written.trials.lost.begin(), written.trials.lost.end());
-  if (!lost.empty())
-    print_warnings({fmt::format("{} files of frames are gone, {} the first: the .pvd files leave them out", lost.size(),
-                                *lost.begin())});
+ViewSeries cut_back_view(const Prepared<Dim>& prepared, const Progress<Dim>& progress, const fs::path& file) {
+  const int frames = static_cast<int>(progress.frames.size() + progress.trial_frames.size());
+  if (frames == 0) return begin_view(file, prepared);
+  ViewSeries view = continue_view(file, prepared, frames + 1);
+  if (view.frames == 0)
+    print_warnings({fmt::format("'{}' is gone or damaged: the viewer shows the frames from here on", file.string())});
+  return view;
+}
+
+template <int Dim>
+WrittenSeries cut_back_to(const Prepared<Dim>& prepared, const Progress<Dim>& progress, const fs::path& folder) {
+  WrittenSeries written;
+  if (prepared.output.frames) {
+    written.frames = cut_back(folder, progress.frames);
+    written.trials = cut_back(folder, progress.trial_frames, trial_series);
+    written.frames->sets = written.trials->sets = prepared.joint_sets;
+    std::set<std::string> lost = written.frames->lost;
+    lost.insert(written.trials->lost.begin(), written.trials->lost.end());
+    if (!lost.empty())
+      print_warnings({fmt::format("{} files of frames are gone, {} the first: the .pvd files leave them out",
+                                  lost.size(), *lost.begin())});
+  }
+  if (prepared.output.view) written.view = cut_back_view(prepared, progress, folder / view_file);
   write_tables(folder, progress);
   return written;
 }
@@ -209,6 +232,15 @@ bool judge_accuracy(const LoadedScene& stated, const LoadedScene& scene, RunJob&
   return true;
 }
 
+// a program without the viewer leaves the page to one that has it
+void write_page(const fs::path& folder) {
+  if (const std::string missing = viewer_missing(); !missing.empty())
+    print_warnings({fmt::format("{} is not written: {}; 'voussoir view {}' makes it where that is there", page_file,
+                                missing, folder.string())});
+  else
+    write_file(folder / page_file, view_page(folder / view_file));
+}
+
 // begins or continues, and writes the results; nothing: a finer answer is to follow
 template <int Dim>
 std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const LoadedScene& scene,
@@ -216,7 +248,7 @@ std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const Load
   std::vector<std::string> remarks;
   Progress<Dim> progress = last_progress(job.folder, prepared, scene.hash, remarks);
   print_warnings(remarks);
-  WrittenSeries written = cut_back_to(progress, prepared.joint_sets, job.folder);
+  WrittenSeries written = cut_back_to(prepared, progress, job.folder);
 
   note_interruptions();
   if (!go_on(prepared, scene.hash, job, progress, written)) {
@@ -239,6 +271,7 @@ std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const Load
     write_options(job.folder, job.options);
     return std::nullopt;
   }
+  if (written.view) write_page(job.folder);
   write_results_json(job.folder / "results.json", results, record_of(scene, job.options));
   remove_checkpoints(job.folder);
   if (!job.quiet) {
@@ -326,6 +359,7 @@ ExitCode run_command(const RunArguments& arguments) {
   options.keep = arguments.keep || !arguments.until.empty();
   std::vector<std::string> overrides = arguments.scene.overrides;
   if (arguments.budget) overrides.push_back("accuracy.budget=true");
+  if (arguments.view) overrides.push_back("output.view=true");
   LoadedScene scene = load_scene(arguments.scene.scene, overrides, options.threads);
   if (wants_budget(scene) && !(arguments.until.empty() && arguments.begin.empty()))
     throw BadInput(fmt::format(

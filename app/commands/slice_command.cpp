@@ -5,10 +5,12 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/slice_report.hpp"
 #include "app/run_scene.hpp"
+#include "app/view/page.hpp"
 #include "core/exchange/mesh.hpp"
 #include "core/exchange/tables.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/paraview.hpp"
+#include "core/output/view.hpp"
 #include "core/potential/particle.hpp"
 #include "text/csv_table.hpp"
 
@@ -91,6 +93,7 @@ Outputs outputs_of(const SliceArguments& arguments, int dimension) {
   const auto add = [&](bool wanted, std::initializer_list<const char*> names) {
     if (wanted) outputs.files.insert(outputs.files.end(), names.begin(), names.end());
   };
+  add(arguments.view, {"view.bin", "view.html"});
   add(arguments.planes, {"block_planes.csv"});
   add(arguments.stl, {"blocks.stl"});
   add(arguments.obj, {"blocks.obj"});
@@ -105,6 +108,10 @@ void write_blocks(const Prepared<Dim>& prepared, const SliceArguments& arguments
   write_formats(prepared.model, arguments);
   write_file(folder / "blocks.vtp", vtp(block_faces(prepared.model, prepared.state, 0, prepared.joint_sets)));
   write_file(folder / "blocks.csv", block_table(prepared.model));
+  if (arguments.view) {
+    begin_view(folder / view_file, prepared);
+    write_file(folder / page_file, view_page(folder / view_file));
+  }
   fmt::print("{} blocks: {}, {}\n", prepared.model.bodies.size(), (folder / "blocks.vtp").string(),
              (folder / "blocks.csv").string());
 }
@@ -112,6 +119,7 @@ void write_blocks(const Prepared<Dim>& prepared, const SliceArguments& arguments
 }  // namespace
 
 ExitCode slice_command(const SliceArguments& arguments) {
+  if (arguments.view) require_viewer();
   const LoadedScene loaded = load_scene(arguments.scene.scene, arguments.scene.overrides);
   if (loaded.dimension == 2 && (arguments.stl || arguments.obj))
     throw BadInput("--stl and --obj write blocks in space but the scene has dimension = 2; use --planes");

@@ -157,6 +157,7 @@ std::vector<std::string> overrides_of(const Sweep& sweep, std::size_t place) {
     overrides.push_back(tied.key + "=" + tied.values[place]);
   // pictures cost time and say nothing here
   overrides.push_back("output.frames=false");
+  overrides.push_back("output.view=false");
   return overrides;
 }
 

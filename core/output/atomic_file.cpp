@@ -99,6 +99,14 @@ void write_file_and_keep(const fs::path& path, const fs::path& previous, std::st
   flush_folder(path);
 }
 
+void append_to_file(const fs::path& path, std::string_view content) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
+  if (file < 0) throw output_error(path, errno);
+  int error = write_all(file, content);
+  if (::close(file) != 0 && error == 0 && errno != EINTR) error = errno;
+  if (error != 0) throw output_error(path, error);
+}
+
 void move_file(const fs::path& from, const fs::path& to) {
   if (::rename(from.c_str(), to.c_str()) != 0) throw output_error(to, errno);
   flush_folder(to);

@@ -16,6 +16,9 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 void write_file_and_keep(const std::filesystem::path& path, const std::filesystem::path& previous,
                          std::string_view content);
 
+// Adds to a file. Not flushed to the disk, and a program that is killed may leave a part of it.
+void append_to_file(const std::filesystem::path& path, std::string_view content);
+
 // `to` becomes what `from` was
 void move_file(const std::filesystem::path& from, const std::filesystem::path& to);
 

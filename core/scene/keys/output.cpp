@@ -15,6 +15,8 @@ KeyTable output_keys() {
      .meaning = "time between ParaView frames; 0: at the end of each stage only", .mistake = "was it given in ms?"},
     {.key = "frames", .members = {in(&OutputPlan::frames)}, .example = "false",
      .meaning = "write ParaView frames"},
+    {.key = "view", .members = {in(&OutputPlan::view)}, .example = "true",
+     .meaning = "write view.html, one page in which the blocks can be turned, with the frames that ParaView would get"},
   }};
 }
 // clang-format on

@@ -1,0 +1,27 @@
+// One HTML file in which the blocks of a run can be turned: viewer/'s script and the file of core/output/view.hpp, each
+// compressed and as base64, so that nothing of a scene stands in the page as text.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace voussoir {
+
+inline constexpr const char* page_file = "view.html";
+
+// why this program has no viewer; empty: it has
+std::string viewer_missing();
+// throws BadInput where it has none
+void require_viewer();
+
+// The whole page of a run's `view.bin`; frames that were being written when a program was killed are left out. Throws
+// BadInput where the file is none, or there is no viewer.
+std::string view_page(const std::filesystem::path& data);
+
+// The same for a page that holds viewer_script() once: a figure that shows the poster, a PNG's bytes, and starts when it
+// is clicked. Without a poster it starts at once.
+std::string view_fragment(const std::filesystem::path& data, std::string_view poster = {});
+std::string viewer_script();
+
+}  // namespace voussoir

@@ -1,0 +1,420 @@
+#include "core/output/view.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "core/law/joint_law.hpp"
+#include "core/output/atomic_file.hpp"
+#include "core/output/paraview.hpp"
+#include "core/output/version.hpp"
+#include "core/potential/particle.hpp"
+#include "text/angle.hpp"
+#include "text/read_file.hpp"
+
+namespace voussoir {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "records are little-endian, and written as they lie");
+
+constexpr std::string_view magic = "VOUSVIEW";
+constexpr std::uint32_t head_tag = 1, shape_tag = 2, frame_tag = 3, again_tag = 4;
+
+// to single precision; what it cannot hold is 0
+float single(double value) {
+  return std::isfinite(value) && std::abs(value) < std::numeric_limits<float>::max() ? static_cast<float>(value) : 0.0F;
+}
+
+// To 12 bits, 1 in 4000: bytes that are always 0 cost nothing once they are compressed.
+float short_single(double value) {
+  constexpr std::uint32_t dropped = 12;
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(single(value)) + (1U << (dropped - 1));
+  const float rounded = std::bit_cast<float>(bits >> dropped << dropped);
+  return std::isfinite(rounded) ? rounded : 0.0F;
+}
+
+// the bytes of a record
+class Record {
+ public:
+  explicit Record(std::uint32_t tag) {
+    put(tag);
+    put(std::uint32_t{0});
+  }
+
+  template <class Number>
+  void put(Number number) {
+    bytes_.append(reinterpret_cast<const char*>(&number), sizeof number);
+  }
+  void text(std::string_view text) {
+    put(static_cast<std::uint32_t>(text.size()));
+    bytes_ += text;
+    pad();
+  }
+  void bytes(const std::string& list) {
+    bytes_ += list;
+    pad();
+  }
+  // the first bytes of all, then the second ones …: the like lie together, which compresses
+  template <class Number>
+  void list(const std::vector<Number>& numbers) {
+    static_assert(sizeof(Number) == 4);
+    const std::size_t at = bytes_.size(), n = numbers.size();
+    bytes_.resize(at + 4 * n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto four = std::bit_cast<std::array<char, 4>>(numbers[i]);
+      for (std::size_t k = 0; k < 4; ++k)
+        bytes_[at + k * n + i] = four[k];
+    }
+  }
+
+  const std::string& finished() {
+    const auto size = static_cast<std::uint32_t>(bytes_.size());
+    std::memcpy(bytes_.data() + 4, &size, sizeof size);
+    return bytes_;
+  }
+
+ private:
+  void pad() { bytes_.resize((bytes_.size() + 3) / 4 * 4); }
+  std::string bytes_;
+};
+
+template <int Dim>
+nlohmann::json numbers(const Vector<Dim>& v) {
+  return std::vector<double>(v.data(), v.data() + Dim);
+}
+
+template <int Dim>
+std::string head_of(const Prepared<Dim>& scene) {
+  const Model<Dim>& model = scene.model;
+  nlohmann::json joints = nlohmann::json::array(), properties = nlohmann::json::array(),
+                 stages = nlohmann::json::array();
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const Joint<Dim>& joint = model.joints[j];
+    joints.push_back({{"name", joint.name},
+                      {"set", scene.joint_sets.set_of(static_cast<int>(j))},
+                      {"properties", joint.properties},
+                      {"normal", numbers<Dim>(joint.plane.normal)},
+                      {"offset", joint.plane.offset}});
+  }
+  for (const JointProperties& p : model.properties)
+    properties.push_back({{"name", p.name}, {"friction_deg", to_degrees(p.friction)}});
+  for (const StagePlan& stage : scene.stages)
+    stages.push_back(stage.name);
+  const nlohmann::json head = {{"program", version()},
+                               {"title", scene.title},
+                               {"dimension", Dim},
+                               {"origin", numbers<Dim>(model.origin)},
+                               {"joints", joints},
+                               {"sets", scene.joint_sets.names},
+                               {"properties", properties},
+                               {"default_properties", model.default_properties},
+                               {"stages", stages}};
+  return head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+// ---- shapes --------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void put_points(Record& record, const std::vector<Vector<Dim>>& points, const Vector<Dim>& shift) {
+  record.put(static_cast<std::uint32_t>(points.size()));
+  for (const Vector<Dim>& point : points)
+    for (int k = 0; k < Dim; ++k)
+      record.put(single(point[k] + shift[k]));
+}
+
+void put_loop(Record& record, int joint, const std::vector<int>& loop) {
+  record.put(joint);
+  record.put(static_cast<std::uint32_t>(loop.size()));
+  for (const int corner : loop)
+    record.put(corner);
+}
+
+// Corners, whether they belong to a rounded surface, and faces: the joint that made each, and its corners. In the plane
+// faces are edges, and behind them comes the outline.
+template <int Dim>
+void put_part(Record& record, const Polytope<Dim>& part) {
+  if (is_particle(part)) {
+    const PotentialDrawing<Dim>& drawing = part.particle->drawing;
+    put_points<Dim>(record, drawing.points, part.centre);
+    record.put(std::uint32_t{1});
+    record.put(static_cast<std::uint32_t>(drawing.cells.size()));
+    for (const std::vector<int>& cell : drawing.cells)
+      put_loop(record, no_joint, cell);
+    return;
+  }
+  put_points<Dim>(record, part.vertices, Vector<Dim>::Zero());
+  record.put(std::uint32_t{0});
+  record.put(static_cast<std::uint32_t>(part.loops.size() + (Dim == 2 ? 1 : 0)));
+  for (std::size_t face = 0; face < part.loops.size(); ++face)
+    put_loop(record, face < part.joints.size() ? part.joints[face] : no_joint, part.loops[face]);
+  if constexpr (Dim == 2) put_loop(record, no_joint, boundary_ring(part));
+}
+
+template <int Dim>
+std::string shape_of(const Body<Dim>& body, std::size_t id) {
+  Record record(shape_tag);
+  record.put(static_cast<std::int32_t>(id));
+  record.text(body.name);
+  for (int k = 0; k < Dim; ++k)
+    record.put(single(body.reference[k]));
+  record.put(single(volume(body)));
+  record.put(single(body.size));
+  record.put(static_cast<std::uint32_t>(body.parts.size()));
+  for (const Polytope<Dim>& part : body.parts)
+    put_part(record, part);
+  return record.finished();
+}
+
+// what tells a body that an excavation has changed
+template <int Dim>
+ShownBody look_of(const Body<Dim>& body) {
+  ShownBody look{0, body.mass, body.present && !body.parts.empty()};
+  for (const Polytope<Dim>& part : body.parts)
+    look.corners += part.vertices.size();
+  return look;
+}
+
+template <int Dim>
+std::string new_shapes(const Model<Dim>& model, std::vector<ShownBody>& shown) {
+  std::string bytes;
+  shown.resize(model.bodies.size());
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const ShownBody look = look_of(model.bodies[b]);
+    if (look.present && !(look == shown[b])) bytes += shape_of(model.bodies[b], b);
+    shown[b] = look;
+  }
+  return bytes;
+}
+
+// ---- contacts ------------------------------------------------------------------------------------------------------
+
+// what a contact carries as a whole
+template <int Dim>
+struct Carried {
+  Vector<Dim> point, force;  // m from the centroid of the first body; N on the second
+  double normal = 0, overlap = 0;
+  double friction = 0;  // fraction of what friction could carry; 0 where nothing presses
+};
+
+// tan φ of now
+template <int Dim>
+double coefficient(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c, double normal) {
+  const JointProperties& p = model.properties[c.properties];
+  const double angle = state.schedule.friction[c.properties];
+  if (p.laws.friction == FrictionLaw::constant) return std::tan(angle);
+  const double factor =
+      state.schedule.strength_factor.empty() ? 1 : state.schedule.strength_factor[c.properties];
+  const double stress = c.history.area > 0 ? normal / c.history.area : 0;
+  return friction_answer(p, angle, c.history.plastic_slip, stress, factor).coefficient;
+}
+
+template <int Dim>
+Carried<Dim> carried_by(const Model<Dim>& model, const State<Dim>& state, std::size_t place) {
+  const Contact<Dim>& c = state.contacts[place];
+  Carried<Dim> all{c.geometry.point, c.force, c.force.dot(c.geometry.normal), c.geometry.overlap, 0};
+
+  // where the resultant of sub-contacts acts
+  Vector<Dim> moment = Vector<Dim>::Zero();
+  double pressed = 0;
+  for (const SubContact<Dim>& s : subs_of(state, place)) {
+    const double normal = s.area > 0 ? std::max(0.0, s.force.dot(c.geometry.normal)) : 0;
+    moment += normal * s.point;
+    pressed += normal;
+  }
+  if (pressed > 0) all.point = moment / pressed;
+
+  const double limit = all.normal > 0 ? all.normal * coefficient(model, state, c, all.normal) : 0;
+  const double shear = (c.force - all.normal * c.geometry.normal).norm();
+  if (limit > 0 && std::isfinite(shear)) all.friction = shear / limit;
+  return all;
+}
+
+template <int Dim>
+ViewPair pair_of(const Model<Dim>& model, const Contact<Dim>& c) {
+  const PartId &a = model.parts[c.part_a], &b = model.parts[c.part_b];
+  return {a.body, a.part, c.geometry.face_a, b.body, b.part, c.geometry.face_b, c.joint, c.properties};
+}
+
+// Which pairs touch, a bit for each that was ever seen, and what they carry, in the order of their numbers.
+template <int Dim>
+void put_contacts(Record& record, ViewSeries& series, const Model<Dim>& model, const State<Dim>& state) {
+  std::vector<std::pair<int, std::size_t>> touching;  // number and place
+  std::vector<ViewPair> fresh;
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    if (!state.contacts[i].touching()) continue;
+    const ViewPair pair = pair_of(model, state.contacts[i]);
+    const auto [known, is_new] = series.pairs.try_emplace(pair, static_cast<int>(series.pairs.size()));
+    if (is_new) fresh.push_back(pair);
+    touching.emplace_back(known->second, i);
+  }
+  std::sort(touching.begin(), touching.end());
+
+  record.put(static_cast<std::uint32_t>(fresh.size()));
+  record.put(static_cast<std::uint32_t>(touching.size()));
+  for (std::size_t k = 0; k < std::tuple_size_v<ViewPair>; ++k) {
+    std::vector<std::int32_t> column;
+    for (const ViewPair& pair : fresh)
+      column.push_back(pair[k]);
+    record.list(column);
+  }
+  std::string bits((series.pairs.size() + 7) / 8, '\0');
+  for (const auto& [number, place] : touching)
+    bits[number / 8] = static_cast<char>(bits[number / 8] | 1 << number % 8);
+  record.bytes(bits);
+
+  std::array<std::vector<float>, 2 * Dim + 3> columns;
+  for (const auto& [number, place] : touching) {
+    const Carried<Dim> c = carried_by(model, state, place);
+    for (int k = 0; k < Dim; ++k) {
+      columns[k].push_back(short_single(c.point[k]));
+      columns[Dim + k].push_back(short_single(c.force[k]));
+    }
+    columns[2 * Dim].push_back(short_single(c.normal));
+    columns[2 * Dim + 1].push_back(short_single(c.friction));
+    columns[2 * Dim + 2].push_back(short_single(c.overlap));
+  }
+  for (const std::vector<float>& column : columns)
+    record.list(column);
+}
+
+// ---- bolts and linings ---------------------------------------------------------------------------------------------
+
+const std::vector<double>* values_of(const std::vector<DataArray>& arrays, std::string_view name) {
+  const auto found = std::ranges::find(arrays, name, &DataArray::name);
+  return found == arrays.end() ? nullptr : &found->values;
+}
+
+// Straight pieces: ends from the model's origin, m; the force along them, N, tension positive; use of strength; 0 for a
+// bolt, 1 for a lining.
+template <int Dim>
+void put_support(Record& record, const Model<Dim>& model, const State<Dim>& state) {
+  std::array<std::vector<float>, 2 * Dim + 3> columns;
+  const auto add = [&](const PolyData& data, std::size_t cell, double force, double use, float kind) {
+    for (int end = 0; end < 2; ++end)
+      for (int k = 0; k < Dim; ++k)
+        columns[Dim * end + k].push_back(single(data.points[data.cells[cell][end]][k] - model.origin[k]));
+    columns[2 * Dim].push_back(short_single(force));
+    columns[2 * Dim + 1].push_back(short_single(use));
+    columns[2 * Dim + 2].push_back(kind);
+  };
+  if (!model.bolts.empty()) {
+    const PolyData bolts = bolt_lines(model, state, 0);
+    for (std::size_t i = 0; i < bolts.cells.size(); ++i)
+      add(bolts, i, (*values_of(bolts.cell_data, "force_N"))[i], (*values_of(bolts.cell_data, "use"))[i], 0);
+  }
+  if constexpr (Dim == 2)
+    if (!model.linings.empty()) {
+      const PolyData linings = lining_lines(model, state, 0);
+      const std::vector<double>&thrust = *values_of(linings.point_data, "thrust_N"),
+      &use = *values_of(linings.point_data, "use");
+      for (std::size_t i = 0; i < linings.cells.size(); ++i) {
+        const int a = linings.cells[i][0], b = linings.cells[i][1];
+        add(linings, i, -0.5 * (thrust[a] + thrust[b]), std::max(use[a], use[b]), 1);
+      }
+    }
+  record.put(static_cast<std::uint32_t>(columns[0].size()));
+  for (const std::vector<float>& column : columns)
+    record.list(column);
+}
+
+template <int Dim>
+void put_bodies(Record& record, const Model<Dim>& model, const State<Dim>& state) {
+  std::array<std::vector<float>, freedoms<Dim> + 1> columns;
+  std::string flags;
+  record.put(static_cast<std::uint32_t>(model.bodies.size()));
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body<Dim>& body = model.bodies[b];
+    const Motion<Dim>& motion = state.motions[b];
+    flags.push_back(static_cast<char>((body.present ? 1 : 0) | (body.immobile() ? 2 : 0)));
+    const Spin<Dim> turn = rotation_vector(motion.rotation);
+    for (int k = 0; k < Dim; ++k)
+      columns[k].push_back(single(motion.displacement[k]));
+    for (int k = 0; k < spin_freedoms<Dim>; ++k)
+      columns[Dim + k].push_back(single(turn[k]));
+    columns[freedoms<Dim>].push_back(short_single(motion.velocity.norm()));
+  }
+  record.bytes(flags);
+  for (const std::vector<float>& column : columns)
+    record.list(column);
+}
+
+template <int Dim>
+ViewSeries begun(const std::filesystem::path& file, const Prepared<Dim>& scene) {
+  Record head(head_tag);
+  head.text(head_of(scene));
+  write_file(file, std::string(magic) + head.finished());
+  return {file};
+}
+
+}  // namespace
+
+template <int Dim>
+ViewSeries begin_view(const std::filesystem::path& file, const Prepared<Dim>& scene) {
+  ViewSeries series = begun(file, scene);
+  add_view_frame(series, scene.model, scene.state, {ViewMoment::Kind::start});
+  return series;
+}
+
+template <int Dim>
+ViewSeries continue_view(const std::filesystem::path& file, const Prepared<Dim>& scene, int frames) {
+  std::string bytes;
+  try {
+    bytes = read_file(file, std::numeric_limits<std::uintmax_t>::max());
+  } catch (const ReadFault&) {
+    return begun(file, scene);
+  }
+  const ViewExtent kept = view_extent(bytes, frames);
+  if (kept.frames < frames) return begun(file, scene);
+
+  // whoever reads it forgets the shapes and pairs so far: those that follow are numbered from the begin
+  bytes.resize(kept.bytes);
+  Record again(again_tag);
+  write_file(file, bytes + again.finished());
+  ViewSeries series{file};
+  series.frames = kept.frames;
+  return series;
+}
+
+template <int Dim>
+void add_view_frame(ViewSeries& series, const Model<Dim>& model, const State<Dim>& state, const ViewMoment& moment) {
+  const std::string shapes = new_shapes(model, series.shown);
+  Record record(frame_tag);
+  record.put(static_cast<std::int32_t>(moment.kind));
+  record.put(static_cast<std::int32_t>(moment.stage));
+  record.put(static_cast<std::int32_t>(moment.trial));
+  record.put(std::int32_t{0});
+  record.put(moment.time);
+  put_bodies(record, model, state);
+  put_contacts(record, series, model, state);
+  put_support(record, model, state);
+  append_to_file(series.file, shapes + record.finished());
+  ++series.frames;
+}
+
+ViewExtent view_extent(std::string_view bytes, int frames) {
+  if (!bytes.starts_with(magic)) return {};
+  ViewExtent extent{magic.size(), 0};
+  while (extent.frames < frames && bytes.size() - extent.bytes >= 8) {
+    std::array<std::uint32_t, 2> head{};
+    std::memcpy(head.data(), bytes.data() + extent.bytes, sizeof head);
+    const auto [tag, size] = head;
+    if (tag < head_tag || tag > again_tag || size < 8 || size % 4 != 0 || size > bytes.size() - extent.bytes) break;
+    extent.bytes += size;
+    if (tag == frame_tag) ++extent.frames;
+  }
+  return extent;
+}
+
+template ViewSeries begin_view<2>(const std::filesystem::path&, const Prepared<2>&);
+template ViewSeries begin_view<3>(const std::filesystem::path&, const Prepared<3>&);
+template ViewSeries continue_view<2>(const std::filesystem::path&, const Prepared<2>&, int);
+template ViewSeries continue_view<3>(const std::filesystem::path&, const Prepared<3>&, int);
+template void add_view_frame<2>(ViewSeries&, const Model<2>&, const State<2>&, const ViewMoment&);
+template void add_view_frame<3>(ViewSeries&, const Model<3>&, const State<3>&, const ViewMoment&);
+
+}  // namespace voussoir

@@ -1,0 +1,130 @@
+// What colours say: the figures' colours (reports/style.gp), and for each choice its values, unit and range over all
+// times.
+
+// Okabe and Ito (2008), which stay apart for colour-blind readers
+export const OKABE = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#f0e442', '#404040'];
+export const ROCK = '#efe6d2', HELD = '#d9d9d9', EDGE = '#4a4a4a', INK = '#202020';
+export const PRESSED = '#0072b2', PULLED = '#d55e00';
+// from little to much, ever darker, so that it can be read in grey
+const RAMP = ['#f2f6fa', '#c6dcec', '#8cbfe0', '#56a0d0', '#0072b2', '#7a5a80', '#d55e00', '#8f3500'];
+
+export const rgb = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
+
+// the eight, then darker, then lighter ones
+export function listColour(i) {
+  const colour = OKABE[i % OKABE.length], round = Math.floor(i / OKABE.length) % 3;
+  if (round === 0) return colour;
+  const mixed = rgb(colour).map((c) => (round === 1 ? 0.6 * c : 0.5 + 0.5 * c));
+  return `#${mixed.map((c) => Math.round(255 * c).toString(16).padStart(2, '0')).join('')}`;
+}
+export const groupColour = (run, group) => (group === run.noJoint ? ROCK : listColour(group));
+export const ramp = RAMP.map(rgb);
+
+export function rampColour(t) {
+  const at = Math.min(Math.max(t, 0), 1) * (ramp.length - 1), i = Math.min(Math.floor(at), ramp.length - 2);
+  return ramp[i].map((c, k) => c + (at - i) * (ramp[i + 1][k] - c));
+}
+
+// where a value lies between the ends of the legend, 0 to 1
+export function share(value, { low, high, logarithmic }) {
+  const scale = logarithmic ? Math.log : (x) => x;
+  return high > low ? (scale(value) - scale(low)) / (scale(high) - scale(low)) : 0;
+}
+
+// how the shader is to find the value: none, of the point, of the body, of the face
+export const FLAT = 0, POINT = 1, BODY = 2, FACE = 3, PROPERTIES = 4;
+
+export function choices(run, bodies) {
+  const plane = run.head.dimension === 2;
+  return {
+    set: { label: 'joint set', mode: FLAT },
+    displacement: { label: 'displacement', unit: 'm', mode: POINT, range: () => ({ low: 0, high: farthest(run, bodies) }) },
+    velocity: {
+      label: 'velocity', unit: 'm/s', mode: BODY, value: (shape, f) => run.frames[f].speed[shape.body],
+      range: () => ({ low: 0, high: largest(run.frames, (frame) => frame.speed) }),
+    },
+    friction: {
+      label: 'share of friction mobilised', unit: '', mode: FACE,
+      range: () => ({ low: 0, high: Math.max(1, largest(run.frames, (frame) => frame.contacts.friction)) }),
+    },
+    properties: { label: 'joint properties', mode: PROPERTIES },
+    size: {
+      label: plane ? 'block area' : 'block volume', unit: plane ? 'm²' : 'm³', mode: BODY, value: (shape) => shape.volume,
+      range: () => sizes(run),
+    },
+  };
+}
+
+function largest(frames, list) {
+  let most = 0;
+  for (const frame of frames) for (const value of list(frame)) if (value > most) most = value;
+  return most;
+}
+
+function sizes(run) {
+  let low = Infinity, high = 0;
+  for (const { volume } of run.shapes) {
+    if (volume > 0) low = Math.min(low, volume);
+    high = Math.max(high, volume);
+  }
+  return high > 1.001 * low ? { low, high, logarithmic: true } : { low: 0, high };
+}
+
+// the largest displacement of any corner at any time
+function farthest(run, bodies) {
+  const d = [0, 0, 0];
+  let most = 0;
+  run.frames.forEach((_, f) => {
+    for (const shape of run.shapes) {
+      if (!bodies.isShown(shape, f)) continue;
+      for (const { points } of shape.parts)
+        for (let i = 0; i < points.length; i += 3) {
+          bodies.away(f, shape.body, points[i], points[i + 1], points[i + 2], d);
+          most = Math.max(most, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        }
+    }
+  });
+  return Math.sqrt(most);
+}
+
+// The share of friction that is mobilised at each face: the largest over its contacts; -1 where there is none.
+export function frictionByFace(run, faces, f, out) {
+  out.fill(-1);
+  const { contacts } = run.frames[f], { pairs } = run;
+  const latest = latestShapes(run, f);
+  for (let i = 0; i < contacts.count; ++i) {
+    const p = contacts.pair[i];
+    for (const side of ['A', 'B']) {
+      const part = latest.get(pairs['body' + side][p])?.parts[pairs['part' + side][p]];
+      const face = pairs['face' + side][p];
+      if (!part || face < 0 || face >= part.faces.length) continue;
+      const at = part.firstFace + face;
+      out[at] = Math.max(out[at], contacts.friction[i]);
+    }
+  }
+  return out;
+}
+
+export function latestShapes(run, f) {
+  const latest = new Map();
+  for (const shape of run.shapes) if (f >= shape.from && f < shape.to) latest.set(shape.body, shape);
+  return latest;
+}
+
+const PREFIXES = [[1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, ''], [1e-3, 'm'], [1e-6, 'µ']];
+
+// three digits with a prefix that people read; of m no kilometres, of areas and volumes none
+export function withUnit(value, unit) {
+  if (!Number.isFinite(value)) return '–';
+  const size = Math.abs(value);
+  if (unit === '' || /[²³]/.test(unit)) return `${digits(value)}${unit && ' ' + unit}`;
+  const list = PREFIXES.filter(([factor]) => !(unit.startsWith('m') && factor > 1));
+  const [factor, prefix] = list.find(([at]) => size >= 0.9995 * at) ?? (size === 0 ? [1, ''] : list.at(-1));
+  return `${digits(value / factor)} ${prefix}${unit}`;
+}
+
+export function digits(value) {
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-3 || size >= 1e5)) return value.toExponential(2).replace('e', '·10^').replace('^+', '^');
+  return String(Number(value.toPrecision(3)));
+}

@@ -1,0 +1,64 @@
+// Finds the figures of a page and shows them: at once, or when their poster is clicked.
+import style from './style.css';
+import { inflate, readRun } from './data.js';
+import { Viewer } from './viewer.js';
+
+const MOST = 8; // pictures at once: browsers refuse more than some 16 contexts
+const views = [];
+
+const message = (element, text) => {
+  const line = document.createElement('p');
+  line.className = 'message';
+  line.textContent = text;
+  element.append(line);
+};
+
+async function start(element, base64) {
+  try {
+    const run = readRun(await inflate(base64));
+    const viewer = new Viewer(element, run, new URLSearchParams(location.hash.slice(1)));
+    views.push(viewer);
+    if (views.length > MOST) views.shift().close();
+    if (document.querySelectorAll('.voussoir').length === 1) document.title = run.head.title || 'Voussoir';
+    element.dataset.state = 'ready';
+  } catch (error) {
+    element.dataset.state = 'failed';
+    message(element, `The blocks cannot be shown: ${error.message}`);
+    throw error;
+  }
+}
+
+function prepare(element) {
+  const data = element.querySelector('script');
+  const base64 = data.textContent, { poster } = element.dataset;
+  data.remove();
+  if (!poster) return start(element, base64);
+  const button = document.createElement('button'), image = document.createElement('img'), word = document.createElement('span');
+  button.type = 'button';
+  button.className = 'poster';
+  image.src = poster;
+  image.alt = 'blocks';
+  word.textContent = 'turn the blocks';
+  button.append(image, word);
+  const wait = () => {
+    element.append(button);
+    element.dataset.state = 'poster';
+  };
+  button.onclick = async () => {
+    button.remove();
+    await start(element, base64);
+    views.at(-1).closed = wait;
+  };
+  wait();
+}
+
+function begin() {
+  const sheet = document.createElement('style');
+  sheet.textContent = style;
+  document.head.append(sheet);
+  document.querySelectorAll('.voussoir').forEach(prepare);
+}
+
+window.voussoir = { views };
+if (document.readyState === 'loading') document.addEventListener('DOMContentLoaded', begin);
+else begin();
