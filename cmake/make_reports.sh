@@ -91,14 +91,31 @@ for figure in contact_planes contact_vertices; do
   [ $status -eq 0 ] || [ $status -eq 77 ] || failures+=("figure $figure")
 done
 
+cases=$(cut -d, -f1 "$reports/history.csv" 2>/dev/null | tail -n +2 | awk '!seen[$0]++' | paste -sd '|')
+if [ -n "$cases" ]; then
+  "$source/reports/draw.sh" "$source/reports/history.gp" "$reports/figures/history.svg" "data=$reports/history.csv" \
+      "cases=$cases"
+  status=$?
+  [ $status -eq 0 ] || [ $status -eq 77 ] || failures+=("figure history")
+fi
+
 echo "manual"
 rm -f "$reports/scene_keys.md"
 if [ -x "$program" ] && ! "$program" docs >"$reports/scene_keys.md"; then
   rm -f "$reports/scene_keys.md"
   failures+=("scene keys (voussoir docs)")
 fi
-rm -f "$reports"/manual-*.html "$reports/index.html"  # of another version, and of those that did not say theirs
+rm -f "$reports"/manual-*.html "$reports"/manual-*.pdf "$reports/index.html"  # of another version, and of those that did not say theirs
 "$build/reports/voussoir_manual" --source "$source" --build "$build" || failures+=("manual")
+for page in "$reports"/manual-*.html; do
+  "$source/reports/print_manual.sh" "$page" "${page%.html}.pdf"
+  status=$?
+  if [ $status -eq 0 ]; then
+    "$source/reports/same_numbers.py" "$page" "${page%.html}.pdf"
+    status=$?
+  fi
+  [ $status -eq 0 ] || [ $status -eq 77 ] || failures+=("printed manual")
+done
 manuals=("$reports"/manual-*.html)
 manual=${manuals[0]+$shown/reports/$(basename "${manuals[0]}")}
 

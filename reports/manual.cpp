@@ -1,7 +1,9 @@
 // voussoir_manual: builds the verification manual, one HTML file that needs nothing else to be read.
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <exception>
 #include <filesystem>
 #include <string>
@@ -130,6 +132,16 @@ std::string navigation(const std::vector<Part>& parts) {
   return text + "</nav>\n";
 }
 
+// the title page of a printed manual
+std::string cover(const Verdicts& verdicts) {
+  const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+  return fmt::format(
+      "<header class=\"cover\"><h1>Voussoir {}</h1>\n<p>Verification manual</p>\n<p>Commit <code>{}</code>, printed "
+      "{:%Y-%m-%d}</p>\n<p>{}</p></header>\n",
+      VOUSSOIR_VERSION, escape(verdicts.commit), fmt::gmtime(std::chrono::system_clock::to_time_t(today)),
+      one_line(verdicts));
+}
+
 std::string manual(const Sources& sources) {
   const std::vector<Part> parts = all_parts(sources);
   const auto from_file = [&](const char* name) { return read_text(sources.folders.source / "reports" / name); };
@@ -137,8 +149,8 @@ std::string manual(const Sources& sources) {
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n"
-      "<title>Voussoir {}: verification manual</title>\n<style>\n{}</style></head>\n<body>\n{}<main>\n",
-      VOUSSOIR_VERSION, from_file("manual.css"), navigation(parts));
+      "<title>Voussoir {}: verification manual</title>\n<style>\n{}</style></head>\n<body>\n{}{}<main>\n",
+      VOUSSOIR_VERSION, from_file("manual.css"), cover(sources.verdicts), navigation(parts));
   for (const Part& part : parts)
     text += part.html;
   return text + "</main>\n<script>\n" + from_file("manual.js") + "</script>\n</body></html>\n";

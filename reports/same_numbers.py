@@ -1,0 +1,86 @@
+#!/usr/bin/python3
+"""same_numbers.py MANUAL.html MANUAL.pdf: whether the printed manual says what the page says.
+
+Every title, every row of a table with its numbers, and every line of a scene must stand in the PDF's text, and every
+title of the first two levels in its outline. Blanks do not count, since print breaks lines elsewhere. Names what is
+missing, and ends with 1; with 77 without poppler-utils.
+"""
+import html.parser
+import re
+import shutil
+import subprocess
+import sys
+
+
+def squeezed(text):
+    return "".join(text.split())
+
+
+drawn = "\0"  # where a text is interrupted by a formula or picture, whose letters the PDF has in another order
+
+
+class Page(html.parser.HTMLParser):
+    """titles: (level, text); rows: texts of table rows; lines: of what is set as it was written"""
+
+    def __init__(self):
+        super().__init__(convert_charrefs=True)
+        self.titles, self.rows, self.lines = [], [], []
+        self.open, self.skipped, self.hidden = [], 0, 0
+
+    def handle_starttag(self, tag, attributes):
+        if tag in ("script", "style", "svg", "math"):
+            self.skipped += 1
+            if self.open:
+                self.open[-1][1] += drawn
+        if tag == "br" or self.skipped:
+            return
+        if tag in ("h1", "h2", "h3", "h4", "tr", "pre"):
+            self.open.append([tag, ""])
+
+    def handle_endtag(self, tag):
+        if tag in ("script", "style", "svg", "math"):
+            self.skipped -= 1
+        elif self.open and tag == self.open[-1][0]:
+            text = self.open.pop()[1]
+            if tag == "tr":
+                self.rows.append(text)
+            elif tag == "pre":
+                self.lines += text.splitlines()
+            else:
+                self.titles.append((int(tag[1]), text))
+
+    def handle_data(self, data):
+        if self.open and not self.skipped:
+            self.open[-1][1] += data
+
+
+def main(manual, pdf):
+    for tool in ("pdftotext", "pdftohtml"):
+        if not shutil.which(tool):
+            print(f"SKIPPED: {tool} is not installed (package poppler-utils), the PDF is not compared")
+            return 77
+    page = Page()
+    with open(manual, encoding="utf-8") as file:
+        page.feed(file.read())
+    raw = subprocess.run(["pdftotext", "-raw", pdf, "-"], capture_output=True, check=True, text=True).stdout
+    # a long line may go on over a page's end
+    foot = re.compile(r"\f\d+ / \d+\s*Voussoir, verification manual\s*")
+    printed = squeezed(foot.sub("", "\f" + raw))
+    outline = subprocess.run(["pdftohtml", "-xml", "-i", "-stdout", pdf], capture_output=True, check=True, text=True).stdout
+    outline = outline[outline.find("<outline>"):]
+
+    missing = []
+    for what, texts in (("title", [title for _, title in page.titles]), ("row", page.rows), ("line", page.lines)):
+        missing += [f"{what}: {text.strip()[:120]}" for text in texts
+                    if any(squeezed(part) not in printed for part in text.split(drawn))]
+    in_outline = squeezed(html.unescape(outline))
+    missing += [f"outline: {title}" for level, title in page.titles if level <= 2 and squeezed(title) not in in_outline]
+    for text in missing[:20]:
+        print(f"the PDF lacks {text}")
+    print(f"{len(page.titles)} titles, {len(page.rows)} rows and {len(page.lines)} lines of the manual held against the PDF, "
+          f"{len(missing)} missing")
+    return 1 if missing else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], sys.argv[2]))
