@@ -84,23 +84,12 @@ class Record {
 };
 
 template <int Dim>
-nlohmann::json numbers(const Vector<Dim>& v) {
-  return std::vector<double>(v.data(), v.data() + Dim);
-}
-
-template <int Dim>
 std::string head_of(const Prepared<Dim>& scene) {
   const Model<Dim>& model = scene.model;
   nlohmann::json joints = nlohmann::json::array(), properties = nlohmann::json::array(),
                  stages = nlohmann::json::array();
-  for (std::size_t j = 0; j < model.joints.size(); ++j) {
-    const Joint<Dim>& joint = model.joints[j];
-    joints.push_back({{"name", joint.name},
-                      {"set", scene.joint_sets.set_of(static_cast<int>(j))},
-                      {"properties", joint.properties},
-                      {"normal", numbers<Dim>(joint.plane.normal)},
-                      {"offset", joint.plane.offset}});
-  }
+  for (const Joint<Dim>& joint : model.joints)
+    joints.push_back(joint.name);
   for (const JointProperties& p : model.properties)
     properties.push_back({{"name", p.name}, {"friction_deg", to_degrees(p.friction)}});
   for (const StagePlan& stage : scene.stages)
@@ -108,13 +97,34 @@ std::string head_of(const Prepared<Dim>& scene) {
   const nlohmann::json head = {{"program", version()},
                                {"title", scene.title},
                                {"dimension", Dim},
-                               {"origin", numbers<Dim>(model.origin)},
+                               {"origin", std::vector<double>(model.origin.data(), model.origin.data() + Dim)},
                                {"joints", joints},
                                {"sets", scene.joint_sets.names},
                                {"properties", properties},
                                {"default_properties", model.default_properties},
                                {"stages", stages}};
   return head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+// Of each joint its set, -1 for none, its properties, and whether it holds its sides together; its upward normal, and
+// how far along it the plane lies from the model's origin, m.
+template <int Dim>
+void put_joints(Record& record, const Prepared<Dim>& scene) {
+  std::array<std::vector<std::int32_t>, 3> kinds;
+  std::array<std::vector<float>, Dim + 1> planes;
+  for (std::size_t j = 0; j < scene.model.joints.size(); ++j) {
+    const Joint<Dim>& joint = scene.model.joints[j];
+    kinds[0].push_back(scene.joint_sets.set_of(static_cast<int>(j)));
+    kinds[1].push_back(joint.properties);
+    kinds[2].push_back(joint.holds);
+    for (int k = 0; k < Dim; ++k)
+      planes[k].push_back(single(joint.plane.normal[k]));
+    planes[Dim].push_back(single(joint.plane.offset));
+  }
+  for (const std::vector<std::int32_t>& column : kinds)
+    record.list(column);
+  for (const std::vector<float>& column : planes)
+    record.list(column);
 }
 
 // ---- shapes --------------------------------------------------------------------------------------------------------
@@ -347,6 +357,7 @@ template <int Dim>
 ViewSeries begun(const std::filesystem::path& file, const Prepared<Dim>& scene) {
   Record head(head_tag);
   head.text(head_of(scene));
+  put_joints(head, scene);
   write_file(file, std::string(magic) + head.finished());
   return {file};
 }

@@ -92,13 +92,22 @@ function readFrame(reader, dimension, pairs, base) {
     support: { count: pieces, ends, force, use, lining } };
 }
 
+function readHead(reader) {
+  const head = JSON.parse(reader.text()), n = head.joints.length;
+  const [set, properties, holds] = reader.columns(Int32Array, n, 3);
+  const normal = inSpace(reader.columns(Float32Array, n, head.dimension), head.dimension, n), offset = reader.column(Float32Array, n);
+  head.joints = head.joints.map((name, j) => ({ name, set: set[j], properties: properties[j], holds: holds[j] === 1,
+    normal: normal.map((column) => column[j]), offset: offset[j] }));
+  return head;
+}
+
 export function readRun(buffer) {
   const reader = new Reader(buffer);
   const run = { head: null, shapes: [], frames: [], pairs: Object.fromEntries(PAIR.map((name) => [name, []])) };
   let latest = new Map(), base = 0;
   while (reader.more) {
     const begin = reader.at, tag = reader.int(), size = reader.int();
-    if (tag === HEAD) run.head = JSON.parse(reader.text());
+    if (tag === HEAD) run.head = readHead(reader);
     if (tag === SHAPE) {
       const shape = readShape(reader, run.head.dimension);
       shape.from = run.frames.length;
@@ -114,13 +123,16 @@ export function readRun(buffer) {
   return run;
 }
 
-// Joints of a set belong together; a joint of none is a group by itself. The last group is of faces that no joint made.
+// Joints of a set belong together, and so do the faces of an excavation; another joint is a group by itself. The last
+// group is of faces that no joint made.
 function nameGroups(run) {
-  const { joints, sets } = run.head;
+  const { joints, sets } = run.head, outlines = new Map();
   run.groups = sets.map((name) => ({ name, joints: [] }));
+  const add = (name) => run.groups.push({ name, joints: [] }) - 1;
   joints.forEach((joint, j) => {
-    joint.group = joint.set >= 0 ? joint.set : run.groups.length;
-    if (joint.set < 0) run.groups.push({ name: joint.name, joints: [] });
+    const outline = joint.holds && joint.name.match(/^(.+) face \d+$/)?.[1];
+    if (outline && !outlines.has(outline)) outlines.set(outline, add(`outline of ${outline}`));
+    joint.group = joint.set >= 0 ? joint.set : outline ? outlines.get(outline) : add(joint.name);
     run.groups[joint.group].joints.push(j);
   });
   run.groups.push({ name: 'no joint', joints: [] });

@@ -25,7 +25,7 @@ export function sharedUniforms(bodies, groups, properties, faceValues) {
     groups: u(groups.texture), propertyColours: u(properties.texture), faceValues: u(faceValues.texture),
     mode: u(0), low: u(0), high: u(1), logarithmic: u(false), ramp: u(ramp.map((c) => new Vector3(...c))),
     chosenGroup: u(-1), chosenJoint: u(-1), picked: u(-1), opacity: u(1), light: u(new Vector3(0, 0, 1)),
-    viewport: u(new Vector2(1, 1)),
+    viewport: u(new Vector2(1, 1)), widest: u(0),
   };
 }
 
@@ -161,14 +161,16 @@ export function cutMaterial(uniforms) {
   `, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
 }
 
-// Straight pieces from `begin` to `end`, `width` pixels wide, with a head at their end where `head` is 1. `position` is
-// the place in one: along, across, and whether it belongs to the head.
+// Straight pieces from `begin` to `end`, `width` pixels wide, with a head at their end where `head` is 1. Those with a
+// `share` are as much wider as that of `widest`. `position` is the place in one: along, across, and whether it belongs
+// to the head.
 export function pieceMaterial(uniforms) {
   return material(uniforms, `
     uniform vec2 viewport;
     uniform vec4 cut;
     attribute vec3 begin, end, tint;
-    attribute float width, head;
+    uniform float widest;
+    attribute float width, head, share;
     varying vec3 colour;
     void main() {
       vec4 a = projectionMatrix * viewMatrix * vec4(begin, 1.0), b = projectionMatrix * viewMatrix * vec4(end, 1.0);
@@ -177,7 +179,7 @@ export function pieceMaterial(uniforms) {
       along = size > 0.0 ? along / size : vec2(1.0, 0.0);
       float tip = head * min(width * 3.2, size);
       float t = position.x < 0.5 ? 0.0 : position.z > 0.5 ? (position.x > 1.5 ? size : size - tip) : size - tip * 0.95;
-      float half_width = position.z > 0.5 ? width * 1.5 * head : width * 0.5;
+      float half_width = position.z > 0.5 ? width * 1.5 * head : (width + share * widest) * 0.5;
       vec2 offset = along * t + vec2(-along.y, along.x) * position.y * half_width;
       float z = mix(a.z, b.z, size > 0.0 ? t / size : 0.0);
       colour = tint;

@@ -11,14 +11,15 @@ export class Pieces {
     this.mesh.frustumCulled = false;
     this.clear();
   }
-  clear() { this.list = { begin: [], end: [], tint: [], width: [], head: [] }; }
-  add(begin, end, tint, width, head = 0) {
+  clear() { this.list = { begin: [], end: [], tint: [], width: [], head: [], share: [] }; }
+  add(begin, end, tint, width, head = 0, share = 0) {
     const { list } = this;
     list.begin.push(...begin);
     list.end.push(...end);
     list.tint.push(...tint);
     list.width.push(width);
     list.head.push(head);
+    list.share.push(share);
   }
   show() {
     this.mesh.geometry.dispose();
@@ -86,14 +87,15 @@ export function addArrows(pieces, { run, bodies, look, frame, reach, picked }) {
   }
 }
 
-export function addNetwork(pieces, { run, bodies, look, frame, widest }) {
+// lines as wide as what goes through them
+export function addNetwork(pieces, { run, bodies, look, frame }) {
   const latest = latestShapes(run, frame), most = largestBetween(run), ends = [[0, 0, 0], [0, 0, 0]];
   const pairs = [...bodyPairs(run, run.frames[frame]).values()].sort((x, y) => length(x.force) - length(y.force));
   for (const { a, b, force, normal } of pairs) {
     const shapes = [latest.get(a), latest.get(b)], size = length(force);
     if (!shapes[0] || !shapes[1] || size < 1e-4 * most) continue;
     shapes.forEach((shape, k) => bodies.place(shape, frame, 0, 0, 0, look, ends[k]));
-    pieces.add(ends[0], ends[1], rgb(normal >= 0 ? PRESSED : PULLED), 1 + (widest * size) / most);
+    pieces.add(ends[0], ends[1], rgb(normal >= 0 ? PRESSED : PULLED), 1, 0, size / most);
   }
 }
 

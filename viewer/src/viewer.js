@@ -14,13 +14,20 @@ import { cutGeometry, cutParts } from './section.js';
 import { Stereonet } from './stereonet.js';
 import { digits, withUnit } from './colours.js';
 
-const WIDEST = 16; // pixels, of the network
+// pixels: of the network's widest line, at most; blocks smaller than the second show their edges ever paler
+const WIDEST = 16, FULL_EDGES = 14;
 
 const initialLook = (run) => ({
   frame: run.frames.length > 1 ? 1 : 0, magnified: 1, exploded: 0, colour: run.head.joints.length ? 'set' : 'displacement',
   forces: 'none', forceSize: 1, section: 'none', cutAt: 0.5, cutOther: false, hidden: new Set(), chosen: -1, showFixed: true,
   edges: true, shape: -1, face: -1,
 });
+
+// m: a block of middle volume is so wide
+function typicalSize(run) {
+  const volumes = run.shapes.map((shape) => shape.volume).sort((a, b) => a - b);
+  return volumes[volumes.length >> 1] ** (1 / run.head.dimension);
+}
 
 export class Viewer {
   constructor(element, run, address) {
@@ -57,6 +64,7 @@ export class Viewer {
     this.panel = new Panel(this);
     this.picture.append(canvas, this.overlay.element);
     element.append(this.panel.element, this.picture, this.panel.time);
+    this.blockSize = typicalSize(run);
     this.buildScene();
     this.camera = new Camera(canvas, this.box, this.plane, () => this.askDraw());
     if (!this.plane) this.camera.look(bestAzimuth(run, this.faces, this.normals, this.bodies), 24);
@@ -190,11 +198,11 @@ export class Viewer {
     u.showFixed.value = look.showFixed;
     // forces and bolts lie inside of blocks
     const through = look.forces !== 'none' || run.frames[look.frame].support.count > 0;
+    this.through = through;
     u.opacity.value = !through ? 1 : this.plane ? 0.5 : 0.28;
     this.mesh.material.depthWrite = !through;
     this.pieces.mesh.material.depthTest = !through;
     this.pieces.mesh.renderOrder = through ? 1 : 0;
-    this.edges.material.uniforms.edgeOpacity.value = look.edges ? (through ? 0.55 : 1) : 0;
     this.edges.visible = look.edges;
     this.updateCut(choice);
     this.updatePieces();
@@ -255,7 +263,7 @@ export class Viewer {
     addSupport(pieces, run, look.frame);
     if (look.forces === 'arrows')
       addArrows(pieces, { ...scene, reach: 0.3 * this.box.radius * look.forceSize, picked: look.shape >= 0 ? run.shapes[look.shape] : null });
-    if (look.forces === 'network') addNetwork(pieces, { ...scene, widest: WIDEST * look.forceSize });
+    if (look.forces === 'network') addNetwork(pieces, scene);
     pieces.show();
   }
 
@@ -265,7 +273,7 @@ export class Viewer {
     const network = look.forces === 'network', most = (this.most ??= {})[look.forces] ??= network ? largestBetween(run) : largestForce(run);
     if (most === 0) return { label: 'no forces', pixels: 0, width: 0 };
     const pulls = run.frames[look.frame].contacts.normal.some((n) => n < 0);
-    if (network) return { label: withUnit(most, 'N'), pixels: 40, width: 1 + WIDEST * look.forceSize, pulls };
+    if (network) return { label: withUnit(most, 'N'), pixels: 40, width: 1 + this.uniforms.widest.value, pulls };
     const reach = (0.3 * this.box.radius * look.forceSize) / camera.perPixel, scale = Math.min(1, 120 / reach);
     return { label: withUnit(most * scale, 'N'), pixels: reach * scale, width: 3, pulls };
   }
@@ -288,6 +296,9 @@ export class Viewer {
   draw() {
     const { camera } = this, { right, up, eye } = camera.axes();
     this.uniforms.light.value.copy(eye).addScaledVector(up, 0.7).addScaledVector(right, -0.5).normalize();
+    const block = this.blockSize / camera.perPixel;
+    this.uniforms.widest.value = Math.min(WIDEST, 0.6 * block) * this.look.forceSize;
+    this.edges.material.uniforms.edgeOpacity.value = Math.min(1, Math.max(0.12, block / FULL_EDGES)) * (this.through ? 0.6 : 1);
     this.renderer.render(this.scene, camera.camera);
     const { clientWidth: width, clientHeight: height } = this.picture;
     this.overlay.draw({ width, height, inset: { left: 0, bottom: 0 }, perPixel: camera.perPixel, axes: { right, up },
