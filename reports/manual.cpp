@@ -16,7 +16,7 @@
 #include "reports/text_page.hpp"
 #include "reports/trade_page.hpp"
 #include "reports/verdict_tables.hpp"
-#include "verification/verdicts.hpp"
+#include "verification/history.hpp"
 
 namespace {
 
@@ -93,6 +93,31 @@ void add_matrix(const Sources& sources, std::vector<Part>& parts) {
   }
 }
 
+// what earlier versions computed
+std::string history(const Sources& sources) {
+  const Verdicts& verdicts = sources.verdicts;
+  std::string text =
+      "<section id=\"history\"><h2>History</h2>\n<p>" +
+      (verdicts.compared_with.empty()
+           ? "No earlier version is kept, so nothing is compared."
+           : fmt::format("Every value and every count of contact evaluations is compared with version {}: "
+                         "{} of {} rows moved. A value has moved when it differs by more than rounding, a "
+                         "count when it differs at all; the changelog says why.",
+                         escape(verdicts.compared_with), verdicts.moved.size(), verdicts.rows.size())) +
+      "</p>\n";
+  std::string moves;
+  for (const Moved& moved : verdicts.moved)
+    moves += "<li>" + escape(describe(moved, verdicts.compared_with)) + "</li>\n";
+  if (!moves.empty()) text += "<ul>\n" + moves + "</ul>\n";
+  const fs::path figures = sources.folders.build / "reports" / "figures";
+  if (fs::exists(figures / "history.svg"))
+    text += drawn_figure({figures}, "history", "history",
+                         "Each case's values and contact evaluations, version by version, against the present ones.");
+  else
+    sources.missing.push_back("history: its figure was not drawn");
+  return text + "</section>\n";
+}
+
 // in the order of the manual
 std::vector<Part> all_parts(const Sources& sources) {
   const Folders& folders = sources.folders;
@@ -101,7 +126,8 @@ std::vector<Part> all_parts(const Sources& sources) {
                           {"", "verdicts", "Verdicts",
                            "<section id=\"verdicts\">\n<h2>Verdicts</h2>\n" + case_overview(verdicts) +
                                all_tables(verdicts) + "</section>\n"},
-                          {"", "all-checks", "All checks at one look", checks_page(folders, sources.missing)}};
+                          {"", "all-checks", "All checks at one look", checks_page(folders, sources.missing)},
+                          {"", "history", "History", history(sources)}};
   add_cases(sources, CaseState::not_modelled, false, "Cases", parts);
   add_cases(sources, CaseState::not_modelled, true, "Not yet modelled", parts);
   add_matrix(sources, parts);

@@ -20,6 +20,15 @@ std::string cost_cells(const Row& row) {
                      row.cost.seconds);
 }
 
+// what has moved since the version that the history ends with; no cell without a history
+std::string moved_cell(const Verdicts& verdicts, const Row& row) {
+  return verdicts.compared_with.empty() ? "" : "<td>" + escape(show_moved(move_of(verdicts, row))) + "</td>";
+}
+
+std::string moved_head(const Verdicts& verdicts) {
+  return verdicts.compared_with.empty() ? "" : "<th>moved since " + escape(verdicts.compared_with) + "</th>";
+}
+
 std::string judged_cells(const Row& row) {
   const Check& check = row.check;
   return fmt::format(
@@ -107,11 +116,12 @@ std::string all_tables(const Verdicts& verdicts) {
     for (const Row& row : verdicts.rows)
       if (belongs_to(row, group))
         body += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>{}</tr>\n", slug(row.case_name), escape(row.case_name),
-                            is_judged(group) ? judged_cells(row) : reported_cells(row));
+                            (is_judged(group) ? judged_cells(row) : reported_cells(row)) + moved_cell(verdicts, row));
     if (body.empty()) continue;
     text +=
         fmt::format("<h3 id=\"{}\">{}</h3>\n<p>{}</p>\n", slug(group.title), group.title, escape(group.explanation));
-    text += table(std::string("<th>case</th>") + (is_judged(group) ? judged_head : reported_head), body);
+    text += table(
+        std::string("<th>case</th>") + (is_judged(group) ? judged_head : reported_head) + moved_head(verdicts), body);
   }
   return text;
 }
@@ -123,17 +133,18 @@ std::string case_tables(const Verdicts& verdicts, const std::string& case_name) 
     for (const Row& row : verdicts.rows) {
       if (row.case_name != case_name || !belongs_to(row, group)) continue;
       if (!is_judged(group)) {
-        body += "<tr>" + reported_cells(row) + cost_cells(row) + "</tr>\n";
+        body += "<tr>" + reported_cells(row) + cost_cells(row) + moved_cell(verdicts, row) + "</tr>\n";
         continue;
       }
       body += fmt::format(
-          "<tr class=\"check\">{}{}</tr>\n<tr class=\"reason\"><td colspan=\"11\"><b>Source</b> {}. <b>Tolerance</b> "
+          "<tr class=\"check\">{}{}{}</tr>\n<tr class=\"reason\"><td colspan=\"12\"><b>Source</b> {}. <b>Tolerance</b> "
           "because {}. <span class=\"quiet\">Commit {}</span></td></tr>\n",
-          judged_cells(row), cost_cells(row), escape(row.check.source), escape(row.check.because), escape(row.commit));
+          judged_cells(row), cost_cells(row), moved_cell(verdicts, row), escape(row.check.source),
+          escape(row.check.because), escape(row.commit));
     }
     if (body.empty()) continue;
     text += fmt::format("<h4>{}</h4>\n", group.title);
-    text += table(std::string(is_judged(group) ? judged_head : reported_head) + cost_head, body);
+    text += table(std::string(is_judged(group) ? judged_head : reported_head) + cost_head + moved_head(verdicts), body);
   }
   return text;
 }
