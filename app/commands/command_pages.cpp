@@ -199,7 +199,7 @@ std::string bash_completion(const CLI::App& program) {
       FILE) mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -f -- "$word") ;;
       FOLDER) mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -d -- "$word") ;;
       [[:upper:]]*) ;;  # a number or a text that only the user knows
-      *) [[ $i == "$word"* ]] && COMPREPLY+=("$i") ;;
+      *) [[ $i != "$word"* ]] || COMPREPLY+=("$i") ;;
     esac
   done
 }
