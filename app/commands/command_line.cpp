@@ -4,18 +4,16 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <functional>
 #include <new>
 #include <system_error>
 
 #include "app/bad_input.hpp"
 #include "app/claimed_folder.hpp"
+#include "app/commands/arguments.hpp"
 #include "app/commands/command_pages.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/exit_codes.hpp"
@@ -31,8 +29,6 @@
 
 namespace voussoir {
 namespace {
-
-using Action = std::function<ExitCode()>;
 
 // memory was asked for and not given: this must not ask again
 int not_enough_memory() {
@@ -59,41 +55,6 @@ std::string version_text() {
                             math_functions_hash());
 }
 
-// Within the range, and finite: nan would pass every comparison.
-CLI::Validator finite(double low, double high) {
-  const CLI::Range range(low, high);
-  return {[range](std::string& text) {
-            double number = 0;
-            const char* const end = text.data() + text.size();
-            const auto [stop, error] = std::from_chars(text.data(), end, number);
-            const bool is_number = error == std::errc() && stop == end && std::isfinite(number);
-            return is_number ? range(text) : "must be a finite decimal number, not '" + text + "'";
-          },
-          range.get_description()};
-}
-
-constexpr double least_positive = 1e-9, largest = 1e12;
-
-// What is printed or becomes part of a file's name, and never nothing: an empty name is a variable that was not set.
-CLI::Validator plain_text() {
-  return {[](std::string& text) -> std::string {
-            if (text.empty()) return "must not be empty";
-            const auto fault = text_fault(text);
-            return fault ? "must not contain " + fault->what : "";
-          },
-          ""};
-}
-
-void add_out(CLI::App* command, std::filesystem::path& out, const std::string& meaning, bool required = false) {
-  command->add_option("--out", out, meaning)->check(plain_text())->required(required)->type_name("FOLDER");
-}
-
-void add_overwrite(CLI::App* command, bool& overwrite) {
-  command->add_flag("--overwrite", overwrite,
-                    "remove the results that the folder holds, and replace files of the names that are written; what "
-                    "this command reads is never replaced");
-}
-
 void add_scene(CLI::App* command, SceneArguments& arguments) {
   command->add_option("scene", arguments.scene, "scene file (TOML)")
       ->required()
@@ -104,11 +65,6 @@ void add_scene(CLI::App* command, SceneArguments& arguments) {
                    "key=value: replaces a value of the scene; tables of a list by their name, e.g. joints.A.dip=65")
       ->allow_extra_args(false)
       ->check(plain_text());
-}
-
-void add_threads(CLI::App* command, int& threads) {
-  command->add_option("--threads", threads, "number of threads; the results do not depend on it")
-      ->check(CLI::Range(1, 1024));
 }
 
 void add_run(CLI::App& program, RunArguments& arguments, Action& action) {
@@ -310,88 +266,6 @@ void add_export(CLI::App& program, ExportArguments& arguments, Action& action) {
   command->add_option("--out", arguments.out, "the file, e.g. scene.dat or scene.py")->required()->check(plain_text());
   add_overwrite(command, arguments.overwrite);
   command->callback([&] { action = [&] { return export_command(arguments); }; });
-}
-
-struct AllStudyArguments {
-  StudyArguments study;
-  WorkArguments work;
-  std::vector<std::filesystem::path> folders;
-};
-
-void add_work(CLI::App* command, WorkOptions& work) {
-  command->add_option("--jobs", work.jobs, "runs at the same time (default: as many as there are cores)")
-      ->check(CLI::Range(1, 1024));
-  command
-      ->add_option("--time-limit", work.time_limit,
-                   "seconds of wall clock after which a run counts as failed (default: none)")
-      ->check(finite(least_positive, largest));
-  add_threads(command, work.threads);
-  command->add_flag(
-      "--portable-math", work.portable_math,
-      "run with the functions of the C library that every x86-64 processor has, for the same bits on all");
-  command->add_flag("--quiet", work.quiet, "no progress");
-}
-
-void add_plan(CLI::App* command, StudyArguments& arguments) {
-  // of `voussoir study` itself, which has parts that are asked otherwise
-  const auto optional = [](CLI::Option* option) { return option->check(plain_text()); };
-  optional(command->add_option("plan", arguments.plan, "study.toml"))->type_name("FILE");
-  optional(command->add_option("--out", arguments.out, "folder of study.csv; what it holds of this study is kept"))
-      ->type_name("FOLDER");
-  command->add_flag("--overwrite", arguments.overwrite, "replace what the folder holds of anything but a study");
-}
-
-void require_plan(const StudyArguments& arguments) {
-  if (arguments.plan.empty()) throw CLI::RequiredError("plan");
-  if (arguments.out.empty()) throw CLI::RequiredError("--out");
-}
-
-void add_study_parts(CLI::App* study, AllStudyArguments& all, Action& action) {
-  CLI::App* plan = study->add_subcommand("plan", "write down what is to be run, with its input, and run nothing");
-  add_plan(plan, all.study);
-  plan->callback([&] {
-    require_plan(all.study);
-    action = [&] { return study_plan_command(all.study); };
-  });
-
-  WorkArguments& work = all.work;
-  CLI::App* run = study->add_subcommand("run", "do what is not done of a planned study, beside others that do so");
-  run->add_option("folder", work.folder, "of the study")->required()->check(plain_text())->type_name("FOLDER");
-  run->add_option("--rows", work.rows, "only these, e.g. 120-139,7 (default: all)")->check(plain_text());
-  run->add_option("--chunk", work.chunk, "k/n: the k-th of n shares of them, of about equal cost")->check(plain_text());
-  add_work(run, work.options);
-  run->add_flag("--any-program", work.any_program, "work at a study that another program has planned");
-  run->callback([&] { action = [&] { return study_run_command(all.work); }; });
-
-  CLI::App* gather = study->add_subcommand("gather", "write study.csv, and name rows that are missing or differ");
-  gather->add_option("folders", all.folders, "of the study and of copies that others worked at")
-      ->required()
-      ->check(plain_text())
-      ->type_name("FOLDER");
-  gather->callback([&] { action = [&] { return study_gather_command(all.folders); }; });
-
-  CLI::App* status = study->add_subcommand("status", "what is done, going on, failed and missing");
-  status->add_option("folder", work.folder, "of the study")->required()->check(plain_text())->type_name("FOLDER");
-  status->callback([&] { action = [&] { return study_status_command(all.work.folder); }; });
-}
-
-void add_study(CLI::App& program, AllStudyArguments& all, Action& action) {
-  CLI::App* command = program.add_subcommand(
-      "study", "run a scene with settings changed: one at a time, in every combination, or at random");
-  StudyArguments& arguments = all.study;
-  add_plan(command, arguments);
-  add_work(command, arguments.options);
-  add_study_parts(command, all, action);
-  command->require_subcommand(0, 1);
-  command->callback([&all, &action, command] {
-    if (!command->get_subcommands().empty()) {
-      for (const CLI::Option* option : command->get_options())
-        if (option->count() > 0) throw CLI::ExtrasError({option->get_name() + " (it belongs behind the part's name)"});
-      return;
-    }
-    require_plan(all.study);
-    action = [&] { return study_command(all.study); };
-  });
 }
 
 struct DocsArguments {

@@ -1,0 +1,47 @@
+#include "app/commands/arguments.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "text/plain_text.hpp"
+
+namespace voussoir {
+
+CLI::Validator finite(double low, double high) {
+  const CLI::Range range(low, high);
+  return {[range](std::string& text) {
+            double number = 0;
+            const char* const end = text.data() + text.size();
+            const auto [stop, error] = std::from_chars(text.data(), end, number);
+            const bool is_number = error == std::errc() && stop == end && std::isfinite(number);
+            return is_number ? range(text) : "must be a finite decimal number, not '" + text + "'";
+          },
+          range.get_description()};
+}
+
+CLI::Validator plain_text() {
+  return {[](std::string& text) -> std::string {
+            if (text.empty()) return "must not be empty";
+            const auto fault = text_fault(text);
+            return fault ? "must not contain " + fault->what : "";
+          },
+          ""};
+}
+
+void add_out(CLI::App* command, std::filesystem::path& out, const std::string& meaning, bool required) {
+  command->add_option("--out", out, meaning)->check(plain_text())->required(required)->type_name("FOLDER");
+}
+
+void add_overwrite(CLI::App* command, bool& overwrite) {
+  command->add_flag("--overwrite", overwrite,
+                    "remove the results that the folder holds, and replace files of the names that are written; what "
+                    "this command reads is never replaced");
+}
+
+void add_threads(CLI::App* command, int& threads) {
+  command->add_option("--threads", threads, "number of threads; the results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+}
+
+}  // namespace voussoir

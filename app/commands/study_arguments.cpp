@@ -1,0 +1,85 @@
+// The arguments of `voussoir study` and its parts.
+#include "app/commands/arguments.hpp"
+
+namespace voussoir {
+namespace {
+
+void add_work(CLI::App* command, WorkOptions& work) {
+  command->add_option("--jobs", work.jobs, "runs at the same time (default: as many as there are cores)")
+      ->check(CLI::Range(1, 1024));
+  command
+      ->add_option("--time-limit", work.time_limit,
+                   "seconds of wall clock after which a run counts as failed (default: none)")
+      ->check(finite(least_positive, largest));
+  add_threads(command, work.threads);
+  command->add_flag(
+      "--portable-math", work.portable_math,
+      "run with the functions of the C library that every x86-64 processor has, for the same bits on all");
+  command->add_flag("--quiet", work.quiet, "no progress");
+}
+
+void add_plan(CLI::App* command, StudyArguments& arguments) {
+  // of `voussoir study` itself, which has parts that are asked otherwise
+  const auto optional = [](CLI::Option* option) { return option->check(plain_text()); };
+  optional(command->add_option("plan", arguments.plan, "study.toml"))->type_name("FILE");
+  optional(command->add_option("--out", arguments.out, "folder of study.csv; what it holds of this study is kept"))
+      ->type_name("FOLDER");
+  command->add_flag("--overwrite", arguments.overwrite, "replace what the folder holds of anything but a study");
+}
+
+void require_plan(const StudyArguments& arguments) {
+  if (arguments.plan.empty()) throw CLI::RequiredError("plan");
+  if (arguments.out.empty()) throw CLI::RequiredError("--out");
+}
+
+void add_study_parts(CLI::App* study, AllStudyArguments& all, Action& action) {
+  CLI::App* plan = study->add_subcommand("plan", "write down what is to be run, with its input, and run nothing");
+  add_plan(plan, all.study);
+  plan->callback([&] {
+    require_plan(all.study);
+    action = [&] { return study_plan_command(all.study); };
+  });
+
+  WorkArguments& work = all.work;
+  CLI::App* run = study->add_subcommand("run", "do what is not done of a planned study, beside others that do so");
+  run->add_option("folder", work.folder, "of the study")->required()->check(plain_text())->type_name("FOLDER");
+  run->add_option("--rows", work.rows, "only these, e.g. 120-139,7 (default: all)")->check(plain_text());
+  run->add_option("--chunk", work.chunk, "k/n: the k-th of n shares of them, of about equal cost")->check(plain_text());
+  add_work(run, work.options);
+  run->add_flag("--any-program", work.any_program, "work at a study that another program has planned");
+  run->callback([&] { action = [&] { return study_run_command(all.work); }; });
+
+  CLI::App* gather = study->add_subcommand("gather", "write study.csv, and name rows that are missing or differ");
+  gather->add_option("folders", all.folders, "of the study and of copies that others worked at")
+      ->required()
+      ->check(plain_text())
+      ->type_name("FOLDER");
+  gather->callback([&] { action = [&] { return study_gather_command(all.folders); }; });
+
+  CLI::App* status = study->add_subcommand("status", "what is done, going on, failed and missing");
+  status->add_option("folder", work.folder, "of the study")->required()->check(plain_text())->type_name("FOLDER");
+  status->callback([&] { action = [&] { return study_status_command(all.work.folder); }; });
+}
+
+}  // namespace
+
+void add_study(CLI::App& program, AllStudyArguments& all, Action& action) {
+  CLI::App* command = program.add_subcommand(
+      "study", "run a scene with settings changed: one at a time, in every combination, or at random");
+  StudyArguments& arguments = all.study;
+  add_plan(command, arguments);
+  add_work(command, arguments.options);
+  add_study_parts(command, all, action);
+  command->require_subcommand(0, 1);
+  command->callback([&all, &action, command] {
+    if (!command->get_subcommands().empty()) {
+      for (const CLI::Option* option : command->get_options())
+        if (option->count() > 0) throw CLI::ExtrasError({option->get_name() + " (it belongs behind the part's name)"});
+      return;
+    }
+    require_plan(all.study);
+    action = [&] { return study_command(all.study); };
+  });
+}
+
+}  // namespace voussoir
