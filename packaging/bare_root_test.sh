@@ -8,10 +8,10 @@ for tool in mmdebstrap lintian dpkg-shlibdeps file; do
 done
 [ "$(id -u)" = 0 ] || { echo "skipped: a root is made by root alone"; exit 77; }
 
-"$source/cmake/make_packages.sh" "$folder/build" "$(nproc)"
+"$source/cmake/make_packages.sh" "$folder" "$(nproc)"
 rm -rf "$folder/packages"
 mkdir -p "$folder/packages"
-cp "$folder"/build/*.deb "$source/packaging/bare_root.sh" "$source/app/testing/console_page.sh" "$folder/packages"
+cp "$folder"/*.deb "$source/packaging/bare_root.sh" "$source/app/testing/console_page.sh" "$folder/packages"
 
 # $1 is mmdebstrap's root
 mmdebstrap --variant=minbase --mode=root --format=null --customize-hook="copy-in '$folder/packages' /" \
