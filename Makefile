@@ -4,11 +4,12 @@ PRESET ?= release
 BUILD  := $(if $(filter release,$(PRESET)),build,build-$(PRESET))
 JOBS   ?= $(shell nproc)
 
-.PHONY: help packages configure build test test-long coverage reports benchmark deb run format clean
+.PHONY: help history packages configure build test test-long coverage reports benchmark deb run format clean
 
 help:
 	@echo "make test                verify: build and run every test (PRESET=dev|asan|tsan for other builds)"
 	@echo "make test-long           the long tests"
+	@echo "make history             test, and keep the values as those of this version: verification/history"
 	@echo "make coverage            line coverage of the core's rooms by the unit tests (build-coverage)"
 	@echo "make reports             figures, studies and the verification manual: $(BUILD)/reports/manual-VERSION.html"
 	@echo "make benchmark           time the kernels and their peers, and twenty thousand falling blocks, an hour of two cores"
@@ -29,6 +30,9 @@ build: configure
 
 test: build
 	@cmake/run_tests.sh $(BUILD) $(JOBS)
+
+history: test
+	@cmake --build $(BUILD) --target history
 
 test-long: build
 	@cd $(BUILD) && ctest -C Long -L long --output-on-failure --parallel $(JOBS)

@@ -115,7 +115,7 @@ const std::vector<Order> orders{
      {{"fingerprint", "version", "output_error", "vtp"},
       {"atomic_file", "origin"},
       {"history_csv", "bolts_csv", "lining_csv", "paraview", "results_json"},
-       {"view"}}},
+      {"view"}}},
     {"core/reduction", {{"reduction"}}},
     {"core/checkpoint", {{"fields"}, {"checkpoint"}}},
 };

@@ -49,12 +49,16 @@ PastRow past_row(const json& line) {
 }
 
 PastVersion read_version(const fs::path& file) {
-  PastVersion past{file.stem().string(), {}};
+  PastVersion past{file.stem().string(), "", {}};
   std::istringstream lines(read_text(file));
   std::string text;
   for (int line = 1; std::getline(lines, text); ++line)
     try {
-      past.rows.push_back(past_row(json::parse(text)));
+      const json stored = json::parse(text);
+      if (line == 1)
+        stored.at("math_functions").get_to(past.math_functions);
+      else
+        past.rows.push_back(past_row(stored));
     } catch (const json::exception& problem) {
       throw std::runtime_error(
           fmt::format("{}:{}: not a row of the history: {}", file.filename().string(), line, problem.what()));
@@ -111,9 +115,18 @@ std::vector<PastVersion> read_history(const fs::path& folder) {
   return history;
 }
 
-std::string history_lines(const Verdicts& verdicts) {
+std::string math_functions_in(std::string_view version_text) {
+  constexpr std::string_view name = "math functions";
+  const auto begin = version_text.find(name);
+  if (begin == std::string_view::npos) return {};
+  const auto first = version_text.find_first_not_of(' ', begin + name.size());
+  if (first == std::string_view::npos) return {};
+  return std::string(version_text.substr(first, version_text.find_first_of(", \n", first) - first));
+}
+
+std::string history_lines(const Verdicts& verdicts, const std::string& math_functions) {
   if (!all_good(verdicts)) throw std::runtime_error("a version whose checks do not all pass is no history");
-  std::string text;
+  std::string text = json{{"math_functions", math_functions}}.dump() + "\n";
   for (const Row& row : verdicts.rows) {
     if (!std::isfinite(row.computed)) continue;
     nlohmann::ordered_json line{

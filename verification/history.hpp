@@ -2,10 +2,11 @@
 // What earlier versions computed, kept in the repository (verification/history/<version>.jsonl: one JSON line per case
 // and quantity), and what has moved since.
 //
-// Runs promise equal bits, so a value has moved when it differs beyond rounding, and a count of contact evaluations
-// when it differs at all. Rounding is `rounding_share` of the value, which other last bits of a closed form stay far
-// below, or `tolerance_share` of the check's tolerance, for values that are rounding themselves. Times by the clock are
-// kept to be drawn, never compared. A change that means to move a value says so in the first section of CHANGELOG.md:
+// Runs promise equal bits where the C library computes the same functions (the file's first line has their hash), so a
+// value has moved when it differs beyond rounding, and a count of contact evaluations when it differs at all. Rounding
+// is `rounding_share` of the value, which other last bits of a closed form stay far below, or `tolerance_share` of the
+// check's tolerance, for values that are rounding themselves. Times by the clock are kept to be drawn, never compared.
+// A change that means to move a value says so in the first section of CHANGELOG.md:
 //
 //   - Moved: `wedge`: `critical friction`, since …      (without the quantity: all of the case)
 #include <filesystem>
@@ -33,15 +34,19 @@ struct PastRow {
 
 struct PastVersion {
   std::string version;
+  std::string math_functions;  // a hash of the C library's functions that computed the rows (`voussoir --version`)
   std::vector<PastRow> rows;
 };
 
 // Oldest first; none when there is no such folder. Throws std::runtime_error naming file and line.
 std::vector<PastVersion> read_history(const std::filesystem::path& folder);
 
-// The rows of these verdicts as lines of a history file. Throws std::runtime_error when the verdicts are not all good:
-// a version that fails is not one to compare with.
-std::string history_lines(const Verdicts& verdicts);
+// The hash of the functions of the C library in what `voussoir --version` prints; empty when it tells none.
+std::string math_functions_in(std::string_view version_text);
+
+// The rows of these verdicts as lines of a history file, after one of the hash. Throws std::runtime_error when the
+// verdicts are not all good: a version that fails is not one to compare with.
+std::string history_lines(const Verdicts& verdicts, const std::string& math_functions);
 
 // The rows that differ, in the order of the verdicts, then those that are gone. Rows of kind reported count like
 // others.

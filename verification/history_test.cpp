@@ -33,8 +33,8 @@ class History : public testing::Test {
  protected:
   void SetUp() override {
     fs::remove_all(folder);
-    write_atomically(folder / "0.9.0.jsonl", history_lines(verdicts(30.01)));
-    write_atomically(folder / "0.10.0.jsonl", history_lines(verdicts(30.02)));
+    write_atomically(folder / "0.9.0.jsonl", history_lines(verdicts(30.01), "abc"));
+    write_atomically(folder / "0.10.0.jsonl", history_lines(verdicts(30.02), "abc"));
   }
   static PastVersion newest() { return read_history(folder).back(); }
   static inline const fs::path folder = fs::path(testing::TempDir()) / "voussoir_history_test";
@@ -45,6 +45,9 @@ TEST_F(History, IsReadInTheOrderOfVersions) {
   ASSERT_EQ(history.size(), 2u);
   EXPECT_EQ(history[0].version, "0.9.0");
   EXPECT_EQ(history[1].version, "0.10.0");
+  EXPECT_EQ(history[1].math_functions, "abc");
+  EXPECT_EQ(math_functions_in("voussoir 1\nglpk            yes\nmath functions  0abc, a hash of\n"), "0abc");
+  EXPECT_EQ(math_functions_in("voussoir 1\n"), "");
   EXPECT_EQ(history[1].rows.size(), 3u);
   EXPECT_DOUBLE_EQ(*history[1].rows[0].error, 30.02 - 30.0);
   EXPECT_TRUE(read_history(folder / "none").empty());
@@ -113,7 +116,7 @@ TEST_F(History, IsDrawnWithItsMoves) {
 
 TEST_F(History, RefusesWhatIsNoHistory) {
   Verdicts failing = verdicts(31.0);
-  EXPECT_THROW(history_lines(failing), std::runtime_error);
+  EXPECT_THROW(history_lines(failing, ""), std::runtime_error);
   const auto message = [](const std::string& name, const std::string& text) {
     write_atomically(folder / name, text);
     std::string told;
@@ -125,7 +128,7 @@ TEST_F(History, RefusesWhatIsNoHistory) {
     fs::remove(folder / name);
     return told;
   };
-  EXPECT_NE(message("1.0.0.jsonl", history_lines(verdicts(30.0)) + "{\"case\": 1}\n").find("1.0.0.jsonl:4:"),
+  EXPECT_NE(message("1.0.0.jsonl", history_lines(verdicts(30.0), "") + "{\"case\": 1}\n").find("1.0.0.jsonl:5:"),
             std::string::npos);
   EXPECT_NE(message("one.jsonl", "").find("'one' is not a version"), std::string::npos);
 }
