@@ -6,6 +6,8 @@ mapfile -t wanted < <(grep -vE '^\s*(#|$)' "$here/packages.txt")
 [ $# -eq 0 ] || wanted=("$@")
 missing=()
 for package in "${wanted[@]}"; do
+  # Debian's npm cannot stand beside a node that came from elsewhere
+  [ "$package" = npm ] && command -v npm >/dev/null && continue
   [ "$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null)" = "install ok installed" ] || missing+=("$package")
 done
 [ ${#missing[@]} -eq 0 ] && exit 0

@@ -29,7 +29,7 @@ const run = (scene, name, ...more) => {
 };
 const page = (out) => join(out, 'view.html');
 
-const browser = await Browser.open({ width: 960, height: 640 });
+const browser = await Browser.open({ width: 860, height: 600 });
 const js = (text, ...args) => browser.js(text, ...args);
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 
@@ -187,10 +187,13 @@ async function testLinks() {
   assert.equal(await js("return document.querySelectorAll('.voussoir .pole[data-chosen]').length"), 1);
   await viewer('v.set({ chosen: -1 })');
   const pixel = await viewer(`
-    const { width, height } = v.renderer.domElement.getBoundingClientRect();
-    for (let y = 8; y < height; y += 6) for (let x = 8; x < width; x += 6) {
-      const f = v.faceAt(x, y);
-      if (f >= 0 && v.faces[f].joint === 1) return [x, y];
+    for (const [f, face] of v.faces.entries()) {
+      if (face.joint !== 1) continue;
+      const shape = v.run.shapes[face.shape], { points } = shape.parts[face.part], sum = [0, 0, 0];
+      for (const c of face.corners)
+        v.bodies.place(shape, v.look.frame, ...points.subarray(3 * c, 3 * c + 3), v.look, []).forEach((x, k) => (sum[k] += x / face.corners.length));
+      const pixel = v.project(sum);
+      if (v.faceAt(...pixel) === f) return pixel;
     }`);
   assert.ok(pixel, 'a face of the second joint is to be seen');
   const box = await js("const b = document.querySelector('.voussoir canvas').getBoundingClientRect(); return [b.x, b.y]");
