@@ -1,16 +1,13 @@
 #!/usr/bin/env bash
-# Installs the packages of packages.txt, or those named, that this machine lacks; silent when nothing is missing. Where the
-# list names a command behind the package (npm: npm), a machine that has it otherwise needs no package.
+# Installs the packages of packages.txt, or those named, that this machine lacks; silent when nothing is missing.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 mapfile -t wanted < <(grep -vE '^\s*(#|$)' "$here/packages.txt")
 [ $# -eq 0 ] || wanted=("$@")
 missing=()
 for package in "${wanted[@]}"; do
-  if [[ $package == *:* ]]; then
-    command -v "${package##*: }" >/dev/null && continue
-    package=${package%%:*}
-  fi
+  # Debian's npm cannot stand beside a node that came from elsewhere
+  [ "$package" = npm ] && command -v npm >/dev/null && continue
   [ "$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null)" = "install ok installed" ] || missing+=("$package")
 done
 [ ${#missing[@]} -eq 0 ] && exit 0

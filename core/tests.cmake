@@ -40,7 +40,7 @@ voussoir_test(unit.scene LABEL unit
 voussoir_test(unit.monitors LABEL unit SOURCES monitor_test.cpp scene/bad_monitors_test.cpp begin_test.cpp
   LIBS voussoir_core cereal::cereal)
 
-voussoir_test(unit.output LABEL unit SOURCES output/output_test.cpp
+voussoir_test(unit.output LABEL unit SOURCES output/output_test.cpp output/view_test.cpp
   LIBS voussoir_core fmt::fmt nlohmann_json::nlohmann_json)
 
 set(outside_solvers)

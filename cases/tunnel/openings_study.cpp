@@ -48,7 +48,7 @@ std::optional<DrawRow> kept_row(const fs::path& file) {
 void do_row(const Asked& asked) {
   const OpeningRow& row = opening_rows().at(asked.number - 1);
   const LoadedScene scene = opening_scene(row, asked.draw, asked.seconds);
-  const std::string inputs = fingerprint(scene.hash + fingerprint(program_bytes()));
+  const std::string inputs = fingerprint(scene.hash + program_digest());
   const fs::path file = file_of(asked, asked.number, asked.draw);
   const std::optional<DrawRow> kept = kept_row(file);
   if (kept && kept->inputs == inputs) return;

@@ -12,7 +12,7 @@ export class Camera {
     this.target = new Vector3();
     this.pointers = new Map();
     this.look(plane ? -90 : -60, plane ? 90 : 24);
-    this.fit();
+    this.fit(box);
     this.listen();
   }
 
@@ -29,9 +29,9 @@ export class Camera {
     return { eye, right, up: new Vector3().crossVectors(eye, right) };
   }
 
-  // all of the box, `times` as large, and something around it
-  fit(times = 1) {
-    const { right, up } = this.axes(), { low, high, centre } = this.box;
+  // all of a box, `times` as large, and something around it
+  fit(box, times = 1) {
+    const { right, up } = this.axes(), { low, high, centre } = box;
     const extent = (axis) => Math.abs(axis.x) * (high[0] - low[0]) + Math.abs(axis.y) * (high[1] - low[1]) + Math.abs(axis.z) * (high[2] - low[2]);
     const { clientWidth: w, clientHeight: h } = this.element, inset = this.inset ?? { left: 0, right: 0, top: 0, bottom: 0 };
     const wide = Math.max(80, w - inset.left - inset.right), tall = Math.max(80, h - inset.top - inset.bottom);

@@ -23,7 +23,7 @@ export function listFaces(run) {
     part.faces.forEach((face, k) => {
       const group = face.joint >= 0 ? run.head.joints[face.joint].group : run.noJoint;
       const properties = face.joint >= 0 ? run.head.joints[face.joint].properties : -1;
-      faces.push({ shape: s, part: p, face: k, joint: face.joint, group, properties, corners: face.corners });
+      faces.push({ shape: s, part: p, face: k, joint: face.joint, group, properties, corners: face.corners, inner: face.inner });
     });
     if (plane)
       faces.push({ shape: s, part: p, face: -1, joint: -1, group: run.noJoint, properties: -1, corners: part.outline });
@@ -55,6 +55,52 @@ export function faceGeometry(run, faces) {
     properties: [properties, 1] });
 }
 
+// ---- what lies inside of a body of several parts: construction joints are no joints to be seen
+
+const midpoint = (points, corners) => [0, 1, 2].map((k) => corners.reduce((s, c) => s + points[3 * c + k], 0) / corners.length);
+const offsetOf = (n, p) => n[0] * p[0] + n[1] * p[1] + n[2] * p[2];
+
+// unit normals and offsets of a part's faces
+function planesOf(part, plane) {
+  return part.faces.filter((face) => face.corners.length >= (plane ? 2 : 3)).map((face) => {
+    const { points } = part, [a, b] = face.corners;
+    const n = plane ? [points[3 * b + 1] - points[3 * a + 1], points[3 * a] - points[3 * b], 0] : polygonNormal(points, face.corners);
+    const size = Math.hypot(...n) || 1, unit = n.map((c) => c / size), p = midpoint(points, face.corners);
+    const inside = midpoint(points, [...Array(points.length / 3).keys()]);
+    const sign = offsetOf(unit, inside) > offsetOf(unit, p) ? -1 : 1;
+    return { normal: unit.map((c) => sign * c), offset: sign * offsetOf(unit, p), corners: new Set(face.corners) };
+  });
+}
+
+const holds = (planes, p, slack) => planes.every(({ normal, offset }) => offsetOf(normal, p) <= offset + slack);
+
+// Marks the faces that lie on another part of their body, and finds the edges of each part that are no edges of the
+// body: those that end such a face where the surface goes on without a bend.
+export function findInner(run) {
+  const plane = run.head.dimension === 2;
+  for (const shape of run.shapes) {
+    if (shape.parts.length < 2) continue;
+    const planes = shape.parts.map((part) => planesOf(part, plane)), slack = 1e-5 * shape.volume ** (1 / run.head.dimension);
+    shape.parts.forEach((part, p) => {
+      const others = planes.filter((_, q) => q !== p);
+      for (const face of part.faces)
+        face.inner = face.joint >= 0 && run.head.joints[face.joint].holds &&
+          others.some((other) => holds(other, midpoint(part.points, face.corners), slack));
+      part.isInner = (edge) => isInner(edge, part, planes[p], others, slack, plane);
+    });
+  }
+}
+
+function isInner(edge, part, planes, others, slack, plane) {
+  const ends = (face) => face.inner && face.corners.includes(edge[0]) && face.corners.includes(edge[1]);
+  if (!part.faces.some(ends)) return false;
+  if (plane) return true;
+  const middle = midpoint(part.points, edge), mine = planes.filter(({ corners }) => corners.has(edge[0]) && corners.has(edge[1]));
+  const same = (a, b) => offsetOf(a.normal, b.normal) > 1 - 1e-6;
+  return others.some((other) => holds(other, middle, slack) && mine.some((a) =>
+    other.some((b) => same(a, b) && Math.abs(offsetOf(b.normal, middle) - b.offset) < slack)));
+}
+
 // each edge of a part once
 export function edgesOf(part) {
   const seen = new Set(), edges = [];
@@ -75,11 +121,13 @@ export function edgeGeometry(run) {
   run.shapes.forEach((s, number) => {
     for (const part of s.parts) {
       if (part.smooth && !part.outline) continue;
-      for (const edge of edgesOf(part))
+      for (const edge of edgesOf(part)) {
+        if (part.isInner?.(edge)) continue;
         for (const corner of edge) {
           for (let k = 0; k < 3; ++k) position.push(part.points[3 * corner + k]);
           shape.push(number);
         }
+      }
     }
   });
   return buffers({ position: [new Float32Array(position), 3], shape: [new Float32Array(shape), 1] });
@@ -91,10 +139,10 @@ function buffers(lists) {
   return geometry;
 }
 
-// the box of all shapes of the first frame, and of all
-export function boxOf(run) {
+// the box of shapes where they began
+export function boxOf(shapes) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-  for (const shape of run.shapes)
+  for (const shape of shapes)
     for (const part of shape.parts)
       for (let i = 0; i < part.points.length; ++i) {
         const value = shape.reference[i % 3] + part.points[i];
@@ -102,5 +150,5 @@ export function boxOf(run) {
         high[i % 3] = Math.max(high[i % 3], value);
       }
   const centre = low.map((l, k) => 0.5 * (l + high[k]));
-  return { low, high, centre, radius: 0.5 * Math.hypot(...low.map((l, k) => high[k] - l)) || 1 };
+  return { low, high, centre, radius: shapes.length ? 0.5 * Math.hypot(...low.map((l, k) => high[k] - l)) : 0 };
 }

@@ -35,5 +35,6 @@ function contactTable(run, { contacts }, body) {
       withUnit(Math.sqrt(Math.max(0, size * size - normal * normal)), 'N'), digits(contacts.friction[i])]]);
   }
   rows.sort((x, y) => y[0] - x[0]);
-  return { head: ['with', 'joint', 'normal', 'shear', 'friction'], rows: rows.slice(0, MOST).map(([, row]) => row) };
+  const named = rows.some(([, row]) => row[1] !== ''), cells = (row) => (named ? row : row.filter((_, k) => k !== 1));
+  return { head: cells(['with', 'joint', 'normal', 'shear', 'friction']), rows: rows.slice(0, MOST).map(([, row]) => cells(row)) };
 }

@@ -112,7 +112,7 @@ export function addSupport(pieces, run, frame) {
 export function addJointEdges(pieces, { run, faces, bodies, look, frame, colours, hidden, chosenGroup, showFixed }) {
   const ends = [[0, 0, 0], [0, 0, 0]];
   faces.forEach((face, f) => {
-    if (face.face < 0 || face.corners.length !== 2 || hidden.has(face.group)) return;
+    if (face.face < 0 || face.corners.length !== 2 || face.inner || hidden.has(face.group)) return;
     const shape = run.shapes[face.shape];
     if (!bodies.isShown(shape, frame) || (!showFixed && bodies.isFixed(shape, frame))) return;
     const tint = edgeTint(run, face, f, colours), chosen = face.group === chosenGroup;

@@ -3,7 +3,7 @@
 import { groupColour } from './colours.js';
 import { label, shortened, svg } from './svg.js';
 
-const MOST_LABELS = 8, MOST_POLES = 4000;
+const MOST_LABELS = 8, MOST_POLES = 2000;
 const degrees = 180 / Math.PI;
 
 // where the lower end of a unit vector lies in a net of radius 1; east is x, north is y
@@ -32,6 +32,17 @@ export function orientationText(joint, plane) {
   return `${two(dip, 2)}°/${two(direction, 3)}°`;
 }
 
+// of planes, whose normals have no sign
+function meanNormal(normals) {
+  const [first] = normals, sum = [0, 0, 0];
+  for (const n of normals) {
+    const sign = n[0] * first[0] + n[1] * first[1] + n[2] * first[2] < 0 ? -1 : 1;
+    n.forEach((c, k) => (sum[k] += sign * c));
+  }
+  const size = Math.hypot(...sum) || 1;
+  return sum.map((c) => c / size);
+}
+
 export class Stereonet {
   constructor(run, choose) {
     this.run = run;
@@ -52,7 +63,11 @@ export class Stereonet {
     this.circle = svg('polyline', { fill: 'none', 'stroke-width': 1.6 });
     this.element.append(this.circle);
     this.poles = new Map();
-    run.head.joints.slice(0, MOST_POLES).forEach((joint, j) => this.addPole(joint, j));
+    // of very many joints every so many-th, and the first of each set
+    const every = Math.ceil(run.head.joints.length / MOST_POLES);
+    run.head.joints.forEach((joint, j) => {
+      if (j % every === 0 || run.groups[joint.group].joints[0] === j) this.addPole(joint, j);
+    });
     this.ring = svg('circle', { r: 8.5, fill: 'none', stroke: '#202020', 'stroke-width': 2, visibility: 'hidden' });
     this.element.append(this.ring);
     this.nameGroups();
@@ -90,12 +105,15 @@ export class Stereonet {
   }
 
   nameGroups() {
-    const groups = this.run.groups.filter((group) => group.joints.length);
+    const { joints } = this.run.head, groups = this.run.groups.filter((group) => group.joints.length && !joints[group.joints[0]].holds);
     if (groups.length > MOST_LABELS) return;
+    const named = [];
     for (const group of groups) {
-      const [x, y] = this.at(this.run.head.joints[group.joints[0]]);
+      const [x, y] = this.at({ normal: meanNormal(group.joints.map((j) => joints[j].normal)) });
+      if (named.some(([u, v]) => Math.abs(u - x) < 30 && Math.abs(v - y) < 11)) continue;
+      named.push([x, y]);
       const right = x < 20;
-      this.element.append(label(x + (right ? 8 : -8), y + 4, shortened(group.name, 14),
+      this.element.append(label(x + (right ? 9 : -9), y + (this.plane ? 4 : 13), shortened(group.name, 14),
         { 'font-size': 11, 'text-anchor': right ? 'start' : 'end', 'pointer-events': 'none' }));
     }
   }

@@ -4,7 +4,7 @@ import { Bodies } from './bodies.js';
 import { bestAzimuth, Camera } from './camera.js';
 import { BODY, choices, FACE, frictionByFace, groupColour, listColour, POINT, rgb, EDGE } from './colours.js';
 import { START, TRIAL, nameOf } from './data.js';
-import { boxOf, edgeGeometry, faceGeometry, listFaces, polygonNormal } from './geometry.js';
+import { boxOf, edgeGeometry, faceGeometry, findInner, listFaces, polygonNormal } from './geometry.js';
 import { describe } from './info.js';
 import { cutMaterial, edgeMaterial, faceMaterial, listTexture, pickMaterial, pieceMaterial, sharedUniforms } from './materials.js';
 import { Overlay } from './overlay.js';
@@ -33,8 +33,10 @@ export class Viewer {
   constructor(element, run, address) {
     Object.assign(this, { element, run, plane: run.head.dimension === 2 });
     this.bodies = new Bodies(run);
-    this.box = boxOf(run);
+    this.box = boxOf(run.shapes);
+    this.box.radius ||= 1;
     this.bodies.centre = this.box.centre;
+    findInner(run);
     this.faces = listFaces(run);
     this.normals = this.faces.map((face) => polygonNormal(run.shapes[face.shape].parts[face.part].points, face.corners));
     this.choices = choices(run, this.bodies);
@@ -112,7 +114,12 @@ export class Viewer {
   }
 
   choose(group) { this.set({ chosen: this.look.chosen === group ? -1 : group }); }
-  fit() { this.camera.fit(1 + this.look.exploded); }
+  // what is shown fills the picture
+  fit() {
+    const { look, run, bodies } = this;
+    const box = boxOf(run.shapes.filter((s) => bodies.isShown(s, look.frame) && (look.showFixed || !bodies.isFixed(s, look.frame))));
+    this.camera.fit(box.radius > 0 ? box : this.box, 1 + look.exploded);
+  }
   lookFrom(azimuth, height) {
     this.camera.look(azimuth, height);
     this.fit();
