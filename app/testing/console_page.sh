@@ -8,7 +8,7 @@ rm -rf "$scratch"
 mkdir -p "$scratch"
 cp -r "$(dirname "$page")/." "$scratch"
 cd "$scratch" || exit 1
-rm -rf results  # of whoever ran them there
+rm -rf results  # of those who ran them there
 PATH=$(dirname "$program"):$PATH
 
 faults=0 number=0 shown=0 next=0 commands="" printed=()

@@ -1,5 +1,5 @@
 // One HTML file in which the blocks of a run can be turned: viewer/'s script and the file of core/output/view.hpp, each
-// compressed and as base64, so that nothing of a scene stands in the page as text.
+// compressed and as base64, so that no text of a scene becomes part of the page.
 #pragma once
 
 #include <filesystem>

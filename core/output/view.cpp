@@ -382,7 +382,7 @@ ViewSeries continue_view(const std::filesystem::path& file, const Prepared<Dim>&
   const ViewExtent kept = view_extent(bytes, frames);
   if (kept.frames < frames) return begun(file, scene);
 
-  // whoever reads it forgets the shapes and pairs so far: those that follow are numbered from the begin
+  // a reader forgets the shapes and pairs so far: those that follow are numbered from the begin
   bytes.resize(kept.bytes);
   Record again(again_tag);
   write_file(file, bytes + again.finished());

@@ -1,5 +1,5 @@
 // What the viewer shows (viewer/README.md), straight from model and state: a file of records that grows with a run, so
-// that one that is killed can be seen up to there. Geometry stands in it once, in the bodies' frames; a frame is 24
+// that one that is killed can be seen up to there. Geometry is in it once, in the bodies' frames; a frame is 24
 // bytes a body (in the plane 12) for where it is, 4 for its speed, and what its contacts carry.
 #pragma once
 
