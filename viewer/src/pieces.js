@@ -1,5 +1,6 @@
 // Straight pieces that are some pixels wide: forces, bolts, linings, and edges in the plane.
 import { BufferAttribute, InstancedBufferAttribute, InstancedBufferGeometry, Mesh } from 'three';
+import { edgePieces } from './geometry.js';
 import { groupColour, latestShapes, listColour, PRESSED, PULLED, rampColour, rgb, share, HELD, OKABE, EDGE } from './colours.js';
 
 // along (0 begin, 1 end of the shaft or begin of the head, 2 tip), across, of the head
@@ -112,15 +113,16 @@ export function addSupport(pieces, run, frame) {
 export function addJointEdges(pieces, { run, faces, bodies, look, frame, colours, hidden, chosenGroup, showFixed }) {
   const ends = [[0, 0, 0], [0, 0, 0]];
   faces.forEach((face, f) => {
-    if (face.face < 0 || face.corners.length !== 2 || face.inner || hidden.has(face.group)) return;
+    if (face.face < 0 || face.corners.length !== 2 || hidden.has(face.group)) return;
     const shape = run.shapes[face.shape];
     if (!bodies.isShown(shape, frame) || (!showFixed && bodies.isFixed(shape, frame))) return;
     const tint = edgeTint(run, face, f, colours), chosen = face.group === chosenGroup;
     if (!tint && !chosen) return;
-    const { points } = shape.parts[face.part];
-    face.corners.forEach((c, k) => bodies.place(shape, frame, points[3 * c], points[3 * c + 1], 0, look, ends[k]));
     const pale = chosenGroup >= 0 && !chosen;
-    pieces.add(ends[0], ends[1], pale ? rgb(HELD) : tint ?? rgb(EDGE), chosen ? 5 : 3);
+    for (const points of edgePieces(shape.parts[face.part], face.of)) {
+      points.forEach((x, k) => bodies.place(shape, frame, ...x, look, ends[k]));
+      pieces.add(ends[0], ends[1], pale ? rgb(HELD) : tint ?? rgb(EDGE), chosen ? 5 : 3);
+    }
   });
 }
 
