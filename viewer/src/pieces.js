@@ -66,6 +66,8 @@ export function bodyPairs(run, { contacts }) {
   return found;
 }
 
+const centroid = (run, frame, shape, k) => shape.reference[k] + run.frames[frame].displacement[k][shape.body];
+
 // What acts on each free body at its contacts: an arrow that ends at the contact, its length by the force. Of a body
 // that is picked, what acts on it alone.
 export function addArrows(pieces, { run, bodies, look, frame, reach, picked }) {
@@ -75,10 +77,12 @@ export function addArrows(pieces, { run, bodies, look, frame, reach, picked }) {
     const p = contacts.pair[i], sides = [latest.get(run.pairs.bodyA[p]), latest.get(run.pairs.bodyB[p])];
     const f = forceOf(contacts, i), size = length(f);
     if (!sides[0] || !sides[1] || size < 1e-4 * most) continue;
-    for (let k = 0; k < 3; ++k) point[k] = contacts.point[k][i];
-    bodies.placeOfArm(sides[0], frame, point, look, at);
     sides.forEach((shape, side) => {
       if (picked ? shape !== picked : bodies.isFixed(shape, frame)) return;
+      // seen from its own centroid, so that the arrow goes with the body when displacements are magnified
+      const apart = (k) => centroid(run, frame, sides[0], k) - centroid(run, frame, shape, k);
+      for (let k = 0; k < 3; ++k) point[k] = contacts.point[k][i] + apart(k);
+      bodies.placeOfArm(shape, frame, point, look, at);
       const sign = side ? 1 : -1, scale = (sign * reach) / most;
       // pushing: it comes from outside; pulling: it leaves
       const tail = at.map((x, k) => x - scale * f[k]), tint = rgb(contacts.normal[i] >= 0 ? PRESSED : PULLED);

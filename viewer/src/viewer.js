@@ -46,6 +46,7 @@ export class Viewer {
     this.readAddress(address);
     this.update();
     this.fit();
+    if (this.poster) this.writePoster();
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.picture);
   }
@@ -174,7 +175,12 @@ export class Viewer {
     for (const name of address.getAll('hidden')) if (named(name) >= 0) look.hidden.add(named(name));
     for (const key of ['showFixed', 'edges', 'cutOther']) if (address.has(key)) look[key] = address.get(key) === '1';
     if (address.has('block')) this.pickByName(address.get('block'));
-    if (address.get('panel') === '0') this.element.classList.add('bare');
+    const poster = address.get('poster')?.match(/^(\d{2,4})x(\d{2,4})$/);
+    if (poster) {
+      Object.assign(this.element.style, { width: `${poster[1]}px`, height: `${poster[2]}px` });
+      this.poster = true;
+    }
+    if (poster || address.get('panel') === '0') this.element.classList.add('bare');
     const view = ['azimuth', 'height'].map((key) => Number(address.get(key)));
     if (!this.plane && address.has('azimuth') && view.every(Number.isFinite)) this.camera.look(...view);
     this.size();
@@ -391,6 +397,13 @@ export class Viewer {
     context.drawImage(image, 0, 0, picture.clientWidth, picture.clientHeight);
     URL.revokeObjectURL(image.src);
     return new Promise((done) => canvas.toBlob(done, 'image/png'));
+  }
+
+  // for poster.mjs, which reads it from the document
+  async writePoster() {
+    const reader = new FileReader();
+    reader.onload = () => (this.element.dataset.png = reader.result);
+    reader.readAsDataURL(await this.png());
   }
 
   async savePng() {
