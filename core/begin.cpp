@@ -179,7 +179,8 @@ Progress<Dim> begin_at_end(const Prepared<Dim>& scene, Progress<Dim> other, cons
   other.frames.clear();
   other.trial_frames.clear();
   const double interval = scene.output.frame_interval;
-  other.next_frame = scene.output.any_frames() && interval > 0 ? (std::floor(other.state.time / interval) + 1) * interval : 0;
+  other.next_frame =
+      scene.output.any_frames() && interval > 0 ? (std::floor(other.state.time / interval) + 1) * interval : 0;
   return other;
 }
 

@@ -54,9 +54,9 @@ struct ResumeArguments {
 
 struct ViewArguments {
   std::filesystem::path folder;
-  std::filesystem::path out;  // empty: view.html in the folder
-  bool fragment = false;      // for a page that holds the viewer once and many of these
-  bool script = false;        // what such a page holds once; then no folder is read
+  std::filesystem::path out;     // empty: view.html in the folder
+  bool fragment = false;         // for a page that holds the viewer once and many of these
+  bool script = false;           // what such a page holds once; then no folder is read
   std::filesystem::path poster;  // a picture to stand there until it is clicked; empty: none
   bool overwrite = false;
 };

@@ -57,7 +57,8 @@ std::vector<std::string> near(const LoadedScene& scene, const Results& results) 
 StudyRun run_of(const Variation& v, const fs::path& scene, const std::vector<std::string>& settings,
                 const std::vector<std::string>& closer, const std::string& name) {
   StudyRun run{scene, settings, {}, {scene}, name};
-  for (const std::vector<std::string>& more : {v.overrides(), closer, {"accuracy.budget=false", "output.frames=false", "output.view=false"}})
+  for (const std::vector<std::string>& more :
+       {v.overrides(), closer, {"accuracy.budget=false", "output.frames=false", "output.view=false"}})
     run.overrides.insert(run.overrides.end(), more.begin(), more.end());
   return run;
 }

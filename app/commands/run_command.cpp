@@ -129,8 +129,8 @@ class CheckpointClock {
   double seconds_ = 0;
 };
 
-// The path to the answer, and the trials that were taken back; what the viewer shows has both. Those that the scene does
-// not ask for are not written.
+// The path to the answer, and the trials that were taken back; what the viewer shows has both. Those that the scene
+// does not ask for are not written.
 struct WrittenSeries {
   std::optional<FrameSeries> frames, trials;
   std::optional<ViewSeries> view;
@@ -153,8 +153,7 @@ bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const R
   watcher.progress = [&](const ProgressReport& report) { line.show(report); };
   watcher.frame = [&](const Model<Dim>& model, const State<Dim>& state, double time) {
     if (written.frames) write_frame(*written.frames, model, state, time);
-    if (written.view)
-      add_view_frame(*written.view, model, state, {ViewMoment::Kind::frame, time, progress.stage, 0});
+    if (written.view) add_view_frame(*written.view, model, state, {ViewMoment::Kind::frame, time, progress.stage, 0});
   };
   watcher.trial_frame = [&](const Model<Dim>& model, const State<Dim>& state, int trial) {
     if (written.trials) write_frame(*written.trials, model, state, trial);

@@ -30,8 +30,8 @@ void refuse_target(const fs::path& file, const ViewArguments& arguments, const s
     throw BadInput(fmt::format("'{}' is a folder: name a file with --out", file.string()));
   const bool ours = arguments.out.empty() && made_here(arguments.folder, page_file);
   if (there.type() != fs::file_type::not_found && !arguments.overwrite && !ours)
-    throw BadInput(
-        fmt::format("'{}' is there and would be replaced: choose another with --out, or add --overwrite", file.string()));
+    throw BadInput(fmt::format("'{}' is there and would be replaced: choose another with --out, or add --overwrite",
+                               file.string()));
 }
 
 // what the run has kept, or why there is nothing to see

@@ -6,9 +6,9 @@
 
 namespace voussoir::viewer {
 
-extern const std::string_view missing;  // why there is no viewer; empty: it is there
-extern const std::string_view script;   // once a page: style and script
-extern const std::string_view before_page, after_page;  // around script and fragment
+extern const std::string_view missing;                                     // why there is no viewer; empty: it is there
+extern const std::string_view script;                                      // once a page: style and script
+extern const std::string_view before_page, after_page;                     // around script and fragment
 extern const std::string_view before_poster, before_data, after_fragment;  // a fragment: poster's URL, then the data
 
 }  // namespace voussoir::viewer

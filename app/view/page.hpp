@@ -19,8 +19,8 @@ void require_viewer();
 // BadInput where the file is none, or there is no viewer.
 std::string view_page(const std::filesystem::path& data);
 
-// The same for a page that holds viewer_script() once: a figure that shows the poster, a PNG's bytes, and starts when it
-// is clicked. Without a poster it starts at once.
+// The same for a page that holds viewer_script() once: a figure that shows the poster, a PNG's bytes, and starts when
+// it is clicked. Without a poster it starts at once.
 std::string view_fragment(const std::filesystem::path& data, std::string_view poster = {});
 std::string viewer_script();
 

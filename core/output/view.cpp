@@ -94,15 +94,12 @@ std::string head_of(const Prepared<Dim>& scene) {
     properties.push_back({{"name", p.name}, {"friction_deg", to_degrees(p.friction)}});
   for (const StagePlan& stage : scene.stages)
     stages.push_back(stage.name);
-  const nlohmann::json head = {{"program", version()},
-                               {"title", scene.title},
-                               {"dimension", Dim},
-                               {"origin", std::vector<double>(model.origin.data(), model.origin.data() + Dim)},
-                               {"joints", joints},
-                               {"sets", scene.joint_sets.names},
-                               {"properties", properties},
-                               {"default_properties", model.default_properties},
-                               {"stages", stages}};
+  const nlohmann::json head = {
+      {"program", version()},     {"title", scene.title},
+      {"dimension", Dim},         {"origin", std::vector<double>(model.origin.data(), model.origin.data() + Dim)},
+      {"joints", joints},         {"sets", scene.joint_sets.names},
+      {"properties", properties}, {"default_properties", model.default_properties},
+      {"stages", stages}};
   return head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -217,8 +214,7 @@ double coefficient(const Model<Dim>& model, const State<Dim>& state, const Conta
   const JointProperties& p = model.properties[c.properties];
   const double angle = state.schedule.friction[c.properties];
   if (p.laws.friction == FrictionLaw::constant) return std::tan(angle);
-  const double factor =
-      state.schedule.strength_factor.empty() ? 1 : state.schedule.strength_factor[c.properties];
+  const double factor = state.schedule.strength_factor.empty() ? 1 : state.schedule.strength_factor[c.properties];
   const double stress = c.history.area > 0 ? normal / c.history.area : 0;
   return friction_answer(p, angle, c.history.plastic_slip, stress, factor).coefficient;
 }
@@ -321,7 +317,7 @@ void put_support(Record& record, const Model<Dim>& model, const State<Dim>& stat
     if (!model.linings.empty()) {
       const PolyData linings = lining_lines(model, state, 0);
       const std::vector<double>&thrust = *values_of(linings.point_data, "thrust_N"),
-      &use = *values_of(linings.point_data, "use");
+            &use = *values_of(linings.point_data, "use");
       for (std::size_t i = 0; i < linings.cells.size(); ++i) {
         const int a = linings.cells[i][0], b = linings.cells[i][1];
         add(linings, i, -0.5 * (thrust[a] + thrust[b]), std::max(use[a], use[b]), 1);

@@ -78,8 +78,7 @@ TEST_F(ViewTest, ShapesStandOnceAndABodyThatAnExcavationPartsGetsANewOne) {
   scene.model.bodies[1].mass *= 0.5;      // lost a part
   add_view_frame(series, scene.model, scene.state, {});
   add_view_frame(series, scene.model, scene.state, {});
-  EXPECT_EQ(tags(bytes()),
-            (std::vector<std::uint32_t>{head, shape, shape, shape, frame, frame, shape, frame, frame}));
+  EXPECT_EQ(tags(bytes()), (std::vector<std::uint32_t>{head, shape, shape, shape, frame, frame, shape, frame, frame}));
   EXPECT_EQ(series.frames, 4);
   EXPECT_EQ(series.pairs.size(), 1u) << "the same two faces";
 }
@@ -112,8 +111,8 @@ TEST_F(ViewTest, ARunThatContinuesKeepsTheFramesOfItsCheckpointAndSaysAllShapesA
   ViewSeries continued = continue_view(file, scene, 2);
   EXPECT_EQ(continued.frames, 2);
   add_view_frame(continued, scene.model, scene.state, {});
-  EXPECT_EQ(tags(bytes()), (std::vector<std::uint32_t>{head, shape, shape, shape, frame, frame, again, shape, shape,
-                                                       shape, frame}));
+  EXPECT_EQ(tags(bytes()),
+            (std::vector<std::uint32_t>{head, shape, shape, shape, frame, frame, again, shape, shape, shape, frame}));
   EXPECT_EQ(view_extent(bytes(), all).frames, 3);
 
   // with fewer frames than the checkpoint counts, or none: from here on

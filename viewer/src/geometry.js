@@ -23,7 +23,7 @@ export function listFaces(run) {
     part.faces.forEach((face, k) => {
       const group = face.joint >= 0 ? run.head.joints[face.joint].group : run.noJoint;
       const properties = face.joint >= 0 ? run.head.joints[face.joint].properties : -1;
-      faces.push({ shape: s, part: p, face: k, joint: face.joint, group, properties, corners: face.corners, inner: face.inner });
+      faces.push({ shape: s, part: p, face: k, joint: face.joint, group, properties, corners: face.corners, of: face });
     });
     if (plane)
       faces.push({ shape: s, part: p, face: -1, joint: -1, group: run.noJoint, properties: -1, corners: part.outline });
@@ -58,47 +58,63 @@ export function faceGeometry(run, faces) {
 // ---- what lies inside of a body of several parts: construction joints are no joints to be seen
 
 const midpoint = (points, corners) => [0, 1, 2].map((k) => corners.reduce((s, c) => s + points[3 * c + k], 0) / corners.length);
-const offsetOf = (n, p) => n[0] * p[0] + n[1] * p[1] + n[2] * p[2];
+const dot = (n, p) => n[0] * p[0] + n[1] * p[1] + n[2] * p[2];
+const contains = (planes, p, slack) => planes.every(({ normal, offset }) => dot(normal, p) <= offset + slack);
 
-// unit normals and offsets of a part's faces
-function planesOf(part, plane) {
-  return part.faces.filter((face) => face.corners.length >= (plane ? 2 : 3)).map((face) => {
-    const { points } = part, [a, b] = face.corners;
-    const n = plane ? [points[3 * b + 1] - points[3 * a + 1], points[3 * a] - points[3 * b], 0] : polygonNormal(points, face.corners);
-    const size = Math.hypot(...n) || 1, unit = n.map((c) => c / size), p = midpoint(points, face.corners);
-    const inside = midpoint(points, [...Array(points.length / 3).keys()]);
-    const sign = offsetOf(unit, inside) > offsetOf(unit, p) ? -1 : 1;
-    return { normal: unit.map((c) => sign * c), offset: sign * offsetOf(unit, p), corners: new Set(face.corners) };
+// unit normals and offsets of a part's faces, outwards
+function planesOf(part) {
+  return part.faces.filter(isFilled).map((face) => {
+    const n = polygonNormal(part.points, face.corners), size = Math.hypot(...n) || 1, normal = n.map((c) => c / size);
+    return { normal, offset: dot(normal, midpoint(part.points, face.corners)), corners: new Set(face.corners) };
   });
 }
 
-const holds = (planes, p, slack) => planes.every(({ normal, offset }) => offsetOf(normal, p) <= offset + slack);
-
-// Marks the faces that lie on another part of their body, and finds the edges of each part that are no edges of the
-// body: those that end such a face where the surface goes on without a bend.
+// In the plane the pieces of each edge that are edges of the body, from 0 to 1; in space whether an edge of a part is
+// none of the body, as it ends a face on another part and the surface goes on without a bend.
 export function findInner(run) {
-  const plane = run.head.dimension === 2;
+  const plane = run.head.dimension === 2, joints = run.head.joints;
   for (const shape of run.shapes) {
-    if (shape.parts.length < 2) continue;
-    const planes = shape.parts.map((part) => planesOf(part, plane)), slack = 1e-5 * shape.volume ** (1 / run.head.dimension);
-    shape.parts.forEach((part, p) => {
-      const others = planes.filter((_, q) => q !== p);
-      for (const face of part.faces)
-        face.inner = face.joint >= 0 && run.head.joints[face.joint].holds &&
-          others.some((other) => holds(other, midpoint(part.points, face.corners), slack));
-      part.isInner = (edge) => isInner(edge, part, planes[p], others, slack, plane);
-    });
+    const slack = 1e-5 * shape.volume ** (1 / run.head.dimension);
+    const held = (face) => shape.parts.length > 1 && face.joint >= 0 && joints[face.joint].holds;
+    if (plane)
+      for (const part of shape.parts)
+        for (const face of part.faces) face.pieces = held(face) ? outerPieces(part, face, shape.parts, slack) : [[0, 1]];
+    else if (shape.parts.length > 1) findInnerEdges(shape, held, slack);
   }
 }
 
-function isInner(edge, part, planes, others, slack, plane) {
-  const ends = (face) => face.inner && face.corners.includes(edge[0]) && face.corners.includes(edge[1]);
-  if (!part.faces.some(ends)) return false;
-  if (plane) return true;
-  const middle = midpoint(part.points, edge), mine = planes.filter(({ corners }) => corners.has(edge[0]) && corners.has(edge[1]));
-  const same = (a, b) => offsetOf(a.normal, b.normal) > 1 - 1e-6;
-  return others.some((other) => holds(other, middle, slack) && mine.some((a) =>
-    other.some((b) => same(a, b) && Math.abs(offsetOf(b.normal, middle) - b.offset) < slack)));
+// what is left of an edge when those of other parts on the same joint are taken away
+function outerPieces(part, face, parts, slack) {
+  const at = (of, c) => [of.points[3 * c], of.points[3 * c + 1]], [a, b] = face.corners.map((c) => at(part, c));
+  const d = [b[0] - a[0], b[1] - a[1]], size = Math.hypot(...d);
+  let pieces = [[0, 1]];
+  for (const other of parts)
+    for (const opposite of other === part ? [] : other.faces) {
+      if (opposite.joint !== face.joint) continue;
+      const ends = opposite.corners.map((c) => at(other, c).map((x, k) => x - a[k]));
+      if (ends.some((e) => Math.abs(e[0] * d[1] - e[1] * d[0]) > slack * size)) continue;
+      const [low, high] = ends.map((e) => (e[0] * d[0] + e[1] * d[1]) / (size * size)).sort((x, y) => x - y);
+      pieces = pieces.flatMap(([u, v]) => [[u, Math.min(v, low)], [Math.max(u, high), v]]).filter(([u, v]) => (v - u) * size > slack);
+    }
+  return pieces;
+}
+
+function findInnerEdges(shape, held, slack) {
+  const planes = shape.parts.map(planesOf);
+  shape.parts.forEach((part, p) => {
+    const others = planes.filter((_, q) => q !== p), goesOn = (a, b, at) => dot(a.normal, b.normal) > 1 - 1e-6 && Math.abs(dot(b.normal, at) - b.offset) < slack;
+    part.isInner = ([a, b]) => {
+      if (!part.faces.some((face) => held(face) && face.corners.includes(a) && face.corners.includes(b))) return false;
+      const middle = midpoint(part.points, [a, b]), mine = planes[p].filter(({ corners }) => corners.has(a) && corners.has(b));
+      return others.some((other) => contains(other, middle, slack) && mine.some((m) => other.some((o) => goesOn(m, o, middle))));
+    };
+  });
+}
+
+// the ends of the pieces of an edge in the plane, in the body's frame
+export function edgePieces(part, face) {
+  const [a, b] = face.corners;
+  return face.pieces.map((ends) => ends.map((t) => [0, 1, 2].map((k) => part.points[3 * a + k] + t * (part.points[3 * b + k] - part.points[3 * a + k]))));
 }
 
 // each edge of a part once
@@ -118,16 +134,17 @@ export function edgesOf(part) {
 
 export function edgeGeometry(run) {
   const position = [], shape = [];
+  const add = (point, number) => {
+    position.push(...point);
+    shape.push(number);
+  };
   run.shapes.forEach((s, number) => {
     for (const part of s.parts) {
-      if (part.smooth && !part.outline) continue;
-      for (const edge of edgesOf(part)) {
-        if (part.isInner?.(edge)) continue;
-        for (const corner of edge) {
-          for (let k = 0; k < 3; ++k) position.push(part.points[3 * corner + k]);
-          shape.push(number);
-        }
-      }
+      if (part.outline && part.faces.length)
+        for (const face of part.faces) for (const ends of edgePieces(part, face)) ends.forEach((point) => add(point, number));
+      else if (part.outline || !part.smooth)
+        for (const edge of edgesOf(part))
+          if (!part.isInner?.(edge)) for (const c of edge) add(part.points.subarray(3 * c, 3 * c + 3), number);
     }
   });
   return buffers({ position: [new Float32Array(position), 3], shape: [new Float32Array(shape), 1] });

@@ -13,15 +13,23 @@ export class Overlay {
     this.element.append(this.drawn, net.element);
   }
 
-  // `scene`: size and inset of the picture, m a pixel, axes of the camera, title, moment, legend, forces
+  // A stereonet that would cover the legend is left out.
+  fitInto(width, height) {
+    const { radius, poles } = this.net;
+    this.scale = width < 560 || height < 460 ? 0.72 : 1;
+    this.showsNet = poles !== undefined && width > 400 && height > 230 + 2 * radius * this.scale;
+    this.net.element.setAttribute('visibility', this.showsNet ? 'visible' : 'hidden');
+  }
+  get netWidth() { return this.showsNet ? 2 * this.net.radius * this.scale + 30 : 0; }
+
+  // `scene`: size of the picture, m a pixel, axes of the camera, title, moment, legend, forces
   draw(scene) {
-    const { width, height, inset } = scene, net = this.net.element;
+    const { width, height } = scene, net = this.net.element;
     this.element.setAttribute('width', width);
     this.element.setAttribute('height', height);
     this.element.setAttribute('viewBox', `0 0 ${width} ${height}`);
-    const left = inset.left + 16, bottom = height - inset.bottom - 16, right = width - 16;
-    const R = this.net.radius, small = width - inset.left < 560 || height - inset.bottom < 380;
-    net.setAttribute('transform', `translate(${right - R - 8} ${bottom - R - 4}) scale(${small ? 0.72 : 1})`);
+    const left = 16, bottom = height - 16, right = width - 16, R = this.net.radius * this.scale;
+    net.setAttribute('transform', `translate(${right - R - 8} ${bottom - R - 4}) scale(${this.scale})`);
     this.drawn.replaceChildren(
       label(left, 26, shortened(scene.title, Math.max(12, Math.floor((width - left - 230) / 8.2))), { 'font-size': 15 }),
       label(left, 45, scene.moment),

@@ -1,5 +1,6 @@
 // Straight pieces that are some pixels wide: forces, bolts, linings, and edges in the plane.
 import { BufferAttribute, InstancedBufferAttribute, InstancedBufferGeometry, Mesh } from 'three';
+import { edgePieces } from './geometry.js';
 import { groupColour, latestShapes, listColour, PRESSED, PULLED, rampColour, rgb, share, HELD, OKABE, EDGE } from './colours.js';
 
 // along (0 begin, 1 end of the shaft or begin of the head, 2 tip), across, of the head
@@ -65,6 +66,8 @@ export function bodyPairs(run, { contacts }) {
   return found;
 }
 
+const centroid = (run, frame, shape, k) => shape.reference[k] + run.frames[frame].displacement[k][shape.body];
+
 // What acts on each free body at its contacts: an arrow that ends at the contact, its length by the force. Of a body
 // that is picked, what acts on it alone.
 export function addArrows(pieces, { run, bodies, look, frame, reach, picked }) {
@@ -74,10 +77,12 @@ export function addArrows(pieces, { run, bodies, look, frame, reach, picked }) {
     const p = contacts.pair[i], sides = [latest.get(run.pairs.bodyA[p]), latest.get(run.pairs.bodyB[p])];
     const f = forceOf(contacts, i), size = length(f);
     if (!sides[0] || !sides[1] || size < 1e-4 * most) continue;
-    for (let k = 0; k < 3; ++k) point[k] = contacts.point[k][i];
-    bodies.placeOfArm(sides[0], frame, point, look, at);
     sides.forEach((shape, side) => {
       if (picked ? shape !== picked : bodies.isFixed(shape, frame)) return;
+      // seen from its own centroid, so that the arrow goes with the body when displacements are magnified
+      const apart = (k) => centroid(run, frame, sides[0], k) - centroid(run, frame, shape, k);
+      for (let k = 0; k < 3; ++k) point[k] = contacts.point[k][i] + apart(k);
+      bodies.placeOfArm(shape, frame, point, look, at);
       const sign = side ? 1 : -1, scale = (sign * reach) / most;
       // pushing: it comes from outside; pulling: it leaves
       const tail = at.map((x, k) => x - scale * f[k]), tint = rgb(contacts.normal[i] >= 0 ? PRESSED : PULLED);
@@ -112,15 +117,16 @@ export function addSupport(pieces, run, frame) {
 export function addJointEdges(pieces, { run, faces, bodies, look, frame, colours, hidden, chosenGroup, showFixed }) {
   const ends = [[0, 0, 0], [0, 0, 0]];
   faces.forEach((face, f) => {
-    if (face.face < 0 || face.corners.length !== 2 || face.inner || hidden.has(face.group)) return;
+    if (face.face < 0 || face.corners.length !== 2 || hidden.has(face.group)) return;
     const shape = run.shapes[face.shape];
     if (!bodies.isShown(shape, frame) || (!showFixed && bodies.isFixed(shape, frame))) return;
     const tint = edgeTint(run, face, f, colours), chosen = face.group === chosenGroup;
     if (!tint && !chosen) return;
-    const { points } = shape.parts[face.part];
-    face.corners.forEach((c, k) => bodies.place(shape, frame, points[3 * c], points[3 * c + 1], 0, look, ends[k]));
     const pale = chosenGroup >= 0 && !chosen;
-    pieces.add(ends[0], ends[1], pale ? rgb(HELD) : tint ?? rgb(EDGE), chosen ? 5 : 3);
+    for (const points of edgePieces(shape.parts[face.part], face.of)) {
+      points.forEach((x, k) => bodies.place(shape, frame, ...x, look, ends[k]));
+      pieces.add(ends[0], ends[1], pale ? rgb(HELD) : tint ?? rgb(EDGE), chosen ? 5 : 3);
+    }
   });
 }
 

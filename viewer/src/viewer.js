@@ -46,6 +46,7 @@ export class Viewer {
     this.readAddress(address);
     this.update();
     this.fit();
+    if (this.poster) this.writePoster();
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.picture);
   }
@@ -174,7 +175,12 @@ export class Viewer {
     for (const name of address.getAll('hidden')) if (named(name) >= 0) look.hidden.add(named(name));
     for (const key of ['showFixed', 'edges', 'cutOther']) if (address.has(key)) look[key] = address.get(key) === '1';
     if (address.has('block')) this.pickByName(address.get('block'));
-    if (address.get('panel') === '0') this.element.classList.add('bare');
+    const poster = address.get('poster')?.match(/^(\d{2,4})x(\d{2,4})$/);
+    if (poster) {
+      Object.assign(this.element.style, { width: `${poster[1]}px`, height: `${poster[2]}px` });
+      this.poster = true;
+    }
+    if (poster || address.get('panel') === '0') this.element.classList.add('bare');
     const view = ['azimuth', 'height'].map((key) => Number(address.get(key)));
     if (!this.plane && address.has('azimuth') && view.every(Number.isFinite)) this.camera.look(...view);
     this.size();
@@ -281,7 +287,7 @@ export class Viewer {
     if (most === 0) return { label: 'no forces', pixels: 0, width: 0 };
     const pulls = run.frames[look.frame].contacts.normal.some((n) => n < 0);
     if (network) return { label: withUnit(most, 'N'), pixels: 40, width: 1 + this.uniforms.widest.value, pulls };
-    const reach = (0.3 * this.box.radius * look.forceSize) / camera.perPixel, scale = Math.min(1, 120 / reach);
+    const reach = (0.3 * this.box.radius * look.forceSize) / camera.perPixel, scale = Math.min(1, 80 / reach);
     return { label: withUnit(most * scale, 'N'), pixels: reach * scale, width: 3, pulls };
   }
 
@@ -308,7 +314,7 @@ export class Viewer {
     this.edges.material.uniforms.edgeOpacity.value = Math.min(1, Math.max(0.12, block / FULL_EDGES)) * (this.through ? 0.6 : 1);
     this.renderer.render(this.scene, camera.camera);
     const { clientWidth: width, clientHeight: height } = this.picture;
-    this.overlay.draw({ width, height, inset: { left: 0, bottom: 0 }, perPixel: camera.perPixel, axes: { right, up },
+    this.overlay.draw({ width, height, perPixel: camera.perPixel, axes: { right, up },
       plane: this.plane, title: this.run.head.title || '', moment: this.moment(), magnified: this.look.magnified,
       choice: this.choices[this.look.colour], legend: this.legend, run: this.run, forces: this.forcesLegend() });
   }
@@ -321,8 +327,8 @@ export class Viewer {
     this.pickTarget?.dispose();
     this.pickTarget = new WebGLRenderTarget(Math.max(1, width * ratio), Math.max(1, height * ratio));
     // room for what lies on the picture
-    const wide = width > 620, net = this.run.head.joints.length > 0;
-    if (this.camera) this.camera.inset = { left: wide ? 24 : 8, right: wide ? (net ? 178 : 96) : 8, top: 70, bottom: 56 };
+    this.overlay.fitInto(width, height);
+    if (this.camera) this.camera.inset = { left: 16, right: width > 400 ? Math.max(120, this.overlay.netWidth) : 8, top: 70, bottom: 56 };
     this.camera?.update();
   }
 
@@ -391,6 +397,13 @@ export class Viewer {
     context.drawImage(image, 0, 0, picture.clientWidth, picture.clientHeight);
     URL.revokeObjectURL(image.src);
     return new Promise((done) => canvas.toBlob(done, 'image/png'));
+  }
+
+  // for poster.mjs, which reads it from the document
+  async writePoster() {
+    const reader = new FileReader();
+    reader.onload = () => (this.element.dataset.png = reader.result);
+    reader.readAsDataURL(await this.png());
   }
 
   async savePng() {

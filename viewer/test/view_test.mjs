@@ -2,11 +2,12 @@
 // every control. SCRIPT is the bundled viewer.js; pictures that are looked at stay in FOLDER. Ends with 77 where a program
 // is missing, which VOUSSOIR_NO_SKIP=1 makes a failure.
 import assert from 'node:assert/strict';
-import { execFileSync, spawnSync } from 'node:child_process';
+import { execFileSync, spawn, spawnSync } from 'node:child_process';
 import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { Browser, found } from './browser.mjs';
 import { cornersByBody } from './blocks_vtp.mjs';
+import { PAIR, readRun } from '../src/data.js';
 
 const [program, source, script, folder] = process.argv.slice(2);
 const long = process.argv[6] === 'long';
@@ -29,7 +30,7 @@ const run = (scene, name, ...more) => {
 };
 const page = (out) => join(out, 'view.html');
 
-const browser = await Browser.open({ width: 860, height: 600 });
+const browser = await Browser.open({ width: 800, height: 560 });
 const js = (text, ...args) => browser.js(text, ...args);
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 
@@ -85,11 +86,12 @@ const viewer = (text, ...args) => js(`const v = window.voussoir.views[0]; ${text
 
 // ---- sizes
 
+const FALL = ['--until', 'fall', '--set', 'stage.fall.duration_s=1', '--set', 'output.frame_interval_s=0.0205'];
+
 function testSizes() {
   const size = statSync(script).size;
   assert.ok(size <= 650_000, `the viewer's script has ${size} bytes`);
-  const fall = run(join(source, 'cases/free_fall/scene.toml'), 'fall', '--until', 'fall', '--set', 'stage.fall.duration_s=1',
-    '--set', 'output.frame_interval_s=0.0205');
+  const fall = run(join(source, 'cases/free_fall/scene.toml'), 'fall', ...FALL);
   const bytes = statSync(page(fall)).size;
   assert.ok(bytes <= 1_000_000, `200 blocks and 50 frames take ${bytes} bytes`);
   console.log(`script ${size} bytes; 200 blocks and 50 frames ${bytes} bytes`);
@@ -325,6 +327,26 @@ async function testFragments(out) {
   assert.equal(await js("return document.querySelectorAll('canvas').length"), 1);
 }
 
+// a run that is interrupted and resumed keeps what one keeps that is not
+async function testResumed(whole, ...settings) {
+  const out = join(folder, 'resumed'), data = join(out, 'view.bin');
+  const child = spawn(program, ['run', join(source, 'cases/free_fall/scene.toml'), '--view', '--quiet', '--out', out, ...settings], { stdio: 'ignore' });
+  const ended = new Promise((done) => child.on('exit', done));
+  const size = () => { try { return statSync(data).size; } catch { return 0; } };
+  while (size() < 200_000 && child.exitCode === null) await wait(2);
+  child.kill('SIGINT');
+  assert.equal(await ended, 130, 'it was interrupted');
+  execFileSync(program, ['resume', '--quiet', out]);
+  const [found, wanted] = [out, whole].map((f) => readRun(new Uint8Array(readFileSync(join(f, 'view.bin'))).buffer));
+  assert.equal(found.frames.length, wanted.frames.length);
+  // pairs have other numbers, and so another order
+  const rows = (r, { count, pair, ...columns }) => Array.from({ length: count }, (_, i) =>
+    [...PAIR.map((name) => r.pairs[name][pair[i]]), ...Object.values(columns).flat().map((column) => column[i])].join()).sort();
+  found.frames.forEach((frame, f) => {
+    assert.deepEqual({ ...frame, contacts: rows(found, frame.contacts) }, { ...wanted.frames[f], contacts: rows(wanted, wanted.frames[f].contacts) });
+  });
+}
+
 // what is missing is named
 function testFaults(out) {
   const fails = (args, text) => {
@@ -404,6 +426,8 @@ try {
     timed('fragments');
     testFaults(wedge);
     timed('faults');
+    await testResumed(fall, ...FALL);
+    timed('resumed');
   }
   console.log(`viewer: all well in ${((Date.now() - began) / 1000).toFixed(1)} s`);
 } finally {
