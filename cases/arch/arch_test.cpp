@@ -88,7 +88,7 @@ TEST(Arch, OfOneStoneThatIsRepeatedIsTheSame) {
       {"blocks of a repeated stone",
        "m",
        Kind::exact,
-       "the corners that scene.toml states one by one",
+       "identity: the corners that scene.toml states one by one",
        0,
        {1.5e-12, 0},
        "scene.toml writes twelve decimals: half of the last in each coordinate of a corner and of the stone that "
