@@ -61,6 +61,11 @@ if [ -d "$reports/studies" ]; then
       failures+=("comparison of the studies")
 fi
 
+# the blocks of the cases, to be turned
+"$source/reports/make_views.py" --source "$source" --build "$build" --jobs "$jobs"
+status=$?
+[ $status -eq 0 ] || [ $status -eq 77 ] || failures+=("views of the cases")
+
 # all checks at one look
 rm -rf "$reports/checks"
 if [ -s "$reports/verdicts.json" ]; then

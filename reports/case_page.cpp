@@ -85,6 +85,13 @@ std::string scene_files(const Page& page) {
   return text.empty() ? "" : "<h3>Scene</h3>\n" + text;
 }
 
+// the blocks that can be turned, as make_views.py has left them
+std::string blocks(const Page& page) {
+  const fs::path figures = page.folders.build / "reports" / "views" / (page.name + ".html");
+  return fs::exists(figures) ? fmt::format("<h3 id=\"{}-blocks\">Blocks</h3>\n{}", slug(page.name), read_text(figures))
+                             : "";
+}
+
 }  // namespace
 
 std::string case_title(const Folders& folders, const std::string& case_name) {
@@ -110,6 +117,7 @@ std::string case_page(const Folders& folders, const Verdicts& verdicts, const Ca
     text += page.say_missing("This case has no README.md.");
 
   if (status.state != CaseState::not_modelled) {
+    text += blocks(page);
     const std::string checks = case_tables(verdicts, status.name);
     text += fmt::format("<h3 id=\"{}-checks\">Checks of this run</h3>\n", id);
     text += checks.empty() ? page.say_missing("No check was recorded: the case did not run.") : checks;

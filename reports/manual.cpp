@@ -118,6 +118,14 @@ std::string history(const Sources& sources) {
   return text + "</section>\n";
 }
 
+// what the viewers of all cases share; nothing where there are none
+std::string viewer_script(const Sources& sources) {
+  const fs::path script = sources.folders.build / "reports" / "views" / "script.html";
+  if (fs::exists(script)) return read_text(script);
+  sources.missing.push_back("blocks that can be turned: reports/make_views.py has made none");
+  return {};
+}
+
 // in the order of the manual
 std::vector<Part> all_parts(const Sources& sources) {
   const Folders& folders = sources.folders;
@@ -179,7 +187,8 @@ std::string manual(const Sources& sources) {
       VOUSSOIR_VERSION, from_file("manual.css"), cover(sources.verdicts), navigation(parts));
   for (const Part& part : parts)
     text += part.html;
-  return text + "</main>\n<script>\n" + from_file("manual.js") + "</script>\n</body></html>\n";
+  return text + "</main>\n" + viewer_script(sources) + "<script>\n" + from_file("manual.js") +
+         "</script>\n</body></html>\n";
 }
 
 }  // namespace

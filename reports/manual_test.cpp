@@ -1,7 +1,9 @@
 // unit.manual: the pieces of the manual, and a page made from a hand-made case folder.
 #include <gtest/gtest.h>
+#include <toml++/toml.h>
 
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 #include "reports/case_page.hpp"
@@ -129,6 +131,32 @@ TEST(CasePage, ShowsWhatThereIsAndNamesWhatIsNot) {
   EXPECT_EQ(missing.size(), 2u);  // no README.md, no check
   missing.clear();
   EXPECT_TRUE(holds(case_page(folders, verdicts, {"tunnel", CaseState::not_modelled}, missing), "not yet modelled"));
+}
+
+// every case shows its blocks, or says why it has none to show
+TEST(Views, NameEveryCaseOnce) {
+  const fs::path source = VOUSSOIR_SOURCE_DIR;
+  const toml::table views = toml::parse_file((source / "reports" / "views.toml").string());
+  std::set<std::string> shown, without;
+  for (const toml::node& view : *views["view"].as_array()) {
+    const toml::table& table = *view.as_table();
+    const std::string name = table["case"].value_or(""), scene = table["scene"].value_or("");
+    shown.insert(name);
+    EXPECT_TRUE(fs::exists(source / "cases" / name / scene)) << name << "/" << scene;
+    EXPECT_NE(table["look"].value_or(std::string()), "") << name;
+    EXPECT_TRUE(std::string(table["caption"].value_or("")).ends_with(".")) << name;
+  }
+  for (const auto& [name, reason] : *views["without"].as_table()) {
+    without.insert(std::string(name.str()));
+    EXPECT_NE(reason.value_or(std::string()), "") << name.str();
+    EXPECT_FALSE(shown.contains(std::string(name.str()))) << name.str();
+  }
+  for (const auto& entry : fs::directory_iterator(source / "cases"))
+    if (fs::exists(entry.path() / "README.md")) {
+      const std::string name = entry.path().filename().string();
+      EXPECT_EQ(shown.erase(name) + without.erase(name), 1U) << name << " does not stand in reports/views.toml";
+    }
+  EXPECT_TRUE(shown.empty() && without.empty()) << "reports/views.toml names what is no case";
 }
 
 TEST(KernelPage, ShowsTheRunAndNamesWhatIsMissing) {

@@ -43,7 +43,8 @@ const pieces = {
 <body>
 `,
   after_page: '</body>\n</html>\n',
-  before_poster: '<div class="voussoir" data-poster="',
+  before_look: '<div class="voussoir" data-look="',
+  before_poster: '"><img alt="blocks" src="data:image/png;base64,',
   before_data: '"><script type="text/plain">',
   after_fragment: '</script></div>\n',
 };

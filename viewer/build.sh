@@ -13,7 +13,7 @@ cat >"$asset" <<END
 namespace voussoir::viewer {
 
 const std::string_view missing = R"voussoir($missing)voussoir";
-const std::string_view script, before_page, after_page, before_poster, before_data, after_fragment;
+const std::string_view script, before_page, after_page, before_look, before_poster, before_data, after_fragment;
 
 }  // namespace voussoir::viewer
 END

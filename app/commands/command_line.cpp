@@ -130,6 +130,11 @@ void add_view(CLI::App& program, ViewArguments& arguments, Action& action) {
                    "PNG that a fragment shows until it is clicked (viewer/poster.mjs makes it)")
       ->needs(fragment)
       ->check(plain_text());
+  command
+      ->add_option(
+          "--look", arguments.look,
+          "what a fragment shows at first, as behind # in a page's address: frame=3&magnified=100&forces=arrows")
+      ->needs(fragment);
   command->add_flag("--overwrite", arguments.overwrite, "replace the file");
   command->callback([&] { action = [&] { return view_command(arguments); }; });
 }

@@ -58,6 +58,7 @@ struct ViewArguments {
   bool fragment = false;         // for a page that holds the viewer once and many of these
   bool script = false;           // what such a page holds once; then no folder is read
   std::filesystem::path poster;  // a picture to stand there until it is clicked; empty: none
+  std::string look;              // what a fragment shows at first, as behind # in a page's address
   bool overwrite = false;
 };
 

@@ -80,7 +80,7 @@ ExitCode view_command(const ViewArguments& arguments) {
   std::vector<fs::path> inputs{data};
   if (!arguments.poster.empty()) inputs.push_back(arguments.poster);
   refuse_target(target, arguments, inputs);
-  write_file(target, arguments.fragment ? view_fragment(data, poster_of(arguments)) : view_page(data));
+  write_file(target, arguments.fragment ? view_fragment(data, poster_of(arguments), arguments.look) : view_page(data));
   fmt::print("{}\n", target.string());
   return ExitCode::done;
 }

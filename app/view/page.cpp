@@ -88,10 +88,11 @@ std::string viewer_script() {
   return std::string(viewer::script);
 }
 
-std::string view_fragment(const std::filesystem::path& data, std::string_view poster) {
+std::string view_fragment(const std::filesystem::path& data, std::string_view poster, std::string_view look) {
   require_viewer();
-  std::string html(viewer::before_poster);
-  if (!poster.empty()) html += "data:image/png;base64," + base64(poster);
+  std::string html(viewer::before_look);
+  html += base64(look);
+  if (!poster.empty()) (html += viewer::before_poster) += base64(poster);
   html += viewer::before_data;
   html += base64(compressed(view_bytes(data)));
   return html += viewer::after_fragment;

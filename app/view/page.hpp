@@ -20,8 +20,9 @@ void require_viewer();
 std::string view_page(const std::filesystem::path& data);
 
 // The same for a page that holds viewer_script() once: a figure that shows the poster, a PNG's bytes, and starts when
-// it is clicked. Without a poster it starts at once.
-std::string view_fragment(const std::filesystem::path& data, std::string_view poster = {});
+// it is clicked. Without a poster it starts at once where it is the page's only one. `look` is what would stand behind
+// # in a page's address.
+std::string view_fragment(const std::filesystem::path& data, std::string_view poster = {}, std::string_view look = {});
 std::string viewer_script();
 
 }  // namespace voussoir

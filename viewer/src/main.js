@@ -16,7 +16,9 @@ const message = (element, text) => {
 async function start(element, base64) {
   try {
     const run = readRun(await inflate(base64));
-    const viewer = new Viewer(element, run, new URLSearchParams(location.hash.slice(1)));
+    // a page of one has its look in its address, a piece of many in itself
+    const look = atob(element.dataset.look) || location.hash.slice(1);
+    const viewer = new Viewer(element, run, new URLSearchParams(look));
     views.push(viewer);
     if (views.length > MOST) views.shift().close();
     if (document.querySelectorAll('.voussoir').length === 1) document.title = run.head.title || 'Voussoir';
@@ -28,18 +30,16 @@ async function start(element, base64) {
   }
 }
 
-function prepare(element) {
+function prepare(element, _, { length: count }) {
   const data = element.querySelector('script');
-  const base64 = data.textContent, { poster } = element.dataset;
+  const base64 = data.textContent, image = element.querySelector('img');
   data.remove();
-  if (!poster) return start(element, base64);
-  const button = document.createElement('button'), image = document.createElement('img'), word = document.createElement('span');
+  if (!image && count === 1) return start(element, base64);
+  const button = document.createElement('button'), word = document.createElement('span');
   button.type = 'button';
   button.className = 'poster';
-  image.src = poster;
-  image.alt = 'blocks';
   word.textContent = 'turn the blocks';
-  button.append(image, word);
+  button.append(...(image ? [image] : []), word);
   const wait = () => {
     element.append(button);
     element.dataset.state = 'poster';

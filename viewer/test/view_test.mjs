@@ -314,7 +314,7 @@ point = [0, 1, 0]
 async function testFragments(out) {
   const poster = join(folder, 'poster.png'), piece = join(folder, 'piece.html'), code = join(folder, 'script.html');
   execFileSync(process.execPath, [join(source, 'viewer/poster.mjs'), page(out), poster, 'colour=displacement', '480', '320']);
-  execFileSync(program, ['view', out, '--fragment', '--poster', poster, '--out', piece]);
+  execFileSync(program, ['view', out, '--fragment', '--look', 'frame=1&magnified=20', '--poster', poster, '--out', piece]);
   execFileSync(program, ['view', '--script', '--out', code]);
   const many = join(folder, 'many.html');
   writeFileSync(many, `<!doctype html><meta charset=utf-8><style>.voussoir{height:320px;margin:8px}</style>${readFileSync(code)}${readFileSync(piece)}${readFileSync(piece)}`);
@@ -324,6 +324,7 @@ async function testFragments(out) {
   assert.equal(await js("return document.querySelector('.poster img').naturalWidth"), 480);
   await browser.click('.voussoir .poster');
   await until('a picture', "document.querySelector('.voussoir').dataset.state === 'ready'");
+  assert.deepEqual(await js('const { frame, magnified } = window.voussoir.views[0].look; return [frame, magnified]'), [1, 20]);
   assert.equal(await js("return document.querySelectorAll('canvas').length"), 1);
 }
 

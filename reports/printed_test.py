@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+"""printed_test.py BUILD SOURCE FOLDER: a manual of two cases, with blocks that can be turned, is made, opened, printed and compared.
+
+The PDF must say what the page says, and a page with another number, title or line of a scene must be told from it. Ends with
+77 where the viewer, Chromium or poppler-utils is missing; VOUSSOIR_NO_SKIP=1 makes that a failure.
+"""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+build, source, folder = (pathlib.Path(text).resolve() for text in sys.argv[1:4])
+reports = folder / "reports"
+manual, printed, damaged = folder / "manual.html", folder / "manual.pdf", folder / "damaged.html"
+
+
+def stop(status, text):
+    if status == 77 and os.environ.get("VOUSSOIR_NO_SKIP") == "1":
+        status = 1
+    sys.exit(print(text) or status)
+
+
+def run(*command, wanted=0):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+    text = done.stdout + done.stderr
+    if done.returncode != wanted:
+        stop(77 if done.returncode == 77 else 1, f"{pathlib.Path(command[0]).name} ended with {done.returncode}, not {wanted}:\n{text}")
+    return text
+
+
+def expect(truth, what):
+    if not truth:
+        stop(1, f"not so: {what}")
+
+
+def row(case, computed):
+    return {"case": case, "quantity": "critical friction", "kind": "exact", "source": "closed form", "because": "an example", "unit": "deg",
+            "computed": computed, "expected": computed - 0.001, "error": 0.001, "tolerance": 0.05, "tolerance_absolute": 0.05, "tolerance_relative": 0.0,
+            "margin": 0.02, "bound": "both", "verdict": "passed", "commit": "none", "seconds": 1.5, "contact_evaluations": 25743}
+
+
+cases = ["incline", "wedge"]
+shutil.rmtree(folder, ignore_errors=True)
+reports.mkdir(parents=True)
+(folder / "app").symlink_to(build / "app")
+(reports / "verdicts.json").write_text(json.dumps({
+    "commit": "none", "compared_with": "", "failures": [], "moved": [], "cases": [{"name": name, "state": "run"} for name in cases],
+    "rows": [row("incline", 29.99917), row("wedge", 33.35876)]}))
+(reports / "scene_keys.md").write_text(run(build / "app" / "voussoir", "docs"))
+
+run(source / "reports" / "make_views.py", "--source", source, "--build", folder, *(word for name in cases for word in ("--only", name)))
+run(build / "reports" / "voussoir_manual", "--source", source, "--build", folder, "--out", manual)
+page = manual.read_text()
+expect(page.count('<div class="voussoir"') == len(cases), "each case shows its blocks")
+expect(page.count('<img alt="blocks" src="data:image/png;base64,') == len(cases), "each has a poster")
+expect(page.count('id="voussoir-viewer"') == 1, "the page holds the viewer once")
+
+run(shutil.which("node") or "nodejs", source / "reports" / "opened_manual_test.mjs", manual, len(cases))
+
+run(source / "reports" / "print_manual.sh", manual, printed)
+print(run(source / "reports" / "same_numbers.py", manual, printed), end="")
+pictures = run("pdfimages", "-list", printed)
+expect(sum(" 920 " in line for line in pictures.splitlines()) >= len(cases), "posters are printed")
+changes = {"33.3588": "33.3589", "<h2>Scene keys</h2>": "<h2>Keys of scenes</h2>", "normal_stiffness = 1e9": "normal_stiffness = 2e9"}
+for found, other in changes.items():
+    expect(found in page, f"the page holds {found}")
+    damaged.write_text(page.replace(found, other))
+    text = run(source / "reports" / "same_numbers.py", damaged, printed, wanted=1)
+    expect(other.replace("<h2>", "").replace("</h2>", "") in text, f"what differs is named: {other}, in\n{text}")
