@@ -1,5 +1,7 @@
 #include "app/origin.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -27,8 +29,9 @@ bool is_portable() {
 
 std::string with_portable_math(const std::string& stated) {
   // tunables stand behind colons; a name that comes twice would take the last alone
-  const std::size_t found = (":" + stated).rfind(std::string(":") + capabilities);
-  if (found == std::string::npos) return stated + (stated.empty() ? "" : ":") + capabilities + without_fused;
+  const std::size_t found = fmt::format(":{}", stated).rfind(fmt::format(":{}", capabilities));
+  if (found == std::string::npos)
+    return fmt::format("{}{}{}{}", stated, stated.empty() ? "" : ":", capabilities, without_fused);
   const std::size_t end = std::min(stated.find(':', found), stated.size());
   const std::string_view list = std::string_view(stated).substr(found, end - found);
   if (list.ends_with(without_fused)) return stated;

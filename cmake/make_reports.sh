@@ -112,7 +112,9 @@ if [ -x "$program" ] && ! "$program" docs >"$reports/scene_keys.md"; then
 fi
 rm -f "$reports"/manual-*.html "$reports"/manual-*.pdf "$reports/index.html"  # of another version, and of those that did not say theirs
 "$build/reports/voussoir_manual" --source "$source" --build "$build" || failures+=("manual")
+largest_manual=12000000  # bytes: what can still be mailed
 for page in "$reports"/manual-*.html; do
+  [ "$(stat -c %s "$page")" -le $largest_manual ] || failures+=("size of the manual: $(stat -c %s "$page") bytes, at most $largest_manual")
   "$source/reports/print_manual.sh" "$page" "${page%.html}.pdf"
   status=$?
   if [ $status -eq 0 ]; then

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <cstdlib>
 #include <initializer_list>
 #include <memory>
@@ -183,6 +184,48 @@ std::optional<std::string> markdown_title(const std::string& markdown) {
   return text;
 }
 
+namespace {
+
+void replace_all(std::string& text, std::string_view found, std::string_view other) {
+  for (std::size_t at = text.find(found); at != std::string::npos; at = text.find(found, at + other.size()))
+    text.replace(at, found.size(), other);
+}
+
+// rgb( 96,  96,  96) at the begin of the text as #606060, and how much of the text that was; nothing where it is none
+std::optional<std::pair<std::string, std::size_t>> short_colour(std::string_view text) {
+  const std::string head(text.substr(0, std::string_view("rgb(255, 255, 255)").size()));
+  int red = 0, green = 0, blue = 0, length = 0;
+  if (std::sscanf(head.c_str(), "rgb(%d ,%d ,%d )%n", &red, &green, &blue, &length) != 3 || length == 0) return {};
+  return std::pair(fmt::format("#{:02x}{:02x}{:02x}", red, green, blue), static_cast<std::size_t>(length));
+}
+
+// What gnuplot says of every line and letter is said once, at the figure and in manual.css, or is what SVG takes
+// anyway: half of a figure's size. The titles that it gives to its elements would show as hints beneath the pointer.
+std::string compact(std::string svg) {
+  constexpr std::string_view font = " font-family=\"DejaVu Sans,Helvetica,Arial,sans-serif\"";
+  replace_all(svg, font, "");
+  svg.insert(std::string_view("<svg").size(), font);
+  replace_all(svg, " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"", "");
+  replace_all(svg, "fill=\"none\" color=\"black\" stroke=\"currentColor\"", "class=\"line\"");
+  std::string shorter;
+  for (std::size_t i = 0; i < svg.size(); ++i) {
+    const auto rest = std::string_view(svg).substr(i);
+    if (rest.starts_with("<title>gnuplot_plot") || rest.starts_with("<title>Gnuplot")) {
+      i = std::min(svg.find("</title>", i), svg.size()) + std::string_view("</title>").size() - 1;
+    } else if (const auto colour = rest.starts_with("rgb(") ? short_colour(rest) : std::nullopt) {
+      shorter += colour->first;
+      i += colour->second - 1;
+    } else if (!std::isspace(static_cast<unsigned char>(svg[i]))) {
+      shorter += svg[i];
+    } else if (shorter.back() != ' ') {
+      shorter += ' ';
+    }
+  }
+  return shorter;
+}
+
+}  // namespace
+
 std::string inline_svg(const std::filesystem::path& path, const std::string& prefix) {
   const std::string text = verification::read_text(path);
   const auto start = text.find("<svg");
@@ -192,7 +235,7 @@ std::string inline_svg(const std::filesystem::path& path, const std::string& pre
 
   // every gnuplot file uses the same ids; in one page the first one would win
   static const std::regex id(R"re((\bid=['"]|href=['"]#|url\(['"]?#))re");
-  return std::regex_replace(text.substr(start, end + 6 - start), id, "$1" + prefix + "-");
+  return std::regex_replace(compact(text.substr(start, end + 6 - start)), id, "$1" + prefix + "-");
 }
 
 std::string figure(const std::string& content, const std::string& caption) {

@@ -58,7 +58,7 @@ class Views:
         if not (piece.exists() and key.exists() and key.read_text() == self.key(view)):
             shutil.rmtree(work, ignore_errors=True)
             work.mkdir(parents=True)
-            run, poster = work / "run", work / "poster.png"
+            run, poster = work / "run", work / "poster.webp"
             settings = [word for setting in view.get("set", []) for word in ("--set", setting)]
             call(self.program, "run", f"cases/{view['case']}/{view['scene']}", "--view", "--quiet", "--threads", "1", "--out", run,
                  *settings, "--set", "output.frames=false", cwd=self.source, timeout=LONGEST)

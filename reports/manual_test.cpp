@@ -81,6 +81,21 @@ TEST(Html, MakesIdsOfAFigureUnique) {
   EXPECT_THROW(inline_svg(path, "wedge"), std::runtime_error);
 }
 
+TEST(Html, SaysOnceWhatGnuplotRepeats) {
+  const fs::path path = fs::path(testing::TempDir()) / "voussoir_figure.svg";
+  const std::string font = "font-family=\"DejaVu Sans,Helvetica,Arial,sans-serif\"";
+  write_atomically(
+      path,
+      "<svg><g id=\"gnuplot_plot_1\" ><title>gnuplot_plot_1</title>\n<g fill=\"none\" color=\"black\" "
+      "stroke=\"currentColor\" stroke-width=\"0.80\" stroke-linecap=\"butt\" stroke-linejoin=\"miter\">\n\t"
+      "<path stroke='rgb(  0, 114, 178)'  d='M1,2 \t\n\tL3,4'/></g></g>\n<title>of mine</title><text " +
+          font + ">rgb(1)</text></svg>\n");
+  EXPECT_EQ(inline_svg(path, "a"),
+            "<svg " + font +
+                "><g id=\"a-gnuplot_plot_1\" > <g class=\"line\" stroke-width=\"0.80\"> "
+                "<path stroke='#0072b2' d='M1,2 L3,4'/></g></g> <title>of mine</title><text>rgb(1)</text></svg>");
+}
+
 TEST(TextPage, LeadsToCasesAndTheirScenes) {
   const fs::path root = fs::path(testing::TempDir()) / "voussoir_text_page_test";
   write_atomically(root / "reports/water.md",

@@ -54,7 +54,7 @@ run(source / "reports" / "make_views.py", "--source", source, "--build", folder,
 run(build / "reports" / "voussoir_manual", "--source", source, "--build", folder, "--out", manual)
 page = manual.read_text()
 expect(page.count('<div class="voussoir"') == len(cases), "each case shows its blocks")
-expect(page.count('<img alt="blocks" src="data:image/png;base64,') == len(cases), "each has a poster")
+expect(page.count('<img alt="blocks" src="data:image/webp;base64,') == len(cases), "each has a poster")
 expect(page.count('id="voussoir-viewer"') == 1, "the page holds the viewer once")
 
 run(shutil.which("node") or "nodejs", source / "reports" / "opened_manual_test.mjs", manual, len(cases))

@@ -44,7 +44,7 @@ const pieces = {
 `,
   after_page: '</body>\n</html>\n',
   before_look: '<div class="voussoir" data-look="',
-  before_poster: '"><img alt="blocks" src="data:image/png;base64,',
+  before_poster: '"><img alt="blocks" src="data:image/',
   before_data: '"><script type="text/plain">',
   after_fragment: '</script></div>\n',
 };

@@ -1,25 +1,26 @@
-// node poster.mjs PAGE PNG [LOOK [WIDTH HEIGHT [SCALE]]]: a still picture of a page that `voussoir run --view` wrote, by
+// node poster.mjs PAGE PICTURE [LOOK [WIDTH HEIGHT [SCALE]]]: a still picture of a page that `voussoir run --view` wrote, by
 // headless Chromium. LOOK is what stands behind # in its address, e.g.
-// "frame=3&magnified=100&colour=displacement&forces=arrows". The page draws it as its button `save PNG` does.
+// "frame=3&magnified=100&colour=displacement&forces=arrows". The page draws it as its button `save PNG` does, or, where
+// PICTURE ends in .webp, as such, a third as large.
 import { spawnSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 
-const [page, png, look = '', width = '920', height = '560', scale = '1'] = process.argv.slice(2);
-if (!png) {
-  console.error('poster.mjs: name the page and the PNG');
+const [page, picture, look = '', width = '920', height = '560', scale = '1'] = process.argv.slice(2);
+if (!picture) {
+  console.error('poster.mjs: name the page and the picture');
   process.exit(2);
 }
 const { error, stdout, stderr } = spawnSync('chromium', ['--headless=new', '--no-sandbox', '--disable-gpu-sandbox', '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', `--force-device-scale-factor=${scale}`, '--virtual-time-budget=20000', '--dump-dom',
-  `file://${encodeURI(resolve(page))}#${look}&poster=${width}x${height}`], { encoding: 'utf8', maxBuffer: 1 << 28 });
+  `file://${encodeURI(resolve(page))}#${look}&poster=${width}x${height}${picture.endsWith('.webp') ? '.webp' : ''}`], { encoding: 'utf8', maxBuffer: 1 << 28 });
 if (error?.code === 'ENOENT') {
   console.error('poster.mjs: chromium is not installed');
   process.exit(77);
 }
-const data = stdout?.match(/data-png="data:image\/png;base64,([^"]+)"/);
+const data = stdout?.match(/data-picture="data:image\/\w+;base64,([^"]+)"/);
 if (!data) {
   console.error(`poster.mjs: no picture: ${stderr.trim().split('\n').at(-1)}`);
   process.exit(1);
 }
-writeFileSync(png, Buffer.from(data[1], 'base64'));
+writeFileSync(picture, Buffer.from(data[1], 'base64'));

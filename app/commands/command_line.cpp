@@ -127,7 +127,7 @@ void add_view(CLI::App& program, ViewArguments& arguments, Action& action) {
       ->excludes(fragment);
   command
       ->add_option("--poster", arguments.poster,
-                   "PNG that a fragment shows until it is clicked (viewer/poster.mjs makes it)")
+                   "PNG or WebP that a fragment shows until it is clicked (viewer/poster.mjs makes it)")
       ->needs(fragment)
       ->check(plain_text());
   command

@@ -52,10 +52,11 @@ std::string poster_of(const ViewArguments& arguments) {
   constexpr std::uintmax_t most = 16U << 20;
   if (arguments.poster.empty()) return {};
   try {
-    std::string png = read_file(arguments.poster, most);
-    if (!png.starts_with("\x89PNG"))
-      throw BadInput(fmt::format("'{}' is no PNG: viewer/poster.mjs makes one", arguments.poster.string()));
-    return png;
+    std::string picture = read_file(arguments.poster, most);
+    if (picture_type(picture).empty())
+      throw BadInput(
+          fmt::format("'{}' is neither PNG nor WebP: viewer/poster.mjs makes one", arguments.poster.string()));
+    return picture;
   } catch (const ReadFault& fault) {
     throw BadInput(fmt::format("'{}': {}", arguments.poster.string(), fault.what()));
   }

@@ -52,7 +52,10 @@ class JointCollector {
   // 2-D, from end to end
   void trace(const Origin& origin, const Vector<2>& from, const Vector<2>& to);
 
-  void drop(int line, const std::string& reason) { found_.dropped.push_back({reason, line}); }
+  void drop(int line, const std::string& reason) {
+    found_.dropped.emplace_back().reason = reason;
+    found_.dropped.back().line = line;
+  }
   void remark(const std::string& text) { found_.remarks.push_back(text); }
   ImportedJoints finish();
 

@@ -9,7 +9,7 @@ namespace voussoir::viewer {
 extern const std::string_view missing;                  // why there is no viewer; empty: it is there
 extern const std::string_view script;                   // once a page: style and script
 extern const std::string_view before_page, after_page;  // around script and fragment
-// a fragment: the look, a poster or none, the data, each in base64
+// a fragment: the look, a poster with its type or none, the data, each in base64
 extern const std::string_view before_look, before_poster, before_data, after_fragment;
 
 }  // namespace voussoir::viewer

@@ -88,11 +88,17 @@ std::string viewer_script() {
   return std::string(viewer::script);
 }
 
+std::string_view picture_type(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG")) return "png";
+  return bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP") ? "webp" : "";
+}
+
 std::string view_fragment(const std::filesystem::path& data, std::string_view poster, std::string_view look) {
   require_viewer();
   std::string html(viewer::before_look);
   html += base64(look);
-  if (!poster.empty()) (html += viewer::before_poster) += base64(poster);
+  if (!poster.empty())
+    html += fmt::format("{}{};base64,{}", viewer::before_poster, picture_type(poster), base64(poster));
   html += viewer::before_data;
   html += base64(compressed(view_bytes(data)));
   return html += viewer::after_fragment;

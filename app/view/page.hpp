@@ -19,9 +19,12 @@ void require_viewer();
 // BadInput where the file is none, or there is no viewer.
 std::string view_page(const std::filesystem::path& data);
 
-// The same for a page that holds viewer_script() once: a figure that shows the poster, a PNG's bytes, and starts when
-// it is clicked. Without a poster it starts at once where it is the page's only one. `look` is what would stand behind
-// # in a page's address.
+// png or webp; empty for what is neither
+std::string_view picture_type(std::string_view bytes);
+
+// The same for a page that holds viewer_script() once: a figure that shows the poster, bytes of such a picture, and
+// starts when it is clicked. Without a poster it starts at once where it is the page's only one. `look` is what would
+// stand behind # in a page's address.
 std::string view_fragment(const std::filesystem::path& data, std::string_view poster = {}, std::string_view look = {});
 std::string viewer_script();
 

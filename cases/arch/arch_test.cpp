@@ -73,8 +73,8 @@ double apart(const Model<2>& model, const Body<2>& body, const Model<2>& other_m
 TEST(Arch, OfOneStoneThatIsRepeatedIsTheSame) {
   CaseReport report("arch", {"blocks of a repeated stone"});
   const auto load = [](const char* name) { return load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / name, {}); };
-  const LoadedScene stated = load("scene.toml"), repeated = load("repeated.toml");
-  const Model<2>&one = std::get<Prepared<2>>(stated.prepared).model,
+  const LoadedScene written = load("scene.toml"), repeated = load("repeated.toml");
+  const Model<2>&one = std::get<Prepared<2>>(written.prepared).model,
         &other = std::get<Prepared<2>>(repeated.prepared).model;
   ASSERT_EQ(one.bodies.size(), other.bodies.size());
   double most = 0;

@@ -143,8 +143,9 @@ MovePlan read_move(const Subject& table, const Selector& bodies) {
   for (std::size_t k = 0; k < plan.velocity.size(); ++k)
     if (plan.velocity[k] != 0 && !plan.translation[k])
       refuse(table, "velocity",
-             std::string("has a component along ") + "xyz"[k] +
-                 ", which translation does not name; name it there or make the component 0");
+             fmt::format(
+                 "has a component along {}, which translation does not name; name it there or make the component 0",
+                 "xyz"[k]));
   plan.factor = read_factor(table);
   return plan;
 }

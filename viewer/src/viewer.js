@@ -46,7 +46,7 @@ export class Viewer {
     this.readAddress(address);
     this.update();
     this.fit();
-    if (this.poster) this.writePoster();
+    if (this.poster) this.writePoster(this.poster);
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.picture);
   }
@@ -177,10 +177,10 @@ export class Viewer {
     for (const name of address.getAll('hidden')) if (named(name) >= 0) look.hidden.add(named(name));
     for (const key of ['showFixed', 'edges', 'cutOther']) if (address.has(key)) look[key] = address.get(key) === '1';
     if (address.has('block')) this.pickByName(address.get('block'));
-    const poster = address.get('poster')?.match(/^(\d{2,4})x(\d{2,4})$/);
+    const poster = address.get('poster')?.match(/^(\d{2,4})x(\d{2,4})(\.webp)?$/);
     if (poster) {
       Object.assign(this.element.style, { width: `${poster[1]}px`, height: `${poster[2]}px` });
-      this.poster = true;
+      this.poster = poster[3] ? 'image/webp' : 'image/png';
     }
     if (poster || address.get('panel') === '0') this.element.classList.add('bare');
     const view = ['azimuth', 'height'].map((key) => Number(address.get(key)));
@@ -385,7 +385,8 @@ export class Viewer {
     return [((p.x + 1) / 2) * w, ((1 - p.y) / 2) * h];
   }
 
-  async png() {
+  // blocks and what lies over them
+  async drawn() {
     const { picture, renderer } = this, ratio = renderer.getPixelRatio();
     this.draw();
     const canvas = document.createElement('canvas'), context = canvas.getContext('2d');
@@ -398,14 +399,17 @@ export class Viewer {
     context.scale(ratio, ratio);
     context.drawImage(image, 0, 0, picture.clientWidth, picture.clientHeight);
     URL.revokeObjectURL(image.src);
+    return canvas;
+  }
+
+  async png() {
+    const canvas = await this.drawn();
     return new Promise((done) => canvas.toBlob(done, 'image/png'));
   }
 
   // for poster.mjs, which reads it from the document
-  async writePoster() {
-    const reader = new FileReader();
-    reader.onload = () => (this.element.dataset.png = reader.result);
-    reader.readAsDataURL(await this.png());
+  async writePoster(type) {
+    this.element.dataset.picture = (await this.drawn()).toDataURL(type, 0.9);
   }
 
   async savePng() {
