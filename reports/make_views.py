@@ -70,7 +70,10 @@ class Views:
             call(self.program, "view", run, "--fragment", "--look", view["look"], *options, "--out", piece)
             shutil.rmtree(run)
             key.write_text(self.key(view))
-        return f'<figure class="view">{piece.read_text()}<figcaption>{html.escape(view["caption"])}</figcaption></figure>\n'
+        said = html.escape(view["caption"])
+        if not self.posters:
+            said += " The picture is missing: node or Chromium was not installed when this page was made."
+        return f'<figure class="view">{piece.read_text()}<figcaption>{said}</figcaption></figure>\n'
 
     def case(self, name, views):
         """writes the figures of one case; says what failed"""

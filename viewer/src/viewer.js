@@ -409,7 +409,7 @@ export class Viewer {
 
   // for poster.mjs, which reads it from the document
   async writePoster(type) {
-    this.element.dataset.picture = (await this.drawn()).toDataURL(type, 0.9);
+    this.element.dataset.picture = (await this.drawn()).toDataURL(type, 1); // WebP without loss
   }
 
   async savePng() {
