@@ -81,7 +81,7 @@ class Views:
         for number, view in enumerate(views, 1):
             try:
                 text += self.figure(view, number)
-            except (Missing, subprocess.TimeoutExpired) as problem:
+            except (Missing, OSError, subprocess.TimeoutExpired) as problem:
                 failures.append(f"view of {name}, {view['scene']}: {problem}")
                 text += f'<p class="note">The blocks of {html.escape(view["scene"])} are not shown: {html.escape(str(problem))}</p>\n'
         (self.out / f"{name}.html").write_text(text)

@@ -6,7 +6,7 @@ export const OKABE = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#5
 export const ROCK = '#efe6d2', HELD = '#d9d9d9', EDGE = '#4a4a4a', INK = '#202020';
 export const PRESSED = '#0072b2', PULLED = '#d55e00';
 // from little to much, ever darker, so that it can be read in grey
-const RAMP = ['#f2f6fa', '#c6dcec', '#8cbfe0', '#56a0d0', '#0072b2', '#7a5a80', '#d55e00', '#8f3500'];
+const RAMP = ['#f2f6fa', '#cfe2f0', '#a3cdea', '#6ab8e8', '#8ca0ac', '#c07f52', '#c85a08', '#8f3500'];
 
 export const rgb = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
 

@@ -7,6 +7,7 @@ import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:f
 import { join } from 'node:path';
 import { Browser, found } from './browser.mjs';
 import { cornersByBody } from './blocks_vtp.mjs';
+import { ramp } from '../src/colours.js';
 import { PAIR, readRun } from '../src/data.js';
 
 const [program, source, script, folder] = process.argv.slice(2);
@@ -87,6 +88,13 @@ const viewer = (text, ...args) => js(`const v = window.voussoir.views[0]; ${text
 // ---- sizes
 
 const FALL = ['--until', 'fall', '--set', 'stage.fall.duration_s=1', '--set', 'output.frame_interval_s=0.0205'];
+
+// what is more is darker, printed in grey as well: the luminance of sRGB
+function testGrey() {
+  const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+  const luminance = ramp.map(([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b));
+  luminance.slice(1).forEach((light, i) => assert.ok(light < 0.9 * luminance[i], `colour ${i + 1} is darker than the one before`));
+}
 
 function testSizes() {
   const size = statSync(script).size;
@@ -406,6 +414,7 @@ try {
   const timed = (what) => { console.log(`${what}: ${Date.now() - last} ms`); last = Date.now(); };
   if (long) await testMany();
   else {
+    testGrey();
     const fall = testSizes();
     timed('sizes');
     await testPositions(fall, 50);
