@@ -23,6 +23,7 @@ async function start(element, base64) {
     if (views.length > MOST) views.shift().close();
     if (document.querySelectorAll('.voussoir').length === 1) document.title = run.head.title || 'Voussoir';
     element.dataset.state = 'ready';
+    return viewer;
   } catch (error) {
     element.dataset.state = 'failed';
     message(element, `The blocks cannot be shown: ${error.message}`);
@@ -46,8 +47,7 @@ function prepare(element, _, { length: count }) {
   };
   button.onclick = async () => {
     button.remove();
-    await start(element, base64);
-    views.at(-1).closed = wait;
+    (await start(element, base64)).closed = wait;
   };
   wait();
 }

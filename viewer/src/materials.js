@@ -24,7 +24,7 @@ export function sharedUniforms(bodies, groups, properties, faceValues) {
     cut: u(new Vector4(0, 0, 0, 1)), showFixed: u(true),
     groups: u(groups.texture), propertyColours: u(properties.texture), faceValues: u(faceValues.texture),
     mode: u(0), low: u(0), high: u(1), logarithmic: u(false), ramp: u(ramp.map((c) => new Vector3(...c))),
-    chosenGroup: u(-1), chosenJoint: u(-1), picked: u(-1), opacity: u(1), light: u(new Vector3(0, 0, 1)),
+    chosenGroup: u(-1), picked: u(-1), opacity: u(1), light: u(new Vector3(0, 0, 1)),
     viewport: u(new Vector2(1, 1)), widest: u(0),
   };
 }

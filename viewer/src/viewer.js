@@ -2,7 +2,7 @@
 import { Color, LineSegments, Mesh, Scene, Vector3, WebGLRenderer, WebGLRenderTarget, LineBasicMaterial, LinearSRGBColorSpace } from 'three';
 import { Bodies } from './bodies.js';
 import { bestAzimuth, Camera } from './camera.js';
-import { BODY, choices, FACE, frictionByFace, groupColour, listColour, POINT, rgb, EDGE } from './colours.js';
+import { BODY, choices, digits, EDGE, FACE, frictionByFace, groupColour, listColour, POINT, rgb, withUnit } from './colours.js';
 import { START, TRIAL, nameOf } from './data.js';
 import { boxOf, edgeGeometry, faceGeometry, findInner, listFaces, polygonNormal } from './geometry.js';
 import { describe } from './info.js';
@@ -12,13 +12,12 @@ import { Panel } from './panel.js';
 import { addArrows, addJointEdges, addNetwork, addSupport, largestBetween, largestForce, Pieces } from './pieces.js';
 import { cutGeometry, cutParts } from './section.js';
 import { Stereonet } from './stereonet.js';
-import { digits, withUnit } from './colours.js';
 
 // pixels: of the network's widest line, at most; blocks smaller than the second show their edges ever paler
 const WIDEST = 16, FULL_EDGES = 14;
 
 const initialLook = (run) => ({
-  frame: run.frames.length > 1 ? 1 : 0, magnified: 1, exploded: 0, colour: run.head.joints.length ? 'set' : 'displacement',
+  frame: run.frames.length - 1, magnified: 1, exploded: 0, colour: run.head.joints.length ? 'set' : 'displacement',
   forces: 'none', forceSize: 1, section: 'none', cutAt: 0.5, cutOther: false, hidden: new Set(), chosen: -1, showFixed: true,
   edges: true, shape: -1, face: -1,
 });
@@ -41,7 +40,6 @@ export class Viewer {
     this.normals = this.faces.map((face) => polygonNormal(run.shapes[face.shape].parts[face.part].points, face.corners));
     this.choices = choices(run, this.bodies);
     this.look = initialLook(run);
-    this.look.frame = run.frames.length - 1;
     this.build();
     this.readAddress(address);
     this.update();
