@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "verification/verdict_file.hpp"
@@ -216,6 +218,25 @@ std::string judge_folders(const std::string& from, const std::string& to_path) {
   return fmt::format("{} must not know {}", from, to);
 }
 
+// each case is a program of its own
+bool in_one_program(const std::string& a, const std::string& b) {
+  const auto case_of = [](const std::string& path) { return top_folder(path) == "cases" ? folder_of(path) : ""; };
+  return case_of(a).empty() || case_of(b).empty() || case_of(a) == case_of(b);
+}
+
+void check_types(const std::vector<SourceFile>& sources, std::vector<std::string>& found) {
+  std::multimap<std::string, std::string> places;
+  for (const SourceFile& source : sources)
+    for (const std::string& type : std::set<std::string>(source.types.begin(), source.types.end())) {
+      const auto [first, last] = places.equal_range(type);
+      for (auto other = first; other != last; ++other)
+        if (in_one_program(other->second, source.path))
+          found.push_back(fmt::format("{} and {} both define {}: one program may hold both, rename one", other->second,
+                                      source.path, type));
+      places.emplace(type, source.path);
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> include_paths(std::string_view text) {
@@ -225,6 +246,32 @@ std::vector<std::string> include_paths(std::string_view text) {
   for (Iterator match(text.begin(), text.end(), line), end; match != end; ++match)
     paths.push_back((*match)[1].str());
   return paths;
+}
+
+std::vector<std::string> type_names(std::string_view text) {
+  static const std::regex silent(R"re(//.*|"(\\.|[^"\\])*"|'\{'|'\}')re");
+  static const std::regex space(R"(^\s*(?:inline )?namespace\s*([\w:]*)\s*\{)");
+  static const std::regex type(R"(^(?:template\s*<.*>\s*)?(?:struct|class|enum(?: class)?)\s+(\w+)\b[^;]*(?:\{.*)?$)");
+  std::vector<std::string> found;
+  std::vector<std::pair<long, std::string>> spaces;  // that are open: braces before them, name
+  long open = 0;
+  std::istringstream lines{std::string(text)};
+  for (std::string line; std::getline(lines, line);) {
+    line = std::regex_replace(line, silent, "");
+    std::smatch match;
+    if (std::regex_search(line, match, space)) spaces.emplace_back(open, match[1]);
+    const bool named = std::ranges::none_of(spaces, [](const auto& one) { return one.second.empty(); });
+    if (named && open == std::ssize(spaces) && std::regex_search(line, match, type)) {
+      std::string name;
+      for (const auto& [before, part] : spaces)
+        name += part + "::";
+      found.push_back(name + match[1].str());
+    }
+    open += std::ranges::count(line, '{') - std::ranges::count(line, '}');
+    while (!spaces.empty() && open <= spaces.back().first)
+      spaces.pop_back();
+  }
+  return found;
 }
 
 std::vector<SourceFile> read_sources(const fs::path& root) {
@@ -237,6 +284,7 @@ std::vector<SourceFile> read_sources(const fs::path& root) {
       const std::string text = read_text(entry.path());
       SourceFile source{entry.path().lexically_relative(root).generic_string(), {}, 0};
       source.lines = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+      source.types = type_names(text);
       for (std::string& path : include_paths(text)) {
         // written relative to the file, it would escape the rules below
         const fs::path beside = entry.path().parent_path() / path;
@@ -276,6 +324,7 @@ std::vector<std::string> violations(const std::vector<SourceFile>& sources) {
     if (source.lines > limit)
       found.push_back(fmt::format("{} has {} lines, more than {}", source.path, source.lines, limit));
   }
+  check_types(sources, found);
   return found;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Who may include whom: the order of the folders, of the rooms of the core and of the files in each room is stated
-// once, in architecture.cpp, and enforced by unit.architecture. Where no arrow points up there is no cycle.
+// once, in architecture.cpp, and enforced by unit.architecture. Where no arrow points up there is no cycle. And no two
+// types of one program have one name: the linker would take the functions of either for both, without a word.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -13,16 +14,20 @@ struct SourceFile {
   std::string path;
   std::vector<std::string> includes;
   int lines = 0;
+  std::vector<std::string> types = {};  // that it defines outside of unnamed namespaces, e.g. voussoir::cases::Trial
 };
 
 // The paths between "…" or <…> of every #include line.
 std::vector<std::string> include_paths(std::string_view text);
 
+// The structs, classes and enums that a text defines in named namespaces or none; not what stands within them.
+std::vector<std::string> type_names(std::string_view text);
+
 // All .hpp and .cpp files below the project's folders, sorted by path.
 std::vector<SourceFile> read_sources(const std::filesystem::path& root);
 
 // One sentence per violation: an arrow that runs back up or across, a file without a line in its folder's order, a file
-// that is too long.
+// that is too long, a type that another file defines, too.
 std::vector<std::string> violations(const std::vector<SourceFile>& sources);
 
 // What the orders name and no source is called: renamed or deleted since.

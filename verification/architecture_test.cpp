@@ -76,6 +76,28 @@ TEST(Architecture, OrdersTheFilesOfARoom) {
   EXPECT_FALSE(violations({{"core/contact/kernel/helpers.hpp", {}, 10}}).empty());
 }
 
+TEST(Architecture, FindsTheTypesOfAFile) {
+  const std::string text =
+      "namespace voussoir {\nstruct Ahead;\nclass Ahead2;\n"
+      "template <int Dim> struct Block {  // struct Said\n  struct Within {};\n};\n"
+      "enum class Kind { one };\nstruct\nnamespace {\nstruct Hidden {\n};\n}\n"
+      "namespace cases {\nclass Trial final : public Base {\n};\nconst char* brace = \"{\";\n}\n"
+      "inline namespace parts {\nstruct Wall\n{\n};\n}\n}\nstruct Free {};\n";
+  EXPECT_EQ(type_names(text), (std::vector<std::string>{"voussoir::Block", "voussoir::Kind", "voussoir::cases::Trial",
+                                                        "voussoir::parts::Wall", "Free"}));
+}
+
+TEST(Architecture, RefusesTwoTypesOfOneName) {
+  const auto both = [](const std::string& one, const std::string& other) {
+    return violations({{one, {}, 10, {"voussoir::Origin"}}, {other, {}, 10, {"voussoir::Origin", "voussoir::Else"}}});
+  };
+  EXPECT_EQ(both("app/import/imported.hpp", "core/output/origin.hpp"),
+            std::vector<std::string>{"app/import/imported.hpp and core/output/origin.hpp both define voussoir::Origin: "
+                                     "one program may hold both, rename one"});
+  EXPECT_EQ(both("cases/wedge/wedge_scene.hpp", "cases/wedge/wedge_test.cpp").size(), 1u);
+  EXPECT_TRUE(both("cases/arch/arch_trial.hpp", "cases/wedge/wedge_test.cpp").empty());
+}
+
 TEST(Architecture, KeepsTheHousesApart) {
   for (const char* other : {"reference/wedge/wedge.hpp", "cases/wedge/x.hpp", "verification/verification.hpp",
                             "app/main.hpp", "reports/text.hpp", "benchmarks/x.hpp"}) {

@@ -116,7 +116,7 @@ class DxfReader {
                         number));
     }
   }
-  Origin origin() {
+  JointSource origin() {
     const Word* layer = entity_.find(8);
     return {entity_.line, fmt::format("face-{}", ++count_), layer ? std::string(layer->text) : ""};
   }
@@ -131,7 +131,7 @@ class DxfReader {
   std::string one_kind() const { return "an entity " + shown(entity_.kind); }
 
   void face() {
-    const Origin from = origin();
+    const JointSource from = origin();
     std::vector<Vector<3>> corners;
     for (int code = 10; code < 14; ++code) {
       const bool there = entity_.find(code) && entity_.find(code + 10);
@@ -146,7 +146,7 @@ class DxfReader {
   }
   // its corners are VERTEX entities up to SEQEND
   void polyline() {
-    const Origin from = origin();
+    const JointSource from = origin();
     const Entity head = entity_;
     const bool drawn_flat = !head.flag(in_space);
     const bool mesh = head.flag(polygon_mesh) || head.flag(polyface_mesh);
@@ -167,7 +167,7 @@ class DxfReader {
     add(from, std::move(corners));
   }
   void flat_polyline() {
-    const Origin from = origin();
+    const JointSource from = origin();
     const Eigen::Matrix3d axes = axes_of(entity_);
     const double elevation = entity_.number(38, 0);
     std::vector<Vector<3>> corners;
@@ -184,7 +184,7 @@ class DxfReader {
     add(from, std::move(corners));
   }
   // a closed line may state its first corner again
-  void add(const Origin& from, std::vector<Vector<3>> corners) {
+  void add(const JointSource& from, std::vector<Vector<3>> corners) {
     if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
     joints_.polygon(from, corners);
   }

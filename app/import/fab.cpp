@@ -108,8 +108,8 @@ class FabReader {
   void fracture() {
     if (words_.size() < 3) refuse(words_[0], "a fracture begins with its number, its corners' number and its set");
     const std::string set(words_[2].text);
-    const Origin origin{words_[0].line, "fracture-" + std::string(words_[0].text),
-                        sets_.contains(set) ? sets_[set] : "set-" + set};
+    const JointSource origin{words_[0].line, "fracture-" + std::string(words_[0].text),
+                             sets_.contains(set) ? sets_[set] : "set-" + set};
     const long long corners = count(words_[1], "number of corners");
     std::vector<Vector<3>> loop;
     for (long long k = 0; k < corners; ++k) {

@@ -39,7 +39,7 @@ std::vector<Word> cells_of(std::string_view line, int number) {
 }
 
 struct Facet {
-  Origin origin;
+  JointSource origin;
   StatedPlane plane;  // local
   double along_strike = 0, down_dip = 0;
   std::vector<Vector<3>> corners;

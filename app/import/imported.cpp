@@ -112,7 +112,7 @@ std::optional<StatedPlane> fitted_plane(const std::vector<Vector<3>>& points) {
   return StatedPlane{normal[2] < 0 ? Vector<3>(-normal) : normal, centre};
 }
 
-void JointCollector::polygon(const Origin& origin, const std::vector<Vector<3>>& corners,
+void JointCollector::polygon(const JointSource& origin, const std::vector<Vector<3>>& corners,
                              const std::optional<StatedPlane>& stated) {
   found_.work += static_cast<long long>(corners.size());
   if (corners.size() < 3) return drop(origin.line, "fewer than three corners, which have no plane");
@@ -152,7 +152,8 @@ void JointCollector::polygon(const Origin& origin, const std::vector<Vector<3>>&
   add(origin, std::move(row), out_of_plane);
 }
 
-void JointCollector::ellipse(const Origin& origin, const StatedPlane& plane, double along_strike, double down_dip) {
+void JointCollector::ellipse(const JointSource& origin, const StatedPlane& plane, double along_strike,
+                             double down_dip) {
   if (!(along_strike > 0 && down_dip > 0)) return drop(origin.line, "an extent of 0");
   JointRow row = row_of<3>(plane.normal, plane.centre);
   row.shape = OutlineForm::ellipse;
@@ -160,7 +161,7 @@ void JointCollector::ellipse(const Origin& origin, const StatedPlane& plane, dou
   add(origin, std::move(row), std::nullopt);
 }
 
-void JointCollector::trace(const Origin& origin, const Vector<2>& from, const Vector<2>& to) {
+void JointCollector::trace(const JointSource& origin, const Vector<2>& from, const Vector<2>& to) {
   const Vector<2> along = to - from;
   const double length = along.norm();
   if (!(length > 0)) return drop(origin.line, "a stretch without length");
@@ -171,7 +172,7 @@ void JointCollector::trace(const Origin& origin, const Vector<2>& from, const Ve
   add(origin, std::move(row), std::nullopt);
 }
 
-void JointCollector::add(const Origin& origin, JointRow row, std::optional<double> out_of_plane) {
+void JointCollector::add(const JointSource& origin, JointRow row, std::optional<double> out_of_plane) {
   if (found_.joints.size() == most_table_joints)
     throw FileFault(origin.line, 0,
                     fmt::format("more than {} joints, which no scene holds; divide the file", most_table_joints));

@@ -28,8 +28,8 @@ struct ImportedJoints {
   long long work = 0;                // corners placed and names tried
 };
 
-// where a joint comes from
-struct Origin {
+// where in the file a joint comes from
+struct JointSource {
   int line = 0;
   std::string name, set;
 };
@@ -46,11 +46,11 @@ class JointCollector {
 
   // The convex outline of the corners in the stated plane, or in that of least squares; dropped where they make no
   // face.
-  void polygon(const Origin& origin, const std::vector<Vector<3>>& corners,
+  void polygon(const JointSource& origin, const std::vector<Vector<3>>& corners,
                const std::optional<StatedPlane>& stated = std::nullopt);
-  void ellipse(const Origin& origin, const StatedPlane& plane, double along_strike, double down_dip);
+  void ellipse(const JointSource& origin, const StatedPlane& plane, double along_strike, double down_dip);
   // 2-D, from end to end
-  void trace(const Origin& origin, const Vector<2>& from, const Vector<2>& to);
+  void trace(const JointSource& origin, const Vector<2>& from, const Vector<2>& to);
 
   void drop(int line, const std::string& reason) {
     found_.dropped.emplace_back().reason = reason;
@@ -60,7 +60,7 @@ class JointCollector {
   ImportedJoints finish();
 
  private:
-  void add(const Origin& origin, JointRow row, std::optional<double> out_of_plane);
+  void add(const JointSource& origin, JointRow row, std::optional<double> out_of_plane);
   std::string free_name(const std::string& wanted);
 
   ImportedJoints found_;

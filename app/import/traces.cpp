@@ -104,13 +104,13 @@ class TracesReader {
   void feature(const json& one) {
     const json* drawn = member(one, "geometry");
     if (!drawn) return joints_.drop(line_, "a feature without a geometry");
-    Origin origin{line_, fmt::format("trace-{}", std::max(count_, 1LL)), ""};
+    JointSource origin{line_, fmt::format("trace-{}", std::max(count_, 1LL)), ""};
     if (const json* properties = member(one, "properties"))
       if (const json* set = member(*properties, "set"))
         if (set->is_string() || set->is_number()) origin.set = set->is_string() ? set->get<std::string>() : set->dump();
     geometry(*drawn, origin);
   }
-  void geometry(const json& drawn, const Origin& origin) {
+  void geometry(const json& drawn, const JointSource& origin) {
     const std::string type = type_of(drawn);
     if (type.empty()) refuse("geometry", "has no type; is it a GeoJSON?");
     const json* coordinates = member(drawn, "coordinates");
@@ -121,7 +121,7 @@ class TracesReader {
     for (std::size_t k = 0; k < coordinates->size(); ++k)
       line((*coordinates)[k], fmt::format("coordinates.{}", k + 1), origin);
   }
-  void line(const json& points, const std::string& path, const Origin& origin) {
+  void line(const json& points, const std::string& path, const JointSource& origin) {
     if (!points.is_array()) refuse(path, "must be a list of points");
     if (points.size() < 2) return joints_.drop(line_, "a line of fewer than two points");
     Vector<2> before = point(points[0], path + ".1");

@@ -122,13 +122,13 @@ HWY_INLINE int most_violated(const Columns<Dim>& columns, const double (&y)[Dim 
 
 // The tight planes of the dual simplex. With C = columns (a_i, u_i): C μ = (0, …, 0, 1) and (x, -t) C = d.
 template <int Dim>
-struct TightPlanes {
+struct TightFaces {
   static constexpr int size = Dim + 1;
   int planes[size];                        // far ones below zero
   double inverse[size][tight_lanes] = {};  // column k: of the plane k, what y takes of its offset, and last its μ
   double offsets[size];
 
-  HWY_INLINE TightPlanes(const Vector<Dim>& around, double far) {
+  HWY_INLINE TightFaces(const Vector<Dim>& around, double far) {
     for (int k = 0; k < size; ++k) {
       const std::array<double, Dim> normal = far_normal<Dim>(k);
       planes[k] = -1 - k;
@@ -208,7 +208,7 @@ struct TightPlanes {
 
 // the slacks in proportion to the multipliers
 template <int Dim>
-HWY_INLINE FirstPoint<Dim> share(const TightPlanes<Dim>& tight, const Columns<Dim>& columns, const double (&y)[Dim + 1],
+HWY_INLINE FirstPoint<Dim> share(const TightFaces<Dim>& tight, const Columns<Dim>& columns, const double (&y)[Dim + 1],
                                  const std::array<double, 2>& units, double both) {
   constexpr int size = Dim + 1;
   FirstPoint<Dim> first;
@@ -248,7 +248,7 @@ HWY_INLINE void search(const PlacedPotential<Dim>& a, const PlacedPotential<Dim>
   const Columns<Dim> columns = fill<Dim>(a, b, units, scratch);
   const double reach = a.reach + b.reach;
   const Vector<Dim> line = b.centre - a.centre;
-  TightPlanes<Dim> tight(a.centre + a.reach / reach * line, far_in_reaches * std::max(reach, line.norm()));
+  TightFaces<Dim> tight(a.centre + a.reach / reach * line, far_in_reaches * std::max(reach, line.norm()));
   double y[Dim + 1];
   tight.solve(tight.offsets, y);
   int exchanges = 0;
