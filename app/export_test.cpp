@@ -230,11 +230,12 @@ TEST_F(Export, ReadsBackAsTheBlocksThatWereCut) {
     expect_planes(there[b], sliced[b]);
   }
   EXPECT_NE(script.find("NOT run in YADE"), std::string::npos);
-  if (std::system("command -v python3 >/dev/null 2>&1") == 0)
+  if (std::system("command -v python3 >/dev/null 2>&1") == 0) {
     EXPECT_EQ(std::system(
                   fmt::format("python3 -c \"import ast; ast.parse(open('{}').read())\"", (folder_ / "out.txt").string())
                       .c_str()),
               0);
+  }
 }
 
 TEST_F(Export, BlocksThatAreStatedHaveTheirNames) {

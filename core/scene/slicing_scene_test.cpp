@@ -135,7 +135,9 @@ TEST(SlicingScene, AJointEndsAtAnotherOnTheSideOfItsPoint) {
   expect_areas(square(level_joint(-0.3, 0.5, "ends_at = [\"wall\"]\n")), {0.5, 1.5, 2});
   const Prepared<2> right = square(level_joint(0.3, 0.5, "ends_at = \"wall\"\n"));
   for (const Body<2>& body : right.model.bodies) {
-    if (body.mass < 3999) EXPECT_GT(body.reference[0], 0);
+    if (body.mass < 3999) {
+      EXPECT_GT(body.reference[0], 0);
+    }
   }
   // whatever the order of cutting would be, and healed: the joint parts what it reaches
   for (const char* order : {"size", "given", "alternating"})
