@@ -54,8 +54,8 @@ class Views:
     def figure(self, view, number):
         """the piece of the page, made again where something has changed"""
         work = self.out / "work" / f"{view['case']}-{number}"
-        key, piece = work / "key", work / "piece.html"
-        if not (piece.exists() and key.exists() and key.read_text() == self.key(view)):
+        key, piece, wanted = work / "key", work / "piece.html", self.key(view)
+        if not (piece.exists() and key.exists() and key.read_text() == wanted):
             shutil.rmtree(work, ignore_errors=True)
             work.mkdir(parents=True)
             run, poster = work / "run", work / "poster.webp"
@@ -69,7 +69,7 @@ class Views:
                 options = ["--poster", poster]
             call(self.program, "view", run, "--fragment", "--look", view["look"], *options, "--out", piece)
             shutil.rmtree(run)
-            key.write_text(self.key(view))
+            key.write_text(wanted)
         said = html.escape(view["caption"])
         if not self.posters:
             said += " The picture is missing: node or Chromium was not installed when this page was made."
@@ -114,7 +114,6 @@ def main():
         views.without_viewer(cases, str(problem))
         print(f"SKIPPED: views of the cases: {problem}")
         return 77
-    # the dear ones first, as the list has them last
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         failures = [text for found in pool.map(views.case, cases, cases.values()) for text in found]
     for text in failures:

@@ -117,8 +117,10 @@ export class Viewer {
   fit() {
     const { look, run, bodies } = this;
     const box = boxOf(run.shapes.filter((s) => bodies.isShown(s, look.frame) && (look.showFixed || !bodies.isFixed(s, look.frame))));
-    if (run.shapes.length === 1) // what is alone may turn as it likes
-      for (const k of [0, 1, 2]) Object.assign(box.low, { [k]: box.centre[k] - box.radius }), Object.assign(box.high, { [k]: box.centre[k] + box.radius });
+    if (run.shapes.length === 1) { // what is alone may turn as it likes
+      box.low = box.centre.map((c) => c - box.radius);
+      box.high = box.centre.map((c) => c + box.radius);
+    }
     this.camera.fit(box.radius > 0 ? box : this.box, 1 + look.exploded);
   }
   lookFrom(azimuth, height) {

@@ -1,4 +1,5 @@
 // Headless Chromium by chromedriver's WebDriver, with software WebGL; of node's own library alone.
+import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { accessSync, constants } from 'node:fs';
 import { delimiter, join } from 'node:path';
@@ -80,6 +81,20 @@ export class Browser {
     const requests = (await this.log('performance')).map((line) => JSON.parse(line.message).message)
       .filter((message) => message.method === 'Network.requestWillBeSent').map((message) => message.params.request.url);
     return { console: consoleLines.map((line) => line.message), requests };
+  }
+
+  // waits for an expression to hold in the page, 10 s at most
+  async until(what, text) {
+    for (let i = 0; i < 400; ++i, await new Promise((done) => setTimeout(done, 25))) if (await this.js(`return ${text}`)) return;
+    assert.fail(`${what}: never came`);
+  }
+
+  // the page has asked for nothing but itself, and said nothing
+  async quiet(file) {
+    const { console: lines, requests } = await this.logs();
+    assert.deepEqual(lines, [], `${file}: the console has errors`);
+    const outside = requests.filter((url) => !/^(data:|blob:|about:)/.test(url) && !url.split('#')[0].endsWith(encodeURI(file)));
+    assert.deepEqual(outside, [], `${file}: it asks for more than itself`);
   }
 
   async close() {

@@ -35,10 +35,7 @@ const browser = await Browser.open({ width: 800, height: 560 });
 const js = (text, ...args) => browser.js(text, ...args);
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 
-async function until(what, text) {
-  for (let i = 0; i < 400; ++i, await wait(25)) if (await js(`return ${text}`)) return;
-  assert.fail(`${what}: never came`);
-}
+const until = (what, text) => browser.until(what, text);
 
 // the page is there, has asked for nothing but itself, and said nothing
 async function open(file, hash = '') {
@@ -47,10 +44,7 @@ async function open(file, hash = '') {
   await quiet(file);
 }
 async function quiet(file) {
-  const { console: lines, requests } = await browser.logs();
-  assert.deepEqual(lines, [], `${file}: the console has errors`);
-  const outside = requests.filter((url) => !/^(data:|blob:|about:)/.test(url) && !url.split('#')[0].endsWith(encodeURI(file)));
-  assert.deepEqual(outside, [], `${file}: it asks for more than itself`);
+  await browser.quiet(file);
   assert.equal(await js("return document.querySelector('.voussoir').dataset.state"), 'ready');
 }
 
