@@ -130,19 +130,37 @@ TEST_F(Faults, ASignalStopsWithACheckpoint) {
   }
 }
 
-TEST_F(Faults, ASecondSignalEndsAtOnce) {
+// all are there before the program moves on: it has no step to notice the first in
+void send_at_once(const Process& process, std::initializer_list<int> signals) {
+  process.send(SIGSTOP);
+  for (const int signal : signals)
+    process.send(signal);
+  process.send(SIGCONT);
+}
+
+TEST_F(Faults, ASecondSignalOfTheKeyboardEndsAtOnce) {
   const std::string scene = write("scene.toml", large), out = at("stopped");
   const Contents& complete = undisturbed_large();
   Process process = under_way(scene, out);
   ASSERT_TRUE(wait_until([&] { return fs::exists(out + "/checkpoint"); }));
-  // both are there before the program moves on: it has no step to notice the first in
-  process.send(SIGSTOP);
-  process.send(SIGINT);
-  process.send(SIGTERM);
-  process.send(SIGCONT);
-  EXPECT_EQ(process.wait().signal, SIGTERM);
+  send_at_once(process, {SIGINT, SIGQUIT});
+  EXPECT_EQ(process.wait().signal, SIGQUIT);
   EXPECT_EQ(finish(scene, out, large_steps).code, 0);
   expect_equal(contents_of(out), complete, "two signals");
+}
+
+// as where a batch system ends a job, whose processes hear of it from the system and from one another
+TEST_F(Faults, ASecondSignalOfAMachineLeavesTheCheckpoint) {
+  const std::string scene = write("scene.toml", large), out = at("stopped");
+  const Contents& complete = undisturbed_large();
+  Process process = under_way(scene, out);
+  ASSERT_TRUE(wait_until([&] { return fs::exists(out + "/checkpoint"); }));
+  // the one whose number is the least is heard first
+  send_at_once(process, {SIGHUP, SIGUSR1, SIGTERM, SIGXCPU});
+  expect_one_line(process.wait(), 128 + SIGHUP, "continue with 'voussoir resume " + out + "'");
+  EXPECT_NO_THROW(checkpoint_record(read(out + "/checkpoint")));
+  EXPECT_EQ(finish(scene, out, large_steps).code, 0);
+  expect_equal(contents_of(out), complete, "four signals");
 }
 
 // the system repeats it with every second of processor time

@@ -15,12 +15,13 @@ constexpr int asking[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGXCPU};
 
 volatile std::sig_atomic_t noted = 0;
 
-// The next one, whichever it is, ends the program; but SIGXCPU comes again with every further second of processor time,
-// also while the checkpoint is written.
+// The next one from a keyboard ends the program. The others are repeated by machines and must not disturb the
+// checkpoint: a batch system sends SIGTERM to each process of a job and so does the study that started us, and SIGXCPU
+// comes with every further second of processor time.
 void note(int signal) {
   noted = signal;
   for (const int other : asking)
-    std::signal(other, other == SIGXCPU ? SIG_IGN : SIG_DFL);
+    std::signal(other, other == SIGINT || other == SIGQUIT ? SIG_DFL : SIG_IGN);
 }
 
 }  // namespace

@@ -3,8 +3,9 @@
 
 namespace voussoir {
 
-// From now on SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1 and SIGXCPU are noted instead of ending the program; a second
-// one ends it, but for SIGXCPU, which the system repeats. Those that were ignored stay ignored.
+// From now on SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1 and SIGXCPU are noted instead of ending the program. After the
+// first one SIGINT and SIGQUIT, those of a keyboard, end it and the others do nothing. Those that were ignored stay
+// ignored.
 void note_interruptions();
 
 // the signal noted last; 0: none
