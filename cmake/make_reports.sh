@@ -7,6 +7,10 @@ source=$(cd "$(dirname "$0")/.." && pwd)
 program=$build/app/voussoir
 reports=$build/reports
 failures=()
+# settle STATUS STEP: 77 is a step that lacks a tool and has said so
+settle() {
+  [ "$1" -eq 0 ] || [ "$1" -eq 77 ] || failures+=("$2")
+}
 
 echo "cases and figures"
 mkdir -p "$reports"
@@ -63,8 +67,7 @@ fi
 
 # the blocks of the cases, to be turned
 "$source/reports/make_views.py" --source "$source" --build "$build" --jobs "$jobs"
-status=$?
-[ $status -eq 0 ] || [ $status -eq 77 ] || failures+=("views of the cases")
+settle $? "views of the cases"
 
 # all checks at one look
 rm -rf "$reports/checks"
@@ -92,16 +95,14 @@ for figure in contact_planes contact_vertices; do
   # a figure whose methods were not all built has no data
   [ -s "$benchmarks/$figure.csv" ] || continue
   (cd "$benchmarks" && "$source/reports/draw.sh" "$source/reports/$figure.gp" "$reports/figures/$figure.svg")
-  status=$?
-  [ $status -eq 0 ] || [ $status -eq 77 ] || failures+=("figure $figure")
+  settle $? "figure $figure"
 done
 
 cases=$(cut -d, -f1 "$reports/history.csv" 2>/dev/null | tail -n +2 | awk '!seen[$0]++' | paste -sd '|')
 if [ -n "$cases" ]; then
   "$source/reports/draw.sh" "$source/reports/history.gp" "$reports/figures/history.svg" "data=$reports/history.csv" \
       "cases=$cases"
-  status=$?
-  [ $status -eq 0 ] || [ $status -eq 77 ] || failures+=("figure history")
+  settle $? "figure history"
 fi
 
 echo "manual"
@@ -115,13 +116,9 @@ rm -f "$reports"/manual-*.html "$reports"/manual-*.pdf "$reports/index.html"  # 
 largest_manual=12000000  # bytes: what can still be mailed
 for page in "$reports"/manual-*.html; do
   [ "$(stat -c %s "$page")" -le $largest_manual ] || failures+=("size of the manual: $(stat -c %s "$page") bytes, at most $largest_manual")
-  "$source/reports/print_manual.sh" "$page" "${page%.html}.pdf"
-  status=$?
-  if [ $status -eq 0 ]; then
-    "$source/reports/same_numbers.py" "$page" "${page%.html}.pdf"
-    status=$?
-  fi
-  [ $status -eq 0 ] || [ $status -eq 77 ] || failures+=("printed manual")
+  "$source/reports/print_manual.sh" "$page" "${page%.html}.pdf" &&
+      "$source/reports/same_numbers.py" "$page" "${page%.html}.pdf"
+  settle $? "printed manual"
 done
 manuals=("$reports"/manual-*.html)
 manual=${manuals[0]+$shown/reports/$(basename "${manuals[0]}")}

@@ -19,7 +19,8 @@ voussoir_test(unit.law_and_motion LABEL unit
   SOURCES law/law_test.cpp law/joint_law_test.cpp law/face_friction_test.cpp motion/motion_test.cpp support/bolt_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
-voussoir_test(unit.support LABEL unit SOURCES support/beam_test.cpp support/grout_test.cpp support/lining_test.cpp LIBS voussoir_core Boost::headers)
+voussoir_test(unit.support LABEL unit SOURCES support/beam_test.cpp support/grout_test.cpp support/lining_test.cpp
+  LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.extremes LONG LABEL unit
   SOURCES law/law_extremes_test.cpp motion/motion_extremes_test.cpp motion/step_extremes_test.cpp
@@ -91,10 +92,10 @@ voussoir_test(unit.faces LABEL unit
 
 voussoir_test(unit.newton LONG LABEL unit
   SOURCES step/newton_test.cpp step/newton_verdict_test.cpp optimise/block_solver_test.cpp
-  LIBS voussoir_core cereal::cereal Boost::headers)
+  LIBS voussoir_core voussoir_oracle_algebra cereal::cereal Boost::headers)
 
 voussoir_test(unit.step LABEL unit
   SOURCES step_test.cpp simulate_test.cpp take_out_test.cpp install_test.cpp install_grouted_test.cpp cast_lining_test.cpp testing/whole_scenes_test.cpp step/joint_forces_test.cpp step/loads_test.cpp testing/step_memory_test.cpp energy_test.cpp motion/prescribed_test.cpp
     load/boundary_stress_test.cpp load/water_test.cpp step/water_test.cpp scene/water_scene_test.cpp
     state_hash_test.cpp reduction/reduction_test.cpp motion/relaxation_test.cpp checkpoint/checkpoint_test.cpp
-  LIBS voussoir_core cereal::cereal Boost::headers)
+  LIBS voussoir_core voussoir_oracle_algebra cereal::cereal Boost::headers)

@@ -87,6 +87,15 @@ class Views:
         (self.out / f"{name}.html").write_text(text)
         return failures
 
+    def forget_all_but(self, cases):
+        """what an older list made"""
+        for page in self.out.glob("*.html"):
+            if page.stem not in {*cases, "script"}:
+                page.unlink()
+        for work in (self.out / "work").glob("*"):
+            if work.name.rpartition("-")[0] not in cases:
+                shutil.rmtree(work)
+
     def without_viewer(self, names, reason):
         for name in names:
             (self.out / f"{name}.html").write_text(f'<p class="note">Blocks that can be turned are missing: {html.escape(reason)}</p>\n')
@@ -106,6 +115,8 @@ def main():
     for view in listed:
         if not arguments.only or view["case"] in arguments.only:
             cases.setdefault(view["case"], []).append(view)
+    if not arguments.only:
+        views.forget_all_but(cases)
 
     try:
         call(views.program, "view", "--script", "--overwrite", "--out", views.out / "script.html")

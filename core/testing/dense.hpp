@@ -11,6 +11,9 @@ using Real = long double;
 Eigen::Matrix<Real, Eigen::Dynamic, 1> least_squares(const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& rows,
                                                      const Eigen::Matrix<Real, Eigen::Dynamic, 1>& right);
 
+// x of matrix·x = right, by LU with partial pivoting
+Eigen::VectorXd solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
 // of a symmetric matrix
 double largest_eigenvalue(const Eigen::MatrixXd& symmetric);
 
