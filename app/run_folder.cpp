@@ -56,9 +56,9 @@ void remark_build(const fs::path& path, const std::string& bytes, std::vector<st
                                   build_name()));
 }
 
-std::vector<AccuracyRound> rounds_of(const nlohmann::json& json) {
+std::vector<AccuracyRound> rounds_of(const nlohmann::json& list) {
   std::vector<AccuracyRound> rounds;
-  for (const nlohmann::json& round : json)
+  for (const nlohmann::json& round : list)
     rounds.push_back({round.at("settings"), round.at("told"), round.at("contact_evaluations")});
   return rounds;
 }

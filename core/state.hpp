@@ -248,10 +248,16 @@ struct State {
   Counters counters;
 };
 
+// the places of a contact's sub-contacts among those of all contacts
+template <int Dim>
+std::size_t sub_stride(const State<Dim>& state) {
+  return state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
+}
+
 // The sub-contacts that carry a contact of a State, none where it carries itself; `place` counts in State::contacts.
 template <class AnyState>
 auto subs_of(AnyState& state, std::size_t place) {
-  const std::size_t stride = state.subs.size() / std::max<std::size_t>(state.contacts.size(), 1);
+  const std::size_t stride = sub_stride(state);
   return std::span(state.subs).subspan(place * stride, std::min<std::size_t>(stride, state.contacts[place].cells));
 }
 

@@ -95,7 +95,7 @@ std::string setting(const StudyRow& row) {
   return fmt::format("`{} = {}`{}", row.key, row.value, unit);
 }
 
-std::string percent(double fraction) {
+std::string floored_percent(double fraction) {
   return fraction <= relative_error_floor ? fmt::format("≤ {:g} %", 100.0 * relative_error_floor)
                                           : fmt::format("{:.2g} %", 100.0 * fraction);
 }
@@ -112,8 +112,9 @@ std::string recommendation_table(const Study& study, const std::string& quantity
     }
     const StudyPoint& point = *entry.cheapest;
     text += fmt::format("| {:g} % | {} | {} | {} | {} | {} | {} | {:.3g} |\n", 100.0 * entry.level, setting(point.row),
-                        cell(point.row.sweep), percent(point.relative_error), percent(point.relative_error_upper),
-                        point.row.contact_evaluations, point.row.steps, point.row.seconds);
+                        cell(point.row.sweep), floored_percent(point.relative_error),
+                        floored_percent(point.relative_error_upper), point.row.contact_evaluations, point.row.steps,
+                        point.row.seconds);
   }
   return text;
 }
@@ -147,7 +148,7 @@ std::string point_table(const Study& study, const std::string& quantity) {
     if (point.row.quantity != quantity) continue;
     text += fmt::format("| {} | {} | {:.7g} {} | {} | {} | {} | {} | {:.3g} | {} |\n", cell(point.row.sweep),
                         setting(point.row), *point.row.result, cell(point.row.result_unit),
-                        percent(point.relative_error), percent(point.relative_error_upper),
+                        floored_percent(point.relative_error), floored_percent(point.relative_error_upper),
                         point.row.contact_evaluations, point.row.steps, point.row.seconds, point.pareto ? "yes" : "");
   }
   return text;

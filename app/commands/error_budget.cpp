@@ -130,7 +130,7 @@ BudgetRuns budget_runs(const LoadedScene& stated, int round, const std::vector<s
 namespace {
 
 // the budget's runs, in their folder beside the answer
-struct Runs {
+struct BudgetedRuns {
   BudgetRuns of;
   fs::path folder;
   RunsOptions options;
@@ -224,7 +224,7 @@ bool add_budget(const LoadedScene& scene, const BudgetRuns& of, const fs::path& 
   options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / threads);
   options.threads = threads;
   options.quiet = quiet;
-  Runs runs{of, folder, options, near(scene, results), {}, {}};
+  BudgetedRuns runs{of, folder, options, near(scene, results), {}, {}};
   for (const auto& [name, value] : results.values)
     if (value.error_bar) runs.searched.push_back(name);
 

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 // as many monitors as anyone could have
 constexpr std::size_t most_columns = 100'000;
 
-constexpr std::uintmax_t largest_results = 64 << 20, largest_history = 2ull << 30;  // bytes
+constexpr std::uintmax_t largest_history = 2ull << 30;  // bytes
 
 // the finite numbers of a column on the path to the answer, without a search's trials that were taken back; empty where
 // there is no such column

@@ -1,6 +1,7 @@
 // What a run of a study found: the quantity that the plan asks for, and what it cost.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,6 +12,8 @@
 #include "core/results.hpp"
 
 namespace voussoir {
+
+inline constexpr std::uintmax_t largest_results = 64 << 20;  // bytes, of results.json
 
 struct RunFound {
   std::optional<Value> result = {};

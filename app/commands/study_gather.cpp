@@ -23,8 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t largest_results = 64 << 20;  // bytes
-
 fs::path runs_of(const fs::path& folder, const PlannedRow& row) {
   return folder / "runs" / row.run.name;
 }

@@ -17,7 +17,7 @@ constexpr double rounding_radius = 0.1;  // r, of a block's inscribed radius: fa
 // of the stiffness of a block on its largest face: YADE's examples take as much
 constexpr double step_fraction = 0.1;
 
-std::string quoted(const std::string& name) {
+std::string python_text(const std::string& name) {
   std::string text = "'";
   for (const char c : name)
     text += c == '\'' || c == '\\' ? std::string("\\") + c : std::string(1, c);
@@ -86,8 +86,9 @@ std::string block_text(const Body<3>& body, std::size_t b, const Vector<3>& orig
   for (const HalfSpace<3>& face : body.parts[0].faces)
     planes += fmt::format("{}({}, {}, {}, {})", planes.empty() ? "" : ", ", face.normal[0] + 0.0, face.normal[1] + 0.0,
                           face.normal[2] + 0.0, face.offset);  // of two zeros the positive one
-  return fmt::format("block({}, '{}', ({}, {}, {}), [{}], {}, {}, '{}')\n", quoted(name), material, place[0], place[1],
-                     place[2], planes, rounding_radius * body.size, body.fixed ? "True" : "False", blocked(body));
+  return fmt::format("block({}, '{}', ({}, {}, {}), [{}], {}, {}, '{}')\n", python_text(name), material, place[0],
+                     place[1], place[2], planes, rounding_radius * body.size, body.fixed ? "True" : "False",
+                     blocked(body));
 }
 
 constexpr const char* functions = R"(

@@ -16,10 +16,10 @@ namespace {
 
 constexpr int written_digits = 6;  // of the program's numbers
 // Dip and dip direction are whole degrees there: further from the normal they are not its
-constexpr double another_plane = 3 * degree;
+constexpr double another_rounded_plane = 3 * degree;
 
 using Triple = std::array<const char*, 3>;
-constexpr Triple centre{"CenterX", "CenterY", "CenterZ"}, normal{"NormalX", "NormalY", "NormalZ"},
+constexpr Triple centre{"CenterX", "CenterY", "CenterZ"}, normal_columns{"NormalX", "NormalY", "NormalZ"},
     global_centre{"GlobalCenterX", "GlobalCenterY", "GlobalCenterZ"};
 
 std::vector<Word> cells_of(std::string_view line, int number) {
@@ -119,7 +119,7 @@ class FacetsReader {
                         "the column " + shown(names[k].text) + " stands twice; remove one");
       columns_ = k + 1;
     }
-    for (const Triple& names_of : {centre, normal})
+    for (const Triple& names_of : {centre, normal_columns})
       for (const char* name : names_of)
         if (!places_.contains(name))
           throw FileFault(lines_.number(), 0,
@@ -161,9 +161,9 @@ class FacetsReader {
     facets_.push_back(std::move(facet));
   }
   Vector<3> unit_normal() const {
-    const Vector<3> stated = vector(normal);
+    const Vector<3> stated = vector(normal_columns);
     const double length = stated.norm();
-    const Word& word = cells_[places_.find(normal[0])->second];
+    const Word& word = cells_[places_.find(normal_columns[0])->second];
     if (!is_unit(length * length))
       throw FileFault(word.line, word.column,
                       fmt::format("the normal must have length 1 (here {:.6g}); are columns exchanged?", length));
@@ -172,7 +172,7 @@ class FacetsReader {
     if (!dip || !direction) return unit;
     const Vector<3> told =
         upward_normal_3d(coordinate_of(*dip, "Dip") * degree, coordinate_of(*direction, "Dip dir.") * degree);
-    if (told.cross(unit).norm() > std::sin(another_plane))
+    if (told.cross(unit).norm() > std::sin(another_rounded_plane))
       throw FileFault(dip->line, dip->column,
                       "Dip and Dip dir. are those of another plane than the normal; are the two columns exchanged?");
     return unit;

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/contact/rounding.hpp"
 #include "core/contact/separation.hpp"
 
 namespace voussoir {
 namespace {
-
-// what is multiplied by this is a lower bound of what it would be without its few roundings
-constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
 
 // of a gap, as a fraction of the pair's size: two that were found at different times may differ by as much
 constexpr double gap_rounding = 64 * std::numeric_limits<double>::epsilon();

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/contact/rounding.hpp"
 #include "core/potential/contact.hpp"
 #include "core/potential/particle.hpp"
 
 namespace voussoir {
 namespace {
-
-constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
 
 template <int Dim>
 bool has_particle(const Pair<Dim>& pair) {

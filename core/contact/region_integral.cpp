@@ -21,7 +21,7 @@ constexpr double lost_corners = 1e5;
 constexpr double cut_error = 1e-10;
 
 // and that often
-constexpr int most_cuts = 8;
+constexpr int most_passes = 8;
 
 // of the simplex: a smaller region's corners are found again from their planes
 constexpr double small = 1e-4;
@@ -285,7 +285,7 @@ RegionStatus integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double
   static thread_local std::vector<std::pair<double, int>> order;  // nearest first: the others soon cut nothing
   double half = reach, extent = 0;
   Vector<Dim> shift = Vector<Dim>::Zero();
-  for (int pass = 0; pass < most_cuts; ++pass) {
+  for (int pass = 0; pass < most_passes; ++pass) {
     order.clear();
     for (int i = 0; i < static_cast<int>(planes.size()); ++i)
       order.emplace_back(planes[i].offset - planes[i].normal.dot(shift), i);

@@ -9,6 +9,9 @@ namespace voussoir {
 // vectors lose at most 13 half-ulps
 inline constexpr double slack_rounding = 4 * std::numeric_limits<double>::epsilon();
 
+// what is multiplied by this is a lower bound of what it would be without its few roundings
+inline constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
+
 // gradients that differ by less give no direction
 inline constexpr double parallel_gradients = 1e-6;
 

@@ -13,23 +13,23 @@ constexpr double sum_rounding = 0x1p-96;
 
 // A plane violated by no more than this fraction of the coordinates holds. Far below what the answer in double can
 // tell, far above what a basis with a condition of 10^10 leaves of 106 bits.
-constexpr double violation_rounding = 0x1p-64;
+constexpr double least_violation = 0x1p-64;
 
 template <int Dim>
-using Row = std::array<DoubleDouble, Dim + 1>;
+using LongRow = std::array<DoubleDouble, Dim + 1>;
 
 // Tight planes of the dual simplex. With C = columns (a_i, 1) of the basis, C λ = (0, …, 0, 1) and (x, -s) C = d.
 template <int Dim>
 struct ExtendedBasis {
   std::array<int, Dim + 1> planes{};
-  std::array<Row<Dim>, Dim + 1> inverse;  // of C
+  std::array<LongRow<Dim>, Dim + 1> inverse;  // of C
 
   const DoubleDouble& multiplier(int k) const { return inverse[k][Dim]; }
 };
 
 template <int Dim>
-Row<Dim> column_of(const HalfSpace<Dim>& plane) {
-  Row<Dim> column;
+LongRow<Dim> column_of(const HalfSpace<Dim>& plane) {
+  LongRow<Dim> column;
   for (int j = 0; j < Dim; ++j)
     column[j] = plane.normal[j];
   column[Dim] = 1;
@@ -37,7 +37,7 @@ Row<Dim> column_of(const HalfSpace<Dim>& plane) {
 }
 
 template <int Dim>
-DoubleDouble product(const Row<Dim>& a, const Row<Dim>& b) {
+DoubleDouble product(const LongRow<Dim>& a, const LongRow<Dim>& b) {
   DoubleDouble sum;
   for (int j = 0; j <= Dim; ++j)
     sum = sum + a[j] * b[j];
@@ -46,7 +46,7 @@ DoubleDouble product(const Row<Dim>& a, const Row<Dim>& b) {
 
 // the rounding of such a product
 template <int Dim>
-double rounding_of(const Row<Dim>& a, const Row<Dim>& b) {
+double rounding_of(const LongRow<Dim>& a, const LongRow<Dim>& b) {
   double sum = 0;
   for (int j = 0; j <= Dim; ++j)
     sum += std::abs(a[j].high * b[j].high);
@@ -56,8 +56,8 @@ double rounding_of(const Row<Dim>& a, const Row<Dim>& b) {
 // Gauss and Jordan with the largest of each column as pivot; false when the planes are dependent
 template <int Dim>
 bool factorise(ExtendedBasis<Dim>& basis, const HalfSpaces<Dim>& planes, double far) {
-  std::array<Row<Dim>, Dim + 1> matrix{};  // Cᵀ, whose inverse is that of C turned over
-  std::array<Row<Dim>, Dim + 1> inverse{};
+  std::array<LongRow<Dim>, Dim + 1> matrix{};  // Cᵀ, whose inverse is that of C turned over
+  std::array<LongRow<Dim>, Dim + 1> inverse{};
   for (int k = 0; k <= Dim; ++k) {
     matrix[k] = column_of<Dim>(basis_plane(planes, basis.planes[k], far));
     inverse[k][k] = 1;
@@ -110,8 +110,8 @@ ExtendedBasis<Dim> start_basis(const HalfSpaces<Dim>& planes, const std::array<i
 
 // the point where the tight planes intersect, and -s
 template <int Dim>
-Row<Dim> intersection_point(const ExtendedBasis<Dim>& basis, const HalfSpaces<Dim>& planes, double far) {
-  Row<Dim> solution;
+LongRow<Dim> intersection_point(const ExtendedBasis<Dim>& basis, const HalfSpaces<Dim>& planes, double far) {
+  LongRow<Dim> solution;
   for (int k = 0; k <= Dim; ++k)
     for (int j = 0; j <= Dim; ++j)
       solution[j] = solution[j] + basis.inverse[k][j] * basis_plane(planes, basis.planes[k], far).offset;
@@ -120,15 +120,15 @@ Row<Dim> intersection_point(const ExtendedBasis<Dim>& basis, const HalfSpaces<Di
 
 // The most violated plane, or after many pivots the first; -1: none is violated.
 template <int Dim>
-int entering(const ExtendedBasis<Dim>& basis, const HalfSpaces<Dim>& planes, const Row<Dim>& solution, double tolerance,
-             bool first) {
+int entering(const ExtendedBasis<Dim>& basis, const HalfSpaces<Dim>& planes, const LongRow<Dim>& solution,
+             double tolerance, bool first) {
   double coordinates = 0;
   for (const DoubleDouble& x : solution)
     coordinates = std::max(coordinates, std::abs(x.high));
   int enter = -1;
   DoubleDouble worst = tolerance;
   for (int i = 0; i < static_cast<int>(planes.size()); ++i) {
-    const double rounding = violation_rounding * (std::abs(planes[i].offset) + coordinates);
+    const double rounding = least_violation * (std::abs(planes[i].offset) + coordinates);
     const DoubleDouble violation = product<Dim>(column_of<Dim>(planes[i]), solution) - planes[i].offset - rounding;
     if (violation > worst && std::find(basis.planes.begin(), basis.planes.end(), i) == basis.planes.end()) {
       worst = violation;
@@ -144,7 +144,7 @@ int entering(const ExtendedBasis<Dim>& basis, const HalfSpaces<Dim>& planes, con
 template <int Dim>
 int leaving(const ExtendedBasis<Dim>& basis, const HalfSpace<Dim>& enter, bool first,
             const std::array<bool, Dim + 1>& stays) {
-  const Row<Dim> column = column_of<Dim>(enter);
+  const LongRow<Dim> column = column_of<Dim>(enter);
   int leave = -1;
   DoubleDouble best, largest;
   for (int k = 0; k <= Dim; ++k) {
@@ -190,7 +190,7 @@ FeasibilityResult<Dim> solve_feasibility_in_extended_precision(const HalfSpaces<
   FeasibilityResult<Dim> result;
   for (; result.pivots < limit; ++result.pivots) {
     const bool first = result.pivots > limit / 2;  // in this order nothing comes twice
-    const Row<Dim> solution = intersection_point<Dim>(basis, planes, far);
+    const LongRow<Dim> solution = intersection_point<Dim>(basis, planes, far);
     for (int j = 0; j < Dim; ++j)
       result.point[j] = solution[j].high;
     result.value = -solution[Dim].high;

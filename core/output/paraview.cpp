@@ -95,7 +95,7 @@ std::vector<std::string> names_of(const std::vector<Named>& list) {
   return names;
 }
 
-constexpr std::array kinds{"blocks", "contacts", "force_lines", "bolts", "linings"};
+constexpr std::array frame_kinds{"blocks", "contacts", "force_lines", "bolts", "linings"};
 
 // whether every scene has frames of this kind
 bool always(const std::string& kind) {
@@ -113,7 +113,7 @@ std::string collection_file(const std::string& series, const char* kind) {
 // the number in the name of one of the series' frames
 std::optional<std::size_t> frame_number(const std::string& series, const std::filesystem::path& path) {
   const std::string name = path.filename().string();
-  for (const char* kind : kinds) {
+  for (const char* kind : frame_kinds) {
     const std::string before = series + kind + "_";
     if (!name.starts_with(before)) continue;
     std::size_t number = 0;
@@ -129,7 +129,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "frames", error))
     if (frame_number(series, entry.path())) files.push_back("frames" / entry.path().filename());
-  for (const char* kind : kinds) {
+  for (const char* kind : frame_kinds) {
     const std::filesystem::path collection = folder / collection_file(series, kind);
     if (std::filesystem::is_symlink(collection, error) || std::filesystem::exists(collection, error))
       files.push_back(collection.filename());
@@ -138,7 +138,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
 }
 
 void write_collections(const FrameSeries& series) {
-  for (const char* kind : kinds) {
+  for (const char* kind : frame_kinds) {
     std::vector<TimedFile> files;
     for (std::size_t k = 0; k < series.times.size(); ++k)
       if (const std::string file = frame_file(series.name, kind, k);
@@ -394,7 +394,7 @@ FrameSeries cut_back(const std::filesystem::path& folder, const std::vector<doub
   }
   if (times.empty()) return series;
   prepare_folder(folder / "frames");
-  for (const char* kind : kinds)
+  for (const char* kind : frame_kinds)
     for (std::size_t k = 0; k < times.size(); ++k)
       if (const std::string file = frame_file(name, kind, k); always(kind) && !std::filesystem::exists(folder / file))
         series.lost.insert(file);

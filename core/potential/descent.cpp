@@ -5,16 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/potential/rounding.hpp"
+
 namespace voussoir {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 // A Hessian carries its rounding of the stiffest direction into all others; a flat one gets as much.
-constexpr double floor_of_curvature = 4 * epsilon;
-
-// a slack's rounding as a fraction of its coordinates, as in shape.cpp
-constexpr double slack_rounding = 8 * epsilon;
+constexpr double floor_of_curvature = 4 * machine_epsilon;
 
 // below this many such roundings the spheres' curvature is not to be read off the Hessian
 constexpr double drowned_curvature = 1000;
@@ -27,7 +24,7 @@ constexpr int descent_limit = 200;
 constexpr int line_limit = 200;
 
 // decrement, as a fraction of the function's terms, at which only steps of rounding are left
-constexpr double last_decrement = epsilon * epsilon;
+constexpr double last_decrement = machine_epsilon * machine_epsilon;
 
 struct Slope {
   double value, rate;
@@ -86,7 +83,7 @@ bool hold_planes(const WeightedPotentials<Dim>& sum, const Vector<Dim>& point, d
     if (!potential) continue;
     for (const HalfSpace<Dim>& plane : potential->planes) {
       const RayPlane& along = ray[i++];
-      const double rounding = slack_rounding * (std::abs(plane.offset) + point.norm());
+      const double rounding = placed_rounding * (std::abs(plane.offset) + point.norm());
       if (along.slack > 0 || along.slack < -rounding || !(along.rate > 0) || length * along.rate > rounding) continue;
       hessian += 2 * along.weight * plane.normal * plane.normal.transpose();
       held = true;
@@ -191,7 +188,7 @@ LeastPoint<Dim> find_least_point(const WeightedPotentials<Dim>& sum, const Vecto
     const double decrement = -gradient.dot(direction);
     if (!(decrement > 0)) break;  // the gradient vanishes
     // rounding is left when the decrement is tiny and no longer falls; once may be a plane that was only just passed
-    if (decrement <= epsilon * terms && decrement >= previous) break;
+    if (decrement <= machine_epsilon * terms && decrement >= previous) break;
     if (std::max(decrement, previous) <= last_decrement * terms) break;
     previous = decrement;
     const Vector<Dim> step = descent_step<Dim>(sum, least.point, gradient, hessian, spheres, scratch);

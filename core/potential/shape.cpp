@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/potential/rounding.hpp"
 
 namespace voussoir {
 namespace {
 
-// a slack's rounding as a fraction of the coordinates it is computed from: the products and sums of two rotated vectors
-// lose at most 13 half-ulps
-constexpr double slack_rounding = 8 * std::numeric_limits<double>::epsilon();
-
 // squares, their sum and the constant
-constexpr double sum_rounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double sum_rounding = 8 * machine_epsilon;
 
 // planes and centre are placed
 template <int Dim>
@@ -91,11 +88,11 @@ template <int Dim>
 double value_rounding(const PlacedPotential<Dim>& potential, const Vector<Dim>& point,
                       const PotentialDerivatives<Dim>& at) {
   const double far = point.norm() + potential.centre.norm(), root = std::sqrt(at.squares);
-  const double error = slack_rounding * (far + point.norm() + root);
+  const double error = placed_rounding * (far + point.norm() + root);
   const double lost = (2 * std::sqrt(at.planes) * root + at.planes * error) * error;
   const double arm = (point - potential.centre).norm();
   return potential.plane_weight * (lost + sum_rounding * at.squares) +
-         potential.sphere_weight * arm * (slack_rounding * far + sum_rounding * arm) + sum_rounding;
+         potential.sphere_weight * arm * (placed_rounding * far + sum_rounding * arm) + sum_rounding;
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/potential/rounding.hpp"
+
 namespace voussoir {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int multiplier_limit = 100;
 
 }  // namespace
@@ -35,7 +36,7 @@ Support<Dim> find_support(const PlacedPotential<Dim>& potential, const Vector<Di
     support.bound = std::min(support.bound, bound);
 
     const double root = std::sqrt(std::max(1 + at.value, 0.0));
-    if (std::abs(root - 1) <= 4 * epsilon) {
+    if (std::abs(root - 1) <= 4 * machine_epsilon) {
       support.converged = true;
       return support;
     }
@@ -44,7 +45,7 @@ Support<Dim> find_support(const PlacedPotential<Dim>& potential, const Vector<Di
         -multiplier * direction.dot(newton_solution<Dim>(at.hessian, 2 * potential.sphere_weight, direction));
     double next = multiplier + (root > 0 && rate > 0 ? 2 * root * (1 - root) / rate : multiplier);
     if (!(next > low && next < high)) next = std::isfinite(high) ? low + (high - low) / 2 : 2 * low;
-    if (next <= low || next >= high || std::abs(next - multiplier) <= 2 * epsilon * multiplier) {
+    if (next <= low || next >= high || std::abs(next - multiplier) <= 2 * machine_epsilon * multiplier) {
       // rounding of f, which r makes large, ends the search
       support.converged = true;
       return support;

@@ -9,12 +9,11 @@
 #include <limits>
 #include <vector>
 
+#include "core/potential/rounding.hpp"
 #include "core/potential/support.hpp"
 
 namespace voussoir {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // planes that meet at less have no corner that matters: their neighbours cut it off
 constexpr double flat_corner = 1e-10;
@@ -29,7 +28,8 @@ constexpr double unit_tolerance = 1e-6;
 constexpr double stated_radius = 1e-9;
 
 constexpr int climb_limit = 200;
-constexpr double climb_end = 16 * epsilon;  // of the distance, which a supports's rounding cannot resolve further
+// of the distance, which a support's rounding cannot resolve further
+constexpr double climb_end = 16 * machine_epsilon;
 
 // Calls with every choice of Size different planes.
 template <int Size, class Call>

@@ -48,7 +48,7 @@ bool has_dashpots(Node& scene) {
          std::any_of(stages.begin(), stages.end(), [](const Node* stage) { return states_dashpots(*stage); });
 }
 
-Node number(double value, const Place& place) {
+Node level_value(double value, const Place& place) {
   Node node;
   node.kind = value == std::floor(value) ? Node::Kind::integer : Node::Kind::number;
   node.number = value;
@@ -71,7 +71,7 @@ std::vector<std::string> apply_accuracy_level(Node& scene) {
   const bool dashpots = has_dashpots(scene);
   const auto set = [&](Node& table, const std::string& path, const LevelSetting& setting) {
     if (is_settled(table, setting)) return;
-    table.set(setting.key, number(setting.values[*level], stated));
+    table.set(setting.key, level_value(setting.values[*level], stated));
     done.push_back(fmt::format("{} = {}", key_path(path, setting.key), setting.values[*level]));
   };
 

@@ -5,7 +5,7 @@
 namespace voussoir {
 namespace {
 
-constexpr double largest = 0.5, largest_deg = 45;
+constexpr double largest_fraction = 0.5, largest_deg = 45;
 
 bool says(const Node& table, std::string_view key, std::string_view text) {
   const Node* found = table.find(key);
@@ -20,7 +20,7 @@ std::optional<AccuracyTarget> accuracy_target(std::string_view text) {
   if (error != std::errc{} || !std::isfinite(number) || !(number > 0)) return std::nullopt;
   std::string_view unit(end, text.data() + text.size() - end);
   if (unit.starts_with(' ')) unit.remove_prefix(1);
-  if (unit == "%" && number / 100 <= largest) return AccuracyTarget{number / 100, true};
+  if (unit == "%" && number / 100 <= largest_fraction) return AccuracyTarget{number / 100, true};
   if (unit == "deg" && number <= largest_deg) return AccuracyTarget{number, false};
   return std::nullopt;
 }

@@ -13,17 +13,6 @@ namespace {
 // a base of a base of a base …
 constexpr std::size_t most_bases = 16;
 
-const std::string* name_of(const Node& table) {
-  const Node* name = table.find("name");
-  return name && name->kind == Node::Kind::text ? &name->text : nullptr;
-}
-
-bool is_list_of_tables(const Node& node) {
-  return node.kind == Node::Kind::list && !node.items.empty() &&
-         std::all_of(node.items.begin(), node.items.end(),
-                     [](const Node& item) { return item.kind == Node::Kind::table; });
-}
-
 // a stage of another kind or method shares its name with the base's and nothing else
 bool is_another(const Node& base, const Node& scene) {
   for (const char* key : {"kind", "method"}) {
@@ -37,12 +26,12 @@ bool is_another(const Node& base, const Node& scene) {
 void lay_list_over(Node& base, const Node& scene) {
   std::map<std::string, std::size_t> places;  // by name, the first of it
   for (std::size_t i = 0; i < base.items.size(); ++i)
-    if (const std::string* name = name_of(base.items[i])) places.emplace(*name, i);
+    if (const std::string name = name_of(base.items[i]); !name.empty()) places.emplace(name, i);
   for (const Node& item : scene.items) {
-    const std::string* name = name_of(item);
-    const auto same = name ? places.find(*name) : places.end();
+    const std::string name = name_of(item);
+    const auto same = name.empty() ? places.end() : places.find(name);
     if (same == places.end()) {
-      if (name) places.emplace(*name, base.items.size());
+      if (!name.empty()) places.emplace(name, base.items.size());
       base.items.push_back(item);
     } else if (is_another(base.items[same->second], item)) {
       base.items[same->second] = item;
@@ -59,7 +48,7 @@ void lay_over(Node& base, const Node& scene) {
     Node* below = base.find(member.key);
     if (below && below->kind == Node::Kind::table && member.value.kind == Node::Kind::table)
       lay_over(*below, member.value);
-    else if (below && is_list_of_tables(*below) && is_list_of_tables(member.value))
+    else if (below && below->is_list_of_tables() && member.value.is_list_of_tables())
       lay_list_over(*below, member.value);
     else
       base.set(member.key, member.value);

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t most_corners = 200;
 
 // so many joints that meet make more blocks than any memory holds
-constexpr std::size_t most_joints = 10000;
+constexpr std::size_t most_stated_joints = 10000;
 
 struct Checker {
   int dimension;
@@ -159,8 +159,8 @@ void Checker::tables(const KeyRow& row, const Node& node, const std::string& pat
     refuse(node, path, "must be a list of tables; write [[" + path + "]] with two brackets on a line of its own");
   if (row.key == "planes" && node.items.size() > most_corners)
     refuse(node, path, "must hold at most " + std::to_string(most_corners) + " planes; divide the block");
-  if (row.key == "joints" && node.items.size() > most_joints)
-    refuse(node, path, "must hold at most " + std::to_string(most_joints) + " joints; divide the scene");
+  if (row.key == "joints" && node.items.size() > most_stated_joints)
+    refuse(node, path, "must hold at most " + std::to_string(most_stated_joints) + " joints; divide the scene");
   std::set<std::string> names;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     const Node& item = node.items[i];

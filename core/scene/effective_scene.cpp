@@ -29,12 +29,6 @@ std::string key_text(const std::string& key) {
   return bare ? key : quoted(key);
 }
 
-bool is_list_of_tables(const Node& node) {
-  return node.kind == Node::Kind::list && !node.items.empty() &&
-         std::all_of(node.items.begin(), node.items.end(),
-                     [](const Node& item) { return item.kind == Node::Kind::table; });
-}
-
 std::string lines(const Node& table) {
   std::string text;
   for (const Member& member : table.members)
@@ -75,7 +69,7 @@ std::string toml_text(const Node& scene) {
     const std::string key = key_text(member.key);
     if (member.value.kind == Node::Kind::table)
       tables += "\n[" + key + "]\n" + lines(member.value);
-    else if (is_list_of_tables(member.value))
+    else if (member.value.is_list_of_tables())
       for (const Node& item : member.value.items)
         tables += "\n[[" + key + "]]\n" + lines(item);
     else

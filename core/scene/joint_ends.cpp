@@ -13,7 +13,7 @@ namespace voussoir {
 namespace {
 
 // a point this near to a plane, over its distance from the middle of the domain, lies on it as far as coordinates tell
-constexpr double on_plane = 1e-9;
+constexpr double on_its_plane = 1e-9;
 
 // joints whose planes meet at less than this angle (rad) are parallel as far as angles of six digits tell
 constexpr double parallel = 1e-6;
@@ -80,7 +80,7 @@ HalfSpace<Dim> kept_side(const JointSpec& spec, const JointSpec& other, const Ve
                        one_line(other.name, 60)));
   const Vector<Dim> point = to_vector<Dim>(spec.plane.point) - origin;
   const double distance = signed_distance<Dim>(plane, point);
-  if (std::abs(distance) <= on_plane * (point.norm() + std::abs(plane.offset))) refuse_point(spec, other.name);
+  if (std::abs(distance) <= on_its_plane * (point.norm() + std::abs(plane.offset))) refuse_point(spec, other.name);
   return distance < 0 ? plane : HalfSpace<Dim>{-plane.normal, -plane.offset};
 }
 
@@ -115,7 +115,7 @@ HalfSpaces<Dim> kept_of_region(const JointSpec& spec, const ExcavationSpec& exca
     const double distance = signed_distance<Dim>(region[f], point) / along;
     if (distance > farthest) farthest = distance, seen = f;
   }
-  if (std::abs(farthest) <= on_plane * (point.norm() + std::abs(region[seen].offset)))
+  if (std::abs(farthest) <= on_its_plane * (point.norm() + std::abs(region[seen].offset)))
     refuse_point(spec, excavation.name);
   if (farthest < 0) return region;
   return {{-region[seen].normal, -region[seen].offset}};

@@ -7,7 +7,7 @@ namespace {
 
 // a corner of an outline lies in the joint's plane within this fraction of its distance from the joint's point: far
 // above the rounding of coordinates and angles of six digits, far below what anyone would state as out of the plane
-constexpr double in_plane = 1e-4;
+constexpr double off_plane = 1e-4;
 
 std::vector<Vector<2>> corners_of(const JointSpec& joint, const Vector<3>& normal, const Outline<3>& outline,
                                   const Vector<3>& origin) {
@@ -15,7 +15,7 @@ std::vector<Vector<2>> corners_of(const JointSpec& joint, const Vector<3>& norma
   const Node& list = *joint.subject.node->find("corners");
   for (std::size_t i = 0; i < list.items.size(); ++i) {
     const Vector<3> corner = to_vector<3>(joint.outline.corners[i]) - origin - outline.centre;
-    if (std::abs(normal.dot(corner)) > in_plane * corner.norm())
+    if (std::abs(normal.dot(corner)) > off_plane * corner.norm())
       refuse(list.items[i], key_path(joint.subject.path, "corners") + "." + std::to_string(i + 1),
              "does not lie in the joint's plane; move the corner, or correct dip, dip_direction or point");
     corners.push_back(outline.axes.transpose() * corner);

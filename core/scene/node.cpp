@@ -55,6 +55,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+bool Node::is_list_of_tables() const {
+  return kind == Kind::list && !items.empty() &&
+         std::ranges::all_of(items, [](const Node& item) { return item.kind == Kind::table; });
+}
+
 const Node* Node::find(std::string_view key) const {
   const auto at = position(members, key);
   return at != members.end() && at->key == key ? &at->value : nullptr;
@@ -73,10 +78,14 @@ std::string key_path(const std::string& table_path, std::string_view key) {
   return table_path.empty() ? std::string(key) : table_path + "." + std::string(key);
 }
 
+std::string name_of(const Node& table) {
+  const Node* name = table.find("name");
+  return name && name->kind == Node::Kind::text ? name->text : "";
+}
+
 std::string item_path(const std::string& list_path, const Node& item, std::size_t index) {
-  const Node* name = item.find("name");
-  const bool named = name && name->kind == Node::Kind::text && !name->text.empty();
-  return list_path + "." + (named ? one_line(name->text, longest_value) : std::to_string(index + 1));
+  const std::string name = name_of(item);
+  return list_path + "." + (name.empty() ? std::to_string(index + 1) : one_line(name, longest_value));
 }
 
 std::optional<Subject> child(const Subject& table, std::string_view key) {

@@ -34,6 +34,7 @@ struct Node {
   std::vector<Member> members;  // of a table, sorted by key
 
   bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
+  bool is_list_of_tables() const;  // of one at least
   const Node* find(std::string_view key) const;
   Node* find(std::string_view key);
   Node& set(std::string_view key, Node value);
@@ -53,6 +54,9 @@ struct Subject {
 // a table inside a table, or the tables of a list, with their addresses; none where the file states none
 std::optional<Subject> child(const Subject& table, std::string_view key);
 std::vector<Subject> children(const Subject& table, std::string_view key);
+
+// empty where it states none
+std::string name_of(const Node& table);
 
 // joints.A for a named table, joints.2 (counted from 1) for one without a name
 std::string item_path(const std::string& list_path, const Node& item, std::size_t index);

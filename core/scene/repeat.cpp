@@ -31,11 +31,6 @@ constexpr std::array<RepeatedList, 3> repeated_lists{{{"blocks", "block", &Copie
                                                       {"joints", "joint", &CopiesSpec::joints},
                                                       {"bolts", "bolts", &CopiesSpec::bolts}}};
 
-std::string name_of(const Node& table) {
-  const Node* name = table.find("name");
-  return name && name->kind == Node::Kind::text ? name->text : "";
-}
-
 Names names_in(const Node* list) {
   Names names;
   if (list)

@@ -19,7 +19,7 @@ bool is_below(const fs::path& file, const fs::path& folder) {
 }
 
 // a file of joints or blocks, and how its tree is made
-struct Source {
+struct FileTree {
   std::shared_ptr<const std::string> name;
   int dimension;
 
@@ -54,7 +54,7 @@ struct Source {
   }
 };
 
-Node joint_tables(std::string_view text, const Source& source) {
+Node joint_tables(std::string_view text, const FileTree& source) {
   Node list = source.node(Node::Kind::list, 1);
   for (const JointRow& row : read_joint_table(text, source.dimension)) {
     Node joint = source.node(Node::Kind::table, row.line);
@@ -78,7 +78,7 @@ Node joint_tables(std::string_view text, const Source& source) {
 }
 
 // every part of a block is a table of its own; the first has the block's name
-Node tables_of_planes(std::string_view text, const Source& source) {
+Node tables_of_planes(std::string_view text, const FileTree& source) {
   Node list = source.node(Node::Kind::list, 1);
   std::map<std::pair<std::string, int>, std::size_t> places;
   for (const PlaneRow& row : read_plane_table(text, source.dimension)) {
@@ -99,7 +99,7 @@ Node tables_of_planes(std::string_view text, const Source& source) {
   return list;
 }
 
-Node tables_of_meshes(const std::vector<Mesh>& meshes, const Source& source) {
+Node tables_of_meshes(const std::vector<Mesh>& meshes, const FileTree& source) {
   Node list = source.node(Node::Kind::list, 1);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const Mesh& mesh = meshes[i];
@@ -114,7 +114,7 @@ Node tables_of_meshes(const std::vector<Mesh>& meshes, const Source& source) {
   return list;
 }
 
-Node block_tables(const std::string& bytes, const Source& source, const Node& stated) {
+Node block_tables(const std::string& bytes, const FileTree& source, const Node& stated) {
   std::string kind = fs::path(stated.text).extension().string();
   std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
   if (kind == ".csv") return tables_of_planes(bytes, source);
@@ -134,7 +134,7 @@ void add_tables(const Node& scene, const fs::path& folder, const char* file_key,
   const fs::path file = file_beside(*stated, file_key, folder);
   files.push_back(file);
   const std::string shown = (folder / fs::path(stated->text)).string();
-  const Source source{std::make_shared<const std::string>(shown), scene_dimension(scene)};
+  const FileTree source{std::make_shared<const std::string>(shown), scene_dimension(scene)};
   try {
     tables.set(key, read(file_text(file), source, *stated));
   } catch (const FileFault& fault) {
@@ -166,7 +166,7 @@ Node tables_of_files(const Node& scene, const fs::path& folder, std::vector<fs::
   Node tables;
   tables.place = scene.place;
   add_tables(scene, folder, "joints_file", "joints", tables, files,
-             [](const std::string& text, const Source& source, const Node&) { return joint_tables(text, source); });
+             [](const std::string& text, const FileTree& source, const Node&) { return joint_tables(text, source); });
   add_tables(scene, folder, "blocks_file", "blocks", tables, files, block_tables);
   return tables;
 }

@@ -9,14 +9,9 @@
 namespace voussoir {
 namespace {
 
-using Names = std::set<std::string>;
+using NameSet = std::set<std::string>;
 
-std::string name_of(const Node& item) {
-  const Node* name = item.find("name");
-  return name ? name->text : "";
-}
-
-void add_texts(const Node* list, Names& names) {
+void add_texts(const Node* list, NameSet& names) {
   if (list)
     for (const Node& item : list->items)
       names.insert(item.text);
@@ -35,8 +30,8 @@ void keep_items(Node& table, std::string_view key, const Condition& wanted) {
   if (list->items.empty()) remove_key(table, key);
 }
 
-Names installed_by(const Node& stages) {
-  Names names;
+NameSet installed_by(const Node& stages) {
+  NameSet names;
   for (const Node& stage : stages.items)
     add_texts(stage.find("install"), names);
   return names;
@@ -44,15 +39,15 @@ Names installed_by(const Node& stages) {
 
 // The joint properties that contacts between blocks may have: those that joints and sets name, and the one that serves
 // where none is named, and those of linings that the stages install. A search within the stages takes any.
-Names used_properties(const Node& scene, const Node& stages) {
-  Names names{"default"};
+NameSet used_properties(const Node& scene, const Node& stages) {
+  NameSet names{"default"};
   const Node* all = scene.find("joint_properties");
   if (all && !all->items.empty()) names.insert(name_of(all->items.front()));
   for (const char* key : {"joints", "joint_sets"})
     if (const Node* list = scene.find(key))
       for (const Node& item : list->items)
         if (const Node* properties = item.find("properties")) names.insert(properties->text);
-  const Names installed = installed_by(stages);
+  const NameSet installed = installed_by(stages);
   if (const Node* list = scene.find("linings"))
     for (const Node& item : list->items)
       if (const Node* properties = item.find("joint_properties"); properties && installed.contains(name_of(item)))
@@ -69,7 +64,7 @@ Names used_properties(const Node& scene, const Node& stages) {
 
 // of those that are not used only the names matter, for the places of the others; after the last that is used not even
 // these
-void reduce_properties(const Names& used, Node& scene) {
+void reduce_properties(const NameSet& used, Node& scene) {
   Node* all = scene.find("joint_properties");
   if (!all) return;
   while (!all->items.empty() && !used.contains(name_of(all->items.back())))
@@ -80,7 +75,7 @@ void reduce_properties(const Names& used, Node& scene) {
 
 // an excavation that no stage takes out is gone from the start
 void tell_excavations(const Scene& scene, Node& tree) {
-  Names by_stage;
+  NameSet by_stage;
   for (const StageSpec& stage : scene.stages)
     by_stage.insert(stage.plan.change.excavate.begin(), stage.plan.change.excavate.end());
   Node* all = tree.find("excavations");
@@ -145,7 +140,7 @@ std::optional<Difference> difference(const std::string& path, const Node& here, 
   if (here.kind == Node::Kind::list && there.kind == Node::Kind::list) return difference_of_lists(path, here, there);
   if (here.kind != Node::Kind::table || there.kind != Node::Kind::table)
     return is_leaf_equal(here, there) ? std::nullopt : std::optional(Difference{here.place, path, &here, &there});
-  Names keys;
+  NameSet keys;
   for (const Node* table : {&here, &there})
     for (const Member& member : table->members)
       keys.insert(member.key);
@@ -187,7 +182,7 @@ Node shared_part(const Scene& scene, int stages) {
     remove_key(tree, key);
   Node* list = tree.find("stage");
   list->items.resize(std::min(list->items.size(), static_cast<std::size_t>(stages)));
-  const Names installed = installed_by(*list), used = used_properties(tree, *list);
+  const NameSet installed = installed_by(*list), used = used_properties(tree, *list);
   for (const char* support : {"bolts", "linings"})
     keep_items(tree, support, [&](const Node& item) { return installed.contains(name_of(item)); });
   reduce_properties(used, tree);
@@ -205,7 +200,7 @@ SharedStages require_shared(const Scene& scene, const Scene& other, const std::s
            fmt::format("'{}' has done all stages of this scene already: nothing is left to run; add a stage after '{}'",
                        name, one_line(stage, 60)));
   SharedStages shared{same_monitors(*scene.tree, *other.tree), {}};
-  const Names used = used_properties(*scene.tree, *here.find("stage"));
+  const NameSet used = used_properties(*scene.tree, *here.find("stage"));
   for (const PropertiesSpec& p : scene.properties)
     if (!used.contains(p.properties.name)) shared.own.push_back(p.properties.name);
   return shared;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "core/contact/carried_whole.hpp"
 #include "core/contact/narrow_phase.hpp"
+#include "core/contact/rounding.hpp"
 #include "core/contact/sub_contacts.hpp"
 #include "core/on_threads.hpp"
 #include "core/step/neighbours.hpp"
@@ -15,9 +15,6 @@ namespace {
 
 // of a contact polygon: up to so many the step asks for no memory
 constexpr std::size_t expected_corners = 16;
-
-// a few roundings: what is multiplied by this is a lower bound of what it would be without any
-constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
 
 template <int Dim>
 bool needs_area(const Model<Dim>& model, const ContactSettings& settings) {
@@ -105,7 +102,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
              const Waiting<Dim>& waiting, Tally& tally) {
   const std::span contacts = std::span(waiting.contacts).first(waiting.count);
   resolve_pairs<Dim>(model, settings.contact, std::span(waiting.pairs).first(waiting.count), contacts, tally.kernel);
-  const std::size_t stride = state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
+  const std::size_t stride = sub_stride(state);
   static thread_local HalfSpaces<Dim> planes;
   for (int i = 0; i < waiting.count; ++i) {
     Contact<Dim>* const c = contacts[i];

@@ -11,6 +11,7 @@
 #include "core/contact/broad_phase.hpp"
 #include "core/contact/carried_whole.hpp"
 #include "core/contact/nearness.hpp"
+#include "core/contact/rounding.hpp"
 #include "core/contact/sub_contacts.hpp"
 #include "core/contact/thin_directions.hpp"
 #include "core/on_threads.hpp"
@@ -24,8 +25,7 @@ constexpr double candidate_reach = 0.5 * (1 + 1e-9);
 // faces that part by less than this times the smallest inscribed radius are a closed joint still, for make_bonds
 constexpr double closed_fraction = 1e-3;
 
-// a few roundings: what is multiplied by these is a lower, an upper bound of what it would be without any
-constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
+// a few roundings: what is multiplied by this is an upper bound of what it would be without any
 constexpr double upwards = 1 + 4 * std::numeric_limits<double>::epsilon();
 
 template <int Dim>

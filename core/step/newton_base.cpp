@@ -6,16 +6,6 @@
 #include <utility>
 
 namespace voussoir {
-namespace {
-
-// the places of a contact's sub-contacts among those of all contacts
-template <int Dim>
-std::size_t stride_of(const State<Dim>& state) {
-  return state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
-}
-
-}  // namespace
-
 template <int Dim>
 Unknowns<Dim>::Unknowns(const Model<Dim>& model) : place(model.bodies.size(), -1) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
@@ -85,7 +75,7 @@ void follow_list(State<Dim>& state) {
   n.listed = state.counters.neighbour_builds;
   const std::vector<BaseHistory<Dim>> old = std::move(n.histories);
   const std::vector<JointState<Dim>> old_subs = std::move(n.sub_histories);
-  const std::size_t cells = old.empty() ? 0 : old_subs.size() / old.size(), stride = stride_of(state);
+  const std::size_t cells = old.empty() ? 0 : old_subs.size() / old.size(), stride = sub_stride(state);
   n.histories.assign(state.contacts.size(), {});
   n.sub_histories.assign(state.subs.size(), {});
   std::map<int, int> moved;  // places of contacts, old to new

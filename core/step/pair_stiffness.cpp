@@ -43,15 +43,9 @@ double size_of(const Model<Dim>& model, int a, int b) {
   return is_free(model, b) ? std::min(size_a, size_b) : size_a;
 }
 
-// the places of a contact's sub-contacts among those of all contacts
-template <int Dim>
-std::size_t stride_of(const State<Dim>& state) {
-  return state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
-}
-
 template <int Dim>
 std::span<const JointState<Dim>> sub_histories_of(const State<Dim>& state, int contact) {
-  const std::size_t stride = stride_of(state);
+  const std::size_t stride = sub_stride(state);
   return std::span(state.newton.sub_histories).subspan(contact * stride, stride);
 }
 
@@ -157,7 +151,7 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
   static thread_local HalfSpaces<Dim> planes;
   after.find(model, settings, state, batch, counters);
 
-  cells.resize(stride_of(state));
+  cells.resize(sub_stride(state));
   for (std::size_t i = 0; i < batch.size(); ++i) {
     PairStiffness<Dim>& p = batch[i];
     const Contact<Dim>& c = state.contacts[p.contact];
@@ -182,7 +176,7 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
       const PairMotion<Dim> then{now.between + way, now.drift + way, a.spin, spin, now.inverse_mass};
       std::span<SubContact<Dim>> subs;
       if (then_contact.touching() && count > 0) {
-        const std::size_t first = p.contact * stride_of(state);
+        const std::size_t first = p.contact * sub_stride(state);
         std::copy_n(state.subs.begin() + static_cast<std::ptrdiff_t>(first), count, cells.begin());
         then_contact.divided_face = c.divided_face;
         divide<Dim>(after.pairs[i * F + f], along, then_contact, std::span(cells).first(count));
@@ -295,7 +289,7 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
   resolve_pairs<Dim>(model, settings.contact, pairs, places, counters);
   add(state.counters, counters);
 
-  const std::size_t stride = stride_of(state);
+  const std::size_t stride = sub_stride(state);
   std::vector<SubContact<Dim>> cells(stride);
   for (std::size_t j = 0; j < chosen.size(); ++j) {
     Contact<Dim>& c = copies[j];

@@ -7,8 +7,8 @@ namespace voussoir {
 namespace {
 
 // Of the radius: the third power of the relative rounding of a load, where truncation and rounding of a central
-// difference are least.
-constexpr double difference = 1e-5;
+// difference_step are least.
+constexpr double difference_step = 1e-5;
 
 template <int Dim>
 using Block = typename PairStiffness<Dim>::Block;
@@ -16,7 +16,7 @@ using Block = typename PairStiffness<Dim>::Block;
 template <int Dim>
 Block<Dim> stiffness_of(const Model<Dim>& model, const State<Dim>& state, const WaterSurfaces<Dim>& surfaces, int b) {
   constexpr int S = spin_freedoms<Dim>;
-  const double way = difference * model.bodies[b].radius;
+  const double way = difference_step * model.bodies[b].radius;
   const Standing<Dim> at = standing(state.poses[b]);
   const auto moved = [&](int freedom, double sign) {
     Standing<Dim> there = at;
@@ -24,13 +24,13 @@ Block<Dim> stiffness_of(const Model<Dim>& model, const State<Dim>& state, const 
       there.centroid[freedom] += sign * way;
     else
       there.axes =
-          matrix(turned(state.motions[b].rotation, Spin<Dim>(sign * difference * Spin<Dim>::Unit(freedom - Dim))));
+          matrix(turned(state.motions[b].rotation, Spin<Dim>(sign * difference_step * Spin<Dim>::Unit(freedom - Dim))));
     return water_load(model, surfaces, b, there);
   };
   Block<Dim> k = Block<Dim>::Zero();
   for (int f = 0; f < freedoms<Dim>; ++f) {
     const Load<Dim> ahead = moved(f, 1), behind = moved(f, -1);
-    const double width = 2 * (f < Dim ? way : difference);
+    const double width = 2 * (f < Dim ? way : difference_step);
     k.template block<Dim, 1>(0, f) = (behind.force - ahead.force) / width;
     k.template block<S, 1>(Dim, f) = (behind.moment - ahead.moment) / width;
   }
