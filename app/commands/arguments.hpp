@@ -15,7 +15,7 @@ namespace voussoir {
 // what the arguments ask for, to be done once all of them are read
 using Action = std::function<ExitCode()>;
 
-inline constexpr double least_positive = 1e-9, largest = 1e12;
+inline constexpr double least_positive = 1e-9, largest_argument = 1e12;
 
 // Within the range, and finite: nan would pass every comparison.
 CLI::Validator finite(double low, double high);

@@ -16,7 +16,7 @@ namespace {
 // a measured stiffness is varied by this, to be told as a sensitivity
 constexpr double sensitivity_change = 1.1;
 
-constexpr int most_points = 64;  // of a face, along it
+constexpr int most_face_points = 64;  // of a face, along it
 
 using Overrides = std::vector<std::string>;
 
@@ -35,8 +35,8 @@ Overrides more_points(const std::vector<PropertiesSpec>& properties, const Conta
   Overrides overrides;
   for (const PropertiesSpec& spec : properties) {
     const JointProperties& p = spec.properties;
-    if (p.constant_stiffness || carried_whole(contact, p) || 2 * p.sub_contacts > most_points) continue;
-    const int points = static_cast<int>(std::min(std::ceil(times * p.sub_contacts), 1.0 * most_points));
+    if (p.constant_stiffness || carried_whole(contact, p) || 2 * p.sub_contacts > most_face_points) continue;
+    const int points = static_cast<int>(std::min(std::ceil(times * p.sub_contacts), 1.0 * most_face_points));
     overrides.push_back(fmt::format("{}={}", key_path(spec.subject.path, "sub_contacts"), points));
   }
   return overrides;

@@ -75,11 +75,11 @@ void add_run(CLI::App& program, RunArguments& arguments, Action& action) {
   command
       ->add_option("--checkpoint-steps", arguments.checkpoint_steps,
                    "steps between checkpoints (default: by time alone)")
-      ->check(finite(0, largest));
+      ->check(finite(0, largest_argument));
   command
       ->add_option("--checkpoint-seconds", arguments.checkpoint_seconds,
                    "wall clock between checkpoints; 0: none (default: 300)")
-      ->check(finite(0, largest));
+      ->check(finite(0, largest_argument));
   command
       ->add_option("--until", arguments.until,
                    "end with this stage and keep its last state, so that other runs can begin there")
@@ -219,10 +219,11 @@ void add_joint_test(CLI::App& program, JointTestArguments& arguments, Action& ac
       ->add_option("--stress", arguments.stresses,
                    "normal stress in Pa; may be repeated (default: 0.1, 0.5, 1, 2, 5 MPa)")
       ->allow_extra_args(false)
-      ->check(finite(least_positive, largest));
-  command->add_option("--slip", arguments.slip, "in m (default: 1e-3)")->check(finite(least_positive, largest));
+      ->check(finite(least_positive, largest_argument));
+  command->add_option("--slip", arguments.slip, "in m (default: 1e-3)")
+      ->check(finite(least_positive, largest_argument));
   command->add_option("--surroundings", arguments.surroundings, "of path stiffness, in Pa/m (default: 1e9)")
-      ->check(finite(least_positive, largest));
+      ->check(finite(least_positive, largest_argument));
   command->add_option("--dilation", arguments.dilation, "of path stiffness: rise over slip (default: 0.05)")
       ->check(finite(0, 1));
   command->add_option("--cycles", arguments.cycles, "of path cyclic (default: 2)")->check(CLI::Range(1, 1000));
@@ -254,7 +255,7 @@ void add_import(CLI::App& program, ImportArguments& arguments, Action& action) {
       ->delimiter(',')
       ->expected(3)
       ->allow_extra_args(false)
-      ->check(finite(-largest, largest));
+      ->check(finite(-largest_argument, largest_argument));
   command->add_flag("--overwrite", arguments.overwrite, "replace the table; the file that is read is never replaced");
   command->callback([&] { action = [&] { return import_command(arguments); }; });
 }

@@ -32,7 +32,7 @@ constexpr int brackets_below = 1, brackets_above = 2;
 // of a half bracket: what rounding moves an angle by is no shift
 constexpr double rounding = 1e-6;
 
-constexpr const char* wide = "_wide";  // of a search that begins as the answer's did
+constexpr const char* from_afar = "_wide";  // of a search that begins as the answer's did
 
 // overrides that let the searches of a scene look near what the answer found
 std::vector<std::string> near(const LoadedScene& scene, const Results& results) {
@@ -116,7 +116,7 @@ std::vector<std::string> budget_folders(const LoadedScene& scene) {
   for (int round = 0; round < rounds; ++round) {
     const std::string run = budget_runs(scene, round, {}).name;
     for (const Variation& v : variations)
-      for (const char* kind : {"", wide})
+      for (const char* kind : {"", from_afar})
         folders.push_back("budget/" + folder_of(v, run) + kind);
   }
   return folders;
@@ -146,7 +146,7 @@ struct BudgetedRuns {
     // what a stiffness that was measured moves is far from the answer
     const std::vector<std::string> from_its_begin;
     for (const Variation& v : variations) {
-      names.push_back(folder_of(v, of.name) + (v.sensitivity ? wide : ""));
+      names.push_back(folder_of(v, of.name) + (v.sensitivity ? from_afar : ""));
       runs.push_back(
           run_of(v, folder / "scene.toml", of.settings, v.sensitivity ? from_its_begin : closer, names.back()));
     }
@@ -155,8 +155,8 @@ struct BudgetedRuns {
     for (std::size_t k = 0; k < variations.size(); ++k) {
       evaluations += found(names[k], "").contact_evaluations;
       const auto has = [&](const std::string& name) { return found(names[k], name).result.has_value(); };
-      if (closer.empty() || names[k].ends_with(wide) || std::ranges::all_of(searched, has)) continue;
-      names[k] += wide;
+      if (closer.empty() || names[k].ends_with(from_afar) || std::ranges::all_of(searched, has)) continue;
+      names[k] += from_afar;
       again.push_back(run_of(variations[k], folder / "scene.toml", of.settings, {}, names[k]));
     }
     if (!again.empty() && carry_out_runs(again, options).interrupted) return {};
@@ -178,7 +178,7 @@ struct BudgetedRuns {
 
   // What a run is held against: a search that began near the answer came there by another path.
   double unvaried(const std::string& run, const std::string& name, const Value& answer) const {
-    if (path.empty() || run.ends_with(wide)) return answer.value;
+    if (path.empty() || run.ends_with(from_afar)) return answer.value;
     return found(path, name).result->value;
   }
 
@@ -196,7 +196,9 @@ struct BudgetedRuns {
   // Where runs that began near the answer moved, one that varies nothing else tells them what the path did. False:
   // interrupted.
   bool try_path(const std::vector<std::string>& names, const Results& results) {
-    const auto moved = [&](const std::string& run) { return !run.ends_with(wide) && !moved_nothing(run, results); };
+    const auto moved = [&](const std::string& run) {
+      return !run.ends_with(from_afar) && !moved_nothing(run, results);
+    };
     if (closer.empty() || std::ranges::none_of(names, moved)) return true;
     const Variation nothing{"search", "begun near the answer", 1, 0, [](double) { return std::vector<std::string>(); }};
     const std::string run = folder_of(nothing, of.name);

@@ -10,7 +10,7 @@ void add_work(CLI::App* command, WorkOptions& work) {
   command
       ->add_option("--time-limit", work.time_limit,
                    "seconds of wall clock after which a run counts as failed (default: none)")
-      ->check(finite(least_positive, largest));
+      ->check(finite(least_positive, largest_argument));
   add_threads(command, work.threads);
   command->add_flag(
       "--portable-math", work.portable_math,
