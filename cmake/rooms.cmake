@@ -1,7 +1,7 @@
 # voussoir_compile_by_room(<target>): the sources of a folder are compiled as one, which reads headers and instantiates
-# templates once for all of them: a clean build takes three fifths of the time. So names at file scope differ within a
-# folder. Sources with options of their own, as the contact kernel, stay by themselves, and so do all in the presets for
-# development, where one changed file is to compile by itself and shows what it forgot to include.
+# templates once for all of them: core and program then take some three fifths of the time. So names at file scope differ
+# within a folder. Sources with options of their own, as the contact kernel, stay by themselves, and so do all in the
+# presets for development, where one changed file is to compile by itself and shows what it forgot to include.
 if(CMAKE_BUILD_TYPE STREQUAL "Debug")
   set(by_room OFF)
 else()
