@@ -112,10 +112,10 @@ RunOptions read_options(const fs::path& folder) {
 }
 
 Outputs run_outputs() {
-  return {
-      "run",
-      {"results.json", "run.json", newest, previous, end_state, "history.csv", "bolts.csv", "lining.csv", "view.bin", "view.html", "scene.toml"},
-      true};
+  return {"run",
+          {"results.json", "run.json", newest, previous, end_state, "history.csv", "bolts.csv", "lining.csv",
+           "view.bin", "view.html", "scene.toml"},
+          true};
 }
 
 Outputs resume_outputs() {
