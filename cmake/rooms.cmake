@@ -10,12 +10,13 @@ endif()
 option(VOUSSOIR_BY_ROOM "compile the sources of a folder as one" ${by_room})
 
 function(voussoir_compile_by_room target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${VOUSSOIR_BY_ROOM} UNITY_BUILD_MODE GROUP)
-  get_target_property(sources ${target} SOURCES)
-  if(VOUSSOIR_BY_ROOM)
-    # said of a type in one of the sources as if it were in a header
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  if(NOT VOUSSOIR_BY_ROOM)
+    return()
   endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # said of a type in one of the sources as if it were in a header
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE room)
     cmake_path(GET room PARENT_PATH room)

@@ -19,8 +19,8 @@ constexpr int written_digits = 6;  // of the program's numbers
 constexpr double another_rounded_plane = 3 * degree;
 
 using Triple = std::array<const char*, 3>;
-constexpr Triple centre{"CenterX", "CenterY", "CenterZ"}, normal_columns{"NormalX", "NormalY", "NormalZ"},
-    global_centre{"GlobalCenterX", "GlobalCenterY", "GlobalCenterZ"};
+constexpr Triple centre_columns{"CenterX", "CenterY", "CenterZ"}, normal_columns{"NormalX", "NormalY", "NormalZ"},
+    global_centre_columns{"GlobalCenterX", "GlobalCenterY", "GlobalCenterZ"};
 
 std::vector<Word> cells_of(std::string_view line, int number) {
   std::vector<Word> cells;
@@ -119,12 +119,12 @@ class FacetsReader {
                         "the column " + shown(names[k].text) + " stands twice; remove one");
       columns_ = k + 1;
     }
-    for (const Triple& names_of : {centre, normal_columns})
+    for (const Triple& names_of : {centre_columns, normal_columns})
       for (const char* name : names_of)
         if (!places_.contains(name))
           throw FileFault(lines_.number(), 0,
                           fmt::format("the header lacks the column {}; export the facets in CloudCompare again", name));
-    for (const char* name : global_centre)
+    for (const char* name : global_centre_columns)
       has_global_ = has_global_ && places_.contains(name);
   }
   const Word* find(const char* name) const {
@@ -146,7 +146,7 @@ class FacetsReader {
     facet.origin.name = "facet-" + (index ? std::string(index->text) : std::to_string(facets_.size() + 1));
     if (const Word* family = find("Family ind."); family && number_of(*family, "Family ind.") >= 0)
       facet.origin.set = "family-" + std::string(family->text);
-    facet.plane = {unit_normal(), vector(centre)};
+    facet.plane = {unit_normal(), vector(centre_columns)};
     if (const Word* rms = find("RMS")) largest_rms_ = std::max(largest_rms_, number_of(*rms, "RMS"));
     if (const Word* polygon = find("PolygonZ"); polygon && polygon->text.starts_with("POLYGON"))
       facet.corners = corners_of(*polygon);
@@ -197,9 +197,9 @@ class FacetsReader {
   }
   void narrow_shift(const Vector<3>& local) {
     for (int k = 0; k < 3; ++k) {
-      const Word &here = cells_[places_.find(centre[k])->second],
-                 &there = cells_[places_.find(global_centre[k])->second];
-      const double global = coordinate_of(there, global_centre[k]);
+      const Word &here = cells_[places_.find(centre_columns[k])->second],
+                 &there = cells_[places_.find(global_centre_columns[k])->second];
+      const double global = coordinate_of(there, global_centre_columns[k]);
       const double doubt = rounding_of(here, local[k]) + rounding_of(there, global);
       between_[k].low = std::max(between_[k].low, global - local[k] - doubt);
       between_[k].high = std::min(between_[k].high, global - local[k] + doubt);
@@ -207,7 +207,7 @@ class FacetsReader {
         throw FileFault(
             there.line, there.column,
             fmt::format("{} lies beside {} by another shift than in the rows before; export each cloud by itself",
-                        global_centre[k], centre[k]));
+                        global_centre_columns[k], centre_columns[k]));
     }
   }
   Vector<3> global_shift() {

@@ -6,6 +6,7 @@
 #include <utility>
 
 namespace voussoir {
+
 template <int Dim>
 Unknowns<Dim>::Unknowns(const Model<Dim>& model) : place(model.bodies.size(), -1) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
