@@ -96,6 +96,6 @@ voussoir_test(unit.newton LONG LABEL unit
 
 voussoir_test(unit.step LABEL unit
   SOURCES step_test.cpp simulate_test.cpp take_out_test.cpp install_test.cpp install_grouted_test.cpp cast_lining_test.cpp testing/whole_scenes_test.cpp step/joint_forces_test.cpp step/loads_test.cpp testing/step_memory_test.cpp energy_test.cpp motion/prescribed_test.cpp
-    load/boundary_stress_test.cpp load/water_test.cpp step/water_test.cpp scene/water_scene_test.cpp
+    load/boundary_stress_test.cpp load/water_test.cpp load/water_bends_test.cpp step/water_test.cpp scene/water_scene_test.cpp
     state_hash_test.cpp reduction/reduction_test.cpp motion/relaxation_test.cpp checkpoint/checkpoint_test.cpp
-  LIBS voussoir_core voussoir_oracle_algebra cereal::cereal Boost::headers)
+  LIBS voussoir_core voussoir_oracle_algebra cereal::cereal Boost::headers fmt::fmt)
