@@ -68,7 +68,8 @@ voussoir_test(unit.particles LABEL unit SOURCES scene/particles_test.cpp
   LIBS voussoir_core cereal::cereal fmt::fmt Boost::headers)
 
 if(TARGET voussoir_limit)
-  voussoir_test(unit.limit LABEL unit SOURCES limit/limit_test.cpp limit/factor_of_safety_test.cpp LIBS voussoir_limit)
+  voussoir_test(unit.limit LABEL unit SOURCES limit/limit_test.cpp limit/factor_of_safety_test.cpp limit/self_stress_test.cpp
+    LIBS voussoir_limit Boost::headers)
 endif()
 
 # the exact referee: GPL, so a library of its own that only tests link

@@ -83,7 +83,7 @@ const std::vector<Order> orders{
       {"particle"}}},
     {"core/slicing", {{"block", "joint"}, {"clump", "slice"}}},
     {"core/joint_sets", {{"portable_math"}, {"random_stream"}, {"joint_set"}, {"statistics"}}},
-    {"core/limit", {{"interfaces", "linear_program"}, {"glpk_program"}, {"limit"}, {"mechanism"}}},
+    {"core/limit", {{"interfaces", "linear_program"}, {"glpk_program", "self_stress"}, {"limit"}, {"mechanism"}}},
     {"core/scene",
      {{"scene_error"},
       {"node"},
