@@ -83,9 +83,10 @@ struct CriticalStrength {
 };
 
 // The friction angle at which the model's gravity is just carried, by bisection over linear programs that ask for the
-// least force to be added, to 1e-6 degrees. Interfaces whose properties are named all take it, the others keep theirs;
-// no name: all. Cohesion stays. `besides`: further dead loads, by body. Unknown names throw std::out_of_range with the
-// name.
+// least force to be added, to 1e-6 degrees (of blocks that are jammed, self_stress, to 1 % at worst, as the bracket
+// says: forces grow without bound towards it). Interfaces whose properties are named all take it, the others keep
+// theirs; no name: all. Cohesion stays. `besides`: further dead loads, by body. Unknown names throw std::out_of_range
+// with the name.
 CriticalStrength find_critical_friction(const Model<2>& model, const std::vector<Interface>& interfaces,
                                         const std::vector<std::string>& properties = {}, const Loads& besides = {});
 

@@ -47,7 +47,7 @@ bool is_empty(const Box<Dim>& box) {
 // The axes of a part, each as long as the part is wide along it: seen along them the part is round, so that no share of
 // it that matters is too thin to be a block (BlockStatus::flat), however thin the part is.
 template <int Dim>
-Matrix<Dim> axes_of(const Polytope<Dim>& part) {
+Matrix<Dim> round_axes_of(const Polytope<Dim>& part) {
   const Vector<Dim>& c = part.mass.centroid;
   const Eigen::SelfAdjointEigenSolver<Matrix<Dim>> own(part.mass.second_moment / part.mass.volume - c * c.transpose());
   // no convex part spreads less than the ball in it: a bound where rounding leaves nothing
@@ -58,7 +58,7 @@ Matrix<Dim> axes_of(const Polytope<Dim>& part) {
 
 template <int Dim>
 double shared_by_planes(const Polytope<Dim>& smaller, const Polytope<Dim>& larger) {
-  const Matrix<Dim> axes = axes_of(smaller);
+  const Matrix<Dim> axes = round_axes_of(smaller);
   HalfSpaces<Dim> planes;
   for (const Polytope<Dim>* part : {&smaller, &larger})
     for (const HalfSpace<Dim>& face : part->faces)
