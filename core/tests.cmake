@@ -35,7 +35,7 @@ voussoir_test(unit.neighbours LABEL unit SOURCES step/neighbours_test.cpp LIBS v
 
 voussoir_test(unit.scene LABEL unit
   SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/bad_stage_loads_test.cpp scene/bad_bolts_test.cpp scene/bad_linings_test.cpp scene/bad_water_test.cpp scene/bad_search_test.cpp scene/bad_faces_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
-    scene/permuted_input_test.cpp scene/accuracy_level_test.cpp scene/slicing_scene_test.cpp scene/repeat_test.cpp
+    scene/permuted_input_test.cpp scene/accuracy_level_test.cpp scene/slicing_scene_test.cpp scene/repeat_test.cpp scene/stated_bodies_test.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)
 
 voussoir_test(unit.monitors LABEL unit SOURCES monitor_test.cpp scene/bad_monitors_test.cpp begin_test.cpp
@@ -68,7 +68,8 @@ voussoir_test(unit.particles LABEL unit SOURCES scene/particles_test.cpp
   LIBS voussoir_core cereal::cereal fmt::fmt Boost::headers)
 
 if(TARGET voussoir_limit)
-  voussoir_test(unit.limit LABEL unit SOURCES limit/limit_test.cpp limit/factor_of_safety_test.cpp LIBS voussoir_limit)
+  voussoir_test(unit.limit LABEL unit SOURCES limit/limit_test.cpp limit/factor_of_safety_test.cpp limit/self_stress_test.cpp
+    LIBS voussoir_limit Boost::headers)
 endif()
 
 # the exact referee: GPL, so a library of its own that only tests link
@@ -96,6 +97,6 @@ voussoir_test(unit.newton LONG LABEL unit
 
 voussoir_test(unit.step LABEL unit
   SOURCES step_test.cpp simulate_test.cpp take_out_test.cpp install_test.cpp install_grouted_test.cpp cast_lining_test.cpp testing/whole_scenes_test.cpp step/joint_forces_test.cpp step/loads_test.cpp testing/step_memory_test.cpp energy_test.cpp motion/prescribed_test.cpp
-    load/boundary_stress_test.cpp load/water_test.cpp step/water_test.cpp scene/water_scene_test.cpp
+    load/boundary_stress_test.cpp load/water_test.cpp load/water_bends_test.cpp step/water_test.cpp scene/water_scene_test.cpp
     state_hash_test.cpp reduction/reduction_test.cpp motion/relaxation_test.cpp checkpoint/checkpoint_test.cpp
-  LIBS voussoir_core voussoir_oracle_algebra cereal::cereal Boost::headers)
+  LIBS voussoir_core voussoir_oracle_algebra cereal::cereal Boost::headers fmt::fmt)

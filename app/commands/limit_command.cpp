@@ -88,7 +88,8 @@ void print_analysis(const LimitAnalysis& analysis, const fs::path& folder) {
                    evidence.gap, evidence.out_of_balance, evidence.inadmissible));
   line("", fmt::format("{} linear programs over {} interfaces", evidence.programs, analysis.interfaces.size()));
   print_mechanism(analysis);
-  line("caveat", associated_flow_caveat);
+  for (const std::string& caveat : analysis.caveats)
+    line(&caveat == &analysis.caveats.front() ? "caveat" : "", caveat);
   fmt::print("results: {}\n", folder.string());
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "app/bad_input.hpp"
@@ -11,11 +12,16 @@
 
 namespace voussoir {
 
+namespace {
+
 const char* const associated_flow_caveat =
     "associated flow: joints open as they slip, so this is an upper bound on strength; where blocks topple it may be "
     "several degrees unsafe (Goodman & Bray's slope: 33.4 for 38.15); confirm it with 'voussoir run'";
-
-namespace {
+const char* const self_stress_caveat =
+    "this answer may rest on normal forces between walls that the loads do not ask for: blocks that fall when run may "
+    "stand here by far; confirm it with 'voussoir run'";
+const char* const without_bound =
+    ", by normal forces without bound, of which nothing says that they are there; confirm it with 'voussoir run'";
 
 std::string block_name(const Model<2>& model, int body) {
   const std::string& name = model.bodies[body].name;
@@ -103,16 +109,22 @@ CriticalStrength seek_strength(const LimitRequest& request, const Find& find, co
   analysis.status = found.status;
   analysis.state = found.state;
   analysis.evidence = found.evidence;
+  if (found.self_stress) analysis.caveats.push_back(self_stress_caveat);
   return found;
 }
 
 void seek_factor_of_safety(const LimitRequest& request, LimitAnalysis& analysis) {
   analysis.sought = "factor of safety of ";
   const CriticalStrength found = seek_strength(request, find_factor_of_safety, "--joint", analysis);
-  if (found.status == LimitStatus::found) {
+  if (found.status == LimitStatus::found && std::isfinite(found.collapses)) {
     analysis.values.emplace_back("factor_of_safety", bracketed(found.stands, found.collapses, "1"));
     analysis.values.emplace_back("force_missing_beyond", Value{found.missing, "weight of a block", {}, ""});
+  } else if (found.status == LimitStatus::found) {
+    analysis.message = fmt::format(
+        "the blocks stand with 1/{:.1g} of the strength of these joints: no factor up to it is critical", found.stands);
   }
+  if (found.status == LimitStatus::not_attained)
+    analysis.message = fmt::format("held at any strength above 0{}", without_bound);
   if (found.status == LimitStatus::carries_any)
     analysis.message = "the blocks stand without any strength of these joints: no factor is critical";
   if (found.status == LimitStatus::carries_nothing) {
@@ -133,6 +145,8 @@ void seek_friction(const LimitRequest& request, LimitAnalysis& analysis) {
                                  bracketed(to_degrees(found.collapses), to_degrees(found.stands), "deg"));
     analysis.values.emplace_back("force_missing_below", Value{found.missing, "weight of a block", {}, ""});
   }
+  if (found.status == LimitStatus::not_attained)
+    analysis.message = fmt::format("held at any friction above 0{}", without_bound);
   if (found.status == LimitStatus::carries_any) {
     analysis.message = "the blocks stand without friction in these joints: no angle is critical";
     analysis.values.emplace_back("critical_friction",
@@ -197,6 +211,7 @@ void seek_factor(const LiveLoad& live, LimitAnalysis& analysis) {
   analysis.status = found.status;
   analysis.state = found.state;
   analysis.evidence = found.evidence;
+  if (found.self_stress) analysis.caveats.push_back(self_stress_caveat);
   if (found.status == LimitStatus::found)
     analysis.values.emplace_back("collapse_factor", Value{found.factor, "1", {}, "linear program"});
   if (found.status == LimitStatus::carries_any)
@@ -243,6 +258,7 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
         "the scene has linings: limit analysis knows blocks and joints alone; remove [[linings]] and install for the "
         "unsupported opening, or use 'voussoir run' with a stage of kind = \"reduce\"");
   LimitAnalysis analysis;
+  analysis.caveats = {associated_flow_caveat};
   analysis.title = scene.title;
   analysis.input_hash = scene.hash;
   analysis.model = prepared->model;

@@ -28,17 +28,15 @@ struct LimitAnalysis {
   std::vector<Interface> interfaces;
   std::string sought;  // "critical friction angle of all joints", "factor of safety of all joints", …
   LimitStatus status = LimitStatus::found;
-  bool answered = false;  // a value was found, that no friction is needed included
-  std::string message;    // why none was, and what helps, or what the value means; else empty
+  bool answered = false;             // a value was found, that no friction is needed included
+  std::string message;               // why none was, and what helps, or what the value means; else empty
+  std::vector<std::string> caveats;  // what to keep in mind about any result, and about this one
   std::vector<std::pair<std::string, Value>> values;
   LimitState state;
   Evidence evidence;
   Mechanism mechanism;
   std::vector<std::string> warnings;
 };
-
-// printed with every answer
-extern const char* const associated_flow_caveat;
 
 // Throws BadInput where there is nothing to analyse: a scene in space, no free block, no gravity, no applied force, an
 // unknown name.

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "app/limit/limit_files.hpp"
@@ -79,7 +81,7 @@ std::string limit_json(const LimitAnalysis& analysis) {
   json["sought"] = analysis.sought;
   json["status"] = analysis.answered ? "done" : analysis.status == LimitStatus::solver_failed ? "failed" : "incomplete";
   json["message"] = analysis.message;
-  json["caveat"] = associated_flow_caveat;
+  json["caveat"] = fmt::format("{}", fmt::join(analysis.caveats, "; "));
   json["values"] = values_json(analysis);
   json["evidence"] = {{"gap", evidence.gap},
                       {"out_of_balance", evidence.out_of_balance},

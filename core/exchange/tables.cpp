@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include "core/geometry/half_space.hpp"
 #include "text/csv_table.hpp"
+#include "text/plain_text.hpp"
 #include "text/text_scan.hpp"
 
 namespace voussoir {
@@ -183,6 +185,7 @@ std::vector<PlaneRow> read_plane_table(std::string_view text, int dimension) {
   const CsvTable table = parse_csv(text);
   table.check_header(joined({"block", "offset_m"}, normal_columns(dimension)), {"part", "joint"});
   std::vector<PlaneRow> planes;
+  std::set<std::string> with_first;  // blocks that have a part 0
   for (const CsvRow& row : table.rows) {
     PlaneRow plane;
     plane.line = row.line;
@@ -192,11 +195,17 @@ std::vector<PlaneRow> read_plane_table(std::string_view text, int dimension) {
     if (!(part >= 0 && part < most_parts && part == std::floor(part)))
       table.refuse(row, "part", "must be a whole number from 0 on: which convex part of the block");
     plane.part = static_cast<int>(part);
+    if (plane.part == 0) with_first.insert(plane.block);
     plane.joint = table.text(row, "joint");
     plane.normal = required(table, row, normal_columns(dimension));
     plane.offset = table.required_number(row, "offset_m");
     planes.push_back(std::move(plane));
   }
+  for (std::size_t k = 0; k < planes.size(); ++k)
+    if (!with_first.contains(planes[k].block))
+      table.refuse(table.rows[k], "part",
+                   fmt::format("block '{}' has no part 0; parts are numbered from 0: renumber them",
+                               one_line(planes[k].block, 60)));
   return planes;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/limit/limit.hpp"
 #include "core/testing/limit_models.hpp"
+#include "core/waters.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -55,6 +56,28 @@ TEST(FactorOfSafety, IsThatOfTheNamedPropertiesAndOfFurtherLoads) {
   EXPECT_NEAR(find_factor_of_safety(model, faces, {}, lifted).stands, 0.5 * ratio, 2e-7);
   const double critical = std::atan(2 * std::tan(20 * degree));
   EXPECT_NEAR(find_critical_friction(model, faces, {}, lifted).stands, critical, bracket);
+}
+
+// 1 m of water behind a block of 1 m x 1 m and 20 kN, its table with the first, the last or a middle point at the
+// block's face: the same thrust of 5 kN.
+TEST(CriticalFriction, CountsWaterWhoseTableBendsAtAFace) {
+  Model<2> model = limit_models::model_of(
+      {{"floor", limit_models::box(-2, -1, 3, 0), true}, {"block", limit_models::box(0, 0, 1, 1)}});
+  for (Body<2>& body : model.bodies)
+    body.free_rotation.fill(false);
+  const double x = 1 - model.origin[0], z = 1 - model.origin[1];
+  for (const std::vector<double>& numbers :
+       {std::vector<double>{x - 1, z - 1, x, z}, {x, z, x + 1, z - 1}, {x - 1, z - 1, x, z, x + 2, z + 3}, {x, z}}) {
+    for (Body<2>& body : model.bodies)
+      for (std::size_t f = 0; f < body.parts.front().faces.size(); ++f)
+        body.parts.front().joints[f] = body.parts.front().faces[f].normal[0] > 0.5 && !body.fixed ? 0 : no_joint;
+    model.joints = {{"crack", {Vector<2>::UnitX(), x}, 0}};
+    assign_waters(model, {{"w", 10'000, false, numbers}}, {0, -1});
+    const CriticalStrength found =
+        find_critical_friction(model, find_interfaces(model), {}, water_loads_at_reference<2>(model));
+    ASSERT_EQ(found.status, LimitStatus::found);
+    EXPECT_NEAR(found.stands, std::atan(0.25), bracket);
+  }
 }
 
 }  // namespace

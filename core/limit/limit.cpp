@@ -1,11 +1,13 @@
 #include "core/limit/limit.hpp"
-#include "text/angle.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <stdexcept>
+
+#include "core/limit/self_stress.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
@@ -148,17 +150,23 @@ std::vector<BodyVelocity> read_velocities(const Rows& rows, const std::vector<do
   return velocities;
 }
 
+// the velocity of body_b against body_a at a point
+Vector<2> opening_at(const Model<2>& model, const Interface& face, const Vector<2>& point,
+                     const std::vector<BodyVelocity>& velocities) {
+  const auto velocity = [&](int body) {
+    const BodyVelocity& v = velocities[body];
+    return Vector<2>(v.velocity + cross(Spin<2>(v.spin), point - model.bodies[body].reference));
+  };
+  return velocity(face.body_b) - velocity(face.body_a);
+}
+
 // the largest velocity at an end of an interface against a side of its cone
 double find_inadmissible(const Model<2>& model, const std::vector<Interface>& interfaces,
                          const std::vector<BodyVelocity>& velocities) {
   double largest = 0;
   for (const Interface& face : interfaces)
     for (const Vector<2>& end : face.ends) {
-      const auto velocity = [&](int body) {
-        const BodyVelocity& v = velocities[body];
-        return Vector<2>(v.velocity + cross(Spin<2>(v.spin), end - model.bodies[body].reference));
-      };
-      const Vector<2> opening = velocity(face.body_b) - velocity(face.body_a);
+      const Vector<2> opening = opening_at(model, face, end, velocities);
       const double slip = std::abs(opening.dot(tangent_of(face)));
       largest = std::max(largest, std::sin(face.friction) * slip - std::cos(face.friction) * opening.dot(face.normal));
     }
@@ -181,19 +189,54 @@ struct Margin {
   Certificate certificate;
 };
 
-Margin find_margin(const Model<2>& model, const Rows& rows, const std::vector<Interface>& interfaces,
-                   const Loads& dead) {
-  LinearProgram program = equilibrium(model, rows, interfaces, dead);
-  for (int row = 0; row < rows.count; ++row)
+Margin find_margin(LinearProgram program) {
+  for (std::size_t row = 0; row < program.right_side.size(); ++row)
     for (const double sign : {1.0, -1.0})
-      program.columns.push_back({1, 0, infinity, {{row, sign}}});
+      program.columns.push_back({1, 0, infinity, {{static_cast<int>(row), sign}}});
   Margin margin{solve(program), {}};
   if (margin.solution.status == ProgramStatus::optimal) margin.certificate = judge(program, margin.solution);
   return margin;
 }
 
 bool stands(const Margin& margin) {
-  return margin.certificate.primal <= balanced;
+  return margin.solution.status == ProgramStatus::optimal && margin.certificate.primal <= balanced;
+}
+
+// Whether loads that are not carried at the weakest strength, whose program this is, are carried at any above it: by
+// forces without bound, since joints that press on each other without any load take any shear as soon as they have
+// friction. Such joints may in turn let others press on each other. `gains`: interfaces whose friction grows.
+bool carried_beyond(LinearProgram program, const std::vector<bool>& gains) {
+  for (bool grown = true; grown;) {
+    const std::vector<bool> unbounded = unbounded_columns(program);
+    grown = false;
+    for (std::size_t end = 0; end < 2 * gains.size(); ++end) {
+      ProgramColumn* const of_end = &program.columns[columns_of_an_end * end];
+      for (int side = 0; side < 2; ++side) {
+        if (!unbounded[columns_of_an_end * end + side]) continue;
+        grown = true;
+        of_end[side].low = -infinity;
+        if (gains[end / 2]) of_end[2].low = -infinity, of_end[2].high = infinity;
+      }
+    }
+  }
+  return stands(find_margin(program));
+}
+
+// Whether joints that may press on each other without any load move in the mechanism, and without them loads are not
+// carried. No mechanism: all joints count.
+bool may_rest_on_self_stress(const Model<2>& model, const std::vector<Interface>& interfaces, LinearProgram program,
+                             const std::vector<BodyVelocity>& mechanism) {
+  constexpr double still = 1e-6;  // of the fastest body: far above the rounding of multipliers
+  const std::vector<bool> unbounded = unbounded_columns(program);
+  bool moves = false;
+  for (std::size_t end = 0; end < 2 * interfaces.size(); ++end)
+    for (int side = 0; side < 2; ++side) {
+      if (!unbounded[columns_of_an_end * end + side]) continue;
+      program.columns[columns_of_an_end * end + side].high = 0;
+      const Interface& face = interfaces[end / 2];
+      moves = moves || mechanism.empty() || opening_at(model, face, face.ends[end % 2], mechanism).norm() > still;
+    }
+  return moves && !stands(find_margin(program));
 }
 
 std::vector<bool> choose(const Model<2>& model, const std::vector<std::string>& names) {
@@ -213,14 +256,10 @@ struct StrengthRange {
   std::function<void(double strength, std::vector<Interface>& interfaces)> weaken;
 };
 
-// between which two strengths gravity and what acts besides are just carried
-CriticalStrength bisect(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& besides,
-                        const StrengthRange& range) {
+// between which two strengths loads are just carried
+CriticalStrength bisect(const Model<2>& model, const Rows& rows, const std::vector<Interface>& interfaces,
+                        const Loads& dead, const StrengthRange& range) {
   CriticalStrength result;
-  Loads dead = loads_of_acceleration(model, model.gravity);
-  for (std::size_t b = 0; b < besides.size(); ++b)
-    dead[b] += besides[b];
-  const Rows rows = number_rows(model, model.gravity.norm());
   if (rows.count == 0) return result.status = LimitStatus::nothing_free, result;
   if (model.gravity.isZero(0)) return result.status = LimitStatus::no_load, result;
 
@@ -228,7 +267,7 @@ CriticalStrength bisect(const Model<2>& model, const std::vector<Interface>& int
   const auto at = [&](double strength) {
     range.weaken(strength, trial);
     ++result.evidence.programs;
-    return find_margin(model, rows, trial, dead);
+    return find_margin(equilibrium(model, rows, trial, dead));
   };
   const auto keep_standing = [&](double strength, const Margin& margin) {
     result.stands = strength;
@@ -272,6 +311,42 @@ CriticalStrength bisect(const Model<2>& model, const std::vector<Interface>& int
   return result;
 }
 
+// The strength at which gravity and further loads are just carried, and whether it says what it seems to say.
+CriticalStrength find_strength(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& besides,
+                               const StrengthRange& range) {
+  constexpr double margin = 1.01;  // joints that press on each other at so much more strength count
+  Loads dead = loads_of_acceleration(model, model.gravity);
+  for (std::size_t b = 0; b < besides.size(); ++b)
+    dead[b] += besides[b];
+  const Rows rows = number_rows(model, model.gravity.norm());
+  CriticalStrength found = bisect(model, rows, interfaces, dead, range);
+
+  const auto joints_at = [&](double strength) {
+    std::vector<Interface> joints = interfaces;
+    range.weaken(strength, joints);
+    return joints;
+  };
+  const bool sought = found.status == LimitStatus::found || found.status == LimitStatus::solver_failed;
+  if (sought && found.missing > 0 && found.collapses == range.weakest) {
+    const std::vector<Interface> weakest = joints_at(range.weakest), strongest = joints_at(range.strongest);
+    std::vector<bool> gains;
+    for (std::size_t i = 0; i < weakest.size(); ++i)
+      gains.push_back(strongest[i].friction > weakest[i].friction);
+    if (carried_beyond(equilibrium(model, rows, weakest, dead), gains)) found.status = LimitStatus::not_attained;
+  }
+  // Towards the critical strength of blocks that are jammed forces grow without bound, and the solver gives up sooner:
+  // the bracket then stays wider.
+  const bool wide =
+      found.status == LimitStatus::solver_failed && found.missing > 0 && found.stands <= margin * found.collapses;
+  if (wide || found.status == LimitStatus::found || found.status == LimitStatus::carries_any) {
+    const std::vector<Interface> joints = joints_at(std::min(range.strongest, margin * found.stands));
+    found.self_stress =
+        may_rest_on_self_stress(model, joints, equilibrium(model, rows, joints, dead), found.state.velocities);
+    if (wide && found.self_stress) found.status = LimitStatus::found;
+  }
+  return found;
+}
+
 }  // namespace
 
 Loads loads_of_acceleration(const Model<2>& model, const Vector<2>& acceleration) {
@@ -303,7 +378,7 @@ LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>&
 
   // the dead load first: without it there is no factor to look for
   if (of_dead > 0) {
-    const Margin margin = find_margin(model, rows, interfaces, dead);
+    const Margin margin = find_margin(equilibrium(model, rows, interfaces, dead));
     ++result.evidence.programs;
     if (margin.solution.status != ProgramStatus::optimal) return result.status = LimitStatus::solver_failed, result;
     if (!stands(margin)) {
@@ -328,6 +403,13 @@ LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>&
   result.evidence.gap = std::abs(certificate.primal - certificate.dual) / std::max(1.0, std::abs(certificate.primal));
   result.evidence.out_of_balance = certificate.primal_violation;
   result.evidence.inadmissible = find_inadmissible(model, interfaces, result.state.velocities);
+  if (result.status == LimitStatus::found) {
+    constexpr double nearly = 0.99;  // of the factor
+    for (const auto& [row, fraction] : program.columns.back().entries)
+      program.right_side[row] -= nearly * solution.x.back() * fraction;
+    program.columns.pop_back();
+    result.self_stress = may_rest_on_self_stress(model, interfaces, program, result.state.velocities);
+  }
   return result;
 }
 
@@ -338,7 +420,7 @@ CriticalStrength find_critical_friction(const Model<2>& model, const std::vector
     for (Interface& face : trial)
       if (chosen[face.properties]) face.friction = friction;
   };
-  return bisect(model, interfaces, besides, {least_friction, largest_friction, friction_tolerance, weaken});
+  return find_strength(model, interfaces, besides, {least_friction, largest_friction, friction_tolerance, weaken});
 }
 
 CriticalStrength find_factor_of_safety(const Model<2>& model, const std::vector<Interface>& interfaces,
@@ -353,7 +435,7 @@ CriticalStrength find_factor_of_safety(const Model<2>& model, const std::vector<
       trial[i].cohesion = left * interfaces[i].cohesion;
     }
   };
-  CriticalStrength found = bisect(model, interfaces, besides, {least_left, most_left, left_tolerance, weaken});
+  CriticalStrength found = find_strength(model, interfaces, besides, {least_left, most_left, left_tolerance, weaken});
   for (double* end : {&found.collapses, &found.stands})
     *end = *end > 0 ? (1 - *end) / *end : infinity;
   return found;

@@ -39,6 +39,7 @@ enum class LimitStatus {
   no_load,          // the load does nothing to any freedom, or gravity is zero
   carries_any,      // stands at every factor up to 1e6 times the blocks' weight; or without any friction
   carries_nothing,  // the dead load alone is not carried; or no friction up to 89 degrees is enough
+  not_attained,     // carried at any strength above zero by normal forces without bound, but not at zero
   solver_failed     // GLPK gave up
 };
 
@@ -52,7 +53,8 @@ struct Evidence {
 
 struct LoadFactor {
   LimitStatus status = LimitStatus::found;
-  double factor = 0;  // of the live load
+  double factor = 0;         // of the live load
+  bool self_stress = false;  // as in CriticalStrength
   LimitState state;
   Evidence evidence;
 };
@@ -73,14 +75,18 @@ struct CriticalStrength {
   LimitStatus status = LimitStatus::found;
   double collapses = 0, stands = 0;  // the bracket: friction angle in rad, or factor of safety
   double missing = 0;  // at `collapses`: the least sum of added forces, of their bodies' weights, that would stand
-  LimitState state;    // forces at `stands`, velocities at `collapses`
-  Evidence evidence;   // gap: of what is missing at `collapses`; out_of_balance at `stands`
+  // It may rest on normal forces between walls that the loads do not ask for: at 1.01 times the strength joints that
+  // move in the mechanism can press on each other without any load, and without them the loads are not carried.
+  bool self_stress = false;
+  LimitState state;   // forces at `stands`, velocities at `collapses`
+  Evidence evidence;  // gap: of what is missing at `collapses`; out_of_balance at `stands`
 };
 
 // The friction angle at which the model's gravity is just carried, by bisection over linear programs that ask for the
-// least force to be added, to 1e-6 degrees. Interfaces whose properties are named all take it, the others keep theirs;
-// no name: all. Cohesion stays. `besides`: further dead loads, by body. Unknown names throw std::out_of_range with the
-// name.
+// least force to be added, to 1e-6 degrees (of blocks that are jammed, self_stress, to 1 % at worst, as the bracket
+// says: forces grow without bound towards it). Interfaces whose properties are named all take it, the others keep
+// theirs; no name: all. Cohesion stays. `besides`: further dead loads, by body. Unknown names throw std::out_of_range
+// with the name.
 CriticalStrength find_critical_friction(const Model<2>& model, const std::vector<Interface>& interfaces,
                                         const std::vector<std::string>& properties = {}, const Loads& besides = {});
 

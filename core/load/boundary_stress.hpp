@@ -24,8 +24,8 @@ struct DepthStress {
   Matrix<Dim> at(const Vector<Dim>& point) const { return above + std::max(0.0, surface - point[Dim - 1]) * per_depth; }
 };
 
-// The same of such a stress, at as many points of each face as give its force and its moment exactly where the whole
-// face lies below the surface, or above it.
+// The same of such a stress, at as many points of each face as give its force and its moment exactly. A face that the
+// surface crosses is cut there, since the stress is linear only on either side of it.
 template <int Dim>
 std::vector<DeadLoad<Dim>> boundary_loads(const Polytope<Dim>& part, const DepthStress<Dim>& stress);
 

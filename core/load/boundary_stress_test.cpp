@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/motion/integrate.hpp"
 #include "core/run.hpp"
 #include "core/testing/models.hpp"
+#include "core/testing/oracles.hpp"
 
 namespace voussoir {
 namespace {
@@ -143,6 +147,120 @@ void expect_growing_stress() {
 TEST(BoundaryStress, GrowsWithDepth) {
   expect_growing_stress<2>();
   expect_growing_stress<3>();
+}
+
+// ---- a surface within faces --------------------------------------------------------------------------------------
+
+using oracle::Real;
+
+// Of the stress on one face, about the origin: chords across the way along which its depth changes fastest, by Gauss's
+// three points between corners and surface. Chord, its middle and depth are linear there, their product a cubic.
+Load<3> load_by_chords(const std::vector<oracle::RealVector<3>>& ring, const oracle::RealVector<3>& normal,
+                       const DepthStress<3>& stress) {
+  using Point = oracle::RealVector<3>;
+  Point along = Point::UnitZ() - normal[2] * normal;
+  if (along.norm() < 1e-9L) along = Point::UnitX() - normal[0] * normal;
+  along.normalize();
+  const Point across = normal.cross(along);
+  std::vector<Real> places;
+  for (const Point& p : ring)
+    places.push_back(along.dot(p));
+  if (std::abs(along[2]) > 1e-6L)  // the face's plane meets the surface in a line across
+    places.push_back(along.dot(ring[0]) + (stress.surface - ring[0][2]) / along[2]);
+  std::ranges::sort(places);
+  const auto [first, last] = std::ranges::minmax(ring, {}, [&](const Point& p) { return along.dot(p); });
+  Point force = Point::Zero(), moment = Point::Zero();
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const Real a = std::max(places[i], along.dot(first)), b = std::min(places[i + 1], along.dot(last));
+    if (b - a < 1e-18L) continue;
+    for (const auto& [node, weight] :
+         {std::pair<Real, Real>{-std::sqrt(0.6L), 5 / 18.0L}, {0, 8 / 18.0L}, {std::sqrt(0.6L), 5 / 18.0L}}) {
+      const Real t = (a + b) / 2 + node * (b - a) / 2;
+      std::vector<Point> ends;
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const Point &p = ring[k], &q = ring[(k + 1) % ring.size()];
+        const Real of_p = along.dot(p) - t, of_q = along.dot(q) - t;
+        if ((of_p < 0) != (of_q < 0)) ends.push_back(p + of_p / (of_p - of_q) * (q - p));
+      }
+      if (ends.size() != 2) continue;
+      const Point middle = (ends[0] + ends[1]) / 2;
+      const Real depth = std::max(Real(0), stress.surface - middle[2]);
+      const oracle::RealMatrix<3> there = stress.above.cast<Real>() + depth * stress.per_depth.cast<Real>();
+      const Point push = -weight * (b - a) * std::abs(across.dot(ends[1] - ends[0])) * (there * normal);
+      force += push;
+      moment += middle.cross(push);
+    }
+  }
+  return {force.cast<double>(), moment.cast<double>()};
+}
+
+// the same of an edge in the plane
+Load<2> load_by_chords(const std::vector<oracle::RealVector<2>>& edge, const oracle::RealVector<2>& normal,
+                       const DepthStress<2>& stress) {
+  using Point = oracle::RealVector<2>;
+  const Point &p = edge[0], &q = edge[1];
+  std::vector<Real> places{0, 1};
+  if ((p[1] < stress.surface) != (q[1] < stress.surface)) places.push_back((stress.surface - p[1]) / (q[1] - p[1]));
+  std::ranges::sort(places);
+  Point force = Point::Zero();
+  Real moment = 0;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i)
+    for (const Real node : {-std::sqrt(1 / 3.0L), std::sqrt(1 / 3.0L)}) {
+      const Real width = places[i + 1] - places[i], t = places[i] + (1 + node) / 2 * width;
+      const Point at = p + t * (q - p);
+      const oracle::RealMatrix<2> there =
+          stress.above.cast<Real>() + std::max(Real(0), stress.surface - at[1]) * stress.per_depth.cast<Real>();
+      const Point push = -width / 2 * (q - p).norm() * (there * normal);
+      force += push;
+      moment += at[0] * push[1] - at[1] * push[0];
+    }
+  return {force.cast<double>(), Spin<2>(static_cast<double>(moment))};
+}
+
+// Blocks turned anyhow and boxes, whose faces are vertical and level; a surface anywhere, or at a corner.
+template <int Dim>
+void expect_clipped_at_the_surface() {
+  Random random(60 + Dim);
+  int crossed = 0, wrong = 0;
+  double worst = 0;
+  for (int i = 0; i < 2000; ++i) {
+    HalfSpaces<Dim> planes = random_planes<Dim>(random, integer(random, 0, 5), 1);
+    if (integer(random, 0, 3) > 0) planes = placed<Dim>(planes, matrix(orientation<Dim>(random)), Vector<Dim>::Zero());
+    Polytope<Dim> part = centred_block<Dim>(planes);
+    DepthStress<Dim> stress{Matrix<Dim>::Zero(), some_stress<Dim>(), uniform(random, -1.5, 1.5)};
+    if (integer(random, 0, 2) == 0) stress.above = 3 * some_stress<Dim>();
+    if (integer(random, 0, 2) == 0)
+      stress.surface = part.vertices[integer(random, 0, part.vertices.size() - 1)][Dim - 1];
+    for (std::size_t f = 0; f < part.faces.size(); ++f) {
+      if (static_cast<int>(part.loops[f].size()) < Dim) continue;
+      part.joints.assign(part.faces.size(), 0);
+      part.joints[f] = no_joint;
+      std::vector<oracle::RealVector<Dim>> ring;
+      double lowest = 10, highest = -10;
+      for (const int v : part.loops[f]) {
+        ring.push_back(part.vertices[v].template cast<Real>());
+        lowest = std::min(lowest, part.vertices[v][Dim - 1]);
+        highest = std::max(highest, part.vertices[v][Dim - 1]);
+      }
+      const Load<Dim> found = sum_of<Dim>(boundary_loads<Dim>(part, stress));
+      const Load<Dim> expected = load_by_chords(ring, part.faces[f].normal.template cast<Real>(), stress);
+      // stress at the deepest point over all of the face; in space a polygon's corners lie in its plane to some 1e-15
+      const double deepest = face_area<Dim>(part, static_cast<int>(f)) *
+                             (stress.above + std::max(0.0, stress.surface - lowest) * stress.per_depth).norm();
+      const double error =
+          std::max((found.force - expected.force).norm(), (found.moment - expected.moment).norm() / part.radius);
+      if (deepest > 0) worst = std::max(worst, error / deepest);
+      wrong += !(error <= 1e-12 * deepest);
+      crossed += lowest < stress.surface && stress.surface < highest;
+    }
+  }
+  EXPECT_EQ(wrong, 0) << "the worst by " << worst << " of its load at the deepest point";
+  EXPECT_GT(crossed, 2000);
+}
+
+TEST(BoundaryStress, IsClippedAtItsSurface) {
+  expect_clipped_at_the_surface<2>();
+  expect_clipped_at_the_surface<3>();
 }
 
 // One sheared face turns a block that is free in space: what the load gives is what the motion has.

@@ -146,22 +146,28 @@ void add_face(const std::vector<Corner<2>>& edge, const Vector<2>& normal, Load<
   load.moment -= moment(weighted, length);
 }
 
-// the part of an edge, two corners, on which a height is positive
+// The part of an edge, two corners, on which a height is positive. An edge on which it is zero all along is left out,
+// or kept if `with_border`.
 template <class Height>
-void clip_edge(std::vector<Corner<2>>& edge, const Height& height) {
+void clip_edge(std::vector<Corner<2>>& edge, const Height& height, bool with_border = false) {
   if (edge.size() < 2) return;
   const double of_a = height(edge[0]), of_b = height(edge[1]);
+  if (with_border && of_a == 0 && of_b == 0) return;
   if (of_a <= 0 && of_b <= 0) return edge.clear();
   if (of_a >= 0 && of_b >= 0) return;
   const Corner<2> middle = crossing(edge[0], of_a, edge[1], of_b);
   edge[of_a < 0 ? 0 : 1] = middle;
 }
 
+// A vertical edge exactly at a bend belongs to the stretch that ends there, and to that alone: both neighbours have the
+// same depth at the bend.
 void clip_face(std::vector<Corner<2>>& edge, std::vector<Corner<2>>&, const WaterStretch<2>& stretch,
                const Vector<2>& centroid) {
   const double from = stretch.from - centroid[0], to = stretch.to - centroid[0];
   if (std::isfinite(from)) clip_edge(edge, [&](const Corner<2>& c) { return c.place[0] - from; });
-  if (std::isfinite(to)) clip_edge(edge, [&](const Corner<2>& c) { return to - c.place[0]; });
+  if (std::isfinite(to))
+    clip_edge(
+        edge, [&](const Corner<2>& c) { return to - c.place[0]; }, true);
   clip_edge(edge, [](const Corner<2>& c) { return c.depth; });
 }
 

@@ -15,6 +15,7 @@
 #include "core/scene/linings.hpp"
 #include "core/scene/particles.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/stated_bodies.hpp"
 #include "core/scene/wall_points.hpp"
 #include "core/scene/wet_faces.hpp"
 #include "core/waters.hpp"
@@ -107,28 +108,11 @@ void add_domain(const Scene& scene, Model<Dim>& model) {
   }
 }
 
-// the block whose body a further part belongs to
-const BlockSpec& owner_of(const Scene& scene, const BlockSpec& part) {
-  std::vector<std::string> owners;
-  for (const BlockSpec& block : scene.blocks) {
-    if (!block.part_of.empty()) continue;
-    if (block.name == part.part_of) return block;
-    owners.push_back(block.name);
-  }
-  refuse(part.subject, "part_of", "no body has this name; " + suggestion(part.part_of, owners));
-}
-
 template <int Dim>
 void add_blocks(const Scene& scene, Model<Dim>& model) {
-  std::map<std::string, std::vector<Polytope<Dim>>> parts;
-  for (const BlockSpec& block : scene.blocks) {
-    Polytope<Dim> part = make_solid<Dim>(scene, block, model.origin);
-    if (block.shape == BlockShape::potential) part = finish_particle<Dim>(block, std::move(part));
-    parts[block.part_of.empty() ? block.name : owner_of(scene, block).name].push_back(std::move(part));
-  }
-  for (const BlockSpec& block : scene.blocks) {
-    if (!block.part_of.empty()) continue;
-    model.bodies.push_back(make_body<Dim>(std::move(parts[block.name]), density_of(scene, block.density)));
+  for (StatedBody<Dim>& stated : stated_bodies<Dim>(scene, model.origin)) {
+    const BlockSpec& block = *stated.block;
+    model.bodies.push_back(make_body<Dim>(std::move(stated.parts), density_of(scene, block.density)));
     model.bodies.back().name = block.name;
     model.bodies.back().fixed = block.fixed;
   }

@@ -193,6 +193,26 @@ stage = [{ name = "settle", kind = "settle" }]
   EXPECT_EQ(planes.bodies[0].parts.size(), 2u);
   EXPECT_NEAR(planes.bodies[0].mass, 2600 * 2, 1e-9);
 
+  // parts that overlap, and parts that are numbered from 1
+  const std::string cube = "block,part,normal_x,normal_y,normal_z,offset_m\n";
+  const auto part = [](int number, double from) {
+    std::string rows;
+    for (const std::string& plane :
+         {fmt::format("1,0,0,{}", from + 1), fmt::format("-1,0,0,{}", -from), std::string("0,1,0,1"),
+          std::string("0,-1,0,0"), std::string("0,0,1,1"), std::string("0,0,-1,0")})
+      rows += fmt::format("cube,{},{}\n", number, plane);
+    return rows;
+  };
+  write("blocks.csv", cube + part(0, 0) + part(1, 0.75));
+  expect_refused(
+      "blocks_file = \"blocks.csv\"\n" + scene,
+      "blocks.csv:8: blocks.cube-part-1.part_of = \"cube\": overlaps part 'cube' of the same body by 0.25 m³");
+  write("blocks.csv", cube + part(1, 0) + part(2, 1));
+  expect_refused("blocks_file = \"blocks.csv\"\n" + scene,
+                 "part = '1': block 'cube' has no part 0; parts are numbered from 0");
+  write("blocks.csv", cube + part(1, 0) + part(0, 1));
+  EXPECT_EQ(prepare<3>(parse("blocks_file = \"blocks.csv\"\n" + scene)).model.bodies.size(), 1u);
+
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 5 5 5\nv 6 5 5\nv 5 6 5\nv 5 5 6\n";
   write("blocks.obj",
         points + "o first\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\no second\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n");

@@ -1,13 +1,17 @@
 // Water of scenes: how stages change it, and that no thread, pause or way to rest changes what comes of it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/checkpoint/checkpoint.hpp"
 #include "core/checkpoint/fields.hpp"
 #include "core/scene/scene.hpp"
 #include "core/simulate.hpp"
 #include "core/state_hash.hpp"
+#include "core/waters.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
@@ -122,6 +126,77 @@ TEST(WaterOfAScene, IsMetByNewtonsMethod) {
     largest = std::max(largest, m.displacement.norm());
   for (std::size_t b = 0; b < relaxed.state.motions.size(); ++b)
     EXPECT_LT((newton.state.motions[b].displacement - relaxed.state.motions[b].displacement).norm(), 1e-3 * largest);
+}
+
+// a block of 20 kN, 1 m wide and high, on a floor, with a crack at x = 1 between it and a fixed one
+const std::string cracked = R"(dimension = 2
+gravity = [0, -10]
+density = 2000
+domain = { box = { min = [0, -1], max = [3, 1] } }
+joints = [{ name = "floor", dip = 0, point = [0, 0] },
+          { name = "crack", dip = 90, dip_direction = 90, point = [1, 0.5], ends_at = ["floor"] }]
+joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e9, friction_deg = 30 }]
+fix = [{ below = ["floor"] }, { inside = [2, 0.5] }]
+restrain = [{ inside = [0.5, 0.5], rotation = true }]
+monitors = [{ name = "m", inside = [0.5, 0.5], quantities = ["water_load"] }]
+)";
+
+using Table = std::vector<Vector<2>>;
+
+std::string water_text(const Table& table, const std::string& faces, double beside = 0) {
+  std::string text = "water = [{ name = \"w\", unit_weight = 10000, faces = [" + faces + "], table = [";
+  for (const Vector<2>& point : table)
+    text += fmt::format("[{:.17g}, {:.17g}], ", point[0] + beside, point[1]);
+  return text + "] }]\n";
+}
+
+// whose first, last or middle point lies at the crack or at a side of the domain, 1 m above the floor at the crack
+const std::vector<Table> bent_tables{{{0, 0}, {1, 1}},   {{1, 1}, {2, 0}},
+                                     {{1, 1}, {3, 0.5}}, {{0, 0.4}, {1, 1}, {2, 0}},
+                                     {{0, 1}, {3, 1}},   {{-1, 0}, {1, 1}, {3, 0.2}},
+                                     {{-5, 3}, {1, 1}},  {{0.5, 1}, {1, 1}, {1.5, -2}}};
+
+TEST(WaterOfAScene, AtABendIsThatBesideIt) {
+  for (const Table& table : bent_tables)
+    for (const std::string faces :
+         {"\"crack\"", "\"outer\"", "\"all\"", "\"floor\", \"crack\"", "\"outer\", \"crack\""}) {
+      const auto loads = [&](double beside) {
+        return water_loads_at_reference<2>(
+            prepare<2>(parse_scene(cracked + water_text(table, faces, beside) + settle, "scene.toml")).model);
+      };
+      const std::vector<Load<2>> at = loads(0);
+      for (const double beside : {-1e-9, 1e-9}) {
+        const std::vector<Load<2>> there = loads(beside);
+        for (std::size_t b = 0; b < at.size(); ++b) {
+          // a slope of 4 at most, faces of 3 m at most, 10 kN/m³
+          EXPECT_LT((at[b].force - there[b].force).norm(), 1e-9 * 4 * 3 * 1e4 * 4) << faces << ", body " << b;
+          EXPECT_NEAR(at[b].moment[0], there[b].moment[0], 1e-9 * 4 * 9 * 1e4 * 4) << faces << ", body " << b;
+        }
+      }
+      Vector<2> both = Vector<2>::Zero();
+      for (const Load<2>& load : at)
+        both += load.force;
+      if (faces == "\"crack\"") {
+        EXPECT_LT(both.norm(), 1e-9) << "its two faces are pushed apart";
+      }
+    }
+}
+
+// the thrust of 1 m of water, 5 kN, in a run and in a search: the block slides below atan 5/20
+TEST(WaterOfAScene, AtABendPushesInRunAndSearch) {
+  const std::string instant = "[[stage]]\nname = \"instant\"\nkind = \"run\"\nduration_s = 1e-4\n";
+  const std::string reduce = settle +
+                             "[[stage]]\nname = \"reduce\"\nkind = \"reduce\"\nfrom_deg = 30\nto_deg = "
+                             "5\ntolerance_deg = 0.1\nfailure_displacement = 1e-3\n";
+  for (const Table& table : {bent_tables[0], bent_tables[1], bent_tables[3]}) {
+    const std::string scene = cracked + water_text(table, "\"crack\"");
+    const Progress<2> run = done(prepare<2>(parse_scene(scene + instant, "scene.toml")));
+    EXPECT_NEAR(run.results.find("m_water_load_x")->value, -5000, 1e-3);
+    const Progress<2> search = done(prepare<2>(parse_scene(scene + reduce, "scene.toml")));
+    ASSERT_EQ(search.results.outcome, Outcome::done) << search.results.message;
+    // the bracket, and 1 mm of slip out of the water, which takes 0.2 % of its thrust
+    EXPECT_NEAR(search.results.find("critical_friction")->value, std::atan(0.25) / degree, 0.1 + 0.03);
+  }
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ KeyTable block_keys() {
      .meaning = "bound of the error of volume, centroid and inertia, over the volume; none of a sphere",
      .breaks = "0.1 s a block at 1e-3, five times as much at 1e-5; the error itself is a hundred times smaller"},
     {.key = "part_of", .members = {in(&BlockSpec::part_of, name)}, .example = "\"slider\"",
-     .meaning = "another block: both are convex parts of one rigid body, which has that block's name, density and motion"},
+     .meaning = "another block: both are convex parts of one rigid body, which has that block's name, density and motion. "
+         "Parts of one body may touch but not overlap"},
     {.key = "density", .members = {in(&BlockSpec::density)}, .unit = "kg/m³", .range = positive,
      .plausible = plausible_density, .example = "2500",
      .meaning = "replaces the scene's density", .repair = "rock has 2000 to 3000 kg/m³", .mistake = density_mistake},

@@ -1,0 +1,148 @@
+// Blocks jammed between walls: how limit analysis tells that a load is held by forces that nothing asks for.
+#include "core/limit/self_stress.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/limit/limit.hpp"
+#include "core/testing/limit_models.hpp"
+#include "core/testing/shapes.hpp"
+#include "text/angle.hpp"
+
+namespace voussoir {
+namespace {
+
+using namespace limit_models;
+using shapes::integer;
+using shapes::Random;
+using shapes::uniform;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double bracket = 1.01e-6 * degree;  // of find_critical_friction, as the header states it
+
+// x0 = x1, x2 + x3 = 0 by bounds alone, a free x4 that x5 needs, and x6 within bounds
+TEST(SelfStress, IsTheColumnsThatGrowWithoutBound) {
+  LinearProgram program{{7, -3, 2}, {}};
+  const auto add = [&](std::vector<std::pair<int, double>> entries, double low = 0, double high = infinity) {
+    program.columns.push_back({1, low, high, std::move(entries)});
+  };
+  add({{0, 1}});
+  add({{0, -2}});
+  add({{1, 1}});
+  add({{1, 1}});
+  add({{2, 1}}, -infinity);
+  add({{2, 1}});
+  add({{0, 1}}, -1, 1);
+  EXPECT_EQ(unbounded_columns(program), (std::vector<bool>{true, true, false, false, false, true, false}));
+  EXPECT_TRUE(unbounded_columns({{1, 2}, {}}).empty()) << "of blocks that touch nothing";
+}
+
+// Stones of one width in a row between two fixed walls, each of which leans away from the other by `lean` as it rises:
+// below 0 the slot opens downwards. All is turned about the origin.
+std::vector<TestBlock> slot(int stones, double width, double height, double lean, double turn) {
+  const double half = 0.5 * stones * width, off = height * std::tan(lean);
+  std::vector<TestBlock> blocks{
+      {"left", {{-half, 0}, {-half - off, height}, {-half - height - off, height}, {-half - height, 0}}, true},
+      {"right", {{half, 0}, {half + off, height}, {half + height + off, height}, {half + height, 0}}, true}};
+  for (int k = 0; k < stones; ++k) {
+    const double from = -half + k * width, to = from + width;
+    blocks.push_back(
+        {"stone " + std::to_string(k),
+         {{from, 0}, {to, 0}, {to + (k + 1 == stones ? off : 0), height}, {from - (k == 0 ? off : 0), height}}});
+  }
+  for (TestBlock& block : blocks)
+    block.corners = turned(block.corners, turn);
+  return blocks;
+}
+
+// Between parallel walls any friction holds a row of stones, if they are pressed as hard as it takes: none at zero.
+TEST(SelfStress, BetweenParallelWallsHoldsAtAnyFrictionAboveZero) {
+  Random random(11);
+  for (int i = 0; i < 40; ++i) {
+    const int stones = i % 4 == 0 ? 1 : integer(random, 1, 12);
+    const Model<2> model =
+        model_of(slot(stones, uniform(random, 0.2, 2), uniform(random, 0.5, 2), 0, uniform(random, -60, 60) * degree));
+    const std::vector<Interface> faces = find_interfaces(model);
+    EXPECT_EQ(find_critical_friction(model, faces).status, LimitStatus::not_attained) << i << ": " << stones;
+    EXPECT_EQ(find_factor_of_safety(model, faces).status, LimitStatus::not_attained) << i << ": " << stones;
+  }
+}
+
+// A stone between a wall and a block that friction alone keeps between a floor and a roof: forces of a second order.
+TEST(SelfStress, MayNeedAnotherToPressAgainst) {
+  const Model<2> model = model_of({{"floor", box(0, -1, 2, 0), true},
+                                   {"roof", box(0, 1, 2, 2), true},
+                                   {"between", box(0, 0, 1, 1)},
+                                   {"wall", box(-3, 0, -1, 1), true},
+                                   {"stone", box(-1, 0, 0, 1)}});
+  const std::vector<Interface> faces = find_interfaces(model);
+  EXPECT_EQ(find_critical_friction(model, faces).status, LimitStatus::not_attained);
+  // the other way is free without the roof: the stone then needs all of its own friction to push the block
+  Model<2> open = model;
+  for (Body<2>& body : open.bodies)
+    body.present = body.name != "roof";
+  const CriticalStrength found = find_critical_friction(open, find_interfaces(open));
+  EXPECT_EQ(found.status, LimitStatus::found);
+}
+
+// Walls that lean inwards as they rise, by `lean`, hold a stone from a friction of `lean` on: two cones then face each
+// other. Walls that lean outwards hold it without friction.
+TEST(SelfStress, InASlotThatOpensDownwardsIsTold) {
+  Random random(12);
+  for (int i = 0; i < 40; ++i) {
+    const double lean = uniform(random, 0.5, 25) * degree, height = 1, width = uniform(random, 1.2, 2);
+    const Model<2> opens_below = model_of(slot(1, width, height, -lean, 0));
+    const CriticalStrength found = find_critical_friction(opens_below, find_interfaces(opens_below));
+    ASSERT_EQ(found.status, LimitStatus::found) << lean / degree;
+    // forces grow without bound towards it, so that the bracket may stay wider
+    EXPECT_LE(found.collapses, lean + bracket);
+    EXPECT_GE(found.stands, lean - bracket);
+    EXPECT_LE(found.stands, 1.01 * found.collapses);
+    EXPECT_TRUE(found.self_stress);
+    const CriticalStrength factor = find_factor_of_safety(opens_below, find_interfaces(opens_below));
+    ASSERT_EQ(factor.status, LimitStatus::found) << lean / degree;
+    const double exact = std::tan(30 * degree) / std::tan(lean);
+    EXPECT_LE(factor.stands, exact * (1 + 1e-6));
+    EXPECT_GE(factor.collapses, exact * (1 - 1e-6));
+    EXPECT_LE(factor.collapses, 1.02 * factor.stands);
+    EXPECT_TRUE(factor.self_stress);
+
+    const Model<2> opens_above = model_of(slot(1, width, height, lean, 0));
+    const CriticalStrength wedged = find_critical_friction(opens_above, find_interfaces(opens_above));
+    EXPECT_EQ(wedged.status, LimitStatus::carries_any);
+    EXPECT_FALSE(wedged.self_stress);
+  }
+}
+
+// What friction holds because the load presses on it, and a jam that has no part in what fails, are no matter of it.
+TEST(SelfStress, IsNotToldOfLoadsThatPressOnTheirJoints) {
+  Random random(13);
+  for (int i = 0; i < 20; ++i) {
+    const double dip = uniform(random, 2, 25) * degree;
+    const Model<2> model = block_on_plate(2, 0.1, dip);
+    const CriticalStrength found = find_critical_friction(model, find_interfaces(model));
+    ASSERT_EQ(found.status, LimitStatus::found);
+    EXPECT_NEAR(found.stands, dip, bracket);
+    EXPECT_FALSE(found.self_stress);
+  }
+  // a stone on a floor between walls, beside a block that slides
+  std::vector<TestBlock> blocks = slot(1, 1, 1, 0, 0);
+  blocks.push_back({"floor", box(-0.5, -1, 0.5, 0), true});
+  EXPECT_FALSE(find_critical_friction(model_of(blocks), find_interfaces(model_of(blocks))).self_stress);
+  for (TestBlock block : {TestBlock{"plate", turned(box(-3, -1, 3, 0), 0.2), true},
+                          TestBlock{"block", turned(box(-1, 0, 1, 0.1), 0.2)}}) {
+    for (Vector<2>& p : block.corners)
+      p[0] += 20;
+    blocks.push_back(block);
+  }
+  const Model<2> model = model_of(blocks);
+  const CriticalStrength found = find_critical_friction(model, find_interfaces(model));
+  ASSERT_EQ(found.status, LimitStatus::found);
+  EXPECT_NEAR(found.stands, 0.2, bracket);
+  EXPECT_FALSE(found.self_stress);
+}
+
+}  // namespace
+}  // namespace voussoir
