@@ -28,7 +28,7 @@ voussoir_test(unit.extremes LONG LABEL unit
 
 voussoir_test(unit.contact LABEL unit
   SOURCES contact/contact_test.cpp contact/thin_contact_test.cpp contact/overlap_region_test.cpp
-    contact/multipliers_test.cpp contact/broad_phase_test.cpp
+    contact/multipliers_test.cpp contact/broad_phase_test.cpp contact/coplanar_facets_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.neighbours LABEL unit SOURCES step/neighbours_test.cpp LIBS voussoir_core Boost::headers)

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/contact/extended_precision_overlap.hpp"
+#include "core/contact/facet_weights.hpp"
 #include "core/contact/kernel/kernel.hpp"
 #include "core/contact/reference_kernel.hpp"
 #include "core/contact/separation.hpp"
@@ -58,6 +59,12 @@ KernelOptions kernel_options(const ContactSettings& settings) {
   return {settings.newton_tolerance, settings.newton_limit, on_central_path(settings)};
 }
 
+// whether faces of one part are facets of one face, whose weights the reference kernel knows
+template <int Dim>
+bool has_facets(const Pair<Dim>& pair) {
+  return has_facets(*pair.a) || has_facets(*pair.b);
+}
+
 // by the reference kernel; parts that are separated keep the plane between them
 template <int Dim>
 void resolve_without_simd(const Pair<Dim>& pair, const ContactSettings& settings, const Solvers<Dim>& solvers,
@@ -84,7 +91,7 @@ void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const 
   }
   contact.geometry = {};
   // what extended precision could not decide, the SIMD kernel will not
-  if (on_central_path(settings) || was_undecided)
+  if (on_central_path(settings) || was_undecided || has_facets(pair))
     return resolve_without_simd(pair, settings, solvers, contact, counters);
   resolve_new(task, kernel_options(settings), counters);
   if (!task.answered) {
@@ -135,6 +142,10 @@ void resolve_batch(std::span<const Pair<Dim>> pairs, const ContactSettings& sett
     Contact<Dim>& contact = *contacts[i];
     // persistent contacts are resolved together, below
     if (contact.proof.kind == ProofKind::interior_point) {
+      if (has_facets(pair)) {
+        resolve_without_simd(pair, settings, solvers, contact, counters);
+        continue;
+      }
       together.place[together.count++] = static_cast<unsigned char>(i);
       continue;
     }

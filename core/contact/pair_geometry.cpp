@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "core/contact/facet_weights.hpp"
 #include "core/contact/rounding.hpp"
 
 namespace voussoir {
@@ -12,14 +13,14 @@ namespace {
 
 // one part's fraction of the normal: its unit gradient, or the normal of its nearest face where the gradient is zero
 template <int Dim>
-Vector<Dim> potential_direction(std::span<const HalfSpace<Dim>> faces, const Vector<Dim>& point, double radius,
-                                bool& fallback) {
+Vector<Dim> potential_direction(std::span<const HalfSpace<Dim>> faces, std::span<const double> weights,
+                                const Vector<Dim>& point, double radius, bool& fallback) {
   Vector<Dim> gradient = Vector<Dim>::Zero();
   double nearest = std::numeric_limits<double>::infinity();
   int face = 0;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const double slack = -signed_distance(faces[i], point);
-    if (slack < radius) gradient += (radius - slack) * faces[i].normal;
+    if (slack < radius) gradient += weight_of(weights, i) * (radius - slack) * faces[i].normal;
     if (slack < nearest) {
       nearest = slack;
       face = static_cast<int>(i);
@@ -50,10 +51,11 @@ void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>&
 
 template <int Dim>
 bool contact_normal(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, double radius,
-                    Vector<Dim>& normal, bool& fallback) {
+                    Vector<Dim>& normal, bool& fallback, std::span<const double> weights) {
   const std::span<const HalfSpace<Dim>> all(planes);
-  const Vector<Dim> difference = potential_direction<Dim>(all.first(faces_a), point, radius, fallback) -
-                                 potential_direction<Dim>(all.subspan(faces_a), point, radius, fallback);
+  const std::span<const double> of_b = weights.empty() ? weights : weights.subspan(faces_a);
+  const Vector<Dim> difference = potential_direction<Dim>(all.first(faces_a), weights, point, radius, fallback) -
+                                 potential_direction<Dim>(all.subspan(faces_a), of_b, point, radius, fallback);
   const double length = difference.norm();
   if (!(length > parallel_gradients)) return false;
   normal = difference / length;
@@ -133,7 +135,8 @@ double section_area(const HalfSpaces<3>& planes, const Vector<3>& point, const V
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \
   template void assemble<Dim>(const Pair<Dim>&, const Vector<Dim>&, HalfSpaces<Dim>&);                                 \
-  template bool contact_normal<Dim>(const HalfSpaces<Dim>&, int, const Vector<Dim>&, double, Vector<Dim>&, bool&);     \
+  template bool contact_normal<Dim>(const HalfSpaces<Dim>&, int, const Vector<Dim>&, double, Vector<Dim>&, bool&,      \
+                                    std::span<const double>);                                                          \
   template bool overlap_along<Dim>(const HalfSpaces<Dim>&, int, const Vector<Dim>&, const Vector<Dim>&, double&, int&, \
                                    int&);
 VOUSSOIR_INSTANTIATE(2)

@@ -2,6 +2,7 @@
 // how wide they overlap. Planes of A stand first.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/contact/pair.hpp"
@@ -13,11 +14,11 @@ template <int Dim>
 void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>& planes);
 
 // Direction from A to B at a point (Eqs 3.31-3.35): difference of the gradients of the parts' inner potentials
-// sum <a·x - d + r>², normalised. False when it vanishes. `fallback` tells that a face normal stood in for a zero
-// gradient.
+// sum w <a·x - d + r>², normalised. False when it vanishes. `fallback` tells that a face normal stood in for a zero
+// gradient. `weights` as in facet_weights.hpp; empty: all are 1.
 template <int Dim>
 bool contact_normal(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, double radius,
-                    Vector<Dim>& normal, bool& fallback);
+                    Vector<Dim>& normal, bool& fallback, std::span<const double> weights = {});
 
 // Overlap along the normal (Eq. 3.36) and the two faces that end it; false when the search meets no face.
 template <int Dim>

@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/contact/bracketing.hpp"
 #include "core/contact/extended_precision_overlap.hpp"
+#include "core/contact/facet_weights.hpp"
 #include "core/contact/overlap_region.hpp"
 #include "core/contact/pair_geometry.hpp"
 #include "core/contact/rounding.hpp"
 #include "core/optimise/central_path.hpp"
+#include "core/optimise/weighted_centre.hpp"
 
 namespace voussoir {
 namespace {
@@ -51,6 +54,7 @@ class LogarithmOfProduct {
     sum_ += std::log(product_);
     product_ = 1;
   }
+  void add(double logarithm) { sum_ += logarithm; }
   double sum() const { return sum_ + std::log(product_); }
 
  private:
@@ -66,6 +70,7 @@ struct Resolver {
   Contact<Dim>& contact;
   KernelCounters& counters;
   HalfSpaces<Dim>& planes;
+  std::span<const double> weights;  // of the planes; empty: all are 1
 
   Vector<Dim> origin;  // of the local frame, in the first body's frame: the centre of the smaller part
   double size;         // the smaller inscribed radius, m
@@ -165,9 +170,11 @@ struct Resolver {
     return smallest_slack<Dim>(planes, point) > 0;
   }
 
+  // other solvers know of no weights
   bool search_centre(CentreSolverFunction<Dim>& solver, Vector<Dim>& point) {
+    const CentreRequest<Dim> request{start, settings.newton_tolerance, settings.newton_limit, contact.proof.axis};
     const CentreResult<Dim> centre =
-        solver(planes, {start, settings.newton_tolerance, settings.newton_limit, contact.proof.axis});
+        weights.empty() ? solver(planes, request) : solve_weighted_centre<Dim>(planes, weights, request);
     counters.newton_iterations += centre.iterations;
     point = centre.point;
     return centre.status == CentreStatus::converged;
@@ -183,7 +190,8 @@ struct Resolver {
   }
 
   bool find_central_point(Vector<Dim>& point) {
-    path = follow_central_path<Dim>(planes, {start, smoothing(), settings.newton_tolerance, settings.newton_limit});
+    path = follow_central_path<Dim>(planes,
+                                    {start, smoothing(), settings.newton_tolerance, settings.newton_limit, weights});
     counters.newton_iterations += path.iterations;
     point = path.point;
     if (path.status != CentralPathStatus::converged) contact.status = ContactStatus::centre_not_converged;
@@ -205,7 +213,8 @@ struct Resolver {
 
   bool find_normal(const Vector<Dim>& point, Vector<Dim>& normal) {
     bool fallback = false;
-    const bool found = contact_normal<Dim>(planes, faces_a, point, settings.potential_radius * size, normal, fallback);
+    const bool found =
+        contact_normal<Dim>(planes, faces_a, point, settings.potential_radius * size, normal, fallback, weights);
     if (fallback || !found) ++counters.normal_fallbacks;
     if (found) return true;
     if (!lp_solved) run_lp(pair.a->basis);
@@ -257,8 +266,12 @@ struct Resolver {
     logarithms.multiply((diameter_a / (2 * weight)) * (diameter_b / (2 * weight)));
     for (int i = 0; i < static_cast<int>(planes.size()); ++i) {
       const double t = path.bound - signed_distance(planes[i], path.point);
-      logarithms.multiply(t / (i < faces_a ? diameter_a : diameter_b));
-      parts[i < faces_a ? 0 : 1].add(weight / t, planes[i].normal, i);
+      const double fraction = t / (i < faces_a ? diameter_a : diameter_b), share = weight_of(weights, i);
+      if (share == 1)
+        logarithms.multiply(fraction);
+      else
+        logarithms.add(share * std::log(fraction));
+      parts[i < faces_a ? 0 : 1].add(share * weight / t, planes[i].normal, i);
     }
     return path.bound - weight * (logarithms.sum() + 2);
   }
@@ -344,9 +357,11 @@ template <int Dim>
 void resolve_by_reference(const Pair<Dim>& pair, const ContactSettings& settings, const Solvers<Dim>& solvers,
                           Contact<Dim>& contact, bool fresh, KernelCounters& counters) {
   static thread_local HalfSpaces<Dim> planes;
+  static thread_local std::vector<double> weights;
   const bool a_smaller = pair.a->radius < pair.b->radius;
   const Vector<Dim> origin = a_smaller ? pair.a->centre : Vector<Dim>(pair.offset + pair.rotation * pair.b->centre);
   assemble<Dim>(pair, origin, planes);
+  facet_weights<Dim>(*pair.a, *pair.b, weights);
   const double size = std::min(pair.a->inscribed_radius, pair.b->inscribed_radius);
   const double reach = 2 * std::min(pair.a->radius, pair.b->radius);
   const double coordinates =
@@ -357,6 +372,7 @@ void resolve_by_reference(const Pair<Dim>& pair, const ContactSettings& settings
                 .contact = contact,
                 .counters = counters,
                 .planes = planes,
+                .weights = weights,
                 .origin = origin,
                 .size = size,
                 .tolerance = settings.tolerance * size,

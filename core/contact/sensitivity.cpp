@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/contact/facet_weights.hpp"
 #include "core/contact/pair_geometry.hpp"
 #include "core/contact/rounding.hpp"
 #include "core/optimise/symmetric_system.hpp"
@@ -28,6 +29,7 @@ struct Finder {
   const HalfSpaces<Dim>& planes;  // seen from the contact point: offsets are slacks
   const Contact<Dim>& contact;
   double size, radius;  // m: the smaller inscribed radius; of the potential particles
+  std::span<const double> weights;
   int faces_a = static_cast<int>(pair.a->faces.size());
   Vector<Dim> lever = contact.proof.point - pair.offset;  // of the point about the second centroid
   const Vector<Dim>& n = contact.proof.axis;
@@ -61,8 +63,9 @@ struct Finder {
     Vector<Dim> right = Vector<Dim>::Zero();
     for (int i = faces_a; i < static_cast<int>(planes.size()); ++i) {
       const double slack = planes[i].offset;
-      right +=
-          t.transpose() * (slack_change_at_rest(i, m) / slack * planes[i].normal - m.turning(planes[i].normal)) / slack;
+      right += weight_of(weights, i) *
+               (t.transpose() * (slack_change_at_rest(i, m) / slack * planes[i].normal - m.turning(planes[i].normal)) /
+                slack);
     }
     if (!solve_symmetric<Dim>(hessian, right)) return false;
     m.point = t * right;
@@ -79,8 +82,9 @@ struct Finder {
     for (int i = first; i < last; ++i) {
       const double slack = planes[i].offset;
       if (slack < radius) {
-        gradient += (radius - slack) * planes[i].normal;
-        gradient_change += (radius - slack) * normal_change(i, m) - slack_change(i, m) * planes[i].normal;
+        const double weight = weight_of(weights, i);
+        gradient += weight * (radius - slack) * planes[i].normal;
+        gradient_change += weight * ((radius - slack) * normal_change(i, m) - slack_change(i, m) * planes[i].normal);
       }
       if (slack < nearest) {
         nearest = slack;
@@ -185,16 +189,19 @@ template <int Dim>
 bool find_sensitivity(const Pair<Dim>& pair, const ContactSettings& settings, const Contact<Dim>& contact,
                       ContactSensitivity<Dim>& sensitivity) {
   static thread_local HalfSpaces<Dim> planes;
+  static thread_local std::vector<double> weights;
   assemble<Dim>(pair, contact.proof.point, planes);
+  facet_weights<Dim>(*pair.a, *pair.b, weights);
   const double size = std::min(pair.a->inscribed_radius, pair.b->inscribed_radius);
-  const Finder<Dim> finder{pair, planes, contact, size, settings.potential_radius * size};
+  const Finder<Dim> finder{pair, planes, contact, size, settings.potential_radius * size, weights};
 
   const Matrix<Dim> t = finder.axes();
   Matrix<Dim> hessian = Matrix<Dim>::Zero();
-  for (const HalfSpace<Dim>& p : planes) {
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const HalfSpace<Dim>& p = planes[i];
     if (!(p.offset > 0)) return false;
     const Vector<Dim> row = t.transpose() * p.normal / p.offset;
-    hessian += row * row.transpose();
+    hessian += weight_of(weights, i) * (row * row.transpose());
   }
   const auto section = section_of<Dim>(planes, contact.proof.axis, 4 * std::min(pair.a->radius, pair.b->radius));
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/contact/facet_weights.hpp"
 #include "core/contact/sensitivity.hpp"
 #include "core/testing/contacts.hpp"
 #include "core/testing/exact_contacts.hpp"
@@ -73,6 +74,39 @@ Posed<Dim> face_on_face(Random& random) {
   return p;
 }
 
+// any position, of shapes whose faces may be two facets that lean by 10^-12 to 10^-2
+template <int Dim>
+Polytope<Dim> with_facets(const Polytope<Dim>& part, Random& random) {
+  HalfSpaces<Dim> planes = part.faces;
+  for (const HalfSpace<Dim>& face : part.faces) {
+    if (shapes::integer(random, 0, 1) == 0) continue;
+    const Vector<Dim> hinge = face.offset * face.normal + 0.1 * shapes::direction<Dim>(random);
+    const Vector<Dim> on_face = hinge - signed_distance<Dim>(face, hinge) * face.normal;
+    const double angle = shapes::power_of_ten(random, -12, -2);
+    const Vector<Dim> normal = (face.normal + angle * shapes::direction<Dim>(random)).normalized();
+    planes.push_back({normal, normal.dot(on_face)});
+  }
+  return shapes::block<Dim>(planes);
+}
+template <int Dim>
+Posed<Dim> with_facets_in_any_position(Random& random) {
+  Posed<Dim> p = any_position<Dim>(random);
+  p.a = with_facets<Dim>(p.a, random);
+  p.b = with_facets<Dim>(p.b, random);
+  const Vector<Dim> along = shapes::direction<Dim>(random);
+  const double touching = contacts::distance_of_touching<Dim>(p.a, p.b, p.rotation, along);
+  p.offset = (touching - shapes::power_of_ten(random, -8, -1)) * along;
+  return p;
+}
+
+template <int Dim>
+std::vector<double> weights_of(const Posed<Dim>& p) {
+  std::vector<double> weights;
+  append_weights(p.a, weights);
+  append_weights(p.b, weights);
+  return weights;
+}
+
 // The planes after a motion h of the second body along a freedom: to first order in it, which central differences make
 // the second.
 template <int Dim>
@@ -118,9 +152,10 @@ Derivatives<Dim> by_differences(const Posed<Dim>& p, const Pair<Dim>& pair, cons
     const double lever = f < Dim ? 1 : p.size(), h = difference_step * g.overlap / lever;
     std::array<exact::ConvergedContact, 2> ends;
     for (const int side : {0, 1})
-      ends[side] = exact::converged_contact(moved(planes, p, f, side ? h : -h), static_cast<int>(p.a.faces.size()),
-                                            static_cast<int>(p.b.faces.size()), exact::point_of(g.point), radius)
-                       .value();
+      ends[side] =
+          exact::converged_contact(moved(planes, p, f, side ? h : -h), static_cast<int>(p.a.faces.size()),
+                                   static_cast<int>(p.b.faces.size()), exact::point_of(g.point), radius, weights_of(p))
+              .value();
     const auto slope = [&](const Quad& low, const Quad& high) {
       return to_double((high - low) / (2 * Quad(h))) / lever;
     };
@@ -135,17 +170,19 @@ Derivatives<Dim> by_differences(const Posed<Dim>& p, const Pair<Dim>& pair, cons
 }
 
 // 1/m: by how much a normal's derivative is off where the point's derivatives are off by 1, and the point by the
-// region's width. A part's direction is the quotient of its gradient g = Σ <r - s> a and |g|, and g changes as the
+// region's width. A part's direction is the quotient of its gradient g = Σ w <r - s> a and |g|, and g changes as the
 // point does.
 template <int Dim>
 double of_gradients(const Posed<Dim>& p, const ContactGeometry<Dim>& g) {
   const double radius = settings.potential_radius * std::min(p.a.inscribed_radius, p.b.inscribed_radius);
   const double width = g.overlap + (Dim == 3 ? std::sqrt(g.area) : g.area);
   double sum = 0;
+  const std::vector<double> weights = weights_of(p);
+  std::size_t counted = 0;
   for (const HalfSpaces<Dim>& planes : {p.a.faces, shapes::placed<Dim>(p.b.faces, p.rotation, p.offset)}) {
     Vector<Dim> gradient = Vector<Dim>::Zero();
     for (const HalfSpace<Dim>& plane : planes)
-      gradient += std::max(radius + signed_distance(plane, g.point), 0.0) * plane.normal;
+      gradient += weights[counted++] * std::max(radius + signed_distance(plane, g.point), 0.0) * plane.normal;
     const double length = gradient.norm();
     if (length > 0) sum += (1 + width / length) / length;  // else its direction is a face's
   }
@@ -198,9 +235,16 @@ TEST(Sensitivity, IsThatOfTheConvergedContactFaceOnFace) {
   expect_all<2>(face_on_face<2>, 904, 60);
 }
 
+TEST(Sensitivity, IsThatOfTheConvergedContactOfFacets) {
+  expect_all<3>(with_facets_in_any_position<3>, 907, 30);
+  expect_all<2>(with_facets_in_any_position<2>, 908, 100);
+}
+
 TEST(SensitivityLong, InManyPositions) {
   expect_all<3>(any_position<3>, 905, 2'000);
   expect_all<2>(any_position<2>, 906, 10'000);
+  expect_all<3>(with_facets_in_any_position<3>, 909, 2'000);
+  expect_all<2>(with_facets_in_any_position<2>, 910, 10'000);
 }
 
 // By hand: a cube that lies on another with the faces flush sinks and slides.

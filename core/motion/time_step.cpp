@@ -143,14 +143,18 @@ double stiffest_square(const Body<Dim>& body, const Rotation<Dim>& rotation, con
   return bound_of_largest_eigenvalue<freedoms<Dim>>(scaled);
 }
 
-// λ of a body: of its contacts, of what may strike it with the stiffness `impact`, N/m, and of what its other loads add
+// λ of a body: of its contacts, of what may strike it with the stiffness `impact`, N/m, and of what its other loads
+// add; `force`, N, is what moves it from rest, 0 once it moves
 template <int Dim>
 double stiffest(const Model<Dim>& model, int i, const Rotation<Dim>& rotation, const Stiffness<Dim>& stiffness,
-                double impact, const BodyStiffness& loads) {
+                double impact, const BodyStiffness& loads, double force) {
   const Body<Dim>& body = model.bodies[i];
   double eigenvalue = stiffest_square<Dim>(body, rotation, stiffness);
-  // a body in flight may hit something with its largest face
-  if (eigenvalue == 0 && impact == 0)
+  // A body in flight may hit something with its largest face. So may one that begins with a touch by a corner or an
+  // edge hardly larger than rounding, 1e-28 of a face: that is no joint yet, the force would press it in by more than
+  // its width.
+  const bool in_flight = eigenvalue == 0 || eigenvalue * body.mass * body.radius < force;
+  if (in_flight && impact == 0)
     for (const Polytope<Dim>& part : body.parts)
       impact = std::max(impact, 2 * stiffest_joint(model.properties, part.largest_face));
   if (impact > 0) {
@@ -270,8 +274,12 @@ TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, con
     double impact = 0;  // N/m that may act at the radius
     for (const int place : contacts_of(state, body))
       add_contact(model, settings.contact, updated, state, place, body, stiffness, impact);
-    state.frequency[body] = std::sqrt(stiffest(model, body, state.motions[body].rotation, stiffness, impact,
-                                               state.stiffened.empty() ? BodyStiffness() : state.stiffened[body]));
+    const Motion<Dim>& motion = state.motions[body];
+    const bool rests = motion.velocity.isZero(0) && motion.angular_momentum.isZero(0) && !state.loads.empty();
+    const double force = rests ? state.loads[body].force.norm() : 0;
+    state.frequency[body] =
+        std::sqrt(stiffest(model, body, motion.rotation, stiffness, impact,
+                           state.stiffened.empty() ? BodyStiffness() : state.stiffened[body], force));
   });
   double largest = 0;
   for (const double frequency : state.frequency)

@@ -56,6 +56,9 @@ CentralPathResult<Dim> follow_central_path(const HalfSpaces<Dim>& planes, const 
   for (double& v : t)
     v += result.bound;
 
+  // as in weighted_centre.cpp
+  const double least_weight =
+      request.weights.empty() ? 1 : *std::min_element(request.weights.begin(), request.weights.end());
   Eigen::Matrix<double, size, size> frame;
   bool settled = false;  // near the end the frame stays
   while (result.iterations < request.limit) {
@@ -74,8 +77,14 @@ CentralPathResult<Dim> follow_central_path(const HalfSpaces<Dim>& planes, const 
     Eigen::Matrix<double, size, size> hessian = Eigen::Matrix<double, size, size>::Zero();
     for (std::size_t i = 0; i < count; ++i) {
       scaled[i] = turned[i] / t[i];
-      gradient += scaled[i];
-      hessian += scaled[i] * scaled[i].transpose();
+      if (request.weights.empty()) {
+        gradient += scaled[i];
+        hessian += scaled[i] * scaled[i].transpose();
+      } else {
+        const Row<size> weighted = request.weights[i] * scaled[i];
+        gradient += weighted;
+        hessian += weighted * scaled[i].transpose();
+      }
     }
     Row<size> step = -gradient;
     if (!solve_symmetric<size>(hessian, step)) {
@@ -85,7 +94,7 @@ CentralPathResult<Dim> follow_central_path(const HalfSpaces<Dim>& planes, const 
 
     // a full step when it is safe, else the largest that provably stays within
     const double decrement = -gradient.dot(step);
-    settled = decrement < full_step_decrement;
+    settled = decrement < full_step_decrement * least_weight;
     double length = 1;
     if (!settled) {
       double steepest = 0;
@@ -106,7 +115,7 @@ CentralPathResult<Dim> follow_central_path(const HalfSpaces<Dim>& planes, const 
       result.status = CentralPathStatus::singular;
       return result;
     }
-    if (decrement <= request.tolerance * request.tolerance) {
+    if (decrement <= request.tolerance * request.tolerance * least_weight) {
       result.status = CentralPathStatus::converged;
       return result;
     }

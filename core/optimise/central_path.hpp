@@ -1,9 +1,11 @@
 // A point on the central path of the feasibility program (feasibility_program.hpp), by its logarithmic barrier:
-//   min over x and s of  s - µ Σ log(s + d_i - a_i·x).
-// Its multipliers λ_i = µ / (s + d_i - a_i·x) satisfy those of the program, Σ λ_i a_i = 0 and Σ λ_i = 1, but are smooth
-// in the planes, as its value and its point are; for µ -> 0 all become the program's own (Boyd and Vandenberghe 2004,
-// 11.2). The value moves with a plane by λ_i times its move, seen at x.
+//   min over x and s of  s - µ Σ w_i log(s + d_i - a_i·x).
+// Its multipliers λ_i = µ w_i / (s + d_i - a_i·x) satisfy those of the program, Σ λ_i a_i = 0 and Σ λ_i = 1, but are
+// smooth in the planes, as its value and its point are; for µ -> 0 all become the program's own (Boyd and Vandenberghe
+// 2004, 11.2). The value moves with a plane by λ_i times its move, seen at x.
 #pragma once
+
+#include <span>
 
 #include "core/geometry/half_space.hpp"
 
@@ -25,6 +27,7 @@ struct CentralPathRequest {
   double weight = 0;        // µ, m
   double tolerance = 1e-5;  // on the Newton decrement before the last step
   int limit = 200;
+  std::span<const double> weights = {};  // of each plane's logarithm, positive and at most 1; empty: all are 1
 };
 
 // Damped Newton in x and s. Normals need not be unit, but must positively span space.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace voussoir::exact {
 namespace {
@@ -23,8 +24,10 @@ Quad product(const QuadVector& a, const QuadVector& b) {
 struct Barrier {
   std::vector<QuadVector> normals;
   std::vector<Quad> slacks;
+  std::vector<double> weights;
 
-  Barrier(const Planes& planes, const Point& start) {
+  Barrier(const Planes& planes, const Point& start, std::vector<double> given) : weights(std::move(given)) {
+    weights.resize(planes.size(), 1);
     for (const Plane& p : planes) {
       normals.push_back({to_quad(p.normal[0]), to_quad(p.normal[1]), to_quad(p.normal[2])});
       slacks.push_back(to_quad(p.offset - dot(p.normal, start)));
@@ -68,9 +71,10 @@ struct Newton {
     for (std::size_t i = 0; i < barrier.normals.size(); ++i) {
       const Quad s = barrier.slack(i, x);
       for (int k = 0; k < 3; ++k) {
-        gradient[k] += barrier.normals[i][k] / s;
+        const Quad weighted = barrier.weights[i] * barrier.normals[i][k];
+        gradient[k] += weighted / s;
         for (int l = 0; l < 3; ++l)
-          hessian[k][l] += barrier.normals[i][k] * barrier.normals[i][l] / (s * s);
+          hessian[k][l] += weighted * barrier.normals[i][l] / (s * s);
       }
     }
   }
@@ -104,7 +108,7 @@ std::optional<QuadVector> centre_of(const Barrier& barrier) {
   return {};
 }
 
-// one part's unit gradient of Σ <r - slack>² at x; where no plane is nearer than r, the normal of the nearest
+// one part's unit gradient of Σ w <r - slack>² at x; where no plane is nearer than r, the normal of the nearest
 QuadVector potential_direction(const Barrier& barrier, int first, int last, const QuadVector& x, double radius) {
   QuadVector sum{};
   int nearest = first;
@@ -113,7 +117,7 @@ QuadVector potential_direction(const Barrier& barrier, int first, int last, cons
     const Quad depth = Quad(radius) - barrier.slack(i, x);
     if (!(depth > 0)) continue;
     for (int k = 0; k < 3; ++k)
-      sum[k] += depth * barrier.normals[i][k];
+      sum[k] += barrier.weights[i] * depth * barrier.normals[i][k];
   }
   if (product(sum, sum) == 0) sum = barrier.normals[nearest];
   const Quad length = root(product(sum, sum));
@@ -154,8 +158,8 @@ Quad nearest(const std::vector<std::optional<Quad>>& distances, int first, int c
 }
 
 std::optional<ConvergedContact> converged_contact(const Planes& planes, int faces_a, int faces_b, const Point& start,
-                                                  double radius) {
-  const Barrier barrier(planes, start);
+                                                  double radius, std::vector<double> weights) {
+  const Barrier barrier(planes, start, std::move(weights));
   const std::optional<QuadVector> centre = centre_of(barrier);
   if (!centre) return {};
   ConvergedContact result;

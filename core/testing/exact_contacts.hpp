@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/testing/exact_referee.hpp"
 
@@ -18,9 +19,10 @@ struct ConvergedContact {
 };
 
 // `planes`: those of A first, then those of B, then any that only close the solid. `radius` is the potential
-// particle's. Nothing when the start does not lie inside or Newton does not end.
+// particle's. Nothing when the start does not lie inside or Newton does not end. `weights`: how much each of the first
+// planes counts in the barrier and in the potentials; the others count 1.
 std::optional<ConvergedContact> converged_contact(const Planes& planes, int faces_a, int faces_b, const Point& start,
-                                                  double radius);
+                                                  double radius, std::vector<double> weights = {});
 
 // How far each plane of A lies ahead of the point along a normal, each plane of B behind it (Eq. 3.36); nothing for
 // planes that the search never meets.

@@ -1,4 +1,4 @@
-#include "core/optimise/analytic_centre.hpp"
+#include "core/optimise/weighted_centre.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -50,7 +50,8 @@ struct Workspace {
 }  // namespace
 
 template <int Dim>
-CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const CentreRequest<Dim>& request) {
+CentreResult<Dim> solve_weighted_centre(const HalfSpaces<Dim>& planes, std::span<const double> weights,
+                                        const CentreRequest<Dim>& request) {
   static thread_local Workspace<Dim> work;
   const std::size_t count = planes.size();
   work.scaled.resize(count);
@@ -66,6 +67,9 @@ CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const Cen
     }
   }
 
+  // A slack changes by at most the decrement over the root of its weight, relative to itself: what is asked of the
+  // decrement's square is asked for the smallest of them.
+  const double least_weight = weights.empty() ? 1 : *std::min_element(weights.begin(), weights.end());
   Vector<Dim> moved = Vector<Dim>::Zero();
   Matrix<Dim> frame;
   bool settled = false;  // near the centre the frame stays: a new one rounds again, which thin regions magnify
@@ -78,13 +82,19 @@ CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const Cen
         work.turned[i] = frame * planes[i].normal;
     }
 
-    // gradient and Hessian of -Σ log s, and Newton's step
+    // gradient and Hessian of -Σ w log s, and Newton's step
     Vector<Dim> gradient = Vector<Dim>::Zero();
     Matrix<Dim> hessian = Matrix<Dim>::Zero();
     for (std::size_t i = 0; i < count; ++i) {
       const Vector<Dim> p = work.scaled[i] = work.turned[i] / work.slacks[i];
-      gradient += p;
-      hessian += p * p.transpose();
+      if (weights.empty()) {
+        gradient += p;
+        hessian += p * p.transpose();
+      } else {
+        const Vector<Dim> weighted = weights[i] * p;
+        gradient += weighted;
+        hessian += weighted * p.transpose();
+      }
     }
     Vector<Dim> step = -gradient;
     if (!solve_symmetric<Dim>(hessian, step)) {
@@ -95,7 +105,7 @@ CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const Cen
     // a full step when it is safe, else the largest whose slacks provably stay positive
     const double decrement = -gradient.dot(step);
     double length = 1;
-    settled = decrement < full_step_decrement;
+    settled = decrement < full_step_decrement * least_weight;
     if (!settled) {
       double steepest = 0;
       for (std::size_t i = 0; i < count; ++i)
@@ -115,7 +125,7 @@ CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const Cen
       result.status = CentreStatus::singular;
       return result;
     }
-    if (decrement <= request.tolerance * request.tolerance) {
+    if (decrement <= request.tolerance * request.tolerance * least_weight) {
       ++result.iterations;
       result.point = request.start + moved;
       // in a region as thin as the coordinates' rounding the point itself may round to the outside
@@ -128,6 +138,15 @@ CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const Cen
   return result;
 }
 
+template <int Dim>
+CentreResult<Dim> solve_analytic_centre(const HalfSpaces<Dim>& planes, const CentreRequest<Dim>& request) {
+  return solve_weighted_centre<Dim>(planes, {}, request);
+}
+
+template CentreResult<2> solve_weighted_centre<2>(const HalfSpaces<2>&, std::span<const double>,
+                                                  const CentreRequest<2>&);
+template CentreResult<3> solve_weighted_centre<3>(const HalfSpaces<3>&, std::span<const double>,
+                                                  const CentreRequest<3>&);
 template CentreResult<2> solve_analytic_centre<2>(const HalfSpaces<2>&, const CentreRequest<2>&);
 template CentreResult<3> solve_analytic_centre<3>(const HalfSpaces<3>&, const CentreRequest<3>&);
 
