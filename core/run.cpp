@@ -23,7 +23,7 @@ constexpr long long steps_between_falls = 100;
 
 // Steps of a relaxation until Newton's method on the joints tries its increment, and again after each so many more.
 // What relaxation has not found by then is a motion too soft for it: its steps grow with the root of stiff over soft.
-constexpr long long steps_until_newton = 60'000;
+constexpr long long steps_until_newton = 80'000;
 
 constexpr double never = std::numeric_limits<double>::infinity();  // s
 

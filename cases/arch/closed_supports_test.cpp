@@ -103,7 +103,8 @@ TEST(ClosedSupportsLong, RestByEverySetting) {
       {"stage.close.duration_s=1", "stage.close.move.1.velocity=[-0.02, 0]"},
       {"stage.close.damping.local=0.3"},
       {"joint_properties.dry.friction_deg=40"},
-      {"contact.face=point", "joint_properties.dry.sub_contacts=4"}};
+      {"contact.face=point", "joint_properties.dry.sub_contacts=4",
+       "contact.potential_radius=0.002"}};  // as scene.toml
   for (const double stiffness : {1e10, 1e11, 1e12})
     for (const char* statics : {"adaptive", "newton"})
       for (const std::vector<std::string>& each : more)
