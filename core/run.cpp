@@ -21,6 +21,10 @@ namespace {
 // steps between two looks for bodies that fall free; a look costs less than a step
 constexpr long long steps_between_falls = 100;
 
+// Steps of a relaxation until Newton's method on the joints tries its increment, and again after each so many more.
+// What relaxation has not found by then is a motion too soft for it: its steps grow with the root of stiff over soft.
+constexpr long long steps_until_newton = 80'000;
+
 constexpr double never = std::numeric_limits<double>::infinity();  // s
 
 // sets the scheduled values to those of the time of the positions; true while they still change
@@ -168,6 +172,15 @@ void stop_bodies(const Model<Dim>& model, bool relaxing, State<Dim>& state) {
     begin_motion(state);
 }
 
+// Whether Newton's method begins with this step: the first, where it is asked for, or one of a relaxation that lingers.
+template <int Dim>
+bool begins_newton(const Model<Dim>& model, const Settings& settings, const RunProgress<Dim>& progress, bool changing,
+                   const State<Dim>& state) {
+  const bool lingers = progress.steps > 0 && progress.steps % steps_until_newton == 0 && progress.at_rest == 0 &&
+                       !changing && !state.newton.under_way;
+  return (lingers || (progress.steps == 0 && settings.damping.statics == Statics::newton)) && newton_applies(model);
+}
+
 template <int Dim>
 RunProgress<Dim> begin_run(const RunGoal& goal, State<Dim>& state) {
   state.schedule.ends = goal.end_time.value_or(never);
@@ -233,16 +246,15 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     return report;
   };
 
-  // made once: no step asks for memory
-  const std::function<void(State<Dim>&)> with_forces = [&](State<Dim>& now) {
-    if (progress.steps == 0) {
-      stop_bodies(model, relaxing, now);
-      if (relaxing && newton_applies(model, settings.damping)) begin_newton(model, settings, ramp_of(schedule), now);
-    }
-    if (hooks.with_forces) hooks.with_forces(now);
-  };
   // the forces of a step, and what comes after the run, stand under the schedule at the time of the positions
   bool changing = follow(model, schedule, state);
+  // made once: no step asks for memory
+  const std::function<void(State<Dim>&)> with_forces = [&](State<Dim>& now) {
+    if (progress.steps == 0) stop_bodies(model, relaxing, now);
+    if (relaxing && begins_newton(model, settings, progress, changing, now))
+      begin_newton(model, settings, progress.steps == 0 ? ramp_of(schedule) : 0, now);
+    if (hooks.with_forces) hooks.with_forces(now);
+  };
   while (true) {
     if (hooks.pause && hooks.pause()) return stop(StopReason::interrupted);
     const bool tried = state.newton.under_way;

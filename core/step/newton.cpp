@@ -26,6 +26,16 @@ constexpr double first_regularisation = 1, least_regularisation = 1e-9;
 // Accepted iterations of an increment until it is left to relaxation.
 constexpr int iteration_limit = 150;
 
+// Accepted iterations after which an increment lingers. It then follows a valley: a motion softer than the joints
+// beside it by many powers of ten, such as the sway of an arch on four hinges. Stiff joints resist the square of a step
+// along it, so the residual grows tenfold where the step is right, and regularisation that avoids this leaves next to
+// nothing of the step. Columns, walls and sliced rock of thousands of blocks rest in fewer.
+constexpr int lingering_after = 50;
+
+// An increment that lingers judges a step by the residual's work along it: the step is shortened where less of that
+// work is left than this, the joints driving it back; by no more than the second factor at once.
+constexpr double may_drive_back = -0.5, most_shortening = 0.1;
+
 // Refused steps in a row until one is taken as it comes; accepted ones until the increment so far is kept.
 constexpr int most_tries = 12, most_since_commit = 25;
 
@@ -138,11 +148,19 @@ struct Newton {
 
   // ---- judgement ----------------------------------------------------------------------------------------------------
 
+  // of the residual's work along the last step: 1 before it, 0 where the step ends at its least energy
+  double work_left(const Eigen::VectorXd& residual) const {
+    const Eigen::VectorXd change = numbers(n.change);
+    return residual.dot(change) / numbers(n.residual).dot(change);
+  }
+
+  bool lingers() const { return n.iteration >= lingering_after; }
+
   bool is_acceptable(const Eigen::VectorXd& residual, double now) {
+    if (lingers()) return is_acceptable_lingering(residual, now);
     const double largest =
         *std::max_element(n.merits.end() - std::min<std::ptrdiff_t>(3, std::ssize(n.merits)), n.merits.end());
-    const Eigen::VectorXd change = numbers(n.change);
-    const double before = numbers(n.residual).dot(change), left = residual.dot(change) / before;
+    const double left = work_left(residual);
     if (!std::isfinite(now) || !(now <= may_rise * largest || (left > 0 && now <= may_double * largest))) return false;
     // the better the residual falls, the less is needed
     const double last = n.merits.back();
@@ -155,6 +173,14 @@ struct Newton {
       n.regularisation = std::max(0.1, 4 * n.regularisation);
       n.flat = 0;
     }
+    return true;
+  }
+
+  bool is_acceptable_lingering(const Eigen::VectorXd& residual, double now) {
+    if (!std::isfinite(now) || !(work_left(residual) >= may_drive_back)) return false;
+    if (n.tries == 0) n.regularisation *= n.overshoot > 1 ? 0.5 : 0.1;
+    if (n.tries > 1) n.regularisation = std::max(8 * n.regularisation, 1e-6);  // a kink: a step that is short pays
+    if (n.regularisation < least_regularisation) n.regularisation = 0;
     return true;
   }
 
@@ -244,9 +270,17 @@ struct Newton {
     return expected > 0 && whole_bonds(state) < expected;
   }
 
-  void reject(bool breaks) {
+  // Back on the step to where a line through its work at both ends says that none is left.
+  void shorten_lingering(const Eigen::VectorXd& residual) {
+    const double left = work_left(residual), factor = std::isfinite(left) ? 1 / (1 - left) : 0;
+    keep(std::clamp(factor, most_shortening, 0.5) * numbers(n.change), n.change);
+    set_trial_at(numbers(n.accepted) + numbers(n.change), n.tries >= most_tries ? Trial::forced : Trial::step);
+  }
+
+  void reject(const Eigen::VectorXd& residual, bool breaks) {
     ++state.counters.static_rejections;
     ++n.tries;
+    if (lingers() && !breaks) return shorten_lingering(residual);
     n.regularisation = std::max(8 * n.regularisation, 1e-6);
     const bool forced = n.tries >= most_tries;
     if (forced && breaks) return set_trial_at(numbers(n.accepted), Trial::last);
@@ -299,7 +333,7 @@ struct Newton {
     if (trial == Trial::last || (trial == Trial::start && breaks)) return give_up();
     const Eigen::VectorXd residual = residual_now();
     const double now = merit(residual);
-    if (breaks || (trial == Trial::step && !is_acceptable(residual, now))) return reject(breaks);
+    if (breaks || (trial == Trial::step && !is_acceptable(residual, now))) return reject(residual, breaks);
     accept(residual, now, trial == Trial::forced);
   }
 };
@@ -311,9 +345,8 @@ bool newton_follows(const JointProperties& joint) {
 }
 
 template <int Dim>
-bool newton_applies(const Model<Dim>& model, const DampingSettings& damping) {
-  return damping.statics == Statics::newton && model.prescribed.empty() &&
-         std::all_of(model.properties.begin(), model.properties.end(), newton_follows);
+bool newton_applies(const Model<Dim>& model) {
+  return model.prescribed.empty() && std::all_of(model.properties.begin(), model.properties.end(), newton_follows);
 }
 
 template <int Dim>
@@ -366,7 +399,7 @@ std::vector<Vector<Dim>> accepted_displacements(const Model<Dim>& model, const S
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                           \
-  template bool newton_applies<Dim>(const Model<Dim>&, const DampingSettings&);             \
+  template bool newton_applies<Dim>(const Model<Dim>&);                                     \
   template void begin_newton<Dim>(const Model<Dim>&, const Settings&, double, State<Dim>&); \
   template void iterate<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);              \
   template std::string progress_of_newton<Dim>(const State<Dim>&);                          \

@@ -7,8 +7,10 @@
 //   (K + lambda D) dq = r,   q += dq,
 //
 // lambda falling with the residual r. A step is accepted when the residual does not grow, or as long as what is left
-// drives the same way: a slope that fails is followed, not refused. At rest the increment's end becomes the next base;
-// after the last one relaxation takes over, confirms the rest or finds what Newton's method could not.
+// drives the same way: a slope that fails is followed, not refused. An increment that lingers looks at the work along
+// the step alone, as a line search: what is soft beside stiff joints is followed, too. At rest the increment's end
+// becomes the next base; after the last one relaxation takes over, confirms the rest or finds what Newton's method
+// could not.
 #pragma once
 
 #include <string>
@@ -27,7 +29,7 @@ bool newton_follows(const JointProperties& joint);
 
 // whether it follows those of all joints; else all is left to relaxation
 template <int Dim>
-bool newton_applies(const Model<Dim>& model, const DampingSettings& damping);
+bool newton_applies(const Model<Dim>& model);
 
 // The bodies are at rest and relaxation has begun: from here on a step is an evaluation at a trial. `ramp` (s): how
 // long the schedules of gravity and friction continue, which the increments divide between them; 0 where they stand.

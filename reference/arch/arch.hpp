@@ -80,4 +80,16 @@ ElasticArch elastic_arch(const Arch& arch, const ArchJoints& joints, double thic
 // the thinnest of them: the least thickness that stands
 ElasticArch thinnest_elastic_arch(const Arch& arch, const ArchJoints& joints);
 
+// an arch one of whose supports has come towards the other, shooting from springing to springing
+struct ClosedArch {
+  double thrust = 0;                 // N, horizontal
+  double weight = 0;                 // N
+  std::vector<ElasticJoint> joints;  // from the right springing on
+};
+
+// The equilibrium to which those of supports that close step by step, by `closed` (m; negative: that part) in all,
+// lead. Others may stand beside it, swayed on the same hinges, of nearly its thrust. Throws std::runtime_error when it
+// finds none.
+ClosedArch closed_arch(const Arch& arch, const ArchJoints& joints, double thickness, double closed);
+
 }  // namespace voussoir::reference

@@ -100,5 +100,48 @@ TEST(ElasticArch, StandsOnTheStableSideOnly) {
   EXPECT_THROW(elastic_arch_path({10, 5, 25e3}, joints), std::invalid_argument);
 }
 
+TEST(ClosedArch, OnSupportsInPlaceIsTheHalfWithItsKeystone) {
+  const Arch arch{15, 5, 25e3};
+  const ArchJoints joints{1e11, 1e11};
+  const ElasticArch half = elastic_arch(arch, joints, 0.75);
+  const ClosedArch whole = closed_arch(arch, joints, 0.75, 0);
+  EXPECT_NEAR(whole.thrust / half.thrust, 1, 1e-9);
+  for (std::size_t k = 0; k < half.joints.size(); ++k)
+    EXPECT_NEAR(whole.joints[k].crossing, half.joints[k].crossing, 1e-9 * arch.radius) << k;
+}
+
+// Rigid voussoirs turn about ends of joints: moments about the outer end at the springing and the inner one at the
+// haunch give the thrust of the greatest thrust line.
+TEST(ClosedArch, ThrustsOnHardJointsAsItsHingesSay) {
+  const Arch arch{20, 5, 25e3};
+  const double thickness = 0.75, inside = arch.radius - 0.5 * thickness, outside = inside + thickness;
+  const Voussoir stone = voussoir_of(arch, thickness);
+  const auto thrust = [&](int haunch) {  // counted in joints from the springing
+    double weight = 0, moment = 0;       // of what stands between, about the outer end
+    for (int k = 0; k < haunch; ++k) {
+      weight += stone.weight;
+      moment += stone.weight * (outside - stone.centroid * std::cos((k + 0.5) * pi / arch.voussoirs));
+    }
+    const double angle = haunch * pi / arch.voussoirs, x = outside - inside * std::cos(angle),
+                 y = inside * std::sin(angle);
+    const double above = 0.5 * arch.voussoirs * stone.weight - weight;
+    return (above * x + moment) / y;
+  };
+  double least = thrust(1);
+  for (int haunch = 2; haunch <= arch.voussoirs / 2; ++haunch)
+    least = std::min(least, thrust(haunch));
+  // A hinge of a turn that closing gives presses a length by the power -1/2 of the stiffness; the arch has also changed
+  // its shape, by the closing over the radius.
+  const double closed = 0.002;
+  double last = 0;
+  for (const double stiffness : {1e12, 1e13, 1e14}) {
+    const double off = 1 - closed_arch(arch, {stiffness, stiffness}, thickness, closed).thrust / least;
+    EXPECT_GT(off, 0) << stiffness;
+    if (last > 0) EXPECT_LT(off, last / std::sqrt(10.0) + 2 * closed / arch.radius) << stiffness;
+    last = off;
+  }
+  EXPECT_LT(last, 0.003);
+}
+
 }  // namespace
 }  // namespace voussoir::reference

@@ -11,9 +11,10 @@ KeyTable damping_keys() {
          {{"adaptive", Statics::adaptive}, {"local", Statics::local}, {"newton", Statics::newton}})},
      .example = "\"local\"",
      .meaning = "how settle stages and the trials of a reduction come to rest; adaptive: dynamic relaxation, by the fewest "
-         "steps, in which inertia, time and velocities are fictitious and the other keys of this table mean nothing; "
-         "local: the true motion, damped by the other keys, as in the thesis; newton: Newton's method on the joints, in "
-         "increments, confirmed by relaxation, to which it leaves what it cannot decide",
+         "steps, in which inertia, time and velocities are fictitious and the other keys of this table mean nothing, and "
+         "which after 80 000 steps without rest has Newton's method try; local: the true motion, damped by the other "
+         "keys, as in the thesis; newton: Newton's method on the joints, in increments, confirmed by relaxation, to "
+         "which it leaves what it cannot decide",
      .breaks = "adaptive is for what is nearly at rest; where the way to rest is an event, as in a fall, choose local"},
     {.key = "increments", .members = {in(&DampingSettings::increments)}, .unit = "1", .range = {1, 1000},
      .example = "4",
