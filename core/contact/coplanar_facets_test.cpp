@@ -6,8 +6,8 @@
 #include <functional>
 #include <numbers>
 
-#include "core/contact/facet_weights.hpp"
 #include "core/floating_point_traps.hpp"
+#include "core/geometry/facet_weights.hpp"
 #include "core/optimise/central_path.hpp"
 #include "core/optimise/weighted_centre.hpp"
 #include "core/run.hpp"
@@ -209,15 +209,13 @@ TEST(CoplanarFacets, ShareTheWeightOfTheirFace) {
   for (const double angle :
        {0.0, 1e-16, 1e-12, 1e-9, 1e-6, 0.5 * leans_apart, 0.999 * leans_apart, 1.001 * leans_apart}) {
     SCOPED_TRACE(angle);
-    Polytope<3> part;  // its faces alone matter, in the order of their normals
     const double c = std::cos(angle), s = std::sin(angle);
-    part.faces = {{{-1, 0, 0}, 1}, {{0, -1, 0}, 1}, {{0, 0, -1}, 1}, {{0, 0, 1}, 1},
-                  {{0, 1, 0}, 1},  {{s, 0, c}, 1},  {{1, 0, 0}, 1}};
-    EXPECT_EQ(has_facets(part), angle < leans_apart);
-    std::vector<double> weights;
-    append_weights(part, weights);
+    const HalfSpaces<3> faces{{{-1, 0, 0}, 1}, {{0, -1, 0}, 1}, {{0, 0, -1}, 1}, {{0, 0, 1}, 1},
+                              {{0, 1, 0}, 1},  {{s, 0, c}, 1},  {{1, 0, 0}, 1}};
+    const std::vector<double> weights = facet_weights<3>(faces);
+    EXPECT_EQ(weights.empty(), !(angle < leans_apart));
     const double shared = 1 / (2 - std::min(angle / leans_apart, 1.0));
-    for (std::size_t f = 0; f < part.faces.size(); ++f)
+    for (std::size_t f = 0; f < weights.size(); ++f)
       // the chord stands for the angle: 2e-7 of it
       EXPECT_NEAR(weights[f], f == 3 || f == 5 ? shared : 1, leans_apart * leans_apart / 20) << f;
   }

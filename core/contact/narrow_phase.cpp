@@ -4,7 +4,6 @@
 #include <array>
 
 #include "core/contact/extended_precision_overlap.hpp"
-#include "core/contact/facet_weights.hpp"
 #include "core/contact/kernel/kernel.hpp"
 #include "core/contact/reference_kernel.hpp"
 #include "core/contact/separation.hpp"
@@ -62,7 +61,7 @@ KernelOptions kernel_options(const ContactSettings& settings) {
 // whether faces of one part are facets of one face, whose weights the reference kernel knows
 template <int Dim>
 bool has_facets(const Pair<Dim>& pair) {
-  return has_facets(*pair.a) || has_facets(*pair.b);
+  return !pair.a->face_weights.empty() || !pair.b->face_weights.empty();
 }
 
 // by the reference kernel; parts that are separated keep the plane between them

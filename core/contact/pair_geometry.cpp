@@ -5,7 +5,6 @@
 #include <limits>
 #include <span>
 
-#include "core/contact/facet_weights.hpp"
 #include "core/contact/rounding.hpp"
 
 namespace voussoir {
@@ -47,6 +46,15 @@ void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>&
     plane->offset = f.offset - plane->normal.dot(shift);
     ++plane;
   }
+}
+
+template <int Dim>
+void assemble_weights(const Pair<Dim>& pair, std::vector<double>& weights) {
+  weights.clear();
+  if (pair.a->face_weights.empty() && pair.b->face_weights.empty()) return;
+  for (const Polytope<Dim>* part : {pair.a, pair.b})
+    for (std::size_t f = 0; f < part->faces.size(); ++f)
+      weights.push_back(weight_of(part->face_weights, f));
 }
 
 template <int Dim>
@@ -135,6 +143,7 @@ double section_area(const HalfSpaces<3>& planes, const Vector<3>& point, const V
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \
   template void assemble<Dim>(const Pair<Dim>&, const Vector<Dim>&, HalfSpaces<Dim>&);                                 \
+  template void assemble_weights<Dim>(const Pair<Dim>&, std::vector<double>&);                                         \
   template bool contact_normal<Dim>(const HalfSpaces<Dim>&, int, const Vector<Dim>&, double, Vector<Dim>&, bool&,      \
                                     std::span<const double>);                                                          \
   template bool overlap_along<Dim>(const HalfSpaces<Dim>&, int, const Vector<Dim>&, const Vector<Dim>&, double&, int&, \

@@ -13,9 +13,18 @@ namespace voussoir {
 template <int Dim>
 void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>& planes);
 
+// how much each of these planes counts (Polytope::face_weights); empty: all count 1
+template <int Dim>
+void assemble_weights(const Pair<Dim>& pair, std::vector<double>& weights);
+
+// of one plane
+inline double weight_of(std::span<const double> weights, std::size_t plane) {
+  return weights.empty() ? 1 : weights[plane];
+}
+
 // Direction from A to B at a point (Eqs 3.31-3.35): difference of the gradients of the parts' inner potentials
 // sum w <a·x - d + r>², normalised. False when it vanishes. `fallback` tells that a face normal stood in for a zero
-// gradient. `weights` as in facet_weights.hpp; empty: all are 1.
+// gradient. `weights`: of the planes, as assemble_weights has them.
 template <int Dim>
 bool contact_normal(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, double radius,
                     Vector<Dim>& normal, bool& fallback, std::span<const double> weights = {});

@@ -8,7 +8,6 @@
 
 #include "core/contact/bracketing.hpp"
 #include "core/contact/extended_precision_overlap.hpp"
-#include "core/contact/facet_weights.hpp"
 #include "core/contact/overlap_region.hpp"
 #include "core/contact/pair_geometry.hpp"
 #include "core/contact/rounding.hpp"
@@ -361,7 +360,7 @@ void resolve_by_reference(const Pair<Dim>& pair, const ContactSettings& settings
   const bool a_smaller = pair.a->radius < pair.b->radius;
   const Vector<Dim> origin = a_smaller ? pair.a->centre : Vector<Dim>(pair.offset + pair.rotation * pair.b->centre);
   assemble<Dim>(pair, origin, planes);
-  facet_weights<Dim>(*pair.a, *pair.b, weights);
+  assemble_weights(pair, weights);
   const double size = std::min(pair.a->inscribed_radius, pair.b->inscribed_radius);
   const double reach = 2 * std::min(pair.a->radius, pair.b->radius);
   const double coordinates =

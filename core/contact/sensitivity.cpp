@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/facet_weights.hpp"
 #include "core/contact/pair_geometry.hpp"
 #include "core/contact/rounding.hpp"
 #include "core/optimise/symmetric_system.hpp"
@@ -191,7 +190,7 @@ bool find_sensitivity(const Pair<Dim>& pair, const ContactSettings& settings, co
   static thread_local HalfSpaces<Dim> planes;
   static thread_local std::vector<double> weights;
   assemble<Dim>(pair, contact.proof.point, planes);
-  facet_weights<Dim>(*pair.a, *pair.b, weights);
+  assemble_weights(pair, weights);
   const double size = std::min(pair.a->inscribed_radius, pair.b->inscribed_radius);
   const Finder<Dim> finder{pair, planes, contact, size, settings.potential_radius * size, weights};
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/contact/facet_weights.hpp"
+#include "core/contact/pair_geometry.hpp"
 #include "core/contact/sensitivity.hpp"
 #include "core/testing/contacts.hpp"
 #include "core/testing/exact_contacts.hpp"
@@ -102,8 +102,11 @@ Posed<Dim> with_facets_in_any_position(Random& random) {
 template <int Dim>
 std::vector<double> weights_of(const Posed<Dim>& p) {
   std::vector<double> weights;
-  append_weights(p.a, weights);
-  append_weights(p.b, weights);
+  Pair<Dim> pair;
+  pair.a = &p.a;
+  pair.b = &p.b;
+  assemble_weights<Dim>(pair, weights);
+  if (weights.empty()) weights.assign(p.a.faces.size() + p.b.faces.size(), 1);
   return weights;
 }
 

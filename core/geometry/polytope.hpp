@@ -35,6 +35,7 @@ struct Polytope {
   Eigen::Matrix<double, Dim + 1, Dim + 1> basis_inverse;  // of the columns (normal, 1) of these faces
   double vertex_error = 0;  // m: no point of the half-spaces lies farther outside the vertices' hull than this
   double largest_face = 0;  // area of the largest face, m² (2-D: m)
+  std::vector<double> face_weights;  // of facets of one face (facet_weights.hpp); empty: every face counts 1
   // Where the part is a potential particle the faces only enclose it; where it meets some, what it is to them; else
   // none.
   std::shared_ptr<const Particle<Dim>> particle;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/geometry/facet_weights.hpp"
 #include "core/geometry/surface.hpp"
 #include "core/optimise/feasibility.hpp"
 
@@ -184,6 +185,7 @@ BlockStatus describe(Polytope<Dim>& part) {
   part.mass = moved_origin<Dim>(part.mass, -ball.point);
   part.vertex_error = find_vertex_error(part);
   part.largest_face = find_largest_face(part);
+  part.face_weights = facet_weights<Dim>(part.faces);
   return BlockStatus::ok;
 }
 
