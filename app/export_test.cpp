@@ -306,9 +306,9 @@ TEST_F(Export, EveryWordIsOneOf3dec) {
   const std::string data = exported("--as 3dec");
   EXPECT_EQ(foreign_word(data, keywords), "");
   // any word that is changed is found
-  for (const std::string& word : {" polyhedron ", " face ", " large-strain ", "gravity ", " density ", " fix ",
-                                  " group ", " stiffness-normal ", " friction ", " range ", " position-y ", " plane ",
-                                  " origin ", " distance ", " jmodel ", " default ", " material-table "}) {
+  for (const std::string word : {" polyhedron ", " face ", " large-strain ", "gravity ", " density ", " fix ",
+                                 " group ", " stiffness-normal ", " friction ", " range ", " position-y ", " plane ",
+                                 " origin ", " distance ", " jmodel ", " default ", " material-table "}) {
     std::string changed = data;
     const std::size_t at = changed.rfind(word);  // comments stand before
     ASSERT_NE(at, std::string::npos) << word;

@@ -228,7 +228,7 @@ TEST(ImportFractures, BlanksAroundAnEqualsSignSayNothing) {
                                              {"FOOT", 0.3048},     {"ft", 0.3048},  {"cm", 0.01}, {"Kilometers", 1000},
                                              {"\"Feet\"", 0.3048}, {"inch", 0.0254}};
   const double area = 4 * std::hypot(4, 2);  // of the file's own unit
-  for (const std::string& equals : {"=", " =", "= ", "    =    ", "\t=\t"}) {
+  for (const std::string equals : {"=", " =", "= ", "    =    ", "\t=\t"}) {
     for (const auto& [name, unit] : metres) {
       const ImportedJoints found = read_fab(fractures(equals, name), at_origin);
       EXPECT_NEAR(area_of(found.joints[0]), area * unit * unit, area * unit * unit * 1e-9) << equals << name;

@@ -324,7 +324,9 @@ TEST(Mesh, RoundedCornersMakeTheirConvexHull) {
     for (const FileRemark& remark : remarks)
       EXPECT_NE(remark.text.find("its convex hull was taken"), std::string::npos) << remark.text;
     // of five decimals the rounding may lie below what single precision leaves
-    if (decimals < 5) EXPECT_EQ(remarks.empty(), all_planes(mesh, decimals)) << i;
+    if (decimals < 5) {
+      EXPECT_EQ(remarks.empty(), all_planes(mesh, decimals)) << i;
+    }
   }
   std::vector<FileRemark> remarks;
   EXPECT_EQ(convex_corners(read_obj("o c\nv 0.0000 0.0000 0.0000\nv 0.3469 0.6816 -0.6442\nv -0.4181 1.2846 -0.4182\n"
@@ -461,9 +463,15 @@ TEST(Stl, ALossOfDigitsFarFromTheOriginIsTold) {
     const bool told = std::any_of(remarks.begin(), remarks.end(), [](const FileRemark& remark) {
       return remark.text.find("its shortest edge is") != std::string::npos;
     });
-    if (spacing < 0.5e-3 * edge) EXPECT_FALSE(told) << spacing / edge;
-    if (spacing > 2e-3 * edge) EXPECT_TRUE(told) << spacing / edge;
-    if (!told) EXPECT_NEAR(volume / std::pow(edge, 3), 1, 1e-2);
+    if (spacing < 0.5e-3 * edge) {
+      EXPECT_FALSE(told) << spacing / edge;
+    }
+    if (spacing > 2e-3 * edge) {
+      EXPECT_TRUE(told) << spacing / edge;
+    }
+    if (!told) {
+      EXPECT_NEAR(volume / std::pow(edge, 3), 1, 1e-2);
+    }
   }
   // a text with the digits of floats
   for (const auto& [digits, is_told] : {std::pair{7, true}, {8, true}, {12, false}, {17, false}}) {
