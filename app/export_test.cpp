@@ -1,6 +1,7 @@
 // `voussoir export`: the text read back gives the blocks that `voussoir slice` writes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -236,6 +237,97 @@ TEST_F(Export, ReadsBackAsTheBlocksThatWereCut) {
                       .c_str()),
               0);
   }
+}
+
+// ---- words of 3DEC
+
+using Keywords = std::map<std::string, std::vector<std::string>>;
+
+std::vector<std::string> words_in(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;)
+    words.push_back(word);
+  return words;
+}
+
+// of every command, and of `range`
+Keywords three_dec_keywords() {
+  Keywords keywords;
+  for (const std::string& line : lines_of(read(scenes / "three_dec_keywords.txt"))) {
+    if (line.starts_with("#")) continue;
+    const std::size_t first = line.find(" | "), second = line.find(" | ", first + 2);
+    EXPECT_NE(second, std::string::npos) << line;
+    keywords[line.substr(0, first)] = words_in(line.substr(first + 2, second - first - 2));
+  }
+  return keywords;
+}
+
+// numbers, and vectors of them
+bool is_value(const std::string& word) {
+  return word.find_first_not_of("0123456789.,eE+-") == std::string::npos &&
+         word.find_first_of("0123456789") != std::string::npos;
+}
+
+// the first word of a data file that is in no list; empty where there is none
+std::string foreign_word(const std::string& data, const Keywords& keywords) {
+  std::string command;
+  for (std::string line : lines_of(data)) {
+    if (line.starts_with(";")) continue;
+    const bool goes_on = line.ends_with("&");
+    command += " " + line.substr(0, line.size() - (goes_on ? 1 : 0));
+    if (goes_on) continue;
+    for (std::size_t open = command.find('\''); open != std::string::npos; open = command.find('\'', open))
+      command.replace(open, command.find('\'', open + 1) - open + 1, "0");  // a name is a value
+    std::vector<std::string> words = words_in(command);
+    command.clear();
+    std::string known;
+    std::size_t behind = 0;
+    std::string so_far;
+    for (std::size_t k = 0; k < words.size(); ++k) {
+      so_far += (k > 0 ? " " : "") + words[k];
+      if (keywords.contains(so_far)) known = so_far, behind = k + 1;
+    }
+    if (known.empty()) return line;
+    const std::vector<std::string>* allowed = &keywords.at(known);
+    for (std::size_t k = behind; k < words.size(); ++k) {
+      if (words[k] == "range")
+        allowed = &keywords.at("range");
+      else if (!is_value(words[k]) && std::find(allowed->begin(), allowed->end(), words[k]) == allowed->end())
+        return words[k];
+    }
+  }
+  return "";
+}
+
+TEST_F(Export, EveryWordIsOneOf3dec) {
+  const Keywords keywords = three_dec_keywords();
+  write("scene.toml", rock);
+  const std::string data = exported("--as 3dec");
+  EXPECT_EQ(foreign_word(data, keywords), "");
+  // any word that is changed is found
+  for (const std::string word : {" polyhedron ", " face ", " large-strain ", "gravity ", " density ", " fix ",
+                                 " group ", " stiffness-normal ", " friction ", " range ", " position-y ", " plane ",
+                                 " origin ", " distance ", " jmodel ", " default ", " material-table "}) {
+    std::string changed = data;
+    const std::size_t at = changed.rfind(word);  // comments stand before
+    ASSERT_NE(at, std::string::npos) << word;
+    changed[at + 2] = 'q';
+    EXPECT_NE(foreign_word(changed, keywords), "") << word;
+  }
+  // the stiffness of contacts that form later, without which large strain does not cycle: of the most common properties
+  const std::size_t table = data.find("block contact material-table default jmodel mohr\n");
+  ASSERT_NE(table, std::string::npos);
+  EXPECT_NE(data.find("block contact material-table default property stiffness-normal 1000000000 stiffness-shear "
+                      "100000000 friction 35\n",
+                      table),
+            std::string::npos)
+      << data;
+  EXPECT_LT(data.find("model large-strain on"), table);
+  write("scene.toml", read(scenes / "two_cubes.toml"));
+  const std::string cubes = exported("--as 3dec");
+  EXPECT_EQ(foreign_word(cubes, keywords), "");
+  EXPECT_NE(cubes.find("block contact material-table default property stiffness-normal "), std::string::npos);
 }
 
 TEST_F(Export, BlocksThatAreStatedHaveTheirNames) {

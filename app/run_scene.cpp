@@ -1,6 +1,7 @@
 #include "app/run_scene.hpp"
 
 #include "app/bad_input.hpp"
+#include "app/message.hpp"
 #include "core/output/fingerprint.hpp"
 #include "core/output/version.hpp"
 #include "core/scene/effective_scene.hpp"
@@ -82,6 +83,11 @@ LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std:
   loaded.title = std::visit([](const auto& prepared) { return prepared.title; }, loaded.prepared);
   loaded.stated = std::make_shared<const Scene>(std::move(scene));
   return loaded;
+}
+
+void tell_remarks(const Scene& scene) {
+  for (const std::string& remark : scene.remarks)
+    tell("voussoir: warning: {}\n", remark);
 }
 
 Results simulate_scene(const LoadedScene& scene, const ProgressHook& progress) {

@@ -35,6 +35,9 @@ struct LoadedScene {
 LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
                        int threads = 1);
 
+// what the user should know of the files that the scene names, on stderr
+void tell_remarks(const Scene& scene);
+
 using ProgressHook = std::function<void(const ProgressReport&)>;
 
 // in memory, from begin to end

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "text/plain_text.hpp"
 
@@ -82,6 +85,44 @@ std::vector<CsvCell> cells_of(std::string_view line, int number, std::size_t mos
   }
 }
 
+// letters and digits alone, so that "Dip dir." is dipdir
+std::string plain_name(std::string_view name) {
+  std::string plain;
+  for (const unsigned char c : name)
+    if (std::isalnum(c)) plain += static_cast<char>(std::tolower(c));
+  return plain;
+}
+
+// insertions, removals and exchanges of letters between two names (Levenshtein)
+std::size_t edits_between(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j)
+      diagonal = std::exchange(
+          row[j + 1], std::min({row[j + 1] + 1, row[j] + 1, diagonal + static_cast<std::size_t>(a[i] != b[j])}));
+  }
+  return row.back();
+}
+
+// the column that a foreign name most likely stands for: by its usual names, without its unit, within two slips
+std::string meant_column(const std::string& name, const std::vector<std::string>& columns,
+                         const std::map<std::string, std::string>& usual) {
+  constexpr std::size_t most_edits = 2, shortest = 4;  // in a name of so many letters
+  const std::string plain = plain_name(name);
+  const auto holds = [&](const std::string& column) {
+    return std::find(columns.begin(), columns.end(), column) != columns.end();
+  };
+  if (const auto at = usual.find(plain); at != usual.end() && holds(at->second)) return at->second;
+  for (const std::string& column : columns)
+    if (plain == plain_name(column) || plain == plain_name(column.substr(0, column.rfind('_')))) return column;
+  for (std::size_t edits = 1; edits <= most_edits && plain.size() >= shortest; ++edits)
+    for (const std::string& column : columns)
+      if (edits_between(plain, plain_name(column)) == edits) return column;
+  return {};
+}
+
 constexpr const char* comment_line = "a comment; a table has a header and rows and nothing else: remove this line";
 
 bool is_comment(std::string_view line) {
@@ -91,6 +132,11 @@ bool is_comment(std::string_view line) {
 // what other programs write for a header, named by what it is
 void refuse_other_headers(std::string_view line, int number) {
   if (is_comment(line)) throw FileFault(number, 0, comment_line);
+  if (line.starts_with("sep="))
+    throw FileFault(number, 0,
+                    shown(line) +
+                        " is a word to a spreadsheet and no header: remove this line; columns are separated by "
+                        "commas here");
   for (const auto& [separator, word] : {std::pair{';', "semicolons"}, {'\t', "tabs"}})
     if (line.find(',') == std::string_view::npos && line.find(separator) != std::string_view::npos)
       throw FileFault(number, static_cast<int>(line.find(separator)) + 1,
@@ -118,7 +164,7 @@ std::string csv_cell(const std::string& text) {
   std::string cell = printable(text);
   const std::string_view rest = behind_apostrophes(cell);
   if (begins_formula(rest) && (rest.size() < cell.size() || !is_number(cell))) cell.insert(cell.begin(), '\'');
-  if (cell.find_first_of(",;\"") == std::string::npos && cell == trimmed(cell)) return cell;
+  if (cell.find_first_of(",;#") == std::string::npos && !cell.starts_with('"') && cell == trimmed(cell)) return cell;
   std::string quoted = "\"";
   for (const char character : cell)
     quoted += character == '"' ? std::string("\"\"") : std::string(1, character);
@@ -197,16 +243,20 @@ std::optional<std::size_t> CsvTable::find(std::string_view name) const {
   return place_of(header, name);
 }
 
-void CsvTable::check_header(const std::vector<std::string>& required, const std::vector<std::string>& optional) const {
+void CsvTable::check_header(const std::vector<std::string>& required, const std::vector<std::string>& optional,
+                            const std::map<std::string, std::string>& usual) const {
+  std::vector<std::string> columns = required;
+  columns.insert(columns.end(), optional.begin(), optional.end());
   const auto holds = [](const std::vector<std::string>& words, const std::string& word) {
     return std::find(words.begin(), words.end(), word) != words.end();
   };
   for (const CsvCell& cell : header)
-    if (!holds(required, cell.text) && !holds(optional, cell.text))
-      throw FileFault(header_line, cell.column,
-                      "no such column as " + shown(cell.text) +
-                          fmt::format("; there are {} and, where needed, {}", fmt::join(required, ", "),
-                                      fmt::join(optional, ", ")));
+    if (const std::string meant = meant_column(cell.text, columns, usual);
+        !holds(required, cell.text) && !holds(optional, cell.text))
+      throw FileFault(
+          header_line, cell.column,
+          "no such column as " + shown(cell.text) + (meant.empty() ? ";" : fmt::format("; did you mean {}?", meant)) +
+              fmt::format(" there are {} and, where needed, {}", fmt::join(required, ", "), fmt::join(optional, ", ")));
   for (const std::string& name : required)
     if (!find(name))
       throw FileFault(header_line, 0,

@@ -3,8 +3,13 @@
 // A row is one line: a quoted cell may hold commas and doubled quotes, but no line break. A text that a spreadsheet
 // would compute, because it begins with = + - or @ and is no number, is written behind an apostrophe, which the reader
 // takes off again; so every text comes back as it was.
+//
+// What else reads these tables: to gnuplot and numpy.loadtxt (quotechar='"') a # outside of quotes begins a comment, so
+// a text that holds one is quoted; gnuplot knows no doubled quotes, so a text is not quoted because of quotes within
+// it.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,8 +67,10 @@ struct CsvTable {
   // place of a column, or nothing
   std::optional<std::size_t> find(std::string_view name) const;
 
-  // Refuses a header that lacks a column that must be there, or has one that is not known.
-  void check_header(const std::vector<std::string>& required, const std::vector<std::string>& optional) const;
+  // Refuses a header that lacks a column that must be there, or has one that is not known. `usual` are names that other
+  // programs give to columns: letters and digits in lower case, and the column.
+  void check_header(const std::vector<std::string>& required, const std::vector<std::string>& optional,
+                    const std::map<std::string, std::string>& usual = {}) const;
 
   // a cell's text, empty where the table has no such column
   std::string text(const CsvRow& row, std::string_view column) const;

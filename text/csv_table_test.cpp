@@ -53,9 +53,10 @@ TEST(CsvTable, TellsWhereItIsMalformed) {
 }
 
 TEST(CsvTable, EveryTextComesBack) {
-  const std::vector<std::string> texts{"plain", "a,b",   "say \"so\"", "",   " blanks ", "Süd; Nord", "'quoted'",
-                                       "=1+1",  "'=1+1", "''=x",       "+x", "-45 deg",  "@SUM(A1)",  "-",
-                                       "'-5",   "-5",    "+3.5e2",     "'",  "'a",       "\"=1\"",    "1e999"};
+  const std::vector<std::string> texts{
+      "plain", "a,b",    "say \"so\"", "",         " blanks ",  "Süd; Nord", "'quoted'",  "=1+1",   "'=1+1",
+      "''=x",  "+x",     "-45 deg",    "@SUM(A1)", "-",         "'-5",       "-5",        "+3.5e2", "'",
+      "'a",    "\"=1\"", "1e999",      "#a",       "a # \"b\"", "\"",        "# \"a\", b"};
   std::string header;
   for (std::size_t k = 0; k < texts.size(); ++k)
     header += (k > 0 ? ",c" : "c") + std::to_string(k);
@@ -75,6 +76,15 @@ TEST(CsvTable, NoCellIsAFormula) {
   EXPECT_EQ(csv_cell(-0.5), "-0.5");
   EXPECT_EQ(csv_cell(std::numeric_limits<double>::quiet_NaN()), "");
   EXPECT_EQ(csv_cell(std::optional<double>()), "");
+}
+
+// gnuplot and numpy: a # outside of quotes begins a comment, doubled quotes within quotes are not known to gnuplot
+TEST(CsvTable, OtherReadersFindEveryCell) {
+  EXPECT_EQ(csv_cell(std::string("#rock")), "\"#rock\"");
+  EXPECT_EQ(csv_cell(std::string("rock #2")), "\"rock #2\"");
+  EXPECT_EQ(csv_cell(std::string("'rock")), "'rock");
+  EXPECT_EQ(csv_cell(std::string("say \"so\"")), "say \"so\"");
+  EXPECT_EQ(csv_cell(std::string("\"so\"")), "\"\"\"so\"\"\"");
 }
 
 TEST(CsvTable, ACellIsOneLineOfPlainText) {

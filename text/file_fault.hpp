@@ -14,4 +14,10 @@ struct FileFault : std::runtime_error {
   int line, column;
 };
 
+// What the user should know about a file that is read: one line.
+struct FileRemark {
+  int line = 0;  // 0: of the whole file
+  std::string text;
+};
+
 }  // namespace voussoir

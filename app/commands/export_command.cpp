@@ -12,6 +12,7 @@ namespace voussoir {
 
 ExitCode export_command(const ExportArguments& arguments) {
   const LoadedScene loaded = load_scene(arguments.scene.scene, arguments.scene.overrides);
+  tell_remarks(*loaded.stated);
   if (loaded.dimension == 2)
     throw BadInput("3DEC and YADE know blocks in space but the scene has dimension = 2; export a scene in space");
   const bool three_dec = arguments.format == "3dec";

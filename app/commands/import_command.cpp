@@ -11,6 +11,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/svg_figure.hpp"
 #include "app/import/formats.hpp"
+#include "app/message.hpp"
 #include "app/orientation.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/scene/scene_text.hpp"
@@ -48,26 +49,57 @@ std::string line_text(int line) {
   return line > 0 ? fmt::format("line {}", line) : "";
 }
 
+struct LowAndHigh {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+
+  void take(double from, double to) {
+    low = std::min(low, from);
+    high = std::max(high, to);
+  }
+};
+
+LowAndHigh extent_along(const ImportedJoints& found, int k) {
+  LowAndHigh extent;
+  for (const JointRow& joint : found.joints) {
+    double reach = 0;
+    if (found.dimension == 2) reach = joint.extents[0] / 2 * std::abs(joint.normal[1 - k]);
+    if (joint.shape == OutlineForm::ellipse) {
+      const PlaneAxes<3> axes = plane_axes(Vector<3>(joint.normal.data()));
+      reach = std::hypot(axes(k, 0) * joint.extents[0], axes(k, 1) * joint.extents[1]) / 2;
+    }
+    extent.take(joint.point[k] - reach, joint.point[k] + reach);
+    for (const std::vector<double>& corner : joint.corners)
+      extent.take(corner[k], corner[k]);
+  }
+  return extent;
+}
+
+// What fitting a plane leaves of 0 prints as 0: a number below the rounding of the file's largest coordinate.
+struct Rounded {
+  double largest = 0;  // m
+
+  double operator()(double x) const {
+    constexpr double rounding = 1e-12;
+    return std::abs(x) > rounding * largest ? x : 0.0;
+  }
+};
+
+Rounded rounded_in(const ImportedJoints& found) {
+  Rounded rounded;
+  for (int k = 0; k < found.dimension; ++k) {
+    const LowAndHigh extent = extent_along(found, k);
+    rounded.largest = std::max({rounded.largest, std::abs(extent.low), std::abs(extent.high)});
+  }
+  return rounded;
+}
+
 std::string box_text(const ImportedJoints& found) {
+  const Rounded rounded = rounded_in(found);
   std::string text = "box:";
   for (int k = 0; k < found.dimension; ++k) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    const auto take = [&](double from, double to) {
-      low = std::min(low, from);
-      high = std::max(high, to);
-    };
-    for (const JointRow& joint : found.joints) {
-      double reach = 0;
-      if (found.dimension == 2) reach = joint.extents[0] / 2 * std::abs(joint.normal[1 - k]);
-      if (joint.shape == OutlineForm::ellipse) {
-        const PlaneAxes<3> axes = plane_axes(Vector<3>(joint.normal.data()));
-        reach = std::hypot(axes(k, 0) * joint.extents[0], axes(k, 1) * joint.extents[1]) / 2;
-      }
-      take(joint.point[k] - reach, joint.point[k] + reach);
-      for (const std::vector<double>& corner : joint.corners)
-        take(corner[k], corner[k]);
-    }
-    text += fmt::format("{} {} {:.9g} to {:.9g}", k == 0 ? "" : ",", "xyz"[k], low, high);
+    const LowAndHigh extent = extent_along(found, k);
+    text +=
+        fmt::format("{} {} {:.9g} to {:.9g}", k == 0 ? "" : ",", "xyz"[k], rounded(extent.low), rounded(extent.high));
   }
   return text + " m\n";
 }
@@ -76,7 +108,8 @@ std::string out_of_plane_text(const ImportedJoints& found) {
   const auto worst = std::max_element(found.out_of_plane.begin(), found.out_of_plane.end());
   if (!worst->has_value()) return "";
   const JointRow& joint = found.joints[worst - found.out_of_plane.begin()];
-  return fmt::format("out of plane: at most {:.3g} m ({}, {})\n", **worst, joint.name, line_text(joint.line));
+  return fmt::format("out of plane: at most {:.3g} m ({}, {})\n", rounded_in(found)(**worst), joint.name,
+                     line_text(joint.line));
 }
 
 std::string dropped_text(const ImportedJoints& found) {
@@ -155,6 +188,8 @@ ExitCode import_command(const ImportArguments& arguments) {
     report += remark + "\n";
   fmt::print("{}{}table: {}\n", report, sets_text(found), out.string());
   if (in_space) fmt::print("stereonet: {}\n", figure.string());
+  for (const std::string& warning : found.warnings)
+    tell("voussoir: warning: {}: {}\n", printable(arguments.file.string()), warning);
   return ExitCode::done;
 }
 

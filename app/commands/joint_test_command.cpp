@@ -83,12 +83,22 @@ std::string table(const std::vector<JointTest>& tests) {
   return text;
 }
 
-// between apostrophes, where gnuplot knows no other character
+// A text of a gnuplot script. Between apostrophes it could not begin with one; between double quotes these characters
+// mean something else.
 std::string gnuplot_text(const std::string& text) {
-  std::string quoted;
+  std::string quoted = "\"";
   for (const char character : text)
-    quoted += character == '\'' ? std::string("''") : std::string(1, character);
-  return quoted;
+    quoted += std::string_view("\"\\`@").find(character) == std::string_view::npos
+                  ? std::string(1, character)
+                  : fmt::format("\\{:03o}", static_cast<int>(character));
+  return quoted + "\"";
+}
+
+// Columns that gnuplot finds in the first cell of a row: it takes the second quote for the end of the text, and a comma
+// behind it for the end of a column.
+std::ptrdiff_t columns_of(const std::string& cell) {
+  if (!cell.starts_with('"')) return 1;
+  return 1 + std::count(cell.begin() + static_cast<std::ptrdiff_t>(cell.find('"', 1)), cell.end(), ',');
 }
 
 std::string figure(const std::vector<JointTest>& tests, bool normal) {
@@ -99,10 +109,11 @@ std::string figure(const std::vector<JointTest>& tests, bool normal) {
                  : "set xlabel 'slip (mm)'\nset ylabel 'shear stress (MPa)'\nplot ";
   std::size_t row = 1;  // behind the header
   for (const JointTest& test : tests) {
-    text += fmt::format(
-        "{}'joint_test.csv' every ::{}::{} using (${} * {}):(${} * 1e-6) with lines lw 2 title '{}, {:g} MPa'",
-        &test == tests.data() ? "" : ", \\\n     ", row, row + test.points.size() - 1, normal ? 3 : 4,
-        normal ? "1e6" : "1e3", normal ? 5 : 6, gnuplot_text(test.name), test.stress * 1e-6);
+    const std::ptrdiff_t first = columns_of(csv_cell(test.name));
+    text += fmt::format("{}'joint_test.csv' every ::{}::{} using (${} * {}):(${} * 1e-6) with lines lw 2 title {}",
+                        &test == tests.data() ? "" : ", \\\n     ", row, row + test.points.size() - 1,
+                        first + (normal ? 2 : 3), normal ? "1e6" : "1e3", first + (normal ? 4 : 5),
+                        gnuplot_text(fmt::format("{}, {:g} MPa", test.name, test.stress * 1e-6)));
     row += test.points.size();
   }
   return text + "\n";

@@ -121,6 +121,7 @@ void write_blocks(const Prepared<Dim>& prepared, const SliceArguments& arguments
 ExitCode slice_command(const SliceArguments& arguments) {
   if (arguments.view) require_viewer();
   const LoadedScene loaded = load_scene(arguments.scene.scene, arguments.scene.overrides);
+  tell_remarks(*loaded.stated);
   if (loaded.dimension == 2 && (arguments.stl || arguments.obj))
     throw BadInput("--stl and --obj write blocks in space but the scene has dimension = 2; use --planes");
   const bool particles = std::visit([](const auto& prepared) { return prepared.model.particles; }, loaded.prepared);

@@ -24,9 +24,10 @@ std::string point_text(const Vector<3>& p) {
   return fmt::format("{},{},{}", p[0], p[1], p[2]);
 }
 
-// a name between quotes of the data file
+// a name between quotes of the data file; what stands before '=' in a group's name is its slot
 std::string quoted(std::string name) {
   std::ranges::replace(name, '\'', '_');
+  std::ranges::replace(name, '=', '_');
   return "'" + name + "'";
 }
 
@@ -54,9 +55,23 @@ std::string range_of(const Vector<3>& centroid, double within) {
   return text + "\n";
 }
 
+// what every contact has
+std::string elastic_friction(const JointProperties& p) {
+  return fmt::format("property stiffness-normal {} stiffness-shear {} friction {}", p.normal_stiffness,
+                     p.shear_stiffness, to_degrees(p.friction));
+}
+
 std::string properties_text(const JointProperties& p) {
-  return fmt::format("block contact property stiffness-normal {} stiffness-shear {} friction {} cohesion {} tension {}",
-                     p.normal_stiffness, p.shear_stiffness, to_degrees(p.friction), p.cohesion, p.tension);
+  return fmt::format("block contact {} cohesion {} tension {}", elastic_friction(p), p.cohesion, p.tension);
+}
+
+// Contacts that form later have the most common properties without their bond, as here. 3DEC has no stiffness of its
+// own for them, and in large strain does not cycle without.
+std::string later_contacts(const JointProperties& common) {
+  return fmt::format(
+      "; contacts that form later\nblock contact material-table default jmodel mohr\n"
+      "block contact material-table default {}\n",
+      elastic_friction(common));
 }
 
 double density(const Body<3>& body) {
@@ -94,7 +109,7 @@ std::string joints_text(const ExportedScene& scene, double within) {
   if (scene.properties.empty()) return "";
   const JointProperties& common = model.properties[scene.properties.front()];
   std::string text = "block contact generate-subcontacts\nblock contact jmodel assign mohr\n";
-  text += fmt::format("; {}\n{}\n", common.name, properties_text(common));
+  text += fmt::format("; {}\n{}\n", common.name, properties_text(common)) + later_contacts(common);
   for (const int j : scene.joints) {
     const Joint<3>& joint = model.joints[j];
     const JointProperties& own = model.properties[joint.properties];

@@ -4,8 +4,11 @@
 
 #include <charconv>
 #include <cmath>
+#include <numbers>
 
 #include "app/import/formats.hpp"
+#include "app/import/units.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
@@ -34,7 +37,37 @@ struct Entity {
   Vector<3> point(int code) const { return {number(code, 0), number(code + 10, 0), number(code + 20, 0)}; }
 };
 
-constexpr int polygon_mesh = 16, polyface_mesh = 64, in_space = 8;  // flags of a POLYLINE
+constexpr int closed = 1, polygon_mesh = 16, polyface_mesh = 64, in_space = 8;  // flags of a POLYLINE
+constexpr int frozen = 1;                                                       // flag of a LAYER
+constexpr int control_point = 16;                                               // flag of a VERTEX
+constexpr double chord_angle = 3 * degree;  // of an arc; a circle is 120 chords, 0.05 % smaller
+
+// a corner of a line in its own plane; `bulge` is the tangent of a quarter of the arc's angle to the next corner
+struct Corner {
+  Vector<3> place;
+  double bulge = 0;
+};
+
+// The corners, and of every arc points of its own, so that its chords are short. A line that is not closed has no arc
+// behind its last corner.
+std::vector<Vector<3>> with_arcs(const std::vector<Corner>& corners, bool is_closed) {
+  std::vector<Vector<3>> points;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Corner& from = corners[k];
+    points.push_back(from.place);
+    if (from.bulge == 0 || (k + 1 == corners.size() && !is_closed)) continue;
+    const Vector<3> along = corners[(k + 1) % corners.size()].place - from.place;
+    const Vector<3> left(-along[1], along[0], 0);
+    const double angle = 4 * std::atan(from.bulge);  // counter-clockwise
+    const int chords = static_cast<int>(std::ceil(std::abs(angle) / chord_angle));
+    for (int c = 1; c < chords; ++c) {
+      // the point at the angle t of the arc: half its chord's angle off the line between the ends
+      const double t = angle * c / chords, reach = std::sin(t / 2) / std::sin(angle / 2), off = (t - angle) / 2;
+      points.emplace_back(from.place + reach * (std::cos(off) * along + std::sin(off) * left));
+    }
+  }
+  return points;
+}
 
 // the axes of an entity drawn in a plane of its own, from that plane's normal (the arbitrary axis algorithm of DXF)
 Eigen::Matrix3d axes_of(const Entity& entity) {
@@ -52,20 +85,30 @@ Eigen::Matrix3d axes_of(const Entity& entity) {
 
 class DxfReader {
  public:
-  DxfReader(std::string_view text, const Vector<3>& shift) : lines_(text), shift_(shift) {}
+  DxfReader(std::string_view text, const Vector<3>& shift) : lines_(text), place_(shift) {}
 
   ImportedJoints read() {
     while (next_entity()) {
       if (entity_.kind == "EOF") break;
       if (entity_.kind == "SECTION") section_ = entity_.find(2) ? upper_case(entity_.find(2)->text) : "";
       if (entity_.kind == "SECTION" && section_ == "HEADER") unit();
+      if (section_ == "TABLES" && entity_.kind == "LAYER") layer();
       if (section_ == "ENTITIES" && entity_.kind != "a comment" && entity_.kind != "SECTION" &&
           entity_.kind != "ENDSEC")
         entity();
       if (entity_.kind == "ENDSEC") section_.clear();
     }
     if (entity_.kind != "EOF") throw FileFault(lines_.number(), 0, "the file ends without EOF; is it cut off?");
-    if (arcs_ > 0) joints_.remark(fmt::format("{} arcs of polylines were taken as straight", arcs_));
+    place_.tell(joints_);
+    if (arcs_ > 0)
+      joints_.remark(fmt::format("{} arcs of polylines were taken as chords of at most {:g} degrees", arcs_,
+                                 to_degrees(chord_angle)));
+    if (heights_ > 0)
+      joints_.remark(fmt::format(
+          "{} vertices of flat polylines state heights of their own, by up to {:.6g} m beside the "
+          "polyline's elevation, which was taken (first: line {}); draw them as 3D polylines if the heights "
+          "are meant",
+          heights_, largest_height_, first_height_));
     return joints_.finish();
   }
 
@@ -105,24 +148,37 @@ class DxfReader {
     return true;
   }
   void unit() {
-    static constexpr int metres = 6, none = 0;
-    for (std::size_t k = 0; k + 1 < entity_.groups.size(); ++k) {
-      if (entity_.groups[k].code != 9 || entity_.groups[k].value.text != "$INSUNITS") continue;
-      const double number = number_of(entity_.groups[k + 1].value, "$INSUNITS");
-      if (number != metres && number != none)
-        joints_.remark(
-            fmt::format("the drawing says a unit other than m ($INSUNITS {:g}); its coordinates were taken as m, so "
-                        "look at the box",
-                        number));
-    }
+    for (std::size_t k = 0; k + 1 < entity_.groups.size(); ++k)
+      if (entity_.groups[k].code == 9 && entity_.groups[k].value.text == "$INSUNITS")
+        place_.drawing_unit(entity_.groups[k + 1].value);
+  }
+  // layers whose entities the drawing does not show
+  void layer() {
+    const Word* name = entity_.find(2);
+    if (!name) return;
+    if (entity_.flag(frozen))
+      hidden_layers_[upper_case(name->text)] = "is frozen";
+    else if (entity_.number(62, 0) < 0)
+      hidden_layers_[upper_case(name->text)] = "is switched off";
+  }
+  // why the drawing does not show the entity; empty where it does
+  std::string hidden() const {
+    if (entity_.number(67, 0) == 1) return "an entity of the paper space (67 = 1), which is no model";
+    if (entity_.number(60, 0) == 1) return "an entity that is invisible (60 = 1)";
+    const Word* name = entity_.find(8);
+    const auto at = hidden_layers_.find(name ? upper_case(name->text) : "0");
+    return at == hidden_layers_.end()
+               ? ""
+               : fmt::format("an entity on the layer {}, which {}", name ? shown(name->text) : "'0'", at->second);
   }
   JointSource origin() {
     const Word* layer = entity_.find(8);
     return {entity_.line, fmt::format("face-{}", ++count_), layer ? std::string(layer->text) : ""};
   }
   void entity() {
-    if (entity_.kind == "3DFACE") return face();
     if (entity_.kind == "POLYLINE") return polyline();
+    if (const std::string reason = hidden(); !reason.empty()) return joints_.drop(entity_.line, reason);
+    if (entity_.kind == "3DFACE") return face();
     if (entity_.kind == "LWPOLYLINE") return flat_polyline();
     const bool block = entity_.kind == "INSERT";
     joints_.drop(entity_.line,
@@ -139,63 +195,87 @@ class DxfReader {
       if (!there)
         throw FileFault(entity_.line, 0,
                         fmt::format("3DFACE lacks its corner {} ({}, {}); is a line lost?", code - 9, code, code + 10));
-      corners.push_back(entity_.point(code) + shift_);
+      corners.push_back(place_(entity_.point(code), entity_.line));
     }
     if (corners.size() == 4 && corners[3] == corners[2]) corners.pop_back();
     joints_.polygon(from, corners);
   }
   // its corners are VERTEX entities up to SEQEND
   void polyline() {
-    const JointSource from = origin();
     const Entity head = entity_;
+    const std::string reason = hidden();
+    const JointSource from = reason.empty() ? origin() : JointSource{};
     const bool drawn_flat = !head.flag(in_space);
-    const bool mesh = head.flag(polygon_mesh) || head.flag(polyface_mesh);
-    const Eigen::Matrix3d axes = drawn_flat ? axes_of(head) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-    std::vector<Vector<3>> corners;
+    std::vector<Corner> corners;
     while (true) {
       if (!next_entity() || (entity_.kind != "VERTEX" && entity_.kind != "SEQEND"))
         throw FileFault(
             lines_.number(), 0,
             fmt::format("the POLYLINE of line {} must go on with VERTEX or SEQEND; is it cut off?", head.line));
       if (entity_.kind == "SEQEND") break;
-      Vector<3> corner = entity_.point(10);
-      if (drawn_flat) corner[2] = head.number(30, 0);
-      if (entity_.number(42, 0) != 0) ++arcs_;
-      corners.emplace_back(axes * corner + shift_);
+      if (!reason.empty()) continue;
+      if (entity_.flag(control_point)) {
+        joints_.drop(entity_.line, "a control point of a spline (a VERTEX of flag 16), beside which its curve runs");
+        continue;
+      }
+      Corner corner{entity_.point(10), drawn_flat ? entity_.number(42, 0) : 0};
+      if (drawn_flat) corner.place[2] = elevation(head, corner.place[2]);
+      corners.push_back(corner);
     }
-    if (mesh) return joints_.drop(head.line, "a POLYLINE that is a mesh; explode it into 3DFACE in the drawing");
-    add(from, std::move(corners));
+    if (!reason.empty()) return joints_.drop(head.line, reason);
+    if (head.flag(polygon_mesh) || head.flag(polyface_mesh))
+      return joints_.drop(head.line, "a POLYLINE that is a mesh; explode it into 3DFACE in the drawing");
+    add(from, corners, head.flag(closed), drawn_flat ? axes_of(head) : Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+  }
+  // of a flat polyline, whose vertices have no height of their own
+  double elevation(const Entity& head, double height_of_vertex) {
+    const double height = head.number(30, 0), beside = std::abs(height_of_vertex - height);
+    if (beside > 0 && entity_.find(30)) {
+      if (heights_++ == 0) first_height_ = entity_.line;
+      largest_height_ = std::max(largest_height_, beside * place_.metres());
+    }
+    return height;
   }
   void flat_polyline() {
     const JointSource from = origin();
-    const Eigen::Matrix3d axes = axes_of(entity_);
     const double elevation = entity_.number(38, 0);
-    std::vector<Vector<3>> corners;
+    std::vector<Corner> corners;
     std::optional<double> x;
     for (const Group& group : entity_.groups) {
-      if (group.code == 42 && number_of(group.value, "group 42") != 0) ++arcs_;
+      if (group.code == 42 && !corners.empty()) corners.back().bulge = number_of(group.value, "group 42");
       if (group.code == 10) x = coordinate_of(group.value, "x");
       if (group.code != 20) continue;
       if (!x)
         throw FileFault(group.value.line, 0, "a corner of the LWPOLYLINE has y (20) without x (10); is a line lost?");
-      corners.emplace_back(axes * Vector<3>(*x, coordinate_of(group.value, "y"), elevation) + shift_);
+      corners.push_back({Vector<3>(*x, coordinate_of(group.value, "y"), elevation), 0});
       x.reset();
     }
-    add(from, std::move(corners));
+    add(from, corners, entity_.flag(closed), axes_of(entity_));
   }
-  // a closed line may state its first corner again
-  void add(const JointSource& from, std::vector<Vector<3>> corners) {
-    if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
-    joints_.polygon(from, corners);
+  // a closed line may state its first corner again, instead of being marked as closed
+  void add(const JointSource& from, std::vector<Corner> corners, bool is_closed, const Eigen::Matrix3d& axes) {
+    const bool returns = corners.size() > 1 && corners.front().place == corners.back().place;
+    if (!is_closed && !returns)
+      return joints_.drop(from.line, "a polyline that is open, a line and no face; close it if it bounds one");
+    if (returns) corners.pop_back();
+    for (const Corner& corner : corners)
+      arcs_ += corner.bulge != 0;
+    std::vector<Vector<3>> points;
+    for (const Vector<3>& point : with_arcs(corners, true))
+      points.push_back(place_(axes * point, from.line));
+    joints_.polygon(from, points);
   }
 
   LineReader lines_;
-  Vector<3> shift_;
+  FilePlacement place_;
+  std::map<std::string, std::string> hidden_layers_;  // by upper-case name: why
   Group group_;
   bool ahead_ = false;  // the group that begins the next entity is read
   Entity entity_;
   std::string section_;
-  long long count_ = 0, arcs_ = 0;
+  long long count_ = 0, arcs_ = 0, heights_ = 0;
+  double largest_height_ = 0;  // m
+  int first_height_ = 0;       // line
   JointCollector joints_{3};
 };
 

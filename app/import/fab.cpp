@@ -2,10 +2,12 @@
 // properties…", its corners "number x y z", and a line "0 nx ny nz" with the normal.
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <map>
 
 #include "app/import/formats.hpp"
+#include "app/import/units.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -15,7 +17,7 @@ constexpr double another_plane = 1 * degree;  // between a stated normal and the
 
 class FabReader {
  public:
-  FabReader(std::string_view text, const Vector<3>& shift) : lines_(text), shift_(shift) {}
+  FabReader(std::string_view text, const Vector<3>& shift) : lines_(text), place_(shift) {}
 
   ImportedJoints read() {
     while (next()) {
@@ -37,6 +39,7 @@ class FabReader {
     if (turned_ > 0)
       joints_.remark(
           fmt::format("{} stated normals are not those of their corners' planes, which were taken", turned_));
+    place_.tell(joints_);
     joints_.remark("FracMan cuts fractures at the faces of its region: ends there are not where the joints end");
     return joints_.finish();
   }
@@ -74,10 +77,23 @@ class FabReader {
     return static_cast<long long>(number);
   }
 
-  // key = value; nothing where the line has no value
+  // `key = value` with or without blanks, the key in upper case and the value without quotes; nothing where the line
+  // has no value
   std::optional<std::pair<std::string, Word>> assignment() const {
-    if (words_.size() < 3 || words_[1].text != "=") return std::nullopt;
-    return std::pair{upper_case(words_[0].text), words_[2]};
+    const std::string_view line = lines_.line();
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos) return std::nullopt;
+    constexpr std::string_view blanks = " \t";
+    const auto trimmed = [&](std::size_t from, std::size_t to, std::string_view edges) {
+      while (from < to && edges.find(line[from]) != std::string_view::npos)
+        ++from;
+      while (to > from && edges.find(line[to - 1]) != std::string_view::npos)
+        --to;
+      return Word{line.substr(from, to - from), lines_.number(), static_cast<int>(from) + 1};
+    };
+    const Word value = trimmed(equals + 1, line.size(), " \t\"");
+    if (value.text.empty()) return std::nullopt;
+    return std::pair{upper_case(trimmed(0, equals, blanks).text), value};
   }
   void format() {
     const auto stated = assignment();
@@ -87,28 +103,33 @@ class FabReader {
     if (key == "FORMAT" && word != "ASCII") refuse(value, "Format = " + shown(value.text) + ": export it as Ascii");
     if (key == "XAXIS" && word != "EAST")
       refuse(value, "XAxis = " + shown(value.text) + ": x is east here; export it with XAxis = East");
-    if (key == "LENGTH_UNIT" && word != "METER" && word != "METRE" && word != "M")
-      refuse(value, "Length_Unit = " + shown(value.text) + ": lengths are in m here; export it in Meter");
+    if (key == "LENGTH_UNIT" && read_ > 0) refuse(value, "Length_Unit must be stated before the fractures");
+    if (key == "LENGTH_UNIT") place_.named_unit(value, "Length_Unit");
     if (key != "NO_FRACTURES") return;
     stated_ = count(value, "No_Fractures");
     stated_line_ = value.line;
+  }
+  // the number of a set, a fracture or a corner may be written as a float
+  static std::string number_text(std::string_view text) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool whole = error == std::errc() && end == text.data() + text.size() && number == std::floor(number);
+    return whole ? fmt::format("{:.0f}", number) : std::string(text);
   }
   // Set1 = "a name"
   void set_name() {
     const auto stated = assignment();
     if (!stated || !stated->first.starts_with("SET")) return;
-    const std::string_view line = lines_.line();
-    const std::size_t open = line.find('"'), close = line.rfind('"');
-    if (open < close && close != std::string_view::npos)
-      sets_[stated->first.substr(3)] = line.substr(open + 1, close - open - 1);
+    const std::size_t number = stated->first.find_first_not_of(" \t", 3);
+    if (number != std::string::npos) sets_[number_text(stated->first.substr(number))] = stated->second.text;
   }
   Vector<3> point() const {
     return {coordinate_of(words_[1], "x"), coordinate_of(words_[2], "y"), coordinate_of(words_[3], "z")};
   }
   void fracture() {
     if (words_.size() < 3) refuse(words_[0], "a fracture begins with its number, its corners' number and its set");
-    const std::string set(words_[2].text);
-    const JointSource origin{words_[0].line, "fracture-" + std::string(words_[0].text),
+    const std::string set = number_text(words_[2].text);
+    const JointSource origin{words_[0].line, "fracture-" + number_text(words_[0].text),
                              sets_.contains(set) ? sets_[set] : "set-" + set};
     const long long corners = count(words_[1], "number of corners");
     std::vector<Vector<3>> loop;
@@ -117,10 +138,10 @@ class FabReader {
       if (count(words_[0], "number of the corner") != k + 1 && count(words_[0], "number of the corner") != k)
         refuse(words_[0],
                fmt::format("number of the corner = {}: must be {}; is a line missing?", shown(words_[0].text), k + 1));
-      loop.push_back(point() + shift_);
+      loop.push_back(place_(point(), words_[0].line));
     }
     need(4, "the normal of the fracture (0, x, y, z)");
-    if (words_[0].text != "0")
+    if (number_text(words_[0].text) != "0")
       refuse(words_[0], "the normal of the fracture must stand here, a line that begins with 0");
     const Vector<3> normal = point();
     ++read_;
@@ -138,7 +159,7 @@ class FabReader {
   }
 
   LineReader lines_;
-  Vector<3> shift_;
+  FilePlacement place_;
   std::vector<Word> words_;
   JointCollector joints_{3};
   std::map<std::string, std::string> sets_;

@@ -107,6 +107,8 @@ class FacetsReader {
     while (lines_.next() && lines_.line().find_first_not_of(" \t") == std::string_view::npos) {
     }
     const std::string_view line = lines_.line();
+    if (line.find("Strike,Dip,Dip_Dir,") != std::string_view::npos)
+      throw FileFault(std::max(1, lines_.number()), 0, planes_of_compass);
     if (line.find(';') == std::string_view::npos)
       throw FileFault(
           std::max(1, lines_.number()), 0,

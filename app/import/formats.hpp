@@ -1,5 +1,5 @@
-// The formats that joints are imported from. Every reader adds `shift` (m) to the coordinates of its file and throws
-// FileFault.
+// The formats that joints are imported from. Every reader takes the coordinates of its file to m, adds `shift` (m) and
+// throws FileFault.
 #pragma once
 
 #include <string_view>
@@ -16,7 +16,8 @@ ImportedJoints read_facets(std::string_view text, const Vector<3>& shift);
 // FracMan's fractures in ASCII (.fab): section FRACTURE; tessellated ones are dropped.
 ImportedJoints read_fab(std::string_view text, const Vector<3>& shift);
 
-// ASCII DXF: 3DFACE, POLYLINE and LWPOLYLINE of the section ENTITIES; the layer is the set.
+// ASCII DXF: 3DFACE and closed POLYLINE and LWPOLYLINE of the section ENTITIES that the drawing shows in its model;
+// arcs are chords, the layer is the set.
 ImportedJoints read_dxf(std::string_view text, const Vector<3>& shift);
 
 // GeoJSON in a plane: every stretch of a LineString or MultiLineString is a trace. The property `set` names its set.

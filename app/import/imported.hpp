@@ -24,8 +24,9 @@ struct ImportedJoints {
   std::vector<JointRow> joints;
   std::vector<std::optional<double>> out_of_plane;  // m, largest of a joint's corners; nothing where it states none
   std::vector<Dropped> dropped;
-  std::vector<std::string> remarks;  // one line each
-  long long work = 0;                // corners placed and names tried
+  std::vector<std::string> remarks;   // one line each
+  std::vector<std::string> warnings;  // likewise, of what may be read wrongly
+  long long work = 0;                 // corners placed and names tried
 };
 
 // where in the file a joint comes from
@@ -57,6 +58,7 @@ class JointCollector {
     found_.dropped.back().line = line;
   }
   void remark(const std::string& text) { found_.remarks.push_back(text); }
+  void warn(const std::string& text) { found_.warnings.push_back(text); }
   ImportedJoints finish();
 
  private:

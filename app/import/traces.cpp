@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "app/import/formats.hpp"
+#include "app/import/units.hpp"
 #include "core/floating_point_traps.hpp"
 
 namespace voussoir {
@@ -70,11 +72,25 @@ std::string type_of(const json& object) {
   return type && type->is_string() ? type->get<std::string>() : "";
 }
 
+// the text that names a reference system: {"properties": {"name": …}}, as links, or by number as files of 2008 do
+std::string name_of(const json& system) {
+  const json* properties = member(system, "properties");
+  for (const char* key : {"name", "href", "code"})
+    if (const json* value = properties ? member(*properties, key) : nullptr)
+      if (value->is_string() || value->is_number_integer()) {
+        const std::string text = value->is_string() ? value->get<std::string>() : value->dump();
+        return key == std::string_view("code") ? type_of(system) + ":" + text : text;
+      }
+  return system.dump(-1, ' ', true);
+}
+
 class TracesReader {
  public:
-  TracesReader(const Vector<3>& shift, const std::vector<int>& lines) : shift_(shift.head<2>()), lines_(lines) {}
+  TracesReader(const Vector<3>& shift, const std::vector<int>& lines) : place_(shift), lines_(lines) {}
 
   ImportedJoints read(const json& file) {
+    const json* system = member(file, "crs");
+    if (system) place_.reference_system(name_of(*system), 1);
     const std::string type = type_of(file);
     if (type == "FeatureCollection")
       collection(file);
@@ -82,7 +98,12 @@ class TracesReader {
       feature(file);
     else
       geometry(file, {1, "trace-1", ""});
-    reference_system(file);
+    if (bent_ > 0) joints_.remark(fmt::format("{} lines are bent: each of their stretches is a joint", bent_));
+    place_.tell(joints_);
+    if (!system && may_be_degrees_)
+      joints_.warn(
+          "the file names no reference system (crs), and all its coordinates are within 180 and 90, as longitude and "
+          "latitude are; if they are degrees, write the file in a projected system, in m");
     return joints_.finish();
   }
 
@@ -141,22 +162,14 @@ class TracesReader {
       p[k] = numbers[k].get<double>();
       refuse_far_coordinate(p[k], line_, 0);
     }
-    return p + shift_;
+    may_be_degrees_ = may_be_degrees_ && std::abs(p[0]) <= 180 && std::abs(p[1]) <= 90;
+    return place_({p[0], p[1], 0}, line_).head<2>();
   }
-  void reference_system(const json& file) {
-    if (bent_ > 0) joints_.remark(fmt::format("{} lines are bent: each of their stretches is a joint", bent_));
-    const json* system = member(file, "crs");
-    const std::string name = system ? system->dump(-1, ' ', true) : "";
-    if (name.find("CRS84") != std::string::npos || name.find("4326") != std::string::npos)
-      refuse("crs", "is longitude and latitude in degrees; write the file in a projected system, in m");
-    if (!system)
-      joints_.remark("the file names no reference system (crs): coordinates were taken as m, so look at the box");
-  }
-
-  Vector<2> shift_;
+  FilePlacement place_;
   const std::vector<int>& lines_;
   int line_ = 1;  // of the feature in hand
   long long count_ = 0, bent_ = 0;
+  bool may_be_degrees_ = true;  // every coordinate so far
   JointCollector joints_{2};
 };
 

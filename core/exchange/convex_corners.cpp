@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <numbers>
 
 #include "core/exchange/mesh.hpp"
+#include "text/text_scan.hpp"
 
 namespace voussoir {
 namespace {
@@ -11,6 +14,19 @@ namespace {
 // How far a corner may lie outside a facet's plane, over the mesh's extent: ten times what single precision leaves of
 // the coordinates of a block near the origin. A slender facet turns with that rounding by its extent over its height.
 constexpr double out_of_plane = 1e-6;
+
+// Of the spacing of the file's numbers, how far a corner may come to lie outside a facet by rounding: both it and the
+// facet's first corner are off by half the spacing along each axis, √3/2 of it in space, and the facet is turned by at
+// most twice √3 spacing over its height, over which the corner may lie as far as the mesh extends.
+constexpr double rounded_out = 3 * std::numbers::sqrt3;
+// of the mesh's extent: a coarser spacing is a matter of shape, and no reason to overlook what is not convex
+constexpr double largest_spacing = 2e-3;
+// a facet that rounding may turn by more (rad) says nothing
+constexpr double loose_facet = 0.1;
+// of the shortest edge: numbers that lie farther apart deserve a warning, in a text from so many digits on, as single
+// precision has them; people state fewer, and mean them exactly
+constexpr double noticed_spacing = 1e-3;
+constexpr int digits_of_floats = 6;
 
 std::string text(const Vector<3>& p) {
   return fmt::format("({:.9g}, {:.9g}, {:.9g})", p[0], p[1], p[2]);
@@ -83,6 +99,8 @@ double volume_times_six(const Mesh& mesh) {
 struct Side {
   Vector<3> normal = Vector<3>::Zero();  // zero: a sliver, which says nothing; its neighbours bound the solid
   double tolerance = 0;                  // m
+  double rounding = 0;                   // m, by the digits of the file alone
+  double turned = 0;                     // rad, by rounding at most
 };
 
 Side side_of(const Mesh& mesh, const Facet& facet, double extent, bool inside_out) {
@@ -91,9 +109,13 @@ Side side_of(const Mesh& mesh, const Facet& facet, double extent, bool inside_ou
     longest = std::max(longest, (mesh.points[facet.corners[k]] - mesh.points[facet.corners[0]]).norm());
   const Vector<3> area = area_vector(mesh, facet);
   const double length = area.norm(), height = length / longest;
-  if (!(height > out_of_plane * extent)) return {};
+  const double spacing = std::min(mesh.spacing, largest_spacing * extent);
+  const double turned = 2 * std::numbers::sqrt3 * spacing / height;
+  if (!(height > out_of_plane * extent) || turned > loose_facet) return {};
+  const double slender = std::max(1.0, extent / height);
   return {inside_out ? Vector<3>(-area / length) : Vector<3>(area / length),
-          out_of_plane * extent * std::max(1.0, extent / height)};
+          std::max(out_of_plane * extent, rounded_out * spacing) * slender, rounded_out * mesh.spacing * slender,
+          turned};
 }
 
 std::vector<Side> sides_of(const Mesh& mesh, double extent) {
@@ -106,35 +128,74 @@ std::vector<Side> sides_of(const Mesh& mesh, double extent) {
   return sides;
 }
 
-void check_convex(const Mesh& mesh, const std::vector<Side>& sides) {
+std::string stated_to(const Mesh& mesh) {
+  return mesh.digits > 0 ? fmt::format("its coordinates are stated to {:.3g} m", mesh.spacing)
+                         : fmt::format("its numbers of single precision are {:.3g} m apart", mesh.spacing);
+}
+
+// the farthest that a corner lies outside a facet, or beside the plane of its own, of what passes as rounding, m
+double check_convex(const Mesh& mesh, const std::vector<Side>& sides, double extent) {
+  double farthest = 0;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f)
     for (const Facet& other : mesh.facets)
       for (const int corner : other.corners) {
         const double outside = sides[f].normal.dot(mesh.points[corner] - mesh.points[mesh.facets[f].corners[0]]);
         if (outside > sides[f].tolerance)
-          throw FileFault(other.line, 0,
-                          fmt::format("the block is not convex: its corner {} lies {:.3g} m outside {}; split it into "
-                                      "convex blocks, with part_of for one body",
-                                      text(mesh.points[corner]), outside, place(mesh, f)));
+          throw FileFault(
+              other.line, 0,
+              fmt::format("the block is not convex: its corner {} lies {:.3g} m outside {}; {}split it into convex "
+                          "blocks, with part_of for one body",
+                          text(mesh.points[corner]), outside, place(mesh, f),
+                          outside > sides[f].rounding
+                              ? ""
+                              : stated_to(mesh) + ", which may be why: write them with more digits, or "));
+        const double beside = &other == &mesh.facets[f] ? std::abs(outside) : outside;
+        if (beside > out_of_plane * extent) farthest = std::max(farthest, beside);
       }
+  return farthest;
 }
 
 // the facets at a corner span space; on an edge they span a plane, within a face a line
-bool is_corner(const std::vector<Vector<3>>& around) {
-  constexpr double parallel = 1e-5;  // sine of the least angle between faces that are two
-  for (const Vector<3>& a : around)
-    for (const Vector<3>& b : around) {
-      const Vector<3> edge = a.cross(b);
+bool is_corner(const std::vector<const Side*>& around) {
+  double parallel = 1e-5;  // sine of the least angle between faces that are two
+  for (const Side* side : around)
+    parallel = std::max(parallel, 2 * side->turned);
+  for (const Side* a : around)
+    for (const Side* b : around) {
+      const Vector<3> edge = a->normal.cross(b->normal);
       if (edge.norm() <= parallel) continue;
       return std::any_of(around.begin(), around.end(),
-                         [&](const Vector<3>& c) { return std::abs(edge.normalized().dot(c)) > parallel; });
+                         [&](const Side* c) { return std::abs(edge.normalized().dot(c->normal)) > parallel; });
     }
   return false;
 }
 
+// what the rounding of its coordinates does to the block
+void remark_rounding(const Mesh& mesh, double farthest, std::vector<FileRemark>& remarks) {
+  const std::string name = mesh.name.empty() ? "the block" : "block " + shown(mesh.name);
+  if (farthest > 0)
+    remarks.push_back(
+        {mesh.line,
+         fmt::format("{}: corners lie up to {:.3g} m beside the planes of its facets, within the rounding of "
+                     "a file in which {}: its convex hull was taken",
+                     name, farthest, stated_to(mesh))});
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Facet& facet : mesh.facets)
+    for (std::size_t k = 0; k < facet.corners.size(); ++k)
+      shortest =
+          std::min(shortest,
+                   (mesh.points[facet.corners[(k + 1) % facet.corners.size()]] - mesh.points[facet.corners[k]]).norm());
+  if (mesh.spacing > noticed_spacing * shortest && (mesh.digits == 0 || mesh.digits >= digits_of_floats))
+    remarks.push_back(
+        {mesh.line,
+         fmt::format("{}: {}, its shortest edge is {:.3g} m: its shape and volume are off by as much; move it near the "
+                     "origin before it is written, or write OBJ with more digits",
+                     name, stated_to(mesh), shortest)});
+}
+
 }  // namespace
 
-std::vector<Vector<3>> convex_corners(const Mesh& mesh) {
+std::vector<Vector<3>> convex_corners(const Mesh& mesh, std::vector<FileRemark>* remarks) {
   constexpr std::size_t fewest_facets = 4;
   if (mesh.facets.size() < fewest_facets)
     throw FileFault(mesh.line, 0, fmt::format("has {} facets; a solid has at least 4", mesh.facets.size()));
@@ -144,12 +205,13 @@ std::vector<Vector<3>> convex_corners(const Mesh& mesh) {
   for (const Facet& facet : mesh.facets)
     extent = std::max(extent, (mesh.points[facet.corners[0]] - mesh.points[mesh.facets[0].corners[0]]).norm());
   const std::vector<Side> sides = sides_of(mesh, extent);
-  check_convex(mesh, sides);
+  const double farthest = check_convex(mesh, sides, extent);
+  if (remarks) remark_rounding(mesh, farthest, *remarks);
 
-  std::vector<std::vector<Vector<3>>> around(mesh.points.size());
+  std::vector<std::vector<const Side*>> around(mesh.points.size());
   for (std::size_t f = 0; f < mesh.facets.size(); ++f)
     for (const int corner : mesh.facets[f].corners)
-      if (!sides[f].normal.isZero()) around[corner].push_back(sides[f].normal);
+      if (!sides[f].normal.isZero()) around[corner].push_back(&sides[f]);
   std::vector<Vector<3>> corners;
   for (std::size_t i = 0; i < around.size(); ++i)
     if (is_corner(around[i])) corners.push_back(mesh.points[i]);

@@ -1,12 +1,17 @@
 // Tables and surfaces: what is written comes back, what is malformed is reported with its place.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "core/exchange/mesh.hpp"
 #include "core/exchange/tables.hpp"
 #include "core/floating_point_traps.hpp"
+#include "core/geometry/half_space.hpp"
+#include "core/slicing/block.hpp"
 #include "core/testing/shapes.hpp"
+#include "text/angle.hpp"
 #include "text/file_fault.hpp"
 
 namespace voussoir {
@@ -86,6 +91,67 @@ TEST(JointTable, ReturnsJointsExactly) {
     EXPECT_EQ(back[i].corners, rows[i].corners);
   }
   EXPECT_EQ(joint_table(back, 3), text);
+}
+
+// what field books, spreadsheets and other programs write for a header
+TEST(JointTable, NamesTheColumnThatIsMeant) {
+  const std::pair<const char*, const char*> meant[] = {{"Dip", "dip_deg"},
+                                                       {"dip", "dip_deg"},
+                                                       {"DIP_DEG", "dip_deg"},
+                                                       {"ID", "name"},
+                                                       {"Id", "name"},
+                                                       {"Name", "name"},
+                                                       {"DipDir", "dip_direction_deg"},
+                                                       {"Dip_Direction", "dip_direction_deg"},
+                                                       {"Azimuth", "dip_direction_deg"},
+                                                       {"X", "x_m"},
+                                                       {"Easting", "x_m"},
+                                                       {"z", "z_m"},
+                                                       {"Strike", "strike_deg"},
+                                                       {"strike_dge", "strike_deg"},
+                                                       {"Length", "length_m"},
+                                                       {"lenght_m", "length_m"},
+                                                       {"Set", "set"},
+                                                       {"Nx", "normal_x"}};
+  for (const auto& [stated, column] : meant)
+    expect_fault([&] { read_joint_table(fmt::format("{},b,c\n1,2,3\n", stated), 3); }, 1, 1,
+                 fmt::format("no such column as '{}'; did you mean {}?", stated, column));
+  expect_fault([] { read_joint_table("colour,x_m,y_m,z_m\n", 3); }, 1, 1, "no such column as 'colour'; there are");
+  expect_fault([] { read_joint_table("Strike,x_m,y_m\n", 2); }, 1, 1, "no such column as 'Strike'; there are");
+  expect_fault([] { read_joint_table("sep=,\nname,x_m,y_m,z_m,dip_deg\n", 3); }, 1, 0, "remove this line");
+  expect_fault(
+      [] {
+        read_joint_table(
+            "Name,Strike,Dip,Dip_Dir,Cx,Cy,Cz,Nx,Ny,Nz,Sample_Radius,RMS,Gx,Gy,Gz,Length\n"
+            "Plane,30,40,120,1,2,3,0,0,1,1,0.1,1,2,3,-1\n",
+            3);
+      },
+      1, 0, "rename its columns Name, Dip, Dip_Dir, Cx, Cy, Cz");
+}
+
+// the plane that holds the strike's horizontal line and dips to the right of it
+TEST(JointTable, StrikeIsReadByTheRightHandRule) {
+  shapes::Random random(15);
+  for (int i = 0; i < 200; ++i) {
+    const double strike = i < 5 ? 90 * i : shapes::uniform(random, 0, 360), dip = shapes::uniform(random, 1, 89);
+    std::vector<FileRemark> remarks;
+    const std::vector<JointRow> rows =
+        read_joint_table(fmt::format("strike_deg,dip_deg,x_m,y_m,z_m\n{},{},0,0,0\n", strike, dip), 3, &remarks);
+    const Vector<3> along(std::sin(strike * degree), std::cos(strike * degree), 0);  // x east, y north
+    const Vector<3> right(std::cos(strike * degree), -std::sin(strike * degree), 0);
+    const Vector<3> down = std::cos(dip * degree) * right - std::sin(dip * degree) * Vector<3>::UnitZ();
+    const Vector<3> normal = upward_normal_3d(*rows[0].dip_deg * degree, *rows[0].dip_direction_deg * degree);
+    EXPECT_NEAR(normal.dot(along), 0, 1e-14);
+    EXPECT_NEAR(normal.dot(down), 0, 1e-14);
+    EXPECT_GE(*rows[0].dip_direction_deg, 0);
+    EXPECT_LE(*rows[0].dip_direction_deg, 360);
+    ASSERT_EQ(remarks.size(), 1u);
+    EXPECT_NE(remarks[0].text.find("right-hand rule: dip direction = strike + 90 degrees"), std::string::npos);
+  }
+  const std::string head = "strike_deg,dip_deg,dip_direction_deg,x_m,y_m,z_m\n";
+  expect_fault([&] { read_joint_table(head + "10,20,100,0,0,0\n", 3); }, 2, 1, "states dip_direction_deg too");
+  expect_fault([&] { read_joint_table(head + "361,20,,0,0,0\n", 3); }, 2, 1, "must be from 0 to 360");
+  EXPECT_EQ(*read_joint_table(head + ",20,100,0,0,0\n", 3)[0].dip_direction_deg, 100);
 }
 
 TEST(PlaneTable, ReturnsPlanesExactly) {
@@ -190,6 +256,117 @@ TEST(Mesh, RefusesWhatIsNoConvexSolid) {
       13, "the block is not convex");
 }
 
+// a box of three edges, turned at random, about a point
+Mesh turned_box(shapes::Random& random, const Vector<3>& edges, const Vector<3>& about) {
+  const Vector<3> x = shapes::direction<3>(random), z = x.cross(shapes::direction<3>(random)).normalized();
+  Eigen::Matrix3d axes;
+  axes << x, z.cross(x), z;
+  Mesh mesh = mesh_of(shapes::cube<3>(1), Vector<3>::Zero());
+  double extent = 0;
+  for (Vector<3>& p : mesh.points)
+    extent = std::max(extent, p.cwiseAbs().maxCoeff());
+  for (Vector<3>& p : mesh.points)
+    p = about + axes * (p / (2 * extent)).cwiseProduct(edges);
+  return mesh;
+}
+
+std::string written(const Mesh& mesh, int decimals, bool trimmed) {
+  std::string text = "o " + mesh.name + "\n";
+  for (const Vector<3>& p : mesh.points) {
+    text += "v";
+    for (const double x : p) {
+      std::string number = fmt::format("{:.{}f}", x, decimals);
+      if (trimmed) number = number.substr(0, number.find_last_not_of('0') + 1);
+      text += " " + number + (number.ends_with('.') ? "0" : "");
+    }
+    text += "\n";
+  }
+  for (const Facet& facet : mesh.facets) {
+    text += "f";
+    for (const int corner : facet.corners)
+      text += fmt::format(" {}", corner + 1);
+    text += "\n";
+  }
+  return text;
+}
+
+// whether the corners of every facet lie in a plane as they are written: by their volume in whole units
+bool all_planes(const Mesh& mesh, int decimals) {
+  const auto corner = [&](const Facet& facet, std::size_t k) {
+    return Vector<3>((mesh.points[facet.corners[k]] * std::pow(10.0, decimals)).array().round());
+  };
+  return std::all_of(mesh.facets.begin(), mesh.facets.end(), [&](const Facet& facet) {
+    const Vector<3> a = corner(facet, 1) - corner(facet, 0), b = corner(facet, 2) - corner(facet, 0),
+                    c = corner(facet, 3) - corner(facet, 0);
+    return a.dot(b.cross(c)) == 0;
+  });
+}
+
+double hull_volume(const std::vector<Vector<3>>& corners) {
+  return shapes::block<3>(hull_planes<3>(corners)).mass.volume;
+}
+
+// Boxes turned in space, with few decimals: their faces are no planes, and the hull is the box within that rounding.
+TEST(Mesh, RoundedCornersMakeTheirConvexHull) {
+  shapes::Random random(16);
+  for (int i = 0; i < 300; ++i) {
+    const int decimals = 3 + i % 3;
+    const Vector<3> edges(shapes::uniform(random, 0.5, 2), shapes::uniform(random, 0.5, 2),
+                          shapes::uniform(random, 0.5, 2));
+    const Mesh mesh = turned_box(random, edges, (i % 4) * 10 * shapes::direction<3>(random));
+    std::vector<FileRemark> remarks;
+    std::vector<Vector<3>> corners;
+    ASSERT_NO_THROW(corners = convex_corners(read_obj(written(mesh, decimals, i % 2)).front(), &remarks)) << i;
+    EXPECT_EQ(corners.size(), 8u);
+    const double unit = std::pow(10.0, -decimals),
+                 area = 2 * (edges[0] * edges[1] + edges[1] * edges[2] + edges[2] * edges[0]);
+    EXPECT_NEAR(hull_volume(corners), edges.prod(), area * unit);  // √3/2 of it, and twice that between hull and box
+    for (const FileRemark& remark : remarks)
+      EXPECT_NE(remark.text.find("its convex hull was taken"), std::string::npos) << remark.text;
+    // of five decimals the rounding may lie below what single precision leaves
+    if (decimals < 5) {
+      EXPECT_EQ(remarks.empty(), all_planes(mesh, decimals)) << i;
+    }
+  }
+  std::vector<FileRemark> remarks;
+  EXPECT_EQ(convex_corners(read_obj("o c\nv 0.0000 0.0000 0.0000\nv 0.3469 0.6816 -0.6442\nv -0.4181 1.2846 -0.4182\n"
+                                    "v -0.7650 0.6030 0.2260\nv 0.5425 0.4144 0.7307\nv 0.8895 1.0961 0.0865\n"
+                                    "v 0.1244 1.6991 0.3125\nv -0.2225 1.0174 0.9567\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\n"
+                                    "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")
+                               .front(),
+                           &remarks)
+                .size(),
+            8u);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_NE(remarks[0].text.find("stated to 0.0001 m: its convex hull was taken"), std::string::npos)
+      << remarks[0].text;
+}
+
+// A point within the top of a box, up or down by a multiple of what the file rounds to. Down by less than rounding it
+// is no corner, by far more the block is not convex, with few digits and with many.
+TEST(Mesh, ADentDeeperThanTheDigitsIsNotConvex) {
+  const auto dented = [](double height, int decimals) {
+    std::string text;
+    for (const Vector<3>& p :
+         {Vector<3>(0, 0, 0), Vector<3>(1, 0, 0), Vector<3>(1, 1, 0), Vector<3>(0, 1, 0), Vector<3>(0, 0, 1),
+          Vector<3>(1, 0, 1), Vector<3>(1, 1, 1), Vector<3>(0, 1, 1), Vector<3>(0.5123456789, 0.4987654321, height)})
+      text += fmt::format("v {1:.{0}f} {2:.{0}f} {3:.{0}f}\n", decimals, p[0], p[1], p[2]);
+    return read_obj(text +
+                    "f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 9\nf 6 7 9\nf 7 8 9\nf 8 5 9\n")
+        .front();
+  };
+  for (const int decimals : {3, 4, 5, 9}) {
+    const double unit = std::pow(10.0, -decimals);
+    std::vector<FileRemark> remarks;
+    EXPECT_EQ(convex_corners(dented(1, decimals), &remarks).size(), 8u) << decimals;
+    EXPECT_TRUE(remarks.empty()) << decimals;
+    EXPECT_EQ(convex_corners(dented(1 - unit, decimals), &remarks).size(), 8u) << decimals;
+    const double deep = std::max(1e-5, 20 * unit);
+    expect_fault([&] { convex_corners(dented(1 - deep, decimals)); }, 12, 0, "the block is not convex");
+    EXPECT_EQ(convex_corners(dented(1 + 10 * deep, decimals)).size(), 9u) << decimals;
+  }
+}
+
 TEST(Obj, TellsWhereItIsMalformed) {
   const auto fault = [](const std::string& obj, int line, int column, const std::string& part) {
     expect_fault([&] { read_obj(obj); }, line, column, part);
@@ -259,6 +436,63 @@ TEST(Stl, ReadsBinaryFiles) {
   std::memset(bytes.data() + 84 + 12, 0xff, 4);
   const WithoutTraps comparing_nan;
   expect_fault([&] { read_stl(bytes); }, 0, 0, "facet 1: a coordinate is not finite");
+}
+
+// Far from the origin floats lie far apart: a block is told of from a thousandth of its shortest edge on, in binary
+// files and in texts of as few digits, or refused, which is a word too.
+TEST(Stl, ALossOfDigitsFarFromTheOriginIsTold) {
+  shapes::Random random(17);
+  for (int i = 0; i < 200; ++i) {
+    const double edge = shapes::uniform(random, 0.3, 3);
+    const Vector<3> about = shapes::power_of_ten(random, 0, 8) * shapes::direction<3>(random);
+    const Mesh box = turned_box(random, Vector<3>::Constant(edge), about);
+    double largest = 0;
+    for (const Vector<3>& p : box.points)
+      largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    const double spacing = std::ldexp(1.0, exponent - 24);  // of the 24 bits of a float
+    std::vector<FileRemark> remarks;
+    double volume = 0;
+    try {
+      volume = hull_volume(convex_corners(read_stl(binary_stl(box)).front(), &remarks));
+    } catch (const FileFault& fault) {
+      EXPECT_GT(spacing, 1e-4 * edge) << fault.what();
+      continue;
+    }
+    const bool told = std::any_of(remarks.begin(), remarks.end(), [](const FileRemark& remark) {
+      return remark.text.find("its shortest edge is") != std::string::npos;
+    });
+    if (spacing < 0.5e-3 * edge) {
+      EXPECT_FALSE(told) << spacing / edge;
+    }
+    if (spacing > 2e-3 * edge) {
+      EXPECT_TRUE(told) << spacing / edge;
+    }
+    if (!told) {
+      EXPECT_NEAR(volume / std::pow(edge, 3), 1, 1e-2);
+    }
+  }
+  // a text with the digits of floats
+  for (const auto& [digits, is_told] : {std::pair{7, true}, {8, true}, {12, false}, {17, false}}) {
+    Mesh box = mesh_of(shapes::cube<3>(1), Vector<3>(1234567, 0, 0));
+    std::string text = "solid far\n";
+    for (const Facet& facet : box.facets)
+      for (std::size_t k = 1; k + 1 < facet.corners.size(); ++k) {
+        text += "facet normal 0 0 0\nouter loop\n";
+        for (const int corner : {facet.corners[0], facet.corners[k], facet.corners[k + 1]})
+          text += fmt::format("vertex {:.{}e} {:e} {:e}\n", box.points[corner][0] + 0.1234567, digits - 1,
+                              box.points[corner][1], box.points[corner][2]);
+        text += "endloop\nendfacet\n";
+      }
+    std::vector<FileRemark> remarks;
+    try {
+      convex_corners(read_stl(text + "endsolid far\n").front(), &remarks);
+      EXPECT_EQ(!remarks.empty(), is_told) << digits;
+    } catch (const FileFault&) {
+      EXPECT_TRUE(is_told) << digits;
+    }
+  }
 }
 
 }  // namespace

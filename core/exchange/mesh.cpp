@@ -35,6 +35,20 @@ class MeshBuilder {
     mesh_ = {std::move(name), line, {}, {}};
     places_.clear();
   }
+  // in the numbers of a file of so many digits
+  void digits(int most) {
+    double largest = 0;
+    for (const Vector<3>& p : mesh_.points)
+      largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    mesh_.digits = most;
+    if (largest > 0 && most > 0) mesh_.spacing = std::pow(10.0, std::floor(std::log10(largest)) + 1 - most);
+  }
+  void single_precision() {
+    float largest = 0;
+    for (const Vector<3>& p : mesh_.points)
+      largest = std::max(largest, static_cast<float>(p.cwiseAbs().maxCoeff()));
+    mesh_.spacing = std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest;
+  }
   void add(const std::vector<Vector<3>>& corners, int line, const std::string& facet) {
     if (mesh_.facets.size() == most_facets)
       throw FileFault(line, 0,
@@ -68,11 +82,21 @@ void add_mesh(std::vector<Mesh>& meshes, const Mesh& mesh, int line) {
   meshes.push_back(mesh);
 }
 
-Vector<3> point_of(const std::vector<Word>& words, std::size_t first) {
+// significant digits of a number as it is written
+int digits_of(std::string_view number) {
+  int digits = 0;
+  for (const char c : number.substr(0, number.find_first_of("eE")))
+    digits += (c >= '1' && c <= '9') || (c == '0' && digits > 0);
+  return digits;
+}
+
+// `digits`: the most so far
+Vector<3> point_of(const std::vector<Word>& words, std::size_t first, int& digits) {
   Vector<3> p;
   for (int k = 0; k < 3; ++k) {
     const Word& word = words[first + k];
     p[k] = number_of(word, std::string(1, "xyz"[k]));
+    digits = std::max(digits, digits_of(word.text));
     if (std::abs(p[k]) > largest_coordinate)
       throw FileFault(word.line, word.column, "the coordinate exceeds 1e12 m; is it in m?");
   }
@@ -120,9 +144,10 @@ class StlReader {
   }
   void solid(const std::string& name) {
     builder_.begin(name, reader_.number());
+    digits_ = 0;
     while (true) {
       need("endsolid");
-      if (words_[0].text == "endsolid") return;
+      if (words_[0].text == "endsolid") return builder_.digits(digits_);
       facet();
     }
   }
@@ -138,7 +163,7 @@ class StlReader {
       if (words_.size() != 4)
         throw FileFault(words_[0].line, words_[0].column,
                         "a vertex has three coordinates; write for example vertex 0 0 1");
-      corners.push_back(point_of(words_, 1));
+      corners.push_back(point_of(words_, 1, digits_));
     }
     need("endloop");
     expect("endloop");
@@ -150,6 +175,7 @@ class StlReader {
   LineReader reader_;
   std::vector<Word> words_;
   MeshBuilder builder_;
+  int digits_ = 0;  // most of a coordinate of the solid
 };
 
 template <class T>
@@ -179,6 +205,7 @@ std::vector<Mesh> read_binary_stl(std::string_view bytes, std::size_t count) {
     }
     builder.add(corners, 0, facet);
   }
+  builder.single_precision();
   return {builder.mesh()};
 }
 
@@ -218,7 +245,7 @@ class ObjReader {
     // a fourth is a weight, six are coordinates and colour
     if (words.size() < 4 || words.size() > 7)
       throw FileFault(words[0].line, words[0].column, "a vertex has three coordinates; write for example v 0 0 1");
-    vertices_.push_back(point_of(words, 1));
+    vertices_.push_back(point_of(words, 1, digits_));
   }
   void face(const std::vector<Word>& words) {
     if (words.size() < 4)
@@ -248,11 +275,13 @@ class ObjReader {
     builder_.begin(std::move(name), words[0].line);
   }
   void finish() {
+    builder_.digits(digits_);
     if (!builder_.mesh().facets.empty()) add_mesh(meshes_, builder_.mesh(), reader_.number());
   }
 
   LineReader reader_;
   std::vector<Vector<3>> vertices_;  // of the whole file
+  int digits_ = 0;                   // most of a coordinate so far
   MeshBuilder builder_;
   std::vector<Mesh> meshes_;
 };

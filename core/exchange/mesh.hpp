@@ -21,6 +21,10 @@ struct Mesh {
   int line = 0;
   std::vector<Vector<3>> points;  // m; equal points are one
   std::vector<Facet> facets;
+  // m, between neighbouring numbers in the file where its coordinates are largest: of floats in a binary STL, else by
+  // the most digits of a coordinate; 0: not read from a file
+  double spacing = 0;
+  int digits = 0;  // most of a coordinate; 0: floats
 };
 
 // Every `solid` of an ASCII STL, or the one solid of a binary one, whose single precision leaves 7 digits. Corners of
@@ -36,7 +40,9 @@ std::string stl_text(const std::vector<Mesh>& meshes);
 std::string obj_text(const std::vector<Mesh>& meshes);
 
 // The corners of the solid that the mesh bounds. Throws FileFault where it has no volume, is open, is turned inside out
-// in part, consists of several pieces, or is not convex. Points on an edge or inside a face are no corners.
-std::vector<Vector<3>> convex_corners(const Mesh& mesh);
+// in part, consists of several pieces, or is not convex by more than the rounding of its coordinates; by less, the
+// corners are those of its convex hull. Points on an edge or inside a face are no corners. `remarks` gains what the
+// rounding does to the block.
+std::vector<Vector<3>> convex_corners(const Mesh& mesh, std::vector<FileRemark>* remarks = nullptr);
 
 }  // namespace voussoir

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -74,9 +75,19 @@ std::vector<double> unit_normal(const CsvTable& table, const CsvRow& row, int di
   return normal;
 }
 
+// the direction of the horizontal line in a plane that dips to the right of it
+void read_strike(const CsvTable& table, const CsvRow& row, JointRow& joint) {
+  const std::optional<double> strike = table.number(row, "strike_deg");
+  if (!strike) return;
+  if (joint.dip_direction_deg) table.refuse(row, "strike_deg", "the row states dip_direction_deg too; leave one empty");
+  if (!(*strike >= 0 && *strike <= 360)) table.refuse(row, "strike_deg", "must be from 0 to 360, clockwise from north");
+  joint.dip_direction_deg = *strike >= 270 ? *strike - 270 : *strike + 90;
+}
+
 void read_orientation(const CsvTable& table, const CsvRow& row, int dimension, JointRow& joint) {
   joint.dip_deg = table.number(row, "dip_deg");
   joint.dip_direction_deg = table.number(row, "dip_direction_deg");
+  read_strike(table, row, joint);
   bool any = false;
   for (const std::string& column : normal_columns(dimension))
     any = any || !table.text(row, column).empty();
@@ -127,6 +138,49 @@ void read_outline(const CsvTable& table, const CsvRow& row, int dimension, Joint
   }
 }
 
+// what field books and other programs call these columns
+const std::map<std::string, std::string>& usual_names() {
+  static const std::map<std::string, std::string> names{
+      {"id", "name"},
+      {"label", "name"},
+      {"jointid", "name"},
+      {"joint", "name"},
+      {"jointset", "set"},
+      {"setid", "set"},
+      {"family", "set"},
+      {"dipangle", "dip_deg"},
+      {"inclination", "dip_deg"},
+      {"dd", "dip_direction_deg"},
+      {"ddr", "dip_direction_deg"},
+      {"dipdir", "dip_direction_deg"},
+      {"dipazimuth", "dip_direction_deg"},
+      {"azimuth", "dip_direction_deg"},
+      {"x", "x_m"},
+      {"easting", "x_m"},
+      {"east", "x_m"},
+      {"y", "y_m"},
+      {"northing", "y_m"},
+      {"north", "y_m"},
+      {"z", "z_m"},
+      {"elevation", "z_m"},
+      {"elev", "z_m"},
+      {"height", "z_m"},
+      {"nx", "normal_x"},
+      {"ny", "normal_y"},
+      {"nz", "normal_z"},
+      {"tracelength", "length_m"},
+      {"persistence", "length_m"},
+  };
+  return names;
+}
+
+// CloudCompare's qCompass writes its planes as a table of its own
+void refuse_planes_of_compass(const CsvTable& table) {
+  for (const char* column : {"Strike", "Dip", "Dip_Dir", "Cx", "Cy", "Cz"})
+    if (!table.find(column)) return;
+  throw FileFault(table.header_line, 0, planes_of_compass);
+}
+
 }  // namespace
 
 std::string shape_text(OutlineForm shape, int dimension) {
@@ -143,12 +197,17 @@ std::string shape_text(OutlineForm shape, int dimension) {
   return "polygon";
 }
 
-std::vector<JointRow> read_joint_table(std::string_view text, int dimension) {
+std::vector<JointRow> read_joint_table(std::string_view text, int dimension, std::vector<FileRemark>* remarks) {
   const CsvTable table = parse_csv(text, most_table_joints);
-  const Names orientation = joined({"dip_deg", "dip_direction_deg"}, normal_columns(dimension));
+  refuse_planes_of_compass(table);
+  Names orientation = joined({"dip_deg", "dip_direction_deg"}, normal_columns(dimension));
   Names other = joined({"name", "set", "shape", "properties", inside_column(dimension)}, extent_columns(dimension));
   if (dimension == 3) other.push_back("corners_m");
-  table.check_header(point_columns(dimension), joined(orientation, other));
+  if (dimension == 3) orientation.push_back("strike_deg");
+  table.check_header(point_columns(dimension), joined(orientation, other), usual_names());
+  if (const auto strike = table.find("strike_deg"); strike && remarks)
+    remarks->push_back(
+        {table.header_line, "strike_deg is read by the right-hand rule: dip direction = strike + 90 degrees"});
   std::vector<JointRow> joints;
   for (const CsvRow& row : table.rows) {
     JointRow joint;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "core/scene/scene_files.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/scene/toml_text.hpp"
 
@@ -66,7 +65,7 @@ void forget(Node& scene, std::initializer_list<std::string_view> keys) {
 namespace fs = std::filesystem;
 
 // `chain` holds the bases that led here
-Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain, std::vector<fs::path>& read) {
+Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain, FilesRead& read) {
   // what files of joints and blocks state lies below the scene that names them, as a base does
   Node files = tables_of_files(scene, folder, read);
   lay_over(files, scene);
@@ -81,7 +80,7 @@ Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain, std:
   if (chain.size() == most_bases)
     refuse(*stated, "base", "more than 16 bases in a row; state this scene's differences from one nearer to the first");
   chain.push_back(file);
-  read.push_back(file);
+  read.files.push_back(file);
   // messages name the file as the user would find it
   const fs::path shown = folder / fs::path(stated->text);
   const auto source = std::make_shared<const std::string>(shown.string());
@@ -93,9 +92,9 @@ Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain, std:
 
 }  // namespace
 
-Node with_base(Node scene, const fs::path& folder, std::vector<fs::path>& files) {
+Node with_base(Node scene, const fs::path& folder, FilesRead& read) {
   std::vector<fs::path> chain;
-  return load(std::move(scene), folder, chain, files);
+  return load(std::move(scene), folder, chain, read);
 }
 
 }  // namespace voussoir

@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "core/scene/node.hpp"
+#include "core/scene/scene_files.hpp"
 
 namespace voussoir {
 
 // The scene's tree laid over its base's, and that over its own base's. Tables are merged key by key, tables of a list
 // by their name (one that states another kind or method replaces the base's); every other value replaces the base's.
-// The base lies in the scene's folder or below. `files` gains every file that was read.
-Node with_base(Node scene, const std::filesystem::path& folder, std::vector<std::filesystem::path>& files);
+// The base lies in the scene's folder or below.
+Node with_base(Node scene, const std::filesystem::path& folder, FilesRead& read);
 
 // One tree over another, by the same rules.
 void lay_over(Node& base, const Node& scene);

@@ -437,7 +437,7 @@ template std::vector<bool> properties_of_faces<3>(const Model<3>&);
 
 template <int Dim>
 std::vector<std::string> implausible_values(const Scene& scene, const Prepared<Dim>& prepared) {
-  Warnings warnings;
+  Warnings warnings = scene.remarks;
   TableJudge{extent_of(prepared.model), warnings}.table(*scene.tree, {""}, "");
   judge_gravity(scene, warnings);
   const std::vector<bool> used = properties_of_faces(prepared.model);

@@ -176,8 +176,9 @@ Scene read_tree(Node stated, const std::string& name, const std::vector<std::str
   const std::string file = one_line(name, 1000);
   // the tree: laid over its base, overridden, repeats carried out, held against the key table
   Scene scene;
+  FilesRead read;
   const auto tree =
-      std::make_shared<Node>(with_base(std::move(stated), std::filesystem::path(name).parent_path(), scene.files));
+      std::make_shared<Node>(with_base(std::move(stated), std::filesystem::path(name).parent_path(), read));
   override_and_repeat(*tree, overrides, file);
   const std::vector<std::string> from_level = apply_accuracy_level(*tree);
   check_keys(*tree);
@@ -185,6 +186,8 @@ Scene read_tree(Node stated, const std::string& name, const std::vector<std::str
 
   // from here on every value has the right type and lies in its range
   scene.file = file;
+  scene.files = std::move(read.files);
+  scene.remarks = std::move(read.remarks);
   scene.tree = tree;
   scene.from_level = from_level;
   const Subject top{tree.get(), ""};

@@ -54,9 +54,9 @@ struct FileTree {
   }
 };
 
-Node joint_tables(std::string_view text, const FileTree& source) {
+Node joint_tables(std::string_view text, const FileTree& source, const Node&, std::vector<FileRemark>& remarks) {
   Node list = source.node(Node::Kind::list, 1);
-  for (const JointRow& row : read_joint_table(text, source.dimension)) {
+  for (const JointRow& row : read_joint_table(text, source.dimension, &remarks)) {
     Node joint = source.node(Node::Kind::table, row.line);
     joint.set("name", source.text(row.name, row.line));
     if (row.dip_deg) joint.set("dip", source.number(*row.dip_deg, row.line));
@@ -99,7 +99,7 @@ Node tables_of_planes(std::string_view text, const FileTree& source) {
   return list;
 }
 
-Node tables_of_meshes(const std::vector<Mesh>& meshes, const FileTree& source) {
+Node tables_of_meshes(const std::vector<Mesh>& meshes, const FileTree& source, std::vector<FileRemark>& remarks) {
   Node list = source.node(Node::Kind::list, 1);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const Mesh& mesh = meshes[i];
@@ -107,14 +107,15 @@ Node tables_of_meshes(const std::vector<Mesh>& meshes, const FileTree& source) {
     const std::string name = mesh.name.empty() ? "block-" + std::to_string(i + 1) : mesh.name;
     block.set("name", source.text(name, mesh.line));
     Node& corners = block.set("vertices", source.node(Node::Kind::list, mesh.line));
-    for (const Vector<3>& corner : convex_corners(mesh))
+    for (const Vector<3>& corner : convex_corners(mesh, &remarks))
       corners.items.push_back(source.numbers(corner, mesh.line));
     list.items.push_back(std::move(block));
   }
   return list;
 }
 
-Node block_tables(const std::string& bytes, const FileTree& source, const Node& stated) {
+Node block_tables(const std::string& bytes, const FileTree& source, const Node& stated,
+                  std::vector<FileRemark>& remarks) {
   std::string kind = fs::path(stated.text).extension().string();
   std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
   if (kind == ".csv") return tables_of_planes(bytes, source);
@@ -122,21 +123,24 @@ Node block_tables(const std::string& bytes, const FileTree& source, const Node& 
     refuse(stated, "blocks_file", "must end in .csv (planes of blocks), .stl or .obj, which tells how it is read");
   if (source.dimension == 2)
     refuse(stated, "blocks_file", "STL and OBJ hold blocks in space but dimension = 2; give a table of planes (.csv)");
-  return tables_of_meshes(kind == ".stl" ? read_stl(bytes) : read_obj(bytes), source);
+  return tables_of_meshes(kind == ".stl" ? read_stl(bytes) : read_obj(bytes), source, remarks);
 }
 
 // a table under `key` read from the file that the scene names under `file_key`
 template <class Read>
 void add_tables(const Node& scene, const fs::path& folder, const char* file_key, const char* key, Node& tables,
-                std::vector<fs::path>& files, const Read& read) {
+                FilesRead& files, const Read& read) {
   const Node* stated = scene.find(file_key);
   if (!stated) return;
   const fs::path file = file_beside(*stated, file_key, folder);
-  files.push_back(file);
+  files.files.push_back(file);
   const std::string shown = (folder / fs::path(stated->text)).string();
   const FileTree source{std::make_shared<const std::string>(shown), scene_dimension(scene)};
   try {
-    tables.set(key, read(file_text(file), source, *stated));
+    std::vector<FileRemark> remarks;
+    tables.set(key, read(file_text(file), source, *stated, remarks));
+    for (const FileRemark& remark : remarks)
+      files.remarks.push_back(shown + (remark.line > 0 ? ":" + std::to_string(remark.line) : "") + ": " + remark.text);
   } catch (const FileFault& fault) {
     std::string place = shown;
     for (const int number : {fault.line, fault.column})
@@ -162,12 +166,11 @@ fs::path file_beside(const Node& stated, std::string_view key_view, const fs::pa
   return file;
 }
 
-Node tables_of_files(const Node& scene, const fs::path& folder, std::vector<fs::path>& files) {
+Node tables_of_files(const Node& scene, const fs::path& folder, FilesRead& read) {
   Node tables;
   tables.place = scene.place;
-  add_tables(scene, folder, "joints_file", "joints", tables, files,
-             [](const std::string& text, const FileTree& source, const Node&) { return joint_tables(text, source); });
-  add_tables(scene, folder, "blocks_file", "blocks", tables, files, block_tables);
+  add_tables(scene, folder, "joints_file", "joints", tables, read, joint_tables);
+  add_tables(scene, folder, "blocks_file", "blocks", tables, read, block_tables);
   return tables;
 }
 

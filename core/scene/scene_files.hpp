@@ -10,11 +10,17 @@
 
 namespace voussoir {
 
+// What was read besides the scene's own text: every file, and what its user should know of them (file, line, text).
+struct FilesRead {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> remarks;
+};
+
 // The file that a scene names under a key: a regular file in its folder, wherever links point. SceneError otherwise.
 std::filesystem::path file_beside(const Node& stated, std::string_view key, const std::filesystem::path& folder);
 
 // [[joints]] of `joints_file` (CSV) and [[blocks]] of `blocks_file` (CSV of planes, STL, OBJ); every value has its
-// place in the file. SceneError names file, line, column and reason. `files` gains every file that was read.
-Node tables_of_files(const Node& scene, const std::filesystem::path& folder, std::vector<std::filesystem::path>& files);
+// place in the file. SceneError names file, line, column and reason.
+Node tables_of_files(const Node& scene, const std::filesystem::path& folder, FilesRead& read);
 
 }  // namespace voussoir

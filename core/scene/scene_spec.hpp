@@ -275,6 +275,7 @@ struct Scene {
   OutputPlan output;
   std::vector<std::string> from_level;       // what accuracy.level set: "key = value"
   std::vector<std::filesystem::path> files;  // that were read: the scene's own, if it is one, and whatever it names
+  std::vector<std::string> remarks;          // what the user should know of these files, one line each
   std::shared_ptr<const Node> tree;          // the effective file, overrides applied; subjects point into it
 };
 

@@ -30,8 +30,9 @@ KeyTable top_keys() {
      .meaning = "planes that cut the domain, with or without an end"},
     {.key = "joints_file", .type = text, .example = "\"joints.csv\"",
      .meaning = "a table of joints in the same folder, one a row, before those of [[joints]], which may change one of its "
-         "name; columns x_m, y_m, z_m, and dip_deg, dip_direction_deg or normal_x, normal_y, normal_z; if wanted name, "
-         "set, properties, shape with length_m and width_m or corners_m. The scene that names the file states its dimension"},
+         "name; columns x_m, y_m, z_m, and dip_deg, dip_direction_deg (or strike_deg, by the right-hand rule 90 degrees "
+         "less) or normal_x, normal_y, normal_z; if wanted name, set, properties, shape with length_m and width_m or "
+         "corners_m. The scene that names the file states its dimension"},
     {.key = "joint_sets", .type = tables, .holds = {"joint_sets"},
      .meaning = "random joints that fill the domain, cut after [[joints]], set by set; every set is drawn by itself and "
          "gives the same joints on every platform"},
