@@ -14,6 +14,7 @@
 #include "app/interruption.hpp"
 #include "app/message.hpp"
 #include "app/origin.hpp"
+#include "app/results_hash.hpp"
 #include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "app/view/page.hpp"
@@ -276,7 +277,7 @@ std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const Load
     return std::nullopt;
   }
   if (written.view) write_page(job.folder);
-  write_results_json(job.folder / "results.json", results, record_of(scene, job.options));
+  write_results(job.folder, results_json(results, record_of(scene, job.options)));
   remove_checkpoints(job.folder);
   if (!job.quiet) {
     print_warnings(results.warnings);
