@@ -181,7 +181,7 @@ void remove_run(const fs::path& folder, const std::vector<fs::path>& inputs) {
   if (!fs::is_directory(fs::symlink_status(folder, error))) return;
   const FolderLock lock(folder);
   if (const std::optional<Outputs> made = made_in(folder)) remove_files(folder, *made, inputs);
-  for (const char* name : {messages_file, worker_file, failure_file, made_file, lock_file})
+  for (const char* name : {messages_file, worker_file, failure_file, hash_file, made_file, lock_file})
     if (!is_input(folder / name, inputs)) remove_file(folder / name);
   ::rmdir(folder.c_str());
 }

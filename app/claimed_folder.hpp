@@ -84,8 +84,10 @@ struct Outputs {
   bool goes_on = false;  // with what the same command left: only files and folders not named any more are removed
 };
 
-// in the folder of a study's run: what it printed, who works at it, and why it has no results
-inline constexpr const char *messages_file = "messages.txt", *worker_file = ".worker", *failure_file = "failure.txt";
+// in the folder of a study's run: what it printed, who works at it, why it has no results, and the hashes of those that
+// it has (app/results_hash.hpp)
+inline constexpr const char *messages_file = "messages.txt", *worker_file = ".worker", *failure_file = "failure.txt",
+                            *hash_file = "results.hash";
 
 // Throws BadInput where a file that is read would be written over.
 void refuse_inputs(const std::filesystem::path& folder, const Outputs& outputs,

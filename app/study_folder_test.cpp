@@ -9,6 +9,7 @@
 #include "app/commands/row_ranges.hpp"
 #include "app/digest.hpp"
 #include "app/origin.hpp"
+#include "app/results_hash.hpp"
 #include "app/testing/planned_study.hpp"
 
 namespace voussoir {
@@ -180,11 +181,11 @@ TEST_F(PlannedStudy, CopiesThatWorkedApartAreGathered) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(read(results));
   json["timing"]["seconds"] = 1e6;
   json["warnings"] = {second + "/input/scene.toml:3: odd"};
-  std::ofstream(results) << json.dump(2);
+  write_results(results.parent_path(), json.dump(2));
   EXPECT_EQ(study({"gather", first, second}).code, 0);
   EXPECT_EQ(table("first"), whole);
   json["state_hash"] = "another";
-  std::ofstream(results) << json.dump(2);
+  write_results(results.parent_path(), json.dump(2));
   const Ended differing = study({"gather", first, second});
   EXPECT_EQ(differing.code, 1);
   EXPECT_NE(differing.out.find("row 24: its results in '" + first + "' and '" + second + "' differ\n"),

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/bonded_contacts.hpp"
 #include "core/monitor.hpp"
 #include "core/reduction/reduction.hpp"
 #include "core/results.hpp"
@@ -23,6 +24,7 @@ struct Progress {
   std::vector<double> frames;        // s: of the frames written
   std::vector<double> trial_frames;  // of those of trials that were taken back: the trials, counted from 1
   std::vector<StageEnd<Dim>> ends;   // of those that have ended and from which monitors count
+  BondedContacts bonded;             // up to here
   Results results;                   // of what has ended
 };
 

@@ -30,7 +30,12 @@ struct Value {
   std::string covers = "bracket";       // or "budget": the search's bracket alone, or all that the budget varied
   std::optional<double> bracket = {};   // with a budget: what the search alone leaves open
   std::vector<BudgetLine> budget = {};  // by size
+  std::string divides = {};             // of a factor of safety: whose strength it divides, and what it leaves
 };
+
+// What a factor of safety divides, as a sentence: tan φ and, where it is counted, cohesion of joint properties by name;
+// none: of all.
+std::string divided_by_factor(const std::vector<std::string>& properties, bool cohesion = true);
 
 struct StageResult {
   std::string name, kind;  // kind: settle, run, reduce
@@ -42,6 +47,27 @@ struct StageResult {
   // the equilibrium measure of the state at its end, which after a search is the last stable one; infinite where no
   // contact carries a force against what is unbalanced, negative where rest was not sought
   double unbalanced = 0;
+};
+
+// Bonds of a joint, or of a set of joints.
+struct BondsOfJoint {
+  std::string joint;              // its name or its set's; empty: of faces that no joint made
+  long long whole = 0, made = 0;  // without those that were removed with their blocks
+  double area_share = 0;          // area of those that are whole over that of all
+};
+
+struct WholeBonds {
+  long long whole = 0, made = 0;
+  std::vector<BondsOfJoint> by_joint{};
+};
+
+// What carried the blocks where a stage last was in equilibrium: at the end of a stage that settles, or in a search's
+// last stable trial. Each row is empty where the scene has nothing of the kind.
+struct StableState {
+  std::string stage, kind;
+  std::optional<double> level;  // of a search, in its unit
+  std::string unit;
+  std::optional<WholeBonds> bonds{};
 };
 
 // column names carry their unit: time_s, wedge_displacement_x_m, friction_rock_deg …
@@ -83,6 +109,7 @@ struct Results {
   std::string message;                                // one line: why it is incomplete or failed
   std::vector<std::pair<std::string, Value>> values;  // in the order found; names unique
   std::vector<StageResult> stages;
+  std::vector<StableState> at_last_stable_state;  // by stage, those of which something is to be told
   History history;
   std::vector<BoltRow> bolts;      // by stage, then by bolt
   std::vector<LiningRow> linings;  // by stage, then by lining and node

@@ -14,6 +14,7 @@
 #include "core/install.hpp"
 #include "core/motion/free_fall.hpp"
 #include "core/motion/relaxation.hpp"
+#include "core/stable_state.hpp"
 #include "core/state_hash.hpp"
 #include "core/step.hpp"
 #include "core/step/joint_forces.hpp"
@@ -147,6 +148,7 @@ struct Simulation {
                 },
             .after_step =
                 [this, begin, end](const State<Dim>& now, double unbalanced) {
+                  look_at_bonds(now);
                   if (reports(now))
                     report_progress(now, progress_of_newton(now), unbalanced,
                                     end ? (now.time - begin) / (*end - begin) : -1);
@@ -166,6 +168,7 @@ struct Simulation {
     return {.with_forces = {},
             .after_step =
                 [this](const State<Dim>& now, double unbalanced) {
+                  look_at_bonds(now);
                   if (reports(now))
                     report_progress(now, trial_text() + and_more(progress_of_newton(now)), unbalanced, -1);
                 },
@@ -179,6 +182,17 @@ struct Simulation {
     std::vector<double> last = row(now);
     if (results.history.rows.empty() || results.history.rows.back() != last)
       results.history.rows.push_back(std::move(last));
+  }
+
+  // now and then, and where some are new
+  void look_at_bonds(const State<Dim>& now) {
+    if (now.bonds.made != progress.bonded.made || reports(now)) remember_bonds(model, now, progress.bonded);
+  }
+
+  void note_stable(const State<Dim>& now, std::optional<double> level = {}, const char* unit = "") {
+    remember_bonds(model, now, progress.bonded);
+    note_stable_state(scene, model, now, progress.bonded, {plan().name, kind_of(plan()), level, unit},
+                      results.at_last_stable_state);
   }
 
   void fail(Outcome outcome, const std::string& message) {
@@ -216,6 +230,7 @@ struct Simulation {
     const RunReport report = run(model, settings, goal, schedule, state, progress.run, record_run(goal.end_time));
     if (report.reason == StopReason::interrupted) return {};
     judge(report, report.reason == wanted);
+    if (report.reason == StopReason::equilibrium) note_stable(state);
     return Executed{describe(report.reason), report.unbalanced};
   }
 
@@ -223,7 +238,8 @@ struct Simulation {
   // the whole stage, all that happens.
   std::optional<Executed> execute(const ReducePlan& reduction) {
     const bool continuous = reduction.method == ReductionMethod::rate;
-    const TrialHook<Dim> on_trial = [&](const State<Dim>& moved, double, Trial outcome) {
+    const TrialHook<Dim> on_trial = [&](const State<Dim>& moved, double level, Trial outcome) {
+      if (outcome == Trial::stable) note_stable(moved, sought_by(reduction).number(level), sought_by(reduction).unit);
       if (continuous) return;
       const State<Dim> now = with_forces(moved, outcome == Trial::broken);
       const int number = progress.reduction.trial + 1;
@@ -239,8 +255,9 @@ struct Simulation {
     if (report.bracketed) {
       const bool unique = !results.find(sought.name);
       const std::string name = unique ? sought.name : plan().name + "_" + sought.name;
-      results.values.push_back(
-          {name, {sought.number(report.critical), sought.unit, sought.number(report.error_bar), report.rule}});
+      Value value{sought.number(report.critical), sought.unit, sought.number(report.error_bar), report.rule};
+      if (reduction.searched == Searched::factor) value.divides = divided_by_factor(reduction.properties);
+      results.values.emplace_back(name, std::move(value));
     }
     const bool found = report.message.empty();
     if (!found && results.outcome != Outcome::failed)
@@ -273,6 +290,7 @@ struct Simulation {
       const Excavated<Dim> moved = take_out(plan().change.excavate, settings, plan().let_off.has_value(), model, state);
       for (StageEnd<Dim>& end : progress.ends)
         carry(moved, end);
+      carry(moved, progress.bonded);
     }
     model = apply(std::move(model), plan().change);
   }
@@ -345,6 +363,7 @@ struct Simulation {
     r.time_step = state.time_step;
     r.unbalanced = done.unbalanced;
     results.stages.push_back(r);
+    std::ranges::copy(doubts_about(results.at_last_stable_state, r.name), std::back_inserter(results.warnings));
     // a stage that lasts for a time is not ended by blocks that have left, but they are hardly what was wanted
     if (const int body = falling_free(model, state); body >= 0 && std::holds_alternative<RunPlan>(plan().plan))
       results.warnings.push_back(
@@ -371,15 +390,6 @@ struct Simulation {
             "accuracy.level = \"{}\" promises its accuracy of critical angles from {:g} deg on; {} is {:.3g} "
             "± {:.2g} deg: lower tolerance_deg or step_deg of its stage, or take a finer level",
             scene.accuracy_level, least_promised_angle, name, value.value, value.error_bar.value_or(0)));
-  }
-
-  void count_whole_bonds() {
-    if (std::none_of(scene.stages.begin(), scene.stages.end(), [](const StagePlan& s) { return s.change.bond; }))
-      return;
-    results.bonds = count_bonds(state);
-    if (results.bonds->made == 0)
-      results.warnings.push_back(
-          "stage.bond has made no bond: no joint with tension or cohesion was closed and pressed");
   }
 
   // the first stage of true motion whose step is longer than impacts allow
@@ -423,7 +433,7 @@ struct Simulation {
     for (std::size_t k = 0; k < columns.size(); ++k)
       results.values.push_back({columns[k].name, {values[k], columns[k].unit, {}, "at the end"}});
     results.counters = state.counters;
-    count_whole_bonds();
+    count_all_bonds(scene, state, results);
     results.state_hash = state_hash(model, state);
     results.energy = state.energy;
     if (state.energy.relative_error() > energy_left_open)

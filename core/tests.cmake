@@ -35,7 +35,8 @@ voussoir_test(unit.neighbours LABEL unit SOURCES step/neighbours_test.cpp LIBS v
 
 voussoir_test(unit.scene LABEL unit
   SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/bad_stage_loads_test.cpp scene/bad_bolts_test.cpp scene/bad_linings_test.cpp scene/bad_water_test.cpp scene/bad_search_test.cpp scene/bad_faces_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
-    scene/permuted_input_test.cpp scene/accuracy_level_test.cpp scene/slicing_scene_test.cpp scene/repeat_test.cpp scene/stated_bodies_test.cpp
+    scene/permuted_input_test.cpp scene/accuracy_level_test.cpp scene/slicing_scene_test.cpp scene/repeat_test.cpp
+    scene/stated_bodies_test.cpp scene/divided_strength_test.cpp stable_state_test.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)
 
 voussoir_test(unit.monitors LABEL unit SOURCES monitor_test.cpp scene/bad_monitors_test.cpp begin_test.cpp

@@ -48,11 +48,13 @@ void line(const char* label, const std::string& text) {
 
 void print_values(const LimitAnalysis& analysis) {
   if (!analysis.message.empty()) line("result", analysis.message);
-  for (const auto& [name, value] : analysis.values)
+  for (const auto& [name, value] : analysis.values) {
     line(analysis.message.empty() && name == analysis.values.front().first ? "result" : "",
          fmt::format("{} {:.9g}{}{}", name, value.value,
                      value.error_bar ? fmt::format(" ± {:.1g}", *value.error_bar) : "",
                      value.unit == "1" ? "" : " " + value.unit));
+    if (!value.divides.empty()) line("", fmt::format("{} {}", name, value.divides));
+  }
 }
 
 void print_mechanism(const LimitAnalysis& analysis) {

@@ -14,6 +14,7 @@
 #include "app/interruption.hpp"
 #include "app/message.hpp"
 #include "app/origin.hpp"
+#include "app/results_hash.hpp"
 #include "app/run_folder.hpp"
 #include "app/run_scene.hpp"
 #include "app/view/page.hpp"
@@ -25,6 +26,7 @@
 #include "core/output/results_json.hpp"
 #include "core/output/view.hpp"
 #include "core/scene/toml_text.hpp"
+#include "core/stable_state.hpp"
 #include "text/plain_text.hpp"
 
 namespace voussoir {
@@ -79,9 +81,13 @@ void print_summary(const LoadedScene& scene, const Results& results, const RunOp
   for (const auto& [name, value] : results.values) {
     fmt::print("  {:<{}}  {}{}\n", name, width, value_text(value), value.rule.empty() ? "" : "  (" + value.rule + ")");
     print_budget(value);
+    if (!value.divides.empty()) fmt::print("      it {}\n", value.divides);
   }
-  for (const StageResult& stage : results.stages)
+  for (const StageResult& stage : results.stages) {
     fmt::print("  stage {}: {} after {} steps, {:.4g} s simulated\n", stage.name, stage.ended, stage.steps, stage.time);
+    for (const StableState& at : results.at_last_stable_state)
+      if (at.stage == stage.name && at.bonds) fmt::print("      {}: {}\n", moment_text(at), bonds_text(*at.bonds));
+  }
   if (const auto& bonds = results.bonds)
     fmt::print("  bonds: {} made, {} whole, {} broken, {} removed with their blocks; {} joints have not pressed yet\n",
                bonds->made, bonds->whole, bonds->broken, bonds->removed, bonds->due);
@@ -271,7 +277,7 @@ std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const Load
     return std::nullopt;
   }
   if (written.view) write_page(job.folder);
-  write_results_json(job.folder / "results.json", results, record_of(scene, job.options));
+  write_results(job.folder, results_json(results, record_of(scene, job.options)));
   remove_checkpoints(job.folder);
   if (!job.quiet) {
     print_warnings(results.warnings);

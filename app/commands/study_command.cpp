@@ -6,7 +6,9 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/study_folder.hpp"
 #include "app/commands/study_gather.hpp"
+#include "app/commands/study_idle.hpp"
 #include "app/commands/study_work.hpp"
+#include "app/message.hpp"
 
 namespace voussoir {
 namespace {
@@ -23,12 +25,15 @@ PlannedStudy plan_study(const fs::path& file, const fs::path& out, bool overwrit
   const StudyPlan plan = read_study_plan(file);
   const std::string program = program_digest();
   const std::vector<PlannedRow> rows = rows_of_plan(plan, program);
+  const std::vector<std::string> idle = idle_keys(plan);
   const std::vector<InputFile> input = input_files(file, rows);
   std::vector<fs::path> inputs;
   for (const InputFile& f : input)
     inputs.push_back(f.from);
   ClaimedFolder claim(out, study_outputs(plan, input, rows), inputs, overwrite);
   write_study_folder(out, plan, input, rows, program);
+  for (const std::string& line : idle)
+    tell("voussoir: warning: {}\n", line);
   return {std::move(claim), read_study_folder(out)};
 }
 

@@ -27,6 +27,43 @@ std::string fails_text(const Fails& fails) {
   return fmt::format("{} {:g}", fails.below ? "below" : "above", fails.limit);
 }
 
+std::optional<RowVerdict> verdict_on(const Sweep& sweep, const StudyRow& row) {
+  if (!sweep.fails || !row.result) return std::nullopt;
+  return sweep.fails->verdict(*row.result, row.error_bar);
+}
+
+struct Verdicts {
+  int failed = 0, standing = 0, undecided = 0;
+  bool at_limit = false;  // some of those that stand are the limit itself
+};
+
+Verdicts verdicts_on(const Sweep& sweep, const std::vector<StudyRow>& rows) {
+  Verdicts verdicts;
+  for (const StudyRow& row : rows)
+    if (const std::optional<RowVerdict> verdict = verdict_on(sweep, row)) {
+      verdicts.failed += *verdict == RowVerdict::fails;
+      verdicts.standing += *verdict == RowVerdict::stands;
+      verdicts.undecided += *verdict == RowVerdict::undecided;
+      verdicts.at_limit = verdicts.at_limit || (*verdict == RowVerdict::stands && *row.result == sweep.fails->limit);
+    }
+  return verdicts;
+}
+
+// "5 of them below 1, 24 above, 1 within its error bar of 1"
+std::string verdicts_text(const Fails& fails, const Verdicts& verdicts) {
+  std::string text = fmt::format("{} of them {}, {} {}{}", verdicts.failed, fails_text(fails), verdicts.standing,
+                                 verdicts.at_limit ? "at or " : "", fails.below ? "above" : "below");
+  if (verdicts.undecided > 0)
+    text += fmt::format(", {} within {} of {:g}", verdicts.undecided,
+                        verdicts.undecided == 1 ? "its error bar" : "their error bars", fails.limit);
+  return text;
+}
+
+const char* fails_cell(const std::optional<RowVerdict>& verdict) {
+  if (!verdict) return "";
+  return *verdict == RowVerdict::undecided ? "undecided" : *verdict == RowVerdict::fails ? "yes" : "no";
+}
+
 // a column for every key, then what was found
 std::string table(const StudyPlan& plan, const Sweep& sweep, const std::vector<StudyRow>& rows) {
   std::vector<std::string> header;
@@ -42,7 +79,7 @@ std::string table(const StudyPlan& plan, const Sweep& sweep, const std::vector<S
       text += csv_cell(shown_value(key.values[k])) + ",";
     text += fmt::format("{},{},{},{}", csv_cell(rows[k].result), csv_cell(rows[k].error_bar),
                         csv_cell(rows[k].result_unit), csv_cell(rows[k].status));
-    if (sweep.fails) text += rows[k].result ? ((*sweep.fails)(*rows[k].result) ? ",yes" : ",no") : ",";
+    if (sweep.fails) text += fmt::format(",{}", fails_cell(verdict_on(sweep, rows[k])));
     text += "\n";
   }
   return text;
@@ -72,13 +109,18 @@ std::string map(const StudyPlan& plan, const Sweep& grid, const std::vector<Stud
   figure.y_label = title_of(last - 1);
   figure.value_label = with_unit(plan.quantity, unit_of(rows));
   if (grid.fails) figure.mark_label = "fails: " + fails_text(*grid.fails);
+  if (grid.fails && verdicts_on(grid, rows).undecided > 0)
+    figure.ring_label = fmt::format("within its error bar of {:g}", grid.fails->limit);
   for (std::size_t x = 0; x < nx; ++x)
     figure.x.push_back(label(last, first + x));
   for (std::size_t y = 0; y < ny; ++y)
     figure.y.push_back(label(last - 1, first + y * nx));
   for (std::size_t place = first; place < first + nx * ny; ++place) {
     figure.values.push_back(rows[place].result);
-    figure.marked.push_back(grid.fails && rows[place].result && (*grid.fails)(*rows[place].result));
+    const std::optional<RowVerdict> verdict = verdict_on(grid, rows[place]);
+    figure.marks.push_back(verdict == RowVerdict::fails       ? MapMark::cross
+                           : verdict == RowVerdict::undecided ? MapMark::ring
+                                                              : MapMark::none);
   }
   return svg_map(figure);
 }
@@ -87,10 +129,7 @@ std::string grid_line(const Sweep& grid, const std::vector<StudyRow>& rows) {
   const auto results =
       std::count_if(rows.begin(), rows.end(), [](const StudyRow& row) { return row.result.has_value(); });
   std::string line = fmt::format("grid '{}': {} of {} combinations have a result", grid.name, results, rows.size());
-  if (!grid.fails) return line;
-  const auto failed = std::count_if(rows.begin(), rows.end(),
-                                    [&](const StudyRow& row) { return row.result && (*grid.fails)(*row.result); });
-  return line + fmt::format(", {} of them {}", failed, fails_text(*grid.fails));
+  return grid.fails ? line + ", " + verdicts_text(*grid.fails, verdicts_on(grid, rows)) : line;
 }
 
 // ---- samples
@@ -98,21 +137,25 @@ std::string grid_line(const Sweep& grid, const std::vector<StudyRow>& rows) {
 struct SampleFound {
   std::vector<double> results;
   Moments moments;
+  Verdicts verdicts;
   std::optional<Share> failed;
 };
 
 SampleFound found_by(const Sweep& sample, const std::vector<StudyRow>& rows) {
   SampleFound found;
-  int failed = 0;
   for (const StudyRow& row : rows)
-    if (row.result) {
-      found.results.push_back(*row.result);
-      failed += sample.fails && (*sample.fails)(*row.result);
-    }
+    if (row.result) found.results.push_back(*row.result);
   if (found.results.empty()) return found;
   found.moments = moments_of(found.results);
-  if (sample.fails) found.failed = share_with_interval(failed, static_cast<int>(found.results.size()));
+  found.verdicts = verdicts_on(sample, rows);
+  if (sample.fails)
+    found.failed =
+        share_with_undecided(found.verdicts.failed, found.verdicts.undecided, static_cast<int>(found.results.size()));
   return found;
+}
+
+double share_of(int count, const Share& all) {
+  return static_cast<double>(count) / all.of;
 }
 
 std::string sample_json(const StudyPlan& plan, const Sweep& sample, const SampleFound& found,
@@ -134,7 +177,10 @@ std::string sample_json(const StudyPlan& plan, const Sweep& sample, const Sample
   if (found.failed)
     json["failed"] = {{sample.fails->below ? "below" : "above", sample.fails->limit},
                       {"count", found.failed->count},
-                      {"share", static_cast<double>(found.failed->count) / found.failed->of},
+                      {"standing", found.verdicts.standing},
+                      {"undecided", found.verdicts.undecided},
+                      {"share", share_of(found.failed->count, *found.failed)},
+                      {"share_with_undecided", share_of(found.failed->count + found.verdicts.undecided, *found.failed)},
                       {"low", found.failed->low},
                       {"high", found.failed->high},
                       {"confidence", sample_confidence},
@@ -168,12 +214,14 @@ std::string sample_line(const Sweep& sample, const SampleFound& found, const std
   if (found.results.empty()) return line;
   const std::string unit = unit_of(rows);
   line += fmt::format(", mean {:.6g}, deviation {:.4g}{}", found.moments.mean.value, found.moments.deviation,
-                      unit.empty() ? "" : " " + unit);
-  if (found.failed)
-    line += fmt::format("; {} of them {}, {:.4g} %: with 95 % confidence {:.4g} to {:.4g} %", found.failed->count,
-                        fails_text(*sample.fails), 100.0 * found.failed->count / found.failed->of,
-                        100 * found.failed->low, 100 * found.failed->high);
-  return line;
+                      unit.empty() || unit == "1" ? "" : " " + unit);
+  if (!found.failed) return line;
+  const Share& failed = *found.failed;
+  line +=
+      fmt::format("; {}: {:.4g}", verdicts_text(*sample.fails, found.verdicts), 100 * share_of(failed.count, failed));
+  if (found.verdicts.undecided > 0)
+    line += fmt::format(" to {:.4g}", 100 * share_of(failed.count + found.verdicts.undecided, failed));
+  return line + fmt::format(" %, with 95 % confidence {:.4g} to {:.4g} %", 100 * failed.low, 100 * failed.high);
 }
 
 }  // namespace

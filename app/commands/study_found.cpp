@@ -21,8 +21,6 @@ namespace fs = std::filesystem;
 // as many monitors as anyone could have
 constexpr std::size_t most_columns = 100'000;
 
-constexpr std::uintmax_t largest_history = 2ull << 30;  // bytes
-
 // the finite numbers of a column on the path to the answer, without a search's trials that were taken back; empty where
 // there is no such column
 std::vector<double> column_of(const fs::path& history, const std::string& name) {
@@ -60,6 +58,7 @@ std::optional<Value> value_of(const nlohmann::json& values, const std::string& n
   Value value{entry.at("value"), entry.at("unit"), {}, ""};
   if (entry.contains("error_bar") && entry.at("error_bar").is_number())
     value.error_bar = entry.at("error_bar").get<double>();
+  value.divides = entry.value("divides", "");
   return value;
 }
 

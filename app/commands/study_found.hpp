@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "app/commands/study_plan.hpp"
+#include "app/results_hash.hpp"
 #include "core/output/origin.hpp"
 #include "core/results.hpp"
 
 namespace voussoir {
-
-inline constexpr std::uintmax_t largest_results = 64 << 20;  // bytes, of results.json
 
 struct RunFound {
   std::optional<Value> result = {};

@@ -17,10 +17,12 @@ struct Gathered {
   std::vector<StudyRow> rows;
   std::set<int> missing;                 // neither results nor a failure
   std::vector<std::string> differences;  // two results of a row that are not the same, a line each
+  std::vector<std::string> damaged;      // results that cannot be read, a line each: their rows are missing
   std::vector<RowOrigins> origins;       // of the rows that have results
 };
 
-// the first folder's results come first; all hold the same plan
+// The first folder's results come first; all hold the same plan. Results that a run did not write
+// (app/results_hash.hpp) are a BadInput with the row's name.
 Gathered gather(const StudyFolder& study, const std::vector<std::filesystem::path>& folders);
 
 // Writes study.csv and says what it holds; `remark` is a line behind the first, or empty.

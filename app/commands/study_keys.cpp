@@ -49,7 +49,8 @@ constexpr StudyKey study_keys[] = {
     {"with", "values", "list, required", "what it is set to, one for each of the sweep's values"},
     {"grid", "name", "text, required", "in the table and the figure"},
     {"grid", "keys", "list of tables, required", "two or three, each a key with its values; the last changes fastest"},
-    {"grid", "fails", "table", "which results count as failed; the map marks them"},
+    {"grid", "fails", "table",
+     "which results count as failed; the map marks them, with a ring those whose error bar holds the limit"},
     {"grid", "scene", "text", "another scene for this grid"},
     {"grid", "set", "list of texts", "`\"key=value\"` for every run of this grid, after the study's own"},
     {"grid", "limit", "table", "as of a sweep"},
@@ -63,7 +64,9 @@ constexpr StudyKey study_keys[] = {
      "another seed, another sample; a value depends on seed, row and key alone, so that samples of one seed can be "
      "compared row by row (default: 0)"},
     {"sample", "keys", "list of tables, required", "each a key with the law of its values, independent of the others"},
-    {"sample", "fails", "table", "which results count as failed; their share is told with its interval of 95 %"},
+    {"sample", "fails", "table",
+     "which results count as failed; their share is told with its interval of 95 %, and how many results have an error "
+     "bar that holds the limit, which are neither failed nor standing"},
     {"sample", "scene", "text", "another scene for this sample"},
     {"sample", "set", "list of texts", "`\"key=value\"` for every run of this sample, after the study's own"},
     {"sample", "limit", "table", "as of a sweep"},

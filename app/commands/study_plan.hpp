@@ -1,6 +1,7 @@
 // study.toml: which settings of which scene a study changes: one at a time, some in every combination, some at random.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,12 +16,20 @@ struct TiedKey {
   std::string unit = {};
 };
 
+// of a result whose error bar holds the limit neither is known
+enum class RowVerdict { stands, fails, undecided };
+
 // which results count as failed
 struct Fails {
   bool below = true;  // the limit; false: above it
   double limit = 0;
 
-  bool operator()(double result) const { return below ? result < limit : result > limit; }
+  // A search's bracket is its result's error bar: where the limit lies in it, the search has met neither a stable nor a
+  // failed state on the side that decides.
+  RowVerdict verdict(double result, std::optional<double> error_bar) const {
+    if (error_bar && std::abs(result - limit) <= *error_bar) return RowVerdict::undecided;
+    return (below ? result < limit : result > limit) ? RowVerdict::fails : RowVerdict::stands;
+  }
 };
 
 // one_key: several values of one key, and of those tied to it; grid and sample: `with` holds all keys, `values` only

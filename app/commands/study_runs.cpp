@@ -20,7 +20,6 @@
 #include "app/commands/progress_line.hpp"
 #include "app/interruption.hpp"
 #include "app/message.hpp"
-#include "app/run_folder.hpp"
 #include "core/output/atomic_file.hpp"
 #include "text/read_file.hpp"
 
@@ -73,7 +72,7 @@ class Runs {
   Runs(const std::vector<StudyRun>& runs, const RunsOptions& options) : options_(options) {
     for (const StudyRun& run : runs)
       if (failures_.try_emplace(run.name).second) {
-        if (holds_results(folder_of(run))) {
+        if (options_.keeps(folder_of(run))) {
           ++kept_;
           require_worth(run);
         } else {
@@ -132,7 +131,7 @@ class Runs {
         --total_;
         return true;
       }
-      if (holds_results(folder)) {  // since we looked
+      if (options_.keeps(folder)) {  // since we looked
         ++kept_;
         --total_;
         require_worth(run);
@@ -151,6 +150,7 @@ class Runs {
 
   void start(const StudyRun& run, std::optional<FileLock> lock) {
     const fs::path folder = folder_of(run);
+    if (holds_results(folder)) remove_file(folder / "results.json");
     const bool resume = holds_unfinished_run(folder) && holds_checkpoints(folder);
     std::vector<std::string> arguments;
     if (resume) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/run_folder.hpp"
+
 namespace voussoir {
 
 struct StudyRun {
@@ -33,6 +35,8 @@ struct RunsOptions {
   // that tells nothing, else why no run is worth its time.
   std::function<std::optional<std::string>(const std::filesystem::path&)> doubt = {};
   Others others = Others::nobody;
+  // Whether the results of this folder are kept; otherwise they are removed, and the run is done again.
+  std::function<bool(const std::filesystem::path&)> keeps = holds_results;
 };
 
 struct RunsEnded {

@@ -13,6 +13,11 @@ Share share_with_interval(int count, int of, double confidence) {
           Binomial::find_upper_bound_on_p(of, count, tail)};
 }
 
+Share share_with_undecided(int count, int undecided, int of, double confidence) {
+  return {of, count, share_with_interval(count, of, confidence).low,
+          share_with_interval(count + undecided, of, confidence).high};
+}
+
 std::vector<Bin> histogram_of(const std::vector<double>& results) {
   if (results.empty()) return {};
   const auto [least, most] = std::minmax_element(results.begin(), results.end());

@@ -17,6 +17,10 @@ inline constexpr double sample_confidence = 0.95;
 // is. 0 <= count <= of, of > 0.
 Share share_with_interval(int count, int of, double confidence = sample_confidence);
 
+// The same where some of those that were not counted may belong to them: an interval that holds the share of at least
+// `confidence`, whichever do.
+Share share_with_undecided(int count, int undecided, int of, double confidence = sample_confidence);
+
 struct Bin {
   double from = 0, to = 0;
   int count = 0;

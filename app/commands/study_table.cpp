@@ -24,6 +24,7 @@ StudyRow row_of(const Sweep& sweep, const std::string& value, const RunFound& fo
     row.result = found.result->value;
     row.error_bar = found.result->error_bar;
     row.result_unit = found.result->unit;
+    row.divides = found.result->divides;
   }
   return row;
 }

@@ -18,6 +18,7 @@ struct StudyRow {
   std::string key, value, unit;
   std::optional<double> result, error_bar;  // without a result: the run failed
   std::string result_unit;
+  std::string divides;        // of a factor of safety (Value::divides)
   std::string status = "ok";  // or what went wrong
   long long contact_evaluations = 0, steps = 0;
   double seconds = 0;

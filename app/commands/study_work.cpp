@@ -21,12 +21,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_sound(const StudyFolder& study, const fs::path& run) {
+  return check_results(run, study.plan.history.has_value()).state == ResultsState::sound;
+}
+
 // what is there is kept; where all that need it are done it is not made again
 std::vector<StudyRun> needed_generations(const StudyFolder& study, const std::vector<PlannedRow>& rows) {
   std::vector<StudyRun> needed;
   for (const StudyRun& generation : generations_of(study.rows, study.plan.begin))
     if (std::any_of(rows.begin(), rows.end(), [&](const PlannedRow& row) {
-          return row.run.begin == fs::path(generation.name) && !holds_results(run_folder_of(study, row));
+          return row.run.begin == fs::path(generation.name) && !is_sound(study, run_folder_of(study, row));
         }))
       needed.push_back(generation);
   return needed;
@@ -100,6 +104,7 @@ RunsEnded work_at(const StudyFolder& study, const std::vector<PlannedRow>& rows,
   if (generated.interrupted) return generated;
 
   options.others = Others::leave_theirs;
+  options.keeps = [&](const fs::path& folder) { return is_sound(study, folder); };
   options.doubt = [&](const fs::path& folder) {
     std::optional<std::string> missing = missing_quantity(folder, study.plan);
     if (missing && !missing->empty()) missing = plan_name + ": " + *missing;

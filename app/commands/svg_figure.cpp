@@ -134,6 +134,17 @@ std::string cross(double x, double y, double half) {
          stroke(x - half, y + half, x + half, y - half, colours[1], 2);
 }
 
+std::string ring(double x, double y, double radius) {
+  return fmt::format(
+      "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", x, y,
+      radius, colours[1]);
+}
+
+std::string drawn_mark(MapMark mark, double x, double y, double half) {
+  if (mark == MapMark::none) return "";
+  return mark == MapMark::cross ? cross(x, y, half) : ring(x, y, half);
+}
+
 // the scale beside a map, with the marks that it uses
 std::string map_legend(const MapFigure& figure, double low, double high) {
   constexpr double x = 620, wide = 20, steps = 50;
@@ -144,6 +155,7 @@ std::string map_legend(const MapFigure& figure, double low, double high) {
   text += label(x + wide + 6, bottom, "start", number(low)) + label(x + wide + 6, top + 10, "start", number(high));
   text += label(x + wide / 2, top - 12, "middle", figure.value_label);
   if (!figure.mark_label.empty()) text += cross(left + 6, 44, 5) + label(left + 18, 48, "start", figure.mark_label);
+  if (!figure.ring_label.empty()) text += ring(left + 246, 44, 5) + label(left + 258, 48, "start", figure.ring_label);
   return text;
 }
 
@@ -190,7 +202,7 @@ std::string svg_map(const MapFigure& figure) {
     const double y = bottom - tall * static_cast<double>(k / figure.x.size() + 1);
     const std::optional<double>& value = figure.values[k];
     text += rectangle(x, y, wide, tall, value ? shade(high > low ? (*value - low) / (high - low) : 0.5) : "#d0d0d0");
-    if (figure.marked[k]) text += cross(x + wide / 2, y + tall / 2, std::min({6.0, wide / 3, tall / 3}));
+    text += drawn_mark(figure.marks[k], x + wide / 2, y + tall / 2, std::min({6.0, wide / 3, tall / 3}));
   }
   // no more names than there is room for
   const auto every = [](double size, double room) {

@@ -26,12 +26,15 @@ struct Diagram {
 // axes with round numbers that hold every point; y begins at 0
 std::string svg(const Diagram& diagram);
 
+enum class MapMark { none, cross, ring };
+
 // A field of cells, one for each pair of values; axes name the values, which may be texts and at any distance.
 struct MapFigure {
-  std::string title, x_label, y_label, value_label, mark_label;  // without a mark's label none is explained
+  std::string title, x_label, y_label, value_label;
+  std::string mark_label, ring_label;  // of crosses and rings; empty: they are not explained
   std::vector<std::string> x, y;
   std::vector<std::optional<double>> values;  // of each cell, x changing fastest; nothing: grey
-  std::vector<bool> marked;                   // with a cross
+  std::vector<MapMark> marks;
 };
 
 // y rises upwards

@@ -118,6 +118,7 @@ void seek_factor_of_safety(const LimitRequest& request, LimitAnalysis& analysis)
   const CriticalStrength found = seek_strength(request, find_factor_of_safety, "--joint", analysis);
   if (found.status == LimitStatus::found && std::isfinite(found.collapses)) {
     analysis.values.emplace_back("factor_of_safety", bracketed(found.stands, found.collapses, "1"));
+    analysis.values.back().second.divides = divided_by_factor(request.properties, request.cohesion);
     analysis.values.emplace_back("force_missing_beyond", Value{found.missing, "weight of a block", {}, ""});
   } else if (found.status == LimitStatus::found) {
     analysis.message = fmt::format(

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/results_hash.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/paraview.hpp"
 
@@ -197,7 +198,7 @@ void write_limit_files(const LimitAnalysis& analysis, const std::filesystem::pat
   write_file(folder / "blocks.vtp", vtp(block_faces<2>(analysis.model, moved_along(analysis, 0), 0)));
   write_file(folder / "mechanism.vtp", vtp(block_faces<2>(analysis.model, moved_along(analysis, far), 0)));
   write_file(folder / "forces.vtp", vtp(force_points(analysis)));
-  write_file(folder / "results.json", limit_json(analysis));  // last: where it is, the rest is complete
+  write_results(folder, limit_json(analysis));  // last: where it is, the rest is complete
 }
 
 }  // namespace voussoir

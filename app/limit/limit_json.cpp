@@ -21,6 +21,7 @@ Json values_json(const LimitAnalysis& analysis) {
     values[name] = {{"value", value.value}, {"unit", value.unit}};
     if (value.error_bar) values[name]["error_bar"] = *value.error_bar;
     if (!value.rule.empty()) values[name]["rule"] = value.rule;
+    if (!value.divides.empty()) values[name]["divides"] = value.divides;
   }
   return values;
 }

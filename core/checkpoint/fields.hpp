@@ -121,6 +121,18 @@ void serialize(Archive& archive, BondTally& b) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, BondedContact& b) {
+  auto& [part_a, part_b, joint, bonds, area] = b;
+  archive(part_a, part_b, joint, bonds, area);
+}
+
+template <class Archive>
+void serialize(Archive& archive, BondedContacts& b) {
+  auto& [contacts, made] = b;
+  archive(contacts, made);
+}
+
+template <class Archive>
 void serialize(Archive& archive, BondCount& b) {
   auto& [made, whole, broken, removed, due] = b;
   archive(made, whole, broken, removed, due);
@@ -242,8 +254,8 @@ void serialize(Archive& archive, StageRecord& r) {
 template <class Archive>
 void serialize(Archive& archive, Value& v) {
   // a budget is made after the last checkpoint
-  auto& [value, unit, error_bar, rule, covers, bracket, budget] = v;
-  archive(value, unit, error_bar, rule);
+  auto& [value, unit, error_bar, rule, covers, bracket, budget, divides] = v;
+  archive(value, unit, error_bar, rule, divides);
 }
 
 template <class Archive>
@@ -272,11 +284,29 @@ void serialize(Archive& archive, LiningRow& l) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, BondsOfJoint& b) {
+  auto& [joint, whole, made, area_share] = b;
+  archive(joint, whole, made, area_share);
+}
+
+template <class Archive>
+void serialize(Archive& archive, WholeBonds& b) {
+  auto& [whole, made, by_joint] = b;
+  archive(whole, made, by_joint);
+}
+
+template <class Archive>
+void serialize(Archive& archive, StableState& s) {
+  auto& [stage, kind, level, unit, bonds] = s;
+  archive(stage, kind, level, unit, bonds);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Results& r) {
-  auto& [outcome, message, values, stages, history, bolts_carried, linings_carried, counters, bonds, energy, state_hash,
-         warnings, seconds, budget_evaluations] = r;
-  archive(outcome, message, values, stages, history, bolts_carried, linings_carried, counters, bonds, energy,
-          state_hash, warnings, seconds);
+  auto& [outcome, message, values, stages, at_last_stable_state, history, bolts_carried, linings_carried, counters,
+         bonds, energy, state_hash, warnings, seconds, budget_evaluations] = r;
+  archive(outcome, message, values, stages, at_last_stable_state, history, bolts_carried, linings_carried, counters,
+          bonds, energy, state_hash, warnings, seconds);
 }
 
 template <class Archive, int Dim>
@@ -288,9 +318,9 @@ void serialize(Archive& archive, StageEnd<Dim>& e) {
 template <class Archive, int Dim>
 void serialize(Archive& archive, Progress<Dim>& p) {
   auto& [state, stage, stage_under_way, stage_began, steps_before, run, reduction, record, next_frame, frames,
-         trial_frames, ends, results] = p;
+         trial_frames, ends, bonded, results] = p;
   archive(state, stage, stage_under_way, stage_began, steps_before, run, reduction, record, next_frame, frames,
-          trial_frames, ends, results);
+          trial_frames, ends, bonded, results);
 }
 
 // every bit of it: two objects are the same when these are equal

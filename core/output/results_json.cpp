@@ -40,6 +40,7 @@ Json values_json(const Results& results, NumberWriter& number) {
                                  {"left", number(line.left, name + ".left")},
                                  {"sensitivity", line.sensitivity}});
     if (!value.rule.empty()) entry["rule"] = value.rule;
+    if (!value.divides.empty()) entry["divides"] = value.divides;
   }
   return values;
 }
@@ -82,6 +83,29 @@ Json bonds_json(const BondCount& bonds) {
           {"broken", bonds.broken},
           {"removed_with_blocks", bonds.removed},
           {"joints_not_pressed_yet", bonds.due}};
+}
+
+Json bonds_json(const WholeBonds& bonds, NumberWriter& number) {
+  Json json = {{"whole", bonds.whole}, {"made", bonds.made}, {"by_joint", Json::array()}};
+  for (const BondsOfJoint& joint : bonds.by_joint)
+    json["by_joint"].push_back({{"joint", joint.joint.empty() ? Json() : Json(joint.joint)},
+                                {"whole", joint.whole},
+                                {"made", joint.made},
+                                {"area_share", number(joint.area_share, "area_share of joint " + joint.joint)}});
+  return json;
+}
+
+// an entry for each stage, in which each kind of strength has a row
+Json stable_states_json(const Results& results, NumberWriter& number) {
+  Json states = Json::array();
+  for (const StableState& at : results.at_last_stable_state) {
+    Json& entry = states.emplace_back();
+    entry = {{"stage", at.stage}, {"kind", at.kind}};
+    if (at.level) entry["level"] = number(*at.level, "level of stage " + at.stage);
+    if (at.level) entry["unit"] = at.unit;
+    if (at.bonds) entry["bonds"] = bonds_json(*at.bonds, number);
+  }
+  return states;
 }
 
 Json energy_json(const EnergyLedger& energy, NumberWriter& number) {
@@ -141,7 +165,7 @@ std::string outcome_name(Outcome outcome) {
 std::string results_json(const Results& results, const RunRecord& record) {
   NumberWriter number;
   const Json values = values_json(results, number), stages = stages_json(results, number),
-             energy = energy_json(results.energy, number);
+             energy = energy_json(results.energy, number), stable_states = stable_states_json(results, number);
 
   Json json;
   json["schema"] = "voussoir.results";
@@ -157,6 +181,7 @@ std::string results_json(const Results& results, const RunRecord& record) {
   json["message"] = complete_message(results, number);
   json["values"] = values;
   json["stages"] = stages;
+  if (!stable_states.empty()) json["at_last_stable_state"] = stable_states;
   json["energy"] = energy;
   json["counters"] = counters_json(results.counters);
   if (results.budget_evaluations > 0) json["budget"] = {{"contact_evaluations", results.budget_evaluations}};

@@ -10,6 +10,7 @@
 #include "core/scene/accuracy_target.hpp"
 #include "core/scene/base_scene.hpp"
 #include "core/scene/bolts.hpp"
+#include "core/scene/divided_strength.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/linings.hpp"
 #include "core/scene/overrides.hpp"
@@ -205,6 +206,7 @@ Scene read_tree(Node stated, const std::string& name, const std::vector<std::str
   scene.excavations = read_excavations(top, scene.dimension);
   const double rock_weight = scene.density && scene.gravity ? *scene.density * std::abs(scene.gravity->back()) : 0;
   scene.stages = read_stages(top, scene.dimension, scene.settings.damping, rock_weight);
+  check_divided_strength(scene.properties, scene.stages);
   scene.waters = read_waters(top, scene.dimension);
   read_water_changes(scene.waters, scene.stages, scene.dimension);
   scene.bolts = read_bolts(top, scene.dimension);

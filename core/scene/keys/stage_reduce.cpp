@@ -17,8 +17,10 @@ KeyTable stage_reduce_keys() {
          {{"friction", Searched::friction}, {"factor", Searched::factor}})},
      .example = "\"factor\"", .when = {"kind", "reduce"},
      .meaning = "friction: the friction angle that the properties take, all the same; factor: the factor of safety, by which "
-         "tan φ and cohesion of the properties are divided as the scene states them (a bonded joint of area A carries "
-         "cA/F + tan φ/F times its normal force, its tensile strength stays); by bisection or in steps"},
+         "tan φ and cohesion of the properties are divided: tan φ of the friction that this stage states, else of that of the "
+         "joint_properties, never of what an earlier stage left, so that a scene in which one has changed it and this stage "
+         "states none is refused (a bonded joint of area A carries cA/F + tan φ/F times its normal force, its tensile strength "
+         "stays); by bisection or in steps"},
     {.key = "joint_properties", .members = {in(&ReducePlan::properties)}, .example = "[\"rock\"]",
      .when = {"kind", "reduce"},
      .meaning = "the properties whose strength is lowered; all without it"},
