@@ -102,6 +102,69 @@ TEST_F(Check, PrintsWhatLiesInWater) {
   says(ground + box("stone", 0, 0) + rock + settle, "applied forces, water");
 }
 
+TEST_F(Check, PrintsTheShareOfReliefLoadsThatIsLeft) {
+  const std::string dug =
+      "dimension = 2\ngravity = [0, -10]\ndensity = 2000\ndomain = { box = { min = [0, 0], max = [6, 3] } }\n" + rock +
+      "[[joints]]\nname = \"floor\"\ndip = 0\npoint = [0, 1]\n[[joints]]\nname = \"bed\"\ndip = 0\npoint = [0, 2]\n"
+      "[[fix]]\nbelow = \"floor\"\n[[excavations]]\nname = \"pit\"\noutline = true\n"
+      "box = { min = [2, 1], max = [4, 2] }\n" +
+      settle + "[[stage]]\nname = \"dig\"\nkind = \"settle\"\nexcavate = \"pit\"\n";
+  const std::string let_off = "let_off = { share = 0.4, duration_s = 1 }\n";
+  says(dug + let_off, "let_off: a share of 0.4 still acts after the last stage, since stage dig");
+  silent(dug + let_off + "[[stage]]\nname = \"off\"\nkind = \"settle\"\nlet_off = { share = 0, duration_s = 1 }\n",
+         "still acts");
+  silent(dug, "still acts");
+  write("scene.toml", dug + let_off);
+  const Ended ended = run("run scene.toml --out out");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("let_off: a share of 0.4 of the forces"), std::string::npos) << ended.out;
+  EXPECT_EQ(results("out")["let_off"]["share_left"], 0.4);
+}
+
+// Every ramp of a stage is counted, and warned of when its limits end it before.
+TEST_F(Check, CountsEveryRampAndWarnsOfLimitsThatNoneCanReach) {
+  const std::string stone = ground + box("stone", 0, 0) + rock + "[[water]]\nname = \"lake\"\nlevel = 0.1\n" +
+                            "[time]\nstep_s = 1e-4\n" + settle;
+  const auto rises = [&](const std::string& seconds) {
+    return "water = [{ name = \"lake\", level = 0.3, duration_s = " + seconds + " }]\n";
+  };
+  says(stone + rises("10"), "1e+05 of them");
+  says(stone + "step_limit = 50000\n" + rises("10"), "stage.rest.step_limit = 50000: its longest ramp, 10 s, takes");
+  silent(stone + "step_limit = 500000\n" + rises("10"), "is not reached");
+  const std::string windows = "[equilibrium]\nwindow = 1000\n";
+  says(stone + "step_limit = 999\n" + windows, "equilibrium.window asks for 1000 steps at rest in a row");
+  silent(stone + "step_limit = 1001\n" + windows, "equilibrium.window asks");
+  const std::string search =
+      "[[stage]]\nname = \"reduce\"\nkind = \"reduce\"\nfrom_deg = 30\nto_deg = 1\ntolerance_deg = 0.1\n";
+  says(stone + search + "ramp_steps = 500\nstep_limit = 500\n", "stage.reduce.step_limit = 500: a trial lowers");
+  silent(stone + search + "ramp_steps = 500\nstep_limit = 5000\n", "a trial lowers");
+}
+
+// Mapped joints without sizes are endless and cut many more blocks than a table with sizes.
+TEST_F(Check, SaysThatATableOfJointsWithoutSizesIsEndless) {
+  const std::string scene =
+      "dimension = 2\ngravity = [0, -10]\ndensity = 2000\njoints_file = \"joints.csv\"\n"
+      "domain = { box = { min = [0, 0], max = [10, 10] } }\nfix = [{ side = \"bottom\" }]\n" +
+      rock + settle;
+  std::string endless = "name,x_m,y_m,dip_deg,dip_direction_deg\n",
+              ended = "name,x_m,y_m,dip_deg,dip_direction_deg,shape,length_m\n";
+  for (int k = 1; k <= 50; ++k) {
+    const std::string row =
+        fmt::format("J{0},{1},{2},{3},{4}", k, 0.19 * k, 10 - 0.15 * k, 20 + 3 * (k % 12), k % 2 ? 90 : 270);
+    endless += row + "\n";
+    ended += row + ",trace,0.5\n";
+  }
+  write("joints.csv", endless);
+  says(scene, "all 50 joints of 'joints.csv' are endless");
+  says(scene, "warning: scene.toml: all 50 joints");
+  const Ended sliced = run("slice scene.toml --out sliced");
+  const std::size_t at = sliced.out.find("they cut ");
+  ASSERT_NE(at, std::string::npos) << sliced.out << sliced.err;
+  EXPECT_EQ(std::stoul(sliced.out.substr(at + 9)), std::stoul(sliced.out)) << "the blocks that were written";
+  write("joints.csv", ended);
+  silent(scene, "endless");
+}
+
 // Where a table slopes, a block that slides leaves its water before the displacement that counts as failure.
 TEST_F(Check, WarnsWhereASearchLetsBlocksLeaveTheirWater) {
   const std::string search = settle +

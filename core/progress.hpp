@@ -7,6 +7,7 @@
 #include "core/monitor.hpp"
 #include "core/reduction/reduction.hpp"
 #include "core/results.hpp"
+#include "core/settled.hpp"
 
 namespace voussoir {
 
@@ -18,6 +19,7 @@ struct Progress {
   double stage_began = 0;            // s
   long long steps_before = 0;        // of the stages that ended
   RunProgress<Dim> run;              // of a stage that settles or runs
+  SettleBegin<Dim> settle;           // of one that settles
   ReductionProgress<Dim> reduction;  // of a stage that reduces strength
   StageRecord record;                // rows of the stage under way
   double next_frame = 0;             // s

@@ -70,6 +70,18 @@ struct StableState {
   std::optional<WholeBonds> bonds{};
 };
 
+// a body that a stage has moved by more than its own size while settling (core/settled.hpp)
+struct MovedBody {
+  std::string stage;
+  int body = 0;
+  std::string name;             // of the body; may be empty
+  double distance = 0;          // m
+  double inscribed_radius = 0;  // m
+  int against = -1;             // the nearest of the bodies that it lay against and that stayed; -1: none did
+  std::vector<double> place{};  // m, world coordinates: its centroid at the end
+  bool left_all = false;        // it touches none of those any more that it touched
+};
+
 // column names carry their unit: time_s, wedge_displacement_x_m, friction_rock_deg …
 struct History {
   std::vector<std::string> columns;
@@ -115,6 +127,8 @@ struct Results {
   std::vector<LiningRow> linings;  // by stage, then by lining and node
   Counters counters;
   std::optional<BondCount> bonds;  // where a stage makes some
+  std::vector<MovedBody> moved;    // by stage, the farthest first
+  double relief_left = 0;          // share of the forces of excavated rock that still acts at the end, the largest
   EnergyLedger energy;
   std::string state_hash;             // of the last state (core/state_hash.hpp)
   std::vector<std::string> warnings;  // one line each: what the run itself showed to be doubtful

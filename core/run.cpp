@@ -94,6 +94,43 @@ double ramp_of(const RunSchedule& plan) {
   return ramp;
 }
 
+// Which ramps a run that ends now has not carried through, and how far each has come; else what of rest is missing.
+template <int Dim>
+std::string unreached(const Model<Dim>& model, const Settings& settings, const RunSchedule& plan,
+                      const RunProgress<Dim>& progress, const State<Dim>& state, double unbalanced) {
+  const double elapsed = state.time - state.schedule.started;
+  std::vector<std::string> ramps;
+  const auto add = [&](const std::string& what, double ramp) {
+    if (elapsed < ramp) ramps.push_back(fmt::format("{} (at {:.3g} % of {:g} s)", what, 100 * elapsed / ramp, ramp));
+  };
+  add("gravity", plan.gravity.ramp);
+  if (plan.strength_rate > 0)
+    add("the fall of strength", std::abs(plan.strength_from - plan.strength_to) / plan.strength_rate);
+  for (const WaterPlan& water : plan.water)
+    add(fmt::format("the water '{}'", model.waters[water.water].name), water.ramp);
+  if (plan.let_off && !state.held.empty()) add("what excavated rock still holds", plan.let_off->duration);
+  if (ramps.empty() && state.newton.under_way) ramps.emplace_back("the increments of Newton's method");
+  if (ramps.empty() && unbalanced <= settings.equilibrium.unbalanced)
+    ramps.push_back(fmt::format("rest in {} steps in a row (equilibrium.window), it lasted for {}",
+                                settings.equilibrium.window, progress.at_rest));
+  return ramps.empty() ? "" : fmt::format("; not reached: {}", fmt::join(ramps, ", "));
+}
+
+// A lining that had rock opposite and touches none any more; -1: none.
+template <int Dim>
+int loose_lining(const State<Dim>& state) {
+  for (const LiningState& lined : state.linings) {
+    const auto touches = [](const LiningContact& c) { return c.rock >= 0 && (c.bonded || c.closure >= 0); };
+    if (!lined.rock.empty() && std::ranges::none_of(lined.contacts, touches)) return lined.lining;
+  }
+  return -1;
+}
+
+// what falls may yet be lifted by a water, or lose its weight
+bool may_return(const RunSchedule& plan, bool changing) {
+  return changing && (!plan.water.empty() || plan.gravity.to == 0);
+}
+
 // the first body whose motion is not a number, or else whose load is, for a wrong motion spoils its neighbours' loads;
 // -1: none
 template <int Dim>
@@ -214,6 +251,8 @@ std::string describe(StopReason reason) {
       return "a number is not finite";
     case StopReason::falls_free:
       return "a body falls free";
+    case StopReason::lining_loose:
+      return "a lining has left its rock";
     case StopReason::interrupted:
       return "interrupted";
   }
@@ -237,6 +276,8 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
   }
   RunReport report;
   const auto stop = [&](StopReason reason, const std::string& detail = {}) {
+    if (goal.rest && (reason == StopReason::step_limit || reason == StopReason::time_limit))
+      report.unreached = unreached(model, settings, schedule, progress, state, report.unbalanced);
     progress.under_way = reason == StopReason::interrupted;
     if (relaxing && !progress.under_way) end_relaxation(state);
     if (!progress.under_way) state.schedule.ends = never;
@@ -277,7 +318,12 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
     if (goal.moved_away && has_moved_away(model, goal, progress.begin, state)) return stop(StopReason::moved_away);
     if (goal.end_time && state.time >= *goal.end_time) return stop(StopReason::end_time);
-    if (goal.rest && !goal.moved_away && !changing && !state.newton.under_way &&
+    if (const int lining = goal.rest && !evaluated && std::isinf(report.unbalanced) ? loose_lining(state) : -1;
+        lining >= 0)
+      return stop(StopReason::lining_loose,
+                  fmt::format("no node of the lining '{}' touches rock any more, and nothing else exerts a force",
+                              model.linings[lining].properties.name));
+    if (goal.rest && !goal.moved_away && !may_return(schedule, changing) && !state.newton.under_way &&
         progress.steps % steps_between_falls == 0)
       if (const int body = falling_free(model, state); body >= 0)
         return stop(StopReason::falls_free,

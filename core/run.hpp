@@ -20,8 +20,9 @@ enum class StopReason {
   time_limit,
   no_contact_answer,
   not_finite,
-  falls_free,  // a body that nothing can catch: there will be no rest
-  interrupted  // the hooks asked for a pause: the run continues when it is called again
+  falls_free,    // a body that nothing can catch: there will be no rest
+  lining_loose,  // nothing exerts a force, and a lining has left its rock: there is nothing to measure rest against
+  interrupted    // the hooks asked for a pause: the run continues when it is called again
 };
 
 // what a run aims at; anything left out does not stop it
@@ -48,7 +49,8 @@ struct RunSchedule {
 
 struct RunReport {
   StopReason reason = StopReason::step_limit;
-  std::string detail;  // which contact or body, for failures and where rest was not found
+  std::string detail;     // which contact or body, for failures and where rest was not found
+  std::string unreached;  // "; not reached: …": what of schedule and rest a limit of steps or time cut off; or empty
   long long steps = 0;
   double unbalanced = 0;  // the equilibrium measure at the end
 };

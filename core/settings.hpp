@@ -89,9 +89,9 @@ struct TimeSettings {
 };
 
 struct EquilibriumSettings {
-  // at rest when for every free body (|unbalanced force| + |momentum| ω) / mean contact force stays below this during
-  // `window` steps, ω² being the body's largest stiffness over mass: at the end of a swing the force shows it, in
-  // the middle the momentum does. Too loose and a slow slide passes as rest
+  // at rest when for every free body (|unbalanced force| + |momentum| ω) / mean force (integrate.hpp) stays below
+  // during `window` steps, ω² being the body's largest stiffness over mass: at the end of a swing the force shows it,
+  // in the middle the momentum does. Too loose and a slow slide passes as rest
   double unbalanced = 1e-6;
   int window = 10;
 };

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "core/accuracy.hpp"
@@ -14,6 +16,7 @@
 #include "core/install.hpp"
 #include "core/motion/free_fall.hpp"
 #include "core/motion/relaxation.hpp"
+#include "core/open_ledger.hpp"
 #include "core/stable_state.hpp"
 #include "core/state_hash.hpp"
 #include "core/step.hpp"
@@ -26,12 +29,6 @@ namespace voussoir {
 namespace {
 
 constexpr long long steps_between_reports = 1000;
-
-// what the ledger may leave unexplained, as a fraction of the largest energy, before a run is doubted
-constexpr double energy_left_open = 0.05;
-
-// the fraction of that energy from which local damping shapes a motion
-constexpr double much_damped = 0.1;
 
 template <int Dim>
 bool anything_moves(const Model<Dim>& model) {
@@ -205,13 +202,31 @@ struct Simulation {
       fail(Outcome::failed, describe(report.reason) + "; " + report.detail);
     else if (!goal_reached)
       fail(Outcome::incomplete,
-           fmt::format("no equilibrium: {} (unbalanced {:.2g}, wanted {:.2g}){}", describe(report.reason),
-                       report.unbalanced, settings.equilibrium.unbalanced, and_more(report.detail)));
+           fmt::format("no equilibrium: {} (unbalanced {:.2g}, wanted {:.2g}){}{}", describe(report.reason),
+                       report.unbalanced, settings.equilibrium.unbalanced, report.unreached, and_more(report.detail)));
   }
 
   // each `execute` continues with the stage under way; nothing: interrupted
 
+  // nothing that ties it, and nothing below: before the first step of a stage that would wait for rest
+  std::optional<Executed> falls_from_begin(const State<Dim>& now) {
+    const int body = tied_to_nothing(model, now);
+    if (body < 0) return {};
+    fail(Outcome::incomplete,
+         fmt::format("no equilibrium: {} falls free: no chain of near blocks, bolts or linings ties it to a block that "
+                     "is held, and nothing lies below it; fix what should hold it",
+                     label_of(model, body)));
+    return Executed{describe(StopReason::falls_free), std::numeric_limits<double>::infinity()};
+  }
+
   std::optional<Executed> execute(const SettlePlan& settle) {
+    if (!progress.run.under_way) {
+      const State<Dim> now = with_forces(state, false);
+      const StagePlan* const before = progress.stage > 0 ? &plan() - 1 : nullptr;
+      progress.settle = settle_begin(model, now, before && std::holds_alternative<RunPlan>(before->plan));
+      const bool weighs = settle.gravity.to.value_or(settle.gravity.ramp > 0 ? 1 : now.schedule.gravity_factor) != 0;
+      if (std::optional<Executed> ended = weighs ? falls_from_begin(now) : std::nullopt) return ended;
+    }
     RunGoal goal;
     goal.rest = true;
     goal.time_limit = progress.stage_began + settle.time_limit;
@@ -238,6 +253,9 @@ struct Simulation {
   // the whole stage, all that happens.
   std::optional<Executed> execute(const ReducePlan& reduction) {
     const bool continuous = reduction.method == ReductionMethod::rate;
+    const bool begins = progress.reduction.begin.empty() && reduction.failure_fraction == 0;
+    if (begins && state.schedule.gravity_factor != 0)
+      if (std::optional<Executed> ended = falls_from_begin(with_forces(state, false))) return ended;
     const TrialHook<Dim> on_trial = [&](const State<Dim>& moved, double level, Trial outcome) {
       if (outcome == Trial::stable) note_stable(moved, sought_by(reduction).number(level), sought_by(reduction).unit);
       if (continuous) return;
@@ -352,6 +370,30 @@ struct Simulation {
     progress.stage_under_way = true;
   }
 
+  // what has come to rest somewhere else: a later search would judge another slope than the scene's
+  void judge_moved(const State<Dim>& now) {
+    std::vector<MovedBody> moved = moved_bodies(model, progress.settle, now);
+    if (moved.empty()) return;
+    const auto left = std::ranges::find_if(moved, &MovedBody::left_all);
+    const bool searched = std::any_of(scene.stages.begin() + progress.stage, scene.stages.end(),
+                                      [](const StagePlan& s) { return std::holds_alternative<ReducePlan>(s.plan); });
+    const MovedBody& worst = left == moved.end() ? moved.front() : *left;
+    std::string told = fmt::format(
+        "{} moved by {:.3g} m while settling, more than its inscribed radius of {:.3g} m{}, and came to "
+        "rest at ({:.4g})",
+        label_of(model, worst.body), worst.distance, worst.inscribed_radius,
+        worst.left_all ? ", lost every contact that it had" : "", fmt::join(worst.place, ", "));
+    if (moved.size() > 1) told += fmt::format("; so did {} more (results.json, moved)", moved.size() - 1);
+    for (MovedBody& m : moved) {
+      m.stage = plan().name;
+      results.moved.push_back(std::move(m));
+    }
+    results.warnings.push_back(fmt::format("stage {}: {}", plan().name, told));
+    if (left != moved.end() || searched)
+      fail(Outcome::incomplete,
+           told + (searched ? "; the search that follows needs the blocks where the scene has them" : ""));
+  }
+
   void end_stage(const Executed& done) {
     StageResult r;
     r.name = plan().name;
@@ -373,6 +415,7 @@ struct Simulation {
     progress.stage_under_way = false;
     remember_end();
     const State<Dim> now = with_forces(state, results.outcome == Outcome::failed);
+    if (std::holds_alternative<SettlePlan>(plan().plan) && results.outcome == Outcome::done) judge_moved(now);
     finish_rows(now);
     for (BoltRow& bolt : bolt_rows(model, now, progress.stage + 1))
       results.bolts.push_back(std::move(bolt));
@@ -392,39 +435,6 @@ struct Simulation {
             scene.accuracy_level, least_promised_angle, name, value.value, value.error_bar.value_or(0)));
   }
 
-  // the first stage of true motion whose step is longer than impacts allow
-  const StagePlan* long_step() const {
-    for (int s = 0; s < std::min(progress.stage + 1, static_cast<int>(scene.stages.size())); ++s) {
-      const StagePlan& stage = scene.stages[s];
-      const Settings in_force = settings_of(stage, scene.settings);
-      const double most = in_force.damping.local > 0 ? TimeSettings::most_damped : TimeSettings::most_undamped;
-      if (std::holds_alternative<RunPlan>(stage.plan) && !in_force.time.step && in_force.time.fraction > most)
-        return &stage;
-    }
-    return nullptr;
-  }
-
-  // which of the two balances is open, and what of the run opens it
-  std::string open_balance() const {
-    const EnergyLedger& e = state.energy;
-    if (std::abs(e.motion_error) > std::abs(e.contact_error))
-      return "the motion, which only rounding opens: is the time step unstable (time.step_s)?";
-    std::string causes;
-    if (const StagePlan* stage = long_step())
-      causes += fmt::format("; steps are long for impacts (time.fraction = {:g} in stage {})",
-                            settings_of(*stage, scene.settings).time.fraction, stage->name);
-    if (e.flows[Source::local_damping] > much_damped * e.largest_energy)
-      causes += fmt::format(
-          "; local damping took {:.2g} of that energy and holds the motion up, so that little energy is "
-          "left to compare with (damping.local = 0 shows the true motion)",
-          e.flows[Source::local_damping] / e.largest_energy);
-    if (causes.empty())
-      causes =
-          "; areas and normals of contacts change as blocks rock or slide over edges (contact.face, joint_properties "
-          "sub_contacts, contact.normal), or an impact lasts few steps (time.fraction, time.step_s)";
-    return "the contacts" + causes;
-  }
-
   void add_final_results() {
     judge_level();
     const std::vector<Column> columns = monitor_columns<Dim>(scene.monitors);
@@ -436,11 +446,11 @@ struct Simulation {
     count_all_bonds(scene, state, results);
     results.state_hash = state_hash(model, state);
     results.energy = state.energy;
-    if (state.energy.relative_error() > energy_left_open)
-      results.warnings.push_back(fmt::format(
-          "the energy ledger does not close: {:.2g} J, {:.2g} of the largest energy of the run, is unexplained, in the "
-          "balance of {}",
-          state.energy.worst_error, state.energy.relative_error(), open_balance()));
+    for (const HeldLoad<Dim>& held : state.held)
+      if (model.bodies[held.body].present) results.relief_left = std::max(results.relief_left, held.share);
+    const auto begun = std::span(scene.stages).first(std::min<std::size_t>(progress.stage + 1, scene.stages.size()));
+    if (std::string doubts = doubts_of(state.energy, begun, scene.settings); !doubts.empty())
+      results.warnings.push_back(std::move(doubts));
   }
 
   // false: interrupted

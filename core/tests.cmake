@@ -101,3 +101,7 @@ voussoir_test(unit.step LABEL unit
     load/boundary_stress_test.cpp load/water_test.cpp load/water_bends_test.cpp step/water_test.cpp scene/water_scene_test.cpp
     state_hash_test.cpp reduction/reduction_test.cpp motion/relaxation_test.cpp checkpoint/checkpoint_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra cereal::cereal Boost::headers fmt::fmt)
+
+voussoir_test(unit.rest LABEL unit
+  SOURCES motion/rest_test.cpp motion/free_fall_test.cpp settled_test.cpp scene/stage_excavations_test.cpp
+  LIBS voussoir_core cereal::cereal Boost::headers fmt::fmt)

@@ -12,6 +12,7 @@
 #include "core/contact/carried_whole.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/scene/plausibility.hpp"
+#include "core/scene/stage_excavations.hpp"
 #include "core/step/newton.hpp"
 #include "core/waters.hpp"
 #include "text/angle.hpp"
@@ -304,6 +305,7 @@ std::string change_text(const Change& change) {
 }
 
 void print_stages(const std::vector<StagePlan>& stages, const std::vector<Water>& waters) {
+  ActingShare acting;
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const StagePlan& stage = stages[k];
     std::string text = fmt::format("{} {}: {}", k + 1, stage.name, std::visit(PlanText{}, stage.plan));
@@ -315,7 +317,11 @@ void print_stages(const std::vector<StagePlan>& stages, const std::vector<Water>
     const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
     if (stage.damping) text += "; damping " + damping_text(*stage.damping, seeks_rest);
     print_line(k == 0 ? "stages" : "", text);
+    acting.follow(stage);
   }
+  if (acting.share > 0)
+    print_line("", fmt::format("let_off: a share of {:g} still acts after the last stage, since stage {}", acting.share,
+                               acting.stage));
 }
 
 template <int Dim>
@@ -409,6 +415,8 @@ void print_active(const Scene& stated, const Prepared<Dim>& prepared) {
   print_particles(prepared.model);
   print_joints(prepared.model);
   print_missing_joints(stated, prepared.model);
+  if (const std::string endless = endless_joints(stated, prepared.model.bodies.size()); !endless.empty())
+    print_line("", endless);
   print_properties(prepared.model, prepared.settings.contact);
   print_line("gravity", vector_text<Dim>(prepared.model.gravity) + " m/s²");
   print_water(prepared);

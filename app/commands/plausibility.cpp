@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "app/commands/plausible_assembly.hpp"
+#include "app/commands/plausible_ramps.hpp"
 #include "core/cast_lining.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/motion/time_step.hpp"
@@ -94,13 +95,14 @@ bool relaxes(const StagePlan& stage, const DampingSettings& damping) {
 }
 
 struct Forecaster {
-  double settling;   // s
-  double g;          // m/s²
-  double smallest;   // m: inscribed radius of a free block
-  double time_step;  // s
-  bool relaxed;      // there is no motion that could slide away
+  double settling;       // s
+  double g;              // m/s²
+  double smallest;       // m: inscribed radius of a free block
+  double time_step;      // s
+  bool relaxed;          // there is no motion that could slide away
+  double ramp_of_stage;  // s
 
-  double operator()(const SettlePlan& plan) const { return plan.gravity.ramp + settling; }
+  double operator()(const SettlePlan&) const { return ramp_of_stage + settling; }
   double operator()(const RunPlan& plan) const { return plan.duration; }
   double operator()(const ReducePlan& plan) const {
     const bool factor = plan.searched == Searched::factor;
@@ -149,7 +151,8 @@ void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, Sta
     double settling = 0;
     if (g > 0 && result.overlap > 0)
       settling = settling_time(result.overlap, g, damping, prepared.settings.equilibrium.unbalanced);
-    forecast.duration = std::visit(Forecaster{settling, g, smallest, forecast.time_step, relaxed}, stage.plan);
+    forecast.duration =
+        std::visit(Forecaster{settling, g, smallest, forecast.time_step, relaxed, ramp_of(stage)}, stage.plan);
     if (forecast.time_step > 0) forecast.steps = forecast.duration / forecast.time_step;
     result.stages.push_back(forecast);
   }
@@ -462,6 +465,7 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
     const StagePlan& stage = prepared.stages[k];
     const bool relaxed = relaxes(stage, stage.damping.value_or(prepared.settings.damping));
     judge_steps(stage, result.stages[k], result);
+    judge_limits(stage, settings_of(stage, prepared.settings), result.stages[k], result.warnings);
     judge_times(stage, result.stages[k], relaxed ? period : swing, prepared.output, result);
   }
   return result;

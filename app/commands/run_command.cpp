@@ -71,6 +71,18 @@ void print_budget(const Value& value) {
   }
 }
 
+// bodies that came to rest somewhere else than where their stage began
+void print_moved(const std::vector<MovedBody>& moved) {
+  constexpr std::size_t most_shown = 10;
+  for (std::size_t k = 0; k < std::min(moved.size(), most_shown); ++k) {
+    const MovedBody& m = moved[k];
+    fmt::print("  moved in stage {}: body {}{} by {:.3g} m, rests at ({:.4g}){}\n", m.stage, m.body,
+               m.name.empty() ? "" : " (" + m.name + ")", m.distance, fmt::join(m.place, ", "),
+               m.left_all ? ", in other contacts" : "");
+  }
+  if (moved.size() > most_shown) fmt::print("  and {} more (results.json, moved)\n", moved.size() - most_shown);
+}
+
 void print_summary(const LoadedScene& scene, const Results& results, const RunOptions& options,
                    const fs::path& folder) {
   const std::string message = results.message.empty() ? "" : ": " + results.message;
@@ -91,6 +103,10 @@ void print_summary(const LoadedScene& scene, const Results& results, const RunOp
   if (const auto& bonds = results.bonds)
     fmt::print("  bonds: {} made, {} whole, {} broken, {} removed with their blocks; {} joints have not pressed yet\n",
                bonds->made, bonds->whole, bonds->broken, bonds->removed, bonds->due);
+  print_moved(results.moved);
+  if (results.relief_left > 0)
+    fmt::print("  let_off: a share of {:g} of the forces by which excavated rock held the rest still acts\n",
+               results.relief_left);
   const Counters& counters = results.counters;
   fmt::print("  {} steps, {} contact evaluations, {}\n", counters.steps, counters.contact_evaluations,
              duration_text(results.seconds));

@@ -12,6 +12,7 @@
 #include "core/output/paraview.hpp"
 #include "core/output/view.hpp"
 #include "core/potential/particle.hpp"
+#include "core/scene/plausibility.hpp"
 #include "text/csv_table.hpp"
 
 namespace voussoir {
@@ -130,7 +131,13 @@ ExitCode slice_command(const SliceArguments& arguments) {
         "--planes, --stl and --obj write blocks of half-spaces but the scene has potential particles; blocks.vtp has "
         "their surfaces");
   const ClaimedFolder claim(arguments.out, outputs_of(arguments, loaded.dimension), loaded.files, arguments.overwrite);
-  std::visit([&](const auto& prepared) { write_blocks(prepared, arguments); }, loaded.prepared);
+  std::visit(
+      [&](const auto& prepared) {
+        write_blocks(prepared, arguments);
+        if (const std::string endless = endless_joints(*loaded.stated, prepared.model.bodies.size()); !endless.empty())
+          fmt::print("{}\n", endless);
+      },
+      loaded.prepared);
   if (arguments.report) {
     const Scene scene = read_scene(arguments.scene.scene, arguments.scene.overrides);
     const BlockSizes sizes =

@@ -302,11 +302,29 @@ void serialize(Archive& archive, StableState& s) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, MovedBody& m) {
+  auto& [stage, body, name, distance, inscribed_radius, against, place, left_all] = m;
+  archive(stage, body, name, distance, inscribed_radius, against, place, left_all);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Results& r) {
   auto& [outcome, message, values, stages, at_last_stable_state, history, bolts_carried, linings_carried, counters,
-         bonds, energy, state_hash, warnings, seconds, budget_evaluations] = r;
+         bonds, moved, relief_left, energy, state_hash, warnings, seconds, budget_evaluations] = r;
   archive(outcome, message, values, stages, at_last_stable_state, history, bolts_carried, linings_carried, counters,
-          bonds, energy, state_hash, warnings, seconds);
+          bonds, moved, relief_left, energy, state_hash, warnings, seconds);
+}
+
+template <class Archive>
+void serialize(Archive& archive, NearBodies& n) {
+  auto& [a, b, touched] = n;
+  archive(a, b, touched);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, SettleBegin<Dim>& s) {
+  auto& [placed, near] = s;
+  archive(placed, near);
 }
 
 template <class Archive, int Dim>
@@ -317,9 +335,9 @@ void serialize(Archive& archive, StageEnd<Dim>& e) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, Progress<Dim>& p) {
-  auto& [state, stage, stage_under_way, stage_began, steps_before, run, reduction, record, next_frame, frames,
+  auto& [state, stage, stage_under_way, stage_began, steps_before, run, settle, reduction, record, next_frame, frames,
          trial_frames, ends, bonded, results] = p;
-  archive(state, stage, stage_under_way, stage_began, steps_before, run, reduction, record, next_frame, frames,
+  archive(state, stage, stage_under_way, stage_began, steps_before, run, settle, reduction, record, next_frame, frames,
           trial_frames, ends, bonded, results);
 }
 

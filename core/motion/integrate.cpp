@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 #include "core/on_threads.hpp"
@@ -141,17 +142,57 @@ double unbalanced_force(const Model<Dim>& model, const State<Dim>& state, int b)
   return std::sqrt(squares) + frequency * std::sqrt(momentum);
 }
 
-// N: of the bodies that are wet. What floats touches nothing: its forces are measured against this one.
+// N: of the free bodies that a load acts on, whichever of its sources it comes from
 template <int Dim>
-double mean_water_force(const State<Dim>& state) {
+double mean_load(const Model<Dim>& model, const State<Dim>& state, std::initializer_list<Source> sources) {
   double forces = 0;
-  int wet = 0;
-  for (const Source source : {Source::water, Source::water_pressure})
-    for (const Load<Dim>& load : state.loads_of[source]) {
-      forces += load.force.norm();
-      wet += !load.force.isZero(0);
+  int loaded = 0;
+  for (const Source source : sources) {
+    const std::vector<Load<Dim>>& loads = state.loads_of[source];
+    for (std::size_t b = 0; b < loads.size(); ++b) {
+      if (model.bodies[b].fixed || loads[b].force.isZero(0)) continue;
+      forces += loads[b].force.norm();
+      ++loaded;
     }
-  return wet > 0 ? forces / wet : 0;
+  }
+  return loaded > 0 ? forces / loaded : 0;
+}
+
+struct ForceSum {
+  double forces = 0;  // N
+  long long acting = 0;
+
+  double mean() const { return acting > 0 ? forces / static_cast<double>(acting) : 0; }
+};
+
+// N: what is unbalanced is measured against this. Contacts may carry next to nothing of what acts: what floats touches
+// nothing, and relief loads or the water in a joint may hold all that its contacts held.
+template <int Dim>
+double force_at_rest(const Model<Dim>& model, int threads, const State<Dim>& state) {
+  const auto add_contact = [&](int i, ForceSum& sum) {
+    const ContactLoad<Dim>& c = state.contact_loads[i];
+    if (c.second < 0) return;
+    sum.forces += c.force.norm();
+    ++sum.acting;
+  };
+  ForceSum all, supports;  // contacts and supports; supports alone
+  for (const ForceSum& some : sums_in_groups<ForceSum>(threads, state.contact_loads.size(), add_contact)) {
+    all.forces += some.forces;
+    all.acting += some.acting;
+  }
+  const auto add_support = [&](double force, long long acting) {
+    for (ForceSum* const sum : {&all, &supports}) {
+      sum->forces += force;
+      sum->acting += acting;
+    }
+  };
+  for (const BoltSpring<Dim>& spring : state.bolt_springs)
+    if (!spring.broken) add_support(std::abs(spring.force) + spring.shear.norm(), 1);
+  const InterfaceSum of_linings = interface_sum(state.linings);
+  add_support(of_linings.forces, of_linings.touching);
+  return std::max({all.mean(), supports.mean(), mean_load(model, state, {Source::let_off}),
+                   mean_load(model, state, {Source::applied_forces}),
+                   mean_load(model, state, {Source::water, Source::water_pressure})});
 }
 
 }  // namespace
@@ -199,31 +240,6 @@ std::vector<Kick<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std
 
 template <int Dim>
 double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& state) {
-  struct ContactForces {
-    double forces = 0;  // N
-    long long touching = 0;
-  };
-  const auto add_contact = [&](int i, ContactForces& sum) {
-    const ContactLoad<Dim>& c = state.contact_loads[i];
-    if (c.second < 0) return;
-    sum.forces += c.force.norm();
-    ++sum.touching;
-  };
-  ContactForces all;
-  for (const ContactForces& some : sums_in_groups<ContactForces>(threads, state.contact_loads.size(), add_contact)) {
-    all.forces += some.forces;
-    all.touching += some.touching;
-  }
-  for (const BoltSpring<Dim>& spring : state.bolt_springs) {
-    if (spring.broken) continue;
-    all.forces += std::abs(spring.force) + spring.shear.norm();
-    ++all.touching;
-  }
-  const InterfaceSum of_linings = interface_sum(state.linings);
-  all.forces += of_linings.forces;
-  all.touching += of_linings.touching;
-  const double mean = all.touching > 0 ? all.forces / static_cast<double>(all.touching) : mean_water_force(state);
-
   const auto raise = [&](int b, double& most) {
     if (!state.left_behind.empty() && state.left_behind[b]) return;
     most = std::max(most, unbalanced_force(model, state, b));
@@ -232,6 +248,7 @@ double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& 
   for (const double of_some : sums_in_groups<double>(threads, model.bodies.size(), raise))
     largest = std::max(largest, of_some);
   if (largest == 0) return 0;
+  const double mean = force_at_rest(model, threads, state);
   return mean > 0 ? largest / mean : std::numeric_limits<double>::infinity();
 }
 

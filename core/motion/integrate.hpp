@@ -50,8 +50,9 @@ std::vector<Kick<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std
 // force left after damping each component against its velocity: f - α |f| sign(v)
 double damped(double force, double velocity, double local_damping);
 
-// The largest fraction of the mean contact force that a body's unbalanced force and momentum still amount to (see
-// EquilibriumSettings); infinity when bodies move without any contact. Under relaxation the momentum is that of the
+// The largest fraction that a body's unbalanced force and momentum still amount to (see EquilibriumSettings) of the
+// mean force of contacts and supports, or of supports, relief loads, applied forces or water alone, whichever is
+// largest; infinity when bodies move and none of these acts. Under relaxation the momentum is that of the
 // fictitious inertia, since this is what swings. Bodies left behind do not count. Found on as many threads.
 template <int Dim>
 double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& state);

@@ -108,6 +108,23 @@ Json stable_states_json(const Results& results, NumberWriter& number) {
   return states;
 }
 
+Json moved_json(const std::vector<MovedBody>& moved, NumberWriter& number) {
+  Json list = Json::array();
+  for (const MovedBody& m : moved) {
+    Json& entry = list.emplace_back();
+    entry = {{"stage", m.stage},
+             {"body", m.body},
+             {"name", m.name},
+             {"distance_m", number(m.distance, "moved.distance_m")},
+             {"inscribed_radius_m", m.inscribed_radius},
+             {"against_body", m.against < 0 ? Json() : Json(m.against)},
+             {"left_every_contact", m.left_all}};
+    for (const double coordinate : m.place)
+      entry["rests_at_m"].push_back(number(coordinate, "moved.rests_at_m"));
+  }
+  return list;
+}
+
 Json energy_json(const EnergyLedger& energy, NumberWriter& number) {
   const std::pair<const char*, double> entries[] = {
       {"kinetic", energy.kinetic},
@@ -165,7 +182,8 @@ std::string outcome_name(Outcome outcome) {
 std::string results_json(const Results& results, const RunRecord& record) {
   NumberWriter number;
   const Json values = values_json(results, number), stages = stages_json(results, number),
-             energy = energy_json(results.energy, number), stable_states = stable_states_json(results, number);
+             energy = energy_json(results.energy, number), stable_states = stable_states_json(results, number),
+             moved = moved_json(results.moved, number);
 
   Json json;
   json["schema"] = "voussoir.results";
@@ -187,6 +205,8 @@ std::string results_json(const Results& results, const RunRecord& record) {
   if (results.budget_evaluations > 0) json["budget"] = {{"contact_evaluations", results.budget_evaluations}};
   if (!record.rounds.empty()) json["accuracy"] = rounds_json(record.rounds);
   if (results.bonds) json["bonds"] = bonds_json(*results.bonds);
+  if (!results.moved.empty()) json["moved"] = moved;
+  if (results.relief_left > 0) json["let_off"] = {{"share_left", results.relief_left}};
   json["state_hash"] = results.state_hash;
   json["timing"] = {{"seconds", std::isfinite(results.seconds) ? Json(results.seconds) : Json()},
                     {"threads", record.threads}};

@@ -271,8 +271,9 @@ struct Search {
                                    describe(report.last.reason), levels.text(progress.stable));
       return;
     }
-    report.message = fmt::format("neither rest nor failure at {} within {} steps (unbalanced {:.2g}): {}",
-                                 levels.text(level), progress.trial_steps, report.last.unbalanced, farthest_mover());
+    report.message =
+        fmt::format("neither rest nor failure at {} within {} steps (unbalanced {:.2g}){}: {}", levels.text(level),
+                    progress.trial_steps, report.last.unbalanced, report.last.unreached, farthest_mover());
     if (attempt.number == 0) {
       report.message += fmt::format("; neither a stable nor a failed {} is known", levels.one);
       return;

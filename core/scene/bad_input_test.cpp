@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "a list of 3 numbers"},
         BadInput{"fraction_for_count", "name = \"settle\"\nkind", "name = \"settle\"\nstep_limit = 10.5 #!\nkind",
                  "step_limit = 10.5", "whole number"},
-        BadInput{"word_for_list", "below = [\"A\"]", "below = \"A\" #!", "fix.1.below = \"A\"", "a list of names"},
+        BadInput{"number_for_list", "below = [\"A\"]", "below = 5 #!", "fix.1.below = 5", "a name or a list of names"},
         BadInput{"wrong_choice", "kind = \"settle\"", "kind = \"setle\" #!", "stage.settle.kind = \"setle\"",
                  "did you mean \"settle\"?"},
         BadInput{"wrong_quantity", "[\"displacement\"]", "[\"displacements\"] #!", "\"displacements\"",

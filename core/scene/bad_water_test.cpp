@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "water.seep.faces = [\"B\", \"A\"]", "joint 'A' have the water 'lake' already"},
         BadInput{"two_waters_outside", "", level + seep + "level = 2\nfaces = \"outer\" #!",
                  "water.seep.faces = \"outer\"", "the outer faces have the water 'lake' already"},
-        BadInput{"a_number", "", level + "faces = 5 #!", "water.lake.faces = 5", "must be a list of names"},
+        BadInput{"a_number", "", level + "faces = 5 #!", "water.lake.faces = 5", "must be a name or a list of names"},
         BadInput{"a_name_twice", "", level + "faces = [\"A\", \"A\"] #!", "water.lake.faces", "stands twice"}),
     by_name);
 

@@ -213,10 +213,13 @@ void Checker::list(const KeyRow& row, const Node& node, const std::string& path)
 
 void Checker::words(const KeyRow& row, const Node& node, const std::string& path,
                     const std::vector<std::string_view>& allowed) const {
-  const std::string what = allowed.empty() ? "a list of names" : "a list of some of " + quoted_list(allowed);
-  if (node.kind != Node::Kind::list || node.items.empty()) refuse(node, path, "must be " + what + example_of(row));
+  const std::string what =
+      allowed.empty() ? "a name or a list of names" : "one, or a list of some, of " + quoted_list(allowed);
+  const bool one = node.kind == Node::Kind::text;
+  if (!one && (node.kind != Node::Kind::list || node.items.empty()))
+    refuse(node, path, "must be " + what + example_of(row));
   std::set<std::string> seen;
-  for (const Node& item : node.items) {
+  for (const Node& item : one ? std::vector<Node>{node} : node.items) {
     const bool known = item.kind == Node::Kind::text &&
                        (allowed.empty() || std::find(allowed.begin(), allowed.end(), item.text) != allowed.end());
     if (!known) {
@@ -231,7 +234,8 @@ void Checker::axes(const KeyRow& row, const Node& node, const std::string& path)
   if (node.kind == Node::Kind::boolean) return;
   if (dimension == 2 && row.key == "rotation")
     refuse(node, path, "must be true or false because a 2-D block has one rotation; write rotation = true");
-  if (node.kind != Node::Kind::list) refuse(node, path, "must be true or a list of axes" + example_of(row));
+  if (node.kind != Node::Kind::list && node.kind != Node::Kind::text)
+    refuse(node, path, "must be true or a list of axes" + example_of(row));
   words(row, node, path,
         dimension == 2 ? std::vector<std::string_view>{"x", "y"} : std::vector<std::string_view>{"x", "y", "z"});
 }
@@ -282,9 +286,6 @@ void Checker::value(const KeyRow& row, const Node& node, const std::string& path
       return points(row, node, path);
     case KeyType::numbers:
       return list(row, node, path);
-    case KeyType::text_or_names:
-      if (node.kind == Node::Kind::text) return check_text(row, node, path);
-      return words(row, node, path, {});
     case KeyType::surface:
       return dimension == 2 ? points(row, node, path) : table(node, row.holds, path);
     case KeyType::table:

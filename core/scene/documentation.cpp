@@ -80,13 +80,11 @@ std::string type_text(const KeyRow& row) {
     case KeyType::axes:
       return "true or a list of axes";
     case KeyType::names:
-      return "list of names";
+      return "name or list of names";
     case KeyType::points:
       return "list of points";
     case KeyType::numbers:
       return "list of numbers";
-    case KeyType::text_or_names:
-      return "text or list of names";
     case KeyType::surface:
       return "list of points; 3-D a table";
     case KeyType::table:

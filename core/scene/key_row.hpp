@@ -17,17 +17,16 @@ enum class KeyType {
   integer,
   number,
   text,
-  name,           // a text without '.' and '=', so that --set can address it
-  choice,         // one of KeyRow::choices
-  vector,         // as many numbers as the scene has dimensions
-  spin,           // 2-D a number, 3-D three numbers
-  axes,           // true, or a list of "x", "y", "z"
-  names,          // a list of texts
-  choices,        // a list of some of KeyRow::choices
-  points,         // a list of vectors
-  numbers,        // a list of numbers
-  text_or_names,  // a text, or a list of texts
-  surface,        // 2-D a list of vectors, 3-D a table
+  name,     // a text without '.' and '=', so that --set can address it
+  choice,   // one of KeyRow::choices
+  vector,   // as many numbers as the scene has dimensions
+  spin,     // 2-D a number, 3-D three numbers
+  axes,     // true, one of "x", "y", "z", or a list of them
+  names,    // a list of texts, or one
+  choices,  // a list of some of KeyRow::choices, or one
+  points,   // a list of vectors
+  numbers,  // a list of numbers
+  surface,  // 2-D a list of vectors, 3-D a table
   table,
   tables  // [[key]]: a list of tables
 };

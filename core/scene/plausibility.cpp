@@ -406,7 +406,34 @@ void judge_factors(const StageSpec& stage, Warnings& warnings) {
     }
 }
 
+// Tables of mapped joints mean traces and faces of some metres: taken as endless they cut far more blocks than there
+// are.
+template <int Dim>
+void judge_endless(const Scene& scene, const Model<Dim>& model, Warnings& warnings) {
+  constexpr std::size_t many = 10;  // blocks for each joint
+  if (model.bodies.size() > many * scene.joints.size())
+    if (const std::string told = endless_joints(scene, model.bodies.size()); !told.empty())
+      warnings.push_back(scene.file + ": " + told);
+}
+
 }  // namespace
+
+std::string endless_joints(const Scene& scene, std::size_t blocks) {
+  if (scene.slicing.ends == JointEnds::ignored) return {};
+  std::size_t count = 0;
+  std::string file;
+  for (const JointSpec& joint : scene.joints) {
+    const auto& source = joint.subject.node->place.source;
+    if (!source || source->ends_with(".toml") || *source == scene.file) continue;
+    if (joint.outline.shape != OutlineForm::none || joint.within || !joint.ends_at.empty()) return {};
+    file = *source;
+    ++count;
+  }
+  if (count == 0) return {};
+  return "all " + std::to_string(count) + " joints of '" + one_line(file, 60) +
+         "' are endless, because it has no column shape with length and width (in the plane length); they cut " +
+         std::to_string(blocks) + " blocks";
+}
 
 template <int Dim>
 double thickest_part(const Body<Dim>& body) {
@@ -450,6 +477,7 @@ std::vector<std::string> implausible_values(const Scene& scene, const Prepared<D
   judge_water<Dim>(scene, prepared, warnings);
   judge_domain<Dim>(scene, prepared.model, warnings);
   judge_joints<Dim>(scene, prepared.model, warnings);
+  judge_endless<Dim>(scene, prepared.model, warnings);
   judge_sizes<Dim>(scene, prepared.model, warnings);
   judge_particles<Dim>(scene, prepared.model, warnings);
   return warnings;

@@ -2,6 +2,7 @@
 // line with file, line, key and value.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ namespace voussoir {
 // domain.
 template <int Dim>
 std::vector<std::string> implausible_values(const Scene& scene, const Prepared<Dim>& prepared);
+
+// "all 60 joints of 'joints.csv' are endless …; they cut 9096 blocks": where a table of joints states no size. Empty
+// for other scenes, and for ones in which no joint ends.
+std::string endless_joints(const Scene& scene, std::size_t blocks);
 
 // m: inscribed radius of the largest part. A block that construction joints hold together may have thin ones and be
 // no sliver.

@@ -15,6 +15,7 @@
 #include "core/scene/linings.hpp"
 #include "core/scene/particles.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/stage_excavations.hpp"
 #include "core/scene/stated_bodies.hpp"
 #include "core/scene/wall_points.hpp"
 #include "core/scene/wet_faces.hpp"
@@ -257,30 +258,6 @@ void check_point(const Subject& force, const Model<Dim>& model, const std::vecto
           fmt::format("lies at least {:.3g} m outside of {}, which the force acts on; move the point into the block, "
                       "choose the block it lies in (for example inside = the point), or leave it out for the centroid",
                       outside, body.name.empty() ? fmt::format("block {}", b) : "block '" + body.name + "'"));
-  }
-}
-
-// each excavation that stages name exists and is taken out once; forces can be let off only from the first on
-void check_excavations(const Scene& scene) {
-  std::vector<std::string> names, taken_out;
-  for (const ExcavationSpec& excavation : scene.excavations)
-    names.push_back(excavation.name);
-  for (const StageSpec& stage : scene.stages) {
-    for (const std::string& name : stage.plan.change.excavate) {
-      if (index_of(names, name) < 0)
-        refuse(stage.subject, "excavate",
-               names.empty() ? "there are no excavations; add [[excavations]] with a name and a region"
-                             : "no excavation is named '" + one_line(name, 60) + "'; " + suggestion(name, names));
-      if (index_of(taken_out, name) >= 0)
-        refuse(stage.subject, "excavate",
-               "takes out '" + one_line(name, 60) + "' once more; name each excavation in one stage, once");
-      taken_out.push_back(name);
-    }
-    if (stage.plan.let_off && taken_out.empty())
-      refuse(
-          stage.subject, "let_off",
-          "there is nothing to let off: neither this stage nor one before it excavates; write for example excavate = "
-          "[\"tunnel\"]");
   }
 }
 

@@ -91,6 +91,7 @@ NameSet copies_to_come(const Node& scene, const RepeatedList& list) {
     if (!names || !count || !std::isfinite(count->number) || !(count->number >= 2 && count->number <= most_values))
       continue;
     Names stated;
+    if (names->kind == Node::Kind::text) stated.push_back(names->text);
     for (const Node& name : names->items)
       stated.push_back(name.text);
     made *= count->number * static_cast<double>(stated.size() + 1);

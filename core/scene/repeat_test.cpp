@@ -307,7 +307,7 @@ TEST(Repeat, WhatCannotBeRepeatedIsSaid) {
   const std::vector<Case> cases{
       {repeat("count = 2\nshift = [1, 0, 0]"), "repeat.1.blocks", "nothing is repeated"},
       {repeat("blocks = [\"ston\"]\ncount = 2\nshift = [1, 0, 0]"), "repeat.1.blocks", "did you mean 'stone'"},
-      {repeat("blocks = \"stone\"\ncount = 2\nshift = [1, 0, 0]"), "repeat.1.blocks", "list of names"},
+      {repeat("blocks = 5\ncount = 2\nshift = [1, 0, 0]"), "repeat.1.blocks", "list of names"},
       {repeat("joints = [\"A\"]\ncount = 2\nshift = [1, 0, 0]"), "repeat.1.joints", "no joint named 'A'"},
       {repeat("blocks = [\"stone\"]\nshift = [1, 0, 0]"), "repeat.1.count", "is missing"},
       {repeat("blocks = [\"stone\"]\ncount = 1\nshift = [1, 0, 0]"), "repeat.1.count", "between 2 and 10000"},

@@ -383,5 +383,42 @@ TEST(BaseScene, StatesOnlyTheDifferences) {
   std::filesystem::remove_all(folder);
 }
 
+// One name stands for a list of it, in every kind of table: the scenes are the same but for how they are written.
+TEST(Scene, OneNameStandsForAListOfOne) {
+  const auto replaced = [](std::string text, const std::string& list, const std::string& one) {
+    const std::size_t at = text.find(list);
+    EXPECT_NE(at, std::string::npos) << list;
+    return at == std::string::npos ? text : text.replace(at, list.size(), one);
+  };
+  const std::string lists = wedge +
+                            "[[monitors]]\nname = \"base\"\nover = \"sum\"\nside = [\"bottom\"]\nquantities = "
+                            "[\"displacement\"]\n[[restrain]]\nbodies = [\"stone\"]\ntranslation = [\"x\"]\n"
+                            "[[blocks]]\nname = \"stone\"\nbox = { min = [0, 0, -12], max = [1, 1, -11] }\n"
+                            "[[monitors]]\nname = \"stone\"\nbodies = [\"stone\"]\nquantities = [\"velocity\"]\n";
+  for (const auto& [list, one] : std::vector<std::pair<std::string, std::string>>{
+           {"below = [\"B\"]", "below = \"B\""},
+           {"side = [\"bottom\"]", "side = \"bottom\""},
+           {"bodies = [\"stone\"]\ntranslation", "bodies = \"stone\"\ntranslation"},
+           {"translation = [\"x\"]", "translation = \"x\""},
+           {"quantities = [\"velocity\"]", "quantities = \"velocity\""}}) {
+    const Prepared<3> of_list = prepare<3>(parse_scene(lists, "scene.toml")),
+                      of_name = prepare<3>(parse_scene(replaced(lists, list, one), "scene.toml"));
+    ASSERT_EQ(of_name.model.bodies.size(), of_list.model.bodies.size());
+    for (std::size_t b = 0; b < of_list.model.bodies.size(); ++b) {
+      EXPECT_EQ(of_name.model.bodies[b].fixed, of_list.model.bodies[b].fixed) << one;
+      EXPECT_EQ(of_name.model.bodies[b].free_translation, of_list.model.bodies[b].free_translation) << one;
+    }
+    ASSERT_EQ(of_name.monitors.size(), of_list.monitors.size()) << one;
+    for (std::size_t k = 0; k < of_list.monitors.size(); ++k) {
+      EXPECT_EQ(of_name.monitors[k].followed, of_list.monitors[k].followed) << one;
+      EXPECT_EQ(of_name.monitors[k].group, of_list.monitors[k].group) << one;
+      EXPECT_EQ(of_name.monitors[k].subject, of_list.monitors[k].subject) << one;
+    }
+    const std::string wrong =
+        replaced(lists, list, one.substr(0, one.find('"')) + "\"no such\"" + one.substr(one.rfind('"') + 1));
+    EXPECT_THROW(prepare<3>(parse_scene(wrong, "scene.toml")), SceneError) << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace voussoir

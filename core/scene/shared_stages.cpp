@@ -12,9 +12,10 @@ namespace {
 using NameSet = std::set<std::string>;
 
 void add_texts(const Node* list, NameSet& names) {
-  if (list)
-    for (const Node& item : list->items)
-      names.insert(item.text);
+  if (!list) return;
+  if (list->kind == Node::Kind::text) names.insert(list->text);
+  for (const Node& item : list->items)
+    names.insert(item.text);
 }
 
 void remove_key(Node& table, std::string_view key) {

@@ -36,7 +36,7 @@ KeyTable joint_keys() {
      .meaning = "the side that later joints do not cut and that never moves"},
     {.key = "within", .type = table, .holds = {"region"},
      .meaning = "subdomain that the joint is confined to: it cuts the blocks that it meets there, and those right through"},
-    {.key = "ends_at", .members = {in(&JointSpec::ends_at, text_or_names)}, .example = "[\"A\"]",
+    {.key = "ends_at", .members = {in(&JointSpec::ends_at)}, .example = "[\"A\"]",
      .meaning = "joints stated before it, or excavations with an outline, that it ends at: of each it is on the side on which its "
          "`point` lies, and is cut after it. Of an excavation that side is beyond the face that the point sees, or the inside. "
          "slicing.ends = \"ignored\" lets it go on"},

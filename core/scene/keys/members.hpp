@@ -30,14 +30,15 @@ inline void take(const Node& node, std::string& target) {
   target = node.text;
 }
 
-// axes: true, or a list of "x", "y", "z"
+// axes: true, one of "x", "y", "z", or a list of them
 inline void take(const Node& node, std::array<bool, 3>& axes) {
   axes.fill(node.kind == Node::Kind::boolean && node.boolean);
+  if (node.kind == Node::Kind::text) axes[node.text[0] - 'x'] = true;
   for (const Node& axis : node.items)
     axes[axis.text[0] - 'x'] = true;
 }
 
-// one number counts as a vector of one: a spin in 2-D
+// one number counts as a vector of one, a spin in 2-D, and one name as a list of one
 template <class T>
 void take(const Node& node, std::vector<T>& target) {
   target.clear();
@@ -199,6 +200,7 @@ KeyMember some_of(std::vector<T> Owner::*at, const std::type_identity_t<Words<T>
       at, KeyType::choices,
       [=](const Node& value, std::vector<T>& target) {
         target.clear();
+        if (value.kind == Node::Kind::text) target.push_back(meaning_of(words, value.text));
         for (const Node& item : value.items)
           target.push_back(meaning_of(words, item.text));
       },

@@ -44,7 +44,7 @@ KeyTable let_off_keys() {
     {.key = "share", .members = {in(&LetOffPlan::share)}, .unit = "1", .range = {0, 1},
      .plausible = {.low = 0.01, .high = 1, .or_zero = true}, .example = "0.4", .required = true,
      .meaning = "of these forces that still acts when the stage has ended, and goes on acting until a later stage lets off "
-         "more; 0: all is let off", .mistake = "was it given in percent?"},
+         "more; at most what acts before, 0: all is let off", .mistake = "was it given in percent?"},
     {.key = "duration_s", .members = {in(&LetOffPlan::duration)}, .unit = "s", .range = {0, 1e9, true},
      .plausible = plausible_ramp, .example = "1", .no_default = true,
      .meaning = "time within which they fall to it, linearly, from the begin of the stage on. In a stage of kind run at "

@@ -13,7 +13,7 @@ std::vector<KeyTable> water_keys() {
      .plausible = {9000, 13000}, .example = "10000",
      .meaning = "weight of a unit of volume; water is vertical whatever the direction of gravity, and grows with its factor",
      .mistake = "was it given in kN/m³, or as a density?"},
-    {.key = "faces", .members = {in(&WaterSpec::faces, text_or_names)}, .example = "[\"A\"]",
+    {.key = "faces", .members = {in(&WaterSpec::faces)}, .example = "[\"A\"]",
      .no_default = true,
      .meaning = "the faces it is on: \"all\", as without it; \"outer\", those that no rock or boundary joint made (sides of the domain, "
          "blocks given directly, faces of excavations and their outlines, construction joints); or a list of joints and "

@@ -1,0 +1,19 @@
+// How long the ramps of a stage take, and limits that end it before.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/commands/plausibility.hpp"
+
+namespace voussoir {
+
+// s: how long gravity, waters and relief loads of a stage change: rest waits for the longest. Forces and motions change
+// in stages of kind run alone, whose duration is stated.
+double ramp_of(const StagePlan& stage);
+
+// Limits of steps within which neither the ramps nor rest can be reached.
+void judge_limits(const StagePlan& stage, const Settings& settings, const StageForecast& forecast,
+                  std::vector<std::string>& warnings);
+
+}  // namespace voussoir
