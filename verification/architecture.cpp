@@ -38,7 +38,7 @@ const std::vector<Order> orders{
       {"optimise", "load", "support"},
       {"potential"},
       {"contact", "slicing", "joint_sets", "model"},
-      {"waters", "excavation"},
+      {"waters", "excavation", "body_title"},
       {"apply", "state", "limit"},
       {"prepared"},
       {"results", "scene"},

@@ -14,7 +14,7 @@ namespace voussoir {
 namespace {
 
 std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : fmt::format("{} ({})", name, unit);
+  return unit.empty() || unit == "1" ? name : fmt::format("{} ({})", name, unit);
 }
 
 std::string unit_of(const std::vector<StudyRow>& rows) {
@@ -168,7 +168,7 @@ std::string sample_line(const Sweep& sample, const SampleFound& found, const std
   if (found.results.empty()) return line;
   const std::string unit = unit_of(rows);
   line += fmt::format(", mean {:.6g}, deviation {:.4g}{}", found.moments.mean.value, found.moments.deviation,
-                      unit.empty() ? "" : " " + unit);
+                      unit.empty() || unit == "1" ? "" : " " + unit);
   if (found.failed)
     line += fmt::format("; {} of them {}, {:.4g} %: with 95 % confidence {:.4g} to {:.4g} %", found.failed->count,
                         fails_text(*sample.fails), 100.0 * found.failed->count / found.failed->of,

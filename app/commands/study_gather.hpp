@@ -10,6 +10,7 @@
 #include "app/commands/study_folder.hpp"
 #include "app/commands/study_origins.hpp"
 #include "app/commands/study_table.hpp"
+#include "app/commands/study_warnings.hpp"
 
 namespace voussoir {
 
@@ -18,6 +19,7 @@ struct Gathered {
   std::set<int> missing;                 // neither results nor a failure
   std::vector<std::string> differences;  // two results of a row that are not the same, a line each
   std::vector<RowOrigins> origins;       // of the rows that have results
+  std::vector<RowWarning> warnings;      // of these
 };
 
 // the first folder's results come first; all hold the same plan
