@@ -233,6 +233,13 @@ const Harmless harmless[] = {
     {"stage", "gravity_ramp_s", "0", is_default},
     {"stage", "gravity_to", "0", "no gravity"},
     {"contact", "newton_tolerance", "times 1e3", "1e-8 becomes the default, 1e-5"},
+    {"", "gravity", "0", "no gravity, as without the key"},
+    {"joint_properties", "friction_deg", "0", "no friction"},
+    {"friction", "friction_deg", "0", "no friction"},
+    {"stage", "friction_deg", "0", "no friction"},
+    {"blocks", "sphericity", "0", "planes and corner radius alone"},
+    {"equilibrium", "unbalanced", "times 1e3", "1e-7 becomes 1e-4, as loose as long slides are judged by"},
+    {"stage", "duration_s", "times 1e-3", "2 s become 2 ms, as long as an impact"},
     {"stage", "tolerance_deg", "radians as degrees", "0.6 degrees is an honest bracket, which the results state"},
 };
 

@@ -302,14 +302,14 @@ TEST_F(Check, ListsTheWorstBlocks) {
   says(scene, "smallest area: small 0.01562 m², middle 0.25 m², one 1 m²\n");
   says(scene, "shortest edge: small 0.125 m, middle 0.5 m, one 1 m\n");
   says(scene, "largest aspect ratio of the box along the axes: ground 20, ");
-  // without a name, by its number; in space
+  // without a name, by its number and what it lies at; in space
   const std::string cube =
       "dimension = 3\ndensity = 2000\ndomain = { box = { min = [0, 0, 0], max = [2, 2, 2] } }\n"
       "[[joints]]\nname = \"bed\"\ndip = 0\npoint = [0, 0, 0.25]\n" +
       rock + "[[fix]]\nbelow = [\"bed\"]\n" + settle;
-  says(cube, "smallest volume: block 0 1 m³, block 1 7 m³\n");
-  says(cube, "shortest edge: block 0 0.25 m, block 1 1.75 m\n");
-  says(cube, "aspect ratio of the box along the axes: block 0 8, block 1 1.143\n");
+  says(cube, "smallest volume: block 0 (of joint bed) 1 m³, block 1 (of joint bed) 7 m³\n");
+  says(cube, "shortest edge: block 0 (of joint bed) 0.25 m, block 1 (of joint bed) 1.75 m\n");
+  says(cube, "aspect ratio of the box along the axes: block 0 (of joint bed) 8, block 1 (of joint bed) 1.143\n");
 }
 
 TEST_F(Check, CallsNoPartOfAWeldedBlockASliver) {

@@ -6,6 +6,7 @@
 #include "core/output/version.hpp"
 #include "core/scene/effective_scene.hpp"
 #include "core/scene/plausibility.hpp"
+#include "core/scene/read_stages.hpp"
 #include "core/scene/scene.hpp"
 #ifdef VOUSSOIR_HAS_GLPK
 #include "core/optimise/glpk.hpp"
@@ -66,10 +67,7 @@ Results simulate_prepared(const Prepared<Dim>& prepared, const ProgressHook& hoo
   return std::move(progress.results);
 }
 
-}  // namespace
-
-LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides, int threads) {
-  Scene scene = read_scene(path, overrides);
+LoadedScene load(Scene scene, int threads) {
   LoadedScene loaded;
   loaded.dimension = scene.dimension;
   loaded.text = toml_text(*scene.tree);
@@ -83,6 +81,18 @@ LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std:
   loaded.title = std::visit([](const auto& prepared) { return prepared.title; }, loaded.prepared);
   loaded.stated = std::make_shared<const Scene>(std::move(scene));
   return loaded;
+}
+
+}  // namespace
+
+LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides, int threads) {
+  Scene scene = read_scene(path, overrides);
+  require_stages(scene);
+  return load(std::move(scene), threads);
+}
+
+LoadedScene load_blocks(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  return load(read_scene(path, overrides), 1);
 }
 
 void tell_remarks(const Scene& scene) {

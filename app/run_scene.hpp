@@ -35,6 +35,9 @@ struct LoadedScene {
 LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
                        int threads = 1);
 
+// the same for those who ask a scene for its blocks alone: it need not have a stage
+LoadedScene load_blocks(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+
 // what the user should know of the files that the scene names, on stderr
 void tell_remarks(const Scene& scene);
 

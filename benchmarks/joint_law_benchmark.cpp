@@ -74,7 +74,7 @@ std::map<std::string, JointProperties> ways() {
   return all;
 }
 
-// Plain Coulomb and nothing else, one point a contact: the same sums as core/joint_laws.cpp for this case, with the
+// Plain Coulomb and nothing else, one point a contact: the same sums as core/step/joint_forces.cpp for this case, with the
 // same ledger.
 void by_hand(const Model<3>& model, State<3>& state) {
   state.energy.elastic = 0;

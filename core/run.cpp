@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/body_title.hpp"
 #include "core/motion/free_fall.hpp"
 #include "core/motion/integrate.hpp"
 #include "core/motion/prescribed.hpp"
@@ -261,8 +262,7 @@ std::string describe(StopReason reason) {
 
 template <int Dim>
 std::string label_of(const Model<Dim>& model, int body) {
-  const std::string& name = model.bodies[body].name;
-  return name.empty() ? fmt::format("body {}", body) : fmt::format("body {} ({})", body, name);
+  return fmt::format("body {} ({})", body, title_of(model, body));
 }
 
 template <int Dim>

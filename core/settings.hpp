@@ -146,7 +146,7 @@ struct FactorPlan {
   double step = 0;          // steps: increment
 };
 
-// lower the strength of joints until the model fails (method.md section 6)
+// lower the strength of joints until the model fails
 struct ReducePlan {
   ReductionMethod method = ReductionMethod::bisection;
   Searched searched = Searched::friction;

@@ -15,6 +15,7 @@
 #include "core/scene/accuracy_target.hpp"
 #include "core/scene/effective_scene.hpp"
 #include "core/scene/plausibility.hpp"
+#include "core/scene/read_stages.hpp"
 #include "core/scene/scene.hpp"
 #include "core/simulate.hpp"
 #include "core/snapshot.hpp"
@@ -203,6 +204,7 @@ std::shared_ptr<const OpenedScene> open_scene(Scene stated) {
 }
 
 std::unique_ptr<SteppedRun> start(const std::shared_ptr<const OpenedScene>& scene, int threads) {
+  require_stages(scene->stated);
   if (scene->stated.dimension == 2) return std::make_unique<SteppedRunOf<2>>(scene, threads);
   return std::make_unique<SteppedRunOf<3>>(scene, threads);
 }

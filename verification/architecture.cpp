@@ -38,7 +38,7 @@ const std::vector<Order> orders{
       {"optimise", "load", "support"},
       {"potential"},
       {"contact", "slicing", "joint_sets", "model"},
-      {"waters", "excavation"},
+      {"waters", "excavation", "body_title"},
       {"apply", "state", "limit"},
       {"prepared"},
       {"results", "scene"},
@@ -328,6 +328,59 @@ std::vector<std::string> violations(const std::vector<SourceFile>& sources) {
   }
   check_types(sources, found);
   return found;
+}
+
+std::vector<std::string> cited_paths(std::string_view text) {
+  static const std::regex quoted(R"re("(\\.|[^"\\])*")re"), comment(R"(//(.*))");
+  static const std::regex path(R"((?:^|[\s(`',;:])((?:[\w-]+/)*[\w-]+(?:\.\w+)*))");
+  static const std::regex file_name(R"(.*\.(md|hpp|cpp))");
+  std::vector<std::string> cited;
+  std::istringstream lines{std::string(text)};
+  for (std::string line; std::getline(lines, line);) {
+    line = std::regex_replace(line, quoted, "");
+    std::smatch match;
+    if (!std::regex_search(line, match, comment)) continue;
+    const std::string words = match[1].str();
+    for (std::sregex_iterator word(words.begin(), words.end(), path), end; word != end; ++word) {
+      const std::string name = (*word)[1].str();
+      const bool in_house =
+          name.find('/') != std::string::npos && std::ranges::find(top_folders, top_folder(name)) != top_folders.end();
+      if (in_house || std::regex_match(name, file_name)) cited.push_back(name);
+    }
+  }
+  return cited;
+}
+
+std::vector<std::string> dead_citations(const fs::path& root) {
+  static const std::set<std::string> written{"report.md", "openings_draws.md"};  // by programs
+  std::set<std::string> names;
+  std::vector<fs::path> sources;
+  for (const char* folder : top_folders) {
+    if (!fs::exists(root / folder)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (!entry.is_regular_file()) continue;
+      names.insert(entry.path().filename().string());
+      const fs::path extension = entry.path().extension();
+      if (extension == ".hpp" || extension == ".cpp") sources.push_back(entry.path());
+    }
+  }
+  const auto is_there = [](const fs::path& path) {
+    return fs::exists(path) || fs::exists(path.string() + ".hpp") || fs::exists(path.string() + ".cpp");
+  };
+  std::ranges::sort(sources);
+  std::vector<std::string> dead;
+  for (const fs::path& source : sources) {
+    const std::string from = source.lexically_relative(root).generic_string();
+    for (const std::string& name : cited_paths(read_text(source))) {
+      const bool alone = name.find('/') == std::string::npos;
+      if (written.contains(name) || (alone && names.contains(name)) || is_there(root / name) ||
+          is_there(source.parent_path() / name) || is_there(root / "core" / name) ||
+          is_there(root / top_folder(from) / name))
+        continue;
+      dead.push_back(fmt::format("{} cites {}, which is not there", from, name));
+    }
+  }
+  return dead;
 }
 
 std::vector<std::string> names_without_file(const std::vector<SourceFile>& sources) {

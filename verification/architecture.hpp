@@ -30,6 +30,14 @@ std::vector<SourceFile> read_sources(const std::filesystem::path& root);
 // that is too long, a type that another file defines, too.
 std::vector<std::string> violations(const std::vector<SourceFile>& sources);
 
+// The files and folders that the comments of a text cite: paths from one of the repository's folders, with their
+// extension or without, and names of pages and sources.
+std::vector<std::string> cited_paths(std::string_view text);
+
+// One sentence for each that is neither below the root, nor beside the file that cites it, nor in its house or the
+// core, nor, of a name alone, anywhere.
+std::vector<std::string> dead_citations(const std::filesystem::path& root);
+
 // What the orders name and no source is called: renamed or deleted since.
 std::vector<std::string> names_without_file(const std::vector<SourceFile>& sources);
 

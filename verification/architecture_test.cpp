@@ -1,6 +1,8 @@
 // unit.architecture: reads the #include arrows of the sources; first it shows that a wrong arrow would be seen.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "verification/architecture.hpp"
 
 namespace voussoir::verification {
@@ -131,6 +133,31 @@ TEST(Architecture, ReadsIncludesHoweverTheyAreWritten) {
   EXPECT_EQ(paths, (std::vector<std::string>{"core/a.hpp", "core/b.hpp"}));
 }
 
+TEST(Architecture, FindsWhatCommentsCite) {
+  EXPECT_EQ(cited_paths("// as core/state.hpp and core/step/neighbours (method.md section 4), see README\n"
+                        "int x;  // cases/wedge/README.md; Schur's 1/2\nauto y = \"// core/none.hpp\";\n"),
+            (std::vector<std::string>{"core/state.hpp", "core/step/neighbours", "method.md", "cases/wedge/README.md"}));
+  EXPECT_TRUE(cited_paths("// history.csv and km/h, and/or 3.5 m\n").empty());
+}
+
+// a page that is gone, a file that is renamed
+TEST(Architecture, RefusesCitationsOfWhatIsNotThere) {
+  const std::filesystem::path root = std::filesystem::temp_directory_path() / "voussoir_architecture_test";
+  std::filesystem::remove_all(root);
+  std::filesystem::create_directories(root / "core/law");
+  const auto write = [&](const char* name, const char* text) { std::ofstream(root / name) << text; };
+  write("core/law/README.md", "");
+  write("core/law/joint_law.hpp",
+        "// core/law/README.md, core/law/joint_law, law/joint_law, README.md, joint_law.hpp\n");
+  EXPECT_TRUE(dead_citations(root).empty());
+  write("core/law/other.hpp", "// decisions in method.md; core/joint_laws.cpp\n#include <map>  // core/neighbours\n");
+  EXPECT_EQ(dead_citations(root),
+            (std::vector<std::string>{"core/law/other.hpp cites method.md, which is not there",
+                                      "core/law/other.hpp cites core/joint_laws.cpp, which is not there",
+                                      "core/law/other.hpp cites core/neighbours, which is not there"}));
+  std::filesystem::remove_all(root);
+}
+
 TEST(Architecture, HoldsInTheSources) {
   const std::vector<SourceFile> sources = read_sources(VOUSSOIR_SOURCE_DIR);
   ASSERT_GT(sources.size(), 5u) << "no sources were read, so nothing would be found";
@@ -138,6 +165,8 @@ TEST(Architecture, HoldsInTheSources) {
     ADD_FAILURE() << violation;
   for (const std::string& name : names_without_file(sources))
     ADD_FAILURE() << name << " has a line in verification/architecture.cpp, but no file";
+  for (const std::string& citation : dead_citations(VOUSSOIR_SOURCE_DIR))
+    ADD_FAILURE() << citation;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "app/commands/check_support.hpp"
+#include "core/body_title.hpp"
 #include "core/potential/particle.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/joint_ends.hpp"
@@ -55,9 +56,10 @@ std::string listed(const Model<Dim>& model, std::vector<Judged> all, const std::
   std::stable_sort(all.begin(), all.end(), [&](const Judged& a, const Judged& b) { return worse(a.value, b.value); });
   std::string text;
   for (std::size_t k = 0; k < std::min(all.size(), most_named); ++k) {
-    const std::string& name = model.bodies[all[k].body].name;
-    text += fmt::format("{}{} {:.4g}{}", k ? ", " : "", name.empty() ? fmt::format("block {}", all[k].body) : name,
-                        all[k].value, unit);
+    const std::string title = title_of(model, all[k].body);
+    const bool named = !model.bodies[all[k].body].name.empty();
+    text += fmt::format("{}{} {:.4g}{}", k ? ", " : "",
+                        named ? title : fmt::format("block {} ({})", all[k].body, title), all[k].value, unit);
   }
   return text;
 }

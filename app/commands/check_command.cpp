@@ -125,6 +125,7 @@ void print_water(const Prepared<Dim>& prepared) {
     lift += loads[b].force[Dim - 1];
     weight -= model.bodies[b].mass * model.gravity[Dim - 1];
   }
+  if (std::abs(lift) < 16 * std::numeric_limits<double>::epsilon() * weight) lift = 0;
   if (weight > 0)
     print_line(
         "", fmt::format("before the first stage it lifts the free blocks by {:.6g} N{}, {:.4g} % of their weight", lift,

@@ -62,7 +62,12 @@ void add_scene(CLI::App* command, SceneArguments& arguments) {
       ->type_name("FILE");
   command
       ->add_option("--set", arguments.overrides,
-                   "key=value: replaces a value of the scene; tables of a list by their name, e.g. joints.A.dip=65")
+                   "replaces a value of the scene; tables of a list by their name, e.g. joints.A.dip=65. Each takes a "
+                   "--set of its "
+                   "own")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->take_all()
       ->allow_extra_args(false)
       ->check(plain_text());
 }
@@ -181,6 +186,8 @@ void add_limit(CLI::App& program, LimitArguments& arguments, Action& action) {
           "--friction", arguments.properties,
           "name of joint_properties whose critical friction is sought, the others keep theirs; may be repeated "
           "(default: all)")
+      ->expected(1)
+      ->take_all()
       ->allow_extra_args(false)
       ->check(plain_text())
       ->excludes(load);
@@ -193,12 +200,15 @@ void add_limit(CLI::App& program, LimitArguments& arguments, Action& action) {
   command
       ->add_option("--joint", arguments.joints,
                    "name of joint_properties whose strength --factor divides; may be repeated (default: all)")
+      ->expected(1)
+      ->take_all()
       ->allow_extra_args(false)
       ->check(plain_text())
       ->needs(factor);
   command->add_flag("--cohesion", arguments.cohesion,
                     "count the cohesion that joint_properties state, as of bonds that are whole; tension is left out");
   add_overwrite(command, arguments.overwrite);
+  command->add_flag("--quiet", arguments.quiet, "no warnings and no summary");
   command->callback([&] { action = [&] { return limit_command(arguments); }; });
 }
 
@@ -208,6 +218,8 @@ void add_joint_test(CLI::App& program, JointTestArguments& arguments, Action& ac
   add_scene(command, arguments.scene);
   add_out(command, arguments.out, "folder of the results (default: results/<scene>_joint_test)");
   command->add_option("--joint", arguments.properties, "name of joint_properties; may be repeated (default: all)")
+      ->expected(1)
+      ->take_all()
       ->allow_extra_args(false)
       ->check(plain_text());
   command
@@ -218,6 +230,8 @@ void add_joint_test(CLI::App& program, JointTestArguments& arguments, Action& ac
   command
       ->add_option("--stress", arguments.stresses,
                    "normal stress in Pa; may be repeated (default: 0.1, 0.5, 1, 2, 5 MPa)")
+      ->expected(1)
+      ->take_all()
       ->allow_extra_args(false)
       ->check(finite(least_positive, largest_argument));
   command->add_option("--slip", arguments.slip, "in m (default: 1e-3)")

@@ -80,6 +80,7 @@ struct LimitArguments {
   std::vector<std::string> joints;      // of whose joint_properties; none: of all
   bool cohesion = false;                // joints have the cohesion that their properties state
   bool overwrite = false;
+  bool quiet = false;
 };
 
 struct JointTestArguments {

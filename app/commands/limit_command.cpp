@@ -109,10 +109,11 @@ ExitCode limit_command(const LimitArguments& arguments) {
   const Outputs outputs{"limit", {"results.json", "limit.svg", "blocks.vtp", "mechanism.vtp", "forces.vtp"}};
   const ClaimedFolder claim(folder, outputs, scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
-  for (const std::string& warning : analysis.warnings)
-    tell("voussoir: warning: {}\n", warning);
+  if (!arguments.quiet)
+    for (const std::string& warning : analysis.warnings)
+      tell("voussoir: warning: {}\n", warning);
   write_limit_files(analysis, folder);
-  print_analysis(analysis, folder);
+  if (!arguments.quiet) print_analysis(analysis, folder);
   return exit_code(analysis);
 }
 

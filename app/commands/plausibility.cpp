@@ -9,6 +9,7 @@
 
 #include "app/commands/plausible_assembly.hpp"
 #include "app/commands/plausible_ramps.hpp"
+#include "app/commands/plausible_support.hpp"
 #include "core/cast_lining.hpp"
 #include "core/motion/relaxation.hpp"
 #include "core/motion/time_step.hpp"
@@ -139,10 +140,17 @@ template <int Dim>
 void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, State<Dim>& state, Plausibility& result) {
   const double g = model.gravity.norm();
   const double smallest = smallest_size(model);
+  std::vector<std::string> installed;
   for (const StagePlan& stage : prepared.stages) {
     const Settings settings = settings_of(stage, prepared.settings);
     const DampingSettings& damping = settings.damping;
-    const TimeStepEstimate estimate = estimate_time_step<Dim>(model, settings, damping, state);
+    installed.insert(installed.end(), stage.change.install.begin(), stage.change.install.end());
+    const LiningCost linings = cost_of_linings(model, installed);
+    TimeStepEstimate estimate = estimate_time_step<Dim>(model, settings, damping, state);
+    if (linings.step_limit < estimate.limit) {
+      if (!settings.time.step && std::isfinite(estimate.limit)) estimate.step *= linings.step_limit / estimate.limit;
+      estimate.limit = linings.step_limit;
+    }
     if (&stage == &prepared.stages.front()) result.step_limit = estimate.limit;
     const bool relaxed = relaxes(stage, damping);
     StageForecast forecast{.name = stage.name, .time_step = estimate.step, .reckoning = reckoning_of(stage)};
@@ -154,6 +162,8 @@ void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, Sta
     forecast.duration =
         std::visit(Forecaster{settling, g, smallest, forecast.time_step, relaxed, ramp_of(stage)}, stage.plan);
     if (forecast.time_step > 0) forecast.steps = forecast.duration / forecast.time_step;
+    if (forecast.steps > 0 && damping.statics != Statics::newton && !std::holds_alternative<RunPlan>(stage.plan))
+      forecast.steps = std::max(forecast.steps, linings.steps);
     result.stages.push_back(forecast);
   }
 }

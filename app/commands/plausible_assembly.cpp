@@ -10,9 +10,9 @@
 #include <optional>
 #include <set>
 
-#include "core/cast_lining.hpp"
+#include "app/commands/plausible_support.hpp"
+#include "core/body_title.hpp"
 #include "core/contact/carried_whole.hpp"
-#include "core/install.hpp"
 #include "core/reduction/reduction.hpp"
 #include "core/waters.hpp"
 #include "text/angle.hpp"
@@ -306,82 +306,8 @@ void judge_generation(const Prepared<Dim>& prepared, std::vector<std::string>& w
 
 template <int Dim>
 std::string name_of(const Model<Dim>& model, int body) {
-  return model.bodies[body].name.empty() ? std::to_string(body) : model.bodies[body].name;
-}
-
-// Bolts that would hold nothing, or end in the open, in the blocks as they are cut.
-template <int Dim>
-void judge_bolts(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings) {
-  struct Count {
-    int all = 0, idle = 0, in_the_open = 0;
-  };
-  std::vector<Count> counts(model.bolt_properties.size());
-  for (std::size_t i = 0; i < model.bolts.size(); ++i) {
-    Count& count = counts[model.bolts[i].properties];
-    ++count.all;
-    count.idle += springs_of(model, state, static_cast<int>(i)).empty();
-    count.in_the_open += !ends_in_rock(model, state, static_cast<int>(i));
-  }
-  for (std::size_t p = 0; p < counts.size(); ++p) {
-    const Count& count = counts[p];
-    const std::string& name = model.bolt_properties[p].name;
-    // with nodes so far apart a bar is an eighth of its square, 3 %, too soft over a joint
-    constexpr double coarse = 0.5;
-    const BoltProperties& properties = model.bolt_properties[p];
-    if (properties.node_spacing && *properties.node_spacing > coarse * transfer_length(properties))
-      warnings.push_back(fmt::format(
-          "bolts.{}: node_spacing, {:g} m, is more than half of the {:.2g} m over which the bar takes up its "
-          "force: what its bond gives shows too little; lower it, or leave it out",
-          name, *properties.node_spacing, transfer_length(properties)));
-    if (count.idle > 0)
-      warnings.push_back(
-          fmt::format("bolts.{}: {} of {} cross no joint of the blocks as they are cut and would hold "
-                      "nothing: check where they lie, and that lengths are in m",
-                      name, count.idle, count.all));
-    if (count.in_the_open > 0)
-      warnings.push_back(
-          fmt::format("bolts.{}: {} of {} end outside of all blocks: check where they lie, and that "
-                      "lengths are in m",
-                      name, count.in_the_open, count.all));
-  }
-}
-
-// Linings whose nodes stand too far apart: for their outline, or for the joints that cross it.
-template <int Dim>
-void judge_linings(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings) {
-  constexpr int least_on_side = 3, least_on_stretch = 2;
-  constexpr double unusual_section = 20;  // times, or a fraction, of a rectangle's
-  if constexpr (Dim == 2)
-    for (const Lining& lining : model.linings) {
-      const std::string& name = lining.properties.name;
-      double outline = 0, beams = 0;
-      for (const LiningSide& side : lining.sides)
-        outline += side.length;
-      for (const LiningNode& node : lining.nodes)
-        beams += node.half_length[0] + node.half_length[1];
-      const double spacing = beams / lining.beams();
-      LiningProperties rectangle = lining.properties;
-      rectangle.bending_stiffness.reset();
-      const double of_rectangle = lining.properties.bending() / rectangle.bending();
-      if (of_rectangle > unusual_section || of_rectangle * unusual_section < 1)
-        warnings.push_back(
-            fmt::format("linings.{}.bending_stiffness = {:.3g} N m²/m is {:.2g} times young_modulus thickness³ / 12 = "
-                        "{:.3g}: was it given in MN m²/m?",
-                        name, lining.properties.bending(), of_rectangle, rectangle.bending()));
-      if (outline < least_on_side * spacing * static_cast<double>(lining.sides.size()))
-        warnings.push_back(fmt::format(
-            "linings.{}.nodes: beams of {:.3g} m on {} sides of {:.3g} m cut the outline's corners; state at least {}",
-            name, spacing, lining.sides.size(), outline / static_cast<double>(lining.sides.size()),
-            least_on_side * lining.sides.size()));
-      const auto blocks = static_cast<double>(rock_around(model, state, lining).size());
-      const double stretch = outline / std::max(1.0, blocks);
-      if (stretch < least_on_stretch * spacing)
-        warnings.push_back(
-            fmt::format("linings.{}.nodes: beams of {:.3g} m, but the blocks as they are cut are {:.3g} m wide along "
-                        "the outline: state "
-                        "at least {:.0f} nodes, so that each block is met by two",
-                        name, spacing, stretch, least_on_stretch * beams / stretch));
-    }
+  const std::string title = title_of(model, body);
+  return model.bodies[body].name.empty() ? fmt::format("{} ({})", body, title) : title;
 }
 
 // blocks that were stated into each other fly apart

@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "app/bad_input.hpp"
 #include "app/claimed_folder.hpp"
 #include "app/commands/commands.hpp"
@@ -20,8 +24,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// m: coordinates below this are zero but for the rounding of those they were computed from
+template <int Dim>
+double zero_of(const Model<Dim>& model) {
+  double largest = 0;
+  for (const Body<Dim>& body : model.bodies)
+    largest = std::max(largest, (model.origin + body.reference).norm() + body.radius);
+  return 16 * std::numeric_limits<double>::epsilon() * largest;
+}
+
 template <int Dim>
 std::string block_table(const Model<Dim>& model) {
+  const double zero = zero_of(model);
   std::string text = Dim == 3 ? "body,name,volume_m3,faces,inscribed_radius_m,fixed,x_m,y_m,z_m\n"
                               : "body,name,area_m2,faces,inscribed_radius_m,fixed,x_m,y_m\n";
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -33,7 +47,7 @@ std::string block_table(const Model<Dim>& model) {
         fmt::format("{},{},{},{},{},{}", b, csv_cell(body.name), volume(body), faces, body.size, body.fixed ? 1 : 0);
     const Vector<Dim> centroid = model.origin + body.reference;
     for (int k = 0; k < Dim; ++k)
-      text += fmt::format(",{}", centroid[k]);
+      text += fmt::format(",{}", std::abs(centroid[k]) < zero ? 0.0 : centroid[k]);
     text += '\n';
   }
   return text;
@@ -121,7 +135,7 @@ void write_blocks(const Prepared<Dim>& prepared, const SliceArguments& arguments
 
 ExitCode slice_command(const SliceArguments& arguments) {
   if (arguments.view) require_viewer();
-  const LoadedScene loaded = load_scene(arguments.scene.scene, arguments.scene.overrides);
+  const LoadedScene loaded = load_blocks(arguments.scene.scene, arguments.scene.overrides);
   tell_remarks(*loaded.stated);
   if (loaded.dimension == 2 && (arguments.stl || arguments.obj))
     throw BadInput("--stl and --obj write blocks in space but the scene has dimension = 2; use --planes");

@@ -14,7 +14,7 @@ namespace voussoir {
 namespace {
 
 std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : fmt::format("{} ({})", name, unit);
+  return unit.empty() || unit == "1" ? name : fmt::format("{} ({})", name, unit);
 }
 
 std::string unit_of(const std::vector<StudyRow>& rows) {

@@ -66,6 +66,9 @@ RunFound found_in_json(const nlohmann::json& results, const fs::path& folder, co
   RunFound found;
   const nlohmann::json program = results.value("program", nlohmann::json::object());
   found.origins = origins_of(program.value("origins", nlohmann::json::array()));
+  if (results.contains("warnings"))
+    for (const nlohmann::json& warning : results.at("warnings"))
+      found.warnings.push_back(printable(warning.get<std::string>()));
   if (results.contains("counters")) {  // limit analysis takes no steps
     found.contact_evaluations = results.at("counters").at("contact_evaluations");
     found.steps = results.at("counters").at("steps");

@@ -19,6 +19,7 @@ struct RunFound {
   std::string status = "ok";  // or why there is no result
   long long contact_evaluations = 0, steps = 0;
   double seconds = 0;
+  std::vector<std::string> warnings = {};  // of its results
   std::vector<Origin> origins = {};  // of all that computed it; empty where it does not say
 };
 

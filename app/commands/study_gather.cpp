@@ -130,7 +130,9 @@ Gathered gather(const StudyFolder& study, const std::vector<fs::path>& folders) 
       gathered.differences.push_back(fmt::format("row {}: its results in '{}' and '{}' differ{}", row,
                                                  at.differing->first.string(), at.differing->second.string(),
                                                  at.other_origins ? ", and so does what computed them" : ""));
-    if (at.has_results) add_row(gathered.origins, row, at.found.origins);
+    if (!at.has_results) continue;
+    add_row(gathered.origins, row, at.found.origins);
+    add_row(gathered.warnings, row, at.found.warnings);
   }
   gathered.rows = table_of(study.plan, [&](int row) { return found.at(row).found; });
   return gathered;
@@ -150,6 +152,8 @@ ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, cons
   for (const std::string& warning : origin_warnings(gathered.origins))
     tell("voussoir: warning: {}\n", warning);
   for (const std::string& warning : flat_results(study.plan, gathered.rows))
+    tell("voussoir: warning: {}\n", warning);
+  for (const std::string& warning : warning_lines(gathered.warnings))
     tell("voussoir: warning: {}\n", warning);
   for (const std::string& line : findings.lines)
     fmt::print("{}\n", line);

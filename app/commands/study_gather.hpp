@@ -10,6 +10,7 @@
 #include "app/commands/study_folder.hpp"
 #include "app/commands/study_origins.hpp"
 #include "app/commands/study_table.hpp"
+#include "app/commands/study_warnings.hpp"
 
 namespace voussoir {
 
@@ -19,6 +20,7 @@ struct Gathered {
   std::vector<std::string> differences;  // two results of a row that are not the same, a line each
   std::vector<std::string> damaged;      // results that cannot be read, a line each: their rows are missing
   std::vector<RowOrigins> origins;       // of the rows that have results
+  std::vector<RowWarning> warnings;      // of these
 };
 
 // The first folder's results come first; all hold the same plan. Results that a run did not write

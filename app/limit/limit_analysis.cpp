@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "app/bad_input.hpp"
+#include "core/body_title.hpp"
 #include "core/waters.hpp"
 #include "text/angle.hpp"
 
@@ -24,8 +25,8 @@ const char* const without_bound =
     ", by normal forces without bound, of which nothing says that they are there; confirm it with 'voussoir run'";
 
 std::string block_name(const Model<2>& model, int body) {
-  const std::string& name = model.bodies[body].name;
-  return name.empty() ? fmt::format("block {}", body) : fmt::format("block '{}'", name);
+  const std::string title = title_of(model, body);
+  return model.bodies[body].name.empty() ? fmt::format("block {} ({})", body, title) : fmt::format("block '{}'", title);
 }
 
 // what cannot be carried by any face, however rough

@@ -9,7 +9,7 @@
 namespace voussoir {
 
 enum class ContactStatus {
-  apart,                 // not near each other (core/neighbours): not looked at
+  apart,                 // not near each other (core/step/neighbours): not looked at
   separated,             // proven
   undecided,             // nearer to touching than rounding can tell, at most 64 ulp of the pair's size: no contact
   touching,              // proven

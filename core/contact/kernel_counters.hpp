@@ -5,7 +5,7 @@ namespace voussoir {
 
 struct KernelCounters {
   long long evaluations = 0;   // pairs looked at
-  long long motion_skips = 0;  // not even looked at: too far apart for what the bodies moved (core/stages)
+  long long motion_skips = 0;  // not even looked at: too far apart for what the bodies moved (core/step/neighbours)
   long long axis_hits = 0;     // still separated by the axis of the step before
   long long point_hits = 0;    // still touching at the point of the step before
   long long cold_starts = 0;   // resolved from nothing

@@ -1,4 +1,4 @@
-// Linear elastic, perfectly plastic Coulomb law (Boon 2013, Eqs 4.1-4.9; decisions in method.md section 4).
+// Linear elastic, perfectly plastic Coulomb law (Boon 2013, Eqs 4.1-4.9; decisions in core/law/README.md).
 #pragma once
 
 #include "core/geometry/types.hpp"

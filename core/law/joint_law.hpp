@@ -1,4 +1,4 @@
-// Joint laws beyond the plain one (Boon 2013, Eqs 4.10-4.14, 4.16-4.18, 6.3-6.7; decisions in method.md section 4):
+// Joint laws beyond the plain one (Boon 2013, Eqs 4.10-4.14, 4.16-4.18, 6.3-6.7; decisions in core/law/README.md):
 // stiffness that depends on the normal stress, strength in tension and cohesion with brittle loss, friction that
 // hardens or softens with slip. The table of scene keys (scene/keys/joint_properties.cpp) repeats parameters and
 // equations for users.

@@ -1,4 +1,4 @@
-// Adaptive dynamic relaxation: the fast way to rest (Underwood 1983; method.md section 5). A run that seeks rest asks
+// Adaptive dynamic relaxation: the fast way to rest (Underwood 1983). A run that seeks rest asks
 // only where the bodies come to lie, so what moves them may be fictitious:
 //
 //   inertia  every body's mass and moments are scaled until its own stability limit equals the common step: what is

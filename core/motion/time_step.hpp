@@ -1,4 +1,4 @@
-// The stable time step (method.md section 5).
+// The stable time step (core/README.md, "The step").
 #pragma once
 
 #include <optional>

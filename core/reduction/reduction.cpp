@@ -15,7 +15,7 @@ namespace {
 // without a stated displacement, a body that moved by this fraction of its inscribed radius has failed
 constexpr double default_failure_fraction = 0.1;
 
-// the bias of a constant rate goes with this power of it (method.md section 6)
+// the bias of a constant rate goes with this power of it (cases/incline/README.md)
 constexpr double bias_power = 2.0 / 3;
 
 // two rates: the slower fall starts this many of the faster's lags above where that failed; one would do on a plane

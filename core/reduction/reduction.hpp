@@ -1,4 +1,4 @@
-// Strength reduction (method.md section 6): the friction angle at which a model loses its equilibrium, or its factor of
+// Strength reduction: the friction angle at which a model loses its equilibrium, or its factor of
 // safety: what tan φ and cohesion of its joints must be divided by until it does. Either is called a level here.
 #pragma once
 

@@ -6,6 +6,8 @@ namespace voussoir {
 namespace {
 
 constexpr double largest_fraction = 0.5, largest_deg = 45;
+// some 4000 roundings of a value: what a search compares is a sum of as many forces
+constexpr double least_fraction = 1e-12, least_deg = 1e-10;
 
 bool says(const Node& table, std::string_view key, std::string_view text) {
   const Node* found = table.find(key);
@@ -20,8 +22,9 @@ std::optional<AccuracyTarget> accuracy_target(std::string_view text) {
   if (error != std::errc{} || !std::isfinite(number) || !(number > 0)) return std::nullopt;
   std::string_view unit(end, text.data() + text.size() - end);
   if (unit.starts_with(' ')) unit.remove_prefix(1);
-  if (unit == "%" && number / 100 <= largest_fraction) return AccuracyTarget{number / 100, true};
-  if (unit == "deg" && number <= largest_deg) return AccuracyTarget{number, false};
+  if (unit == "%" && number / 100 >= least_fraction && number / 100 <= largest_fraction)
+    return AccuracyTarget{number / 100, true};
+  if (unit == "deg" && number >= least_deg && number <= largest_deg) return AccuracyTarget{number, false};
   return std::nullopt;
 }
 
@@ -32,7 +35,10 @@ std::optional<AccuracyTarget> accuracy_target(const Node& scene) {
   const std::string path = key_path(accuracy->path, "error");
   const std::optional<AccuracyTarget> target = accuracy_target(stated->text);
   if (!target)
-    refuse(*stated, path, "must be a part of the value, \"1 %\", or of an angle, \"0.1 deg\": at most 50 % or 45 deg");
+    refuse(
+        *stated, path,
+        "must be a part of the value, \"1 %\", from 1e-10 to 50 %, or of an angle, \"0.1 deg\", from 1e-10 to 45 deg: "
+        "doubles hold no finer answer");
   bool searches = false;
   for (const Subject& stage : children({&scene, ""}, "stage")) {
     if (!says(*stage.node, "kind", "reduce")) continue;

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/scene/bodies.hpp"
 #include "core/scene/keys.hpp"
+#include "text/angle.hpp"
 #include "text/plain_text.hpp"
 
 namespace voussoir {
@@ -27,6 +29,13 @@ FanSpec read_fan(const Subject& subject, int dimension) {
   if (fan.to < fan.from)
     refuse(subject, "to_deg",
            "must not be less than from_deg (" + value_text(*subject.node->find("from_deg")) + "); swap the two");
+  constexpr double whole_turn = 2 * std::numbers::pi, rounding = 1e-12;
+  if (fan.to - fan.from > whole_turn + rounding)
+    refuse(
+        subject, "to_deg",
+        fmt::format("is more than a whole turn beyond from_deg ({:g}): bolts would lie on top of each other; state at "
+                    "most from_deg + 360",
+                    to_degrees(fan.from)));
   if (dimension == 2 && !fan.axis.empty())
     refuse(subject, "axis", "rays stand across the third direction because dimension = 2; remove it");
   const auto is_zero = [](double x) { return x == 0; };

@@ -57,6 +57,16 @@ std::string vector_rule(const KeyRow& row, std::size_t count) {
   return rule + "; write for example " + std::string(row.key) + " = " + (row.key == "gravity" ? downwards : upwards);
 }
 
+// how a list that is too long becomes short enough
+std::string fewer(const KeyRow& row) {
+  if (row.table == "blocks") return "divide the block into parts";
+  if (row.table == "domain") return "leave out those that bound nothing, or divide the domain";
+  if (row.table == "excavations" || row.table == "region") return "divide the excavation";
+  if (row.key == "table")
+    return "leave out points that lie on the straight line between their neighbours, or nearly so";
+  return "leave out those that lie next to one another";
+}
+
 const Node* text_of(const Node& table, std::string_view key) {
   const Node* node = table.find(key);
   return node && node->kind == Node::Kind::text ? node : nullptr;
@@ -158,7 +168,7 @@ void Checker::tables(const KeyRow& row, const Node& node, const std::string& pat
   if (!of_tables)
     refuse(node, path, "must be a list of tables; write [[" + path + "]] with two brackets on a line of its own");
   if (row.key == "planes" && node.items.size() > most_corners)
-    refuse(node, path, "must hold at most " + std::to_string(most_corners) + " planes; divide the block");
+    refuse(node, path, "must hold at most " + std::to_string(most_corners) + " planes; " + fewer(row));
   if (row.key == "joints" && node.items.size() > most_stated_joints)
     refuse(node, path, "must hold at most " + std::to_string(most_stated_joints) + " joints; divide the scene");
   std::set<std::string> names;
@@ -199,7 +209,7 @@ void Checker::numbers(const KeyRow& row, const Node& node, const std::string& pa
 void Checker::points(const KeyRow& row, const Node& node, const std::string& path) const {
   if (node.kind != Node::Kind::list) refuse(node, path, "must be a list of points" + example_of(row));
   if (node.items.size() > most_corners)
-    refuse(node, path, "must hold at most " + std::to_string(most_corners) + " points; divide the block");
+    refuse(node, path, "must hold at most " + std::to_string(most_corners) + " points; " + fewer(row));
   for (std::size_t i = 0; i < node.items.size(); ++i)
     numbers(row, node.items[i], path + "." + std::to_string(i + 1), dimension);
 }

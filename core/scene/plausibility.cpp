@@ -385,9 +385,10 @@ void judge_water(const Scene& scene, const Prepared<Dim>& prepared, Warnings& wa
     const Body<Dim>& body = model.bodies[b];
     const double weight = -body.mass * model.gravity[Dim - 1], lift = loads[b].force[Dim - 1];
     if (body.fixed || lift <= std::max((1 + in_balance) * weight, 0.0)) continue;
+    const bool weightless = model.gravity.isZero(0);
     warnings.push_back(scene.file + ": " + described(model, body) + " weighs " + text(weight) +
-                       " N, and water lifts it by " + text(lift) +
-                       " N: it floats or is pushed up; is the density that of wet rock?");
+                       " N, and water lifts it by " + text(lift) + " N: it floats or is pushed up; " +
+                       (weightless ? "state gravity" : "is the density that of wet rock?"));
     break;
   }
 }

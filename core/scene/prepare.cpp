@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "core/body_title.hpp"
 #include "core/potential/particle.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/bolts.hpp"
@@ -257,7 +258,9 @@ void check_point(const Subject& force, const Model<Dim>& model, const std::vecto
           force, "point",
           fmt::format("lies at least {:.3g} m outside of {}, which the force acts on; move the point into the block, "
                       "choose the block it lies in (for example inside = the point), or leave it out for the centroid",
-                      outside, body.name.empty() ? fmt::format("block {}", b) : "block '" + body.name + "'"));
+                      outside,
+                      body.name.empty() ? fmt::format("block {} ({})", b, title_of(model, static_cast<int>(b)))
+                                        : "block '" + body.name + "'"));
   }
 }
 

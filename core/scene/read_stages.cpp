@@ -367,6 +367,9 @@ Settings read_settings(const Subject& scene) {
   Settings settings;
   read_keys(*scene.node, "", settings);
   const ContactSettings& contact = settings.contact;
+  if (settings.time.step && states(scene, "time", "fraction"))
+    refuse(*child(scene, "time"), "fraction",
+           "stands beside step_s, which is the time step whatever the stability limit; remove one of the two");
   if (contact.normal == ContactNormal::multipliers && contact.overlap == OverlapSearch::bracketing)
     refuse(*child(scene, "contact"), "overlap",
            "searches along the potential's normal; with normal = \"multipliers\" the overlap is the linear program's "
@@ -381,10 +384,13 @@ std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const Da
     stages.push_back(read_stage(item, damping, dimension, rock_weight));
   chain_gravity(stages);
   free_runs(scene, damping, stages);
-  if (stages.empty())
-    refuse(scene, "stage",
-           "nothing would happen; write for example [[stage]] with name = \"settle\" and kind = \"settle\"");
   return stages;
+}
+
+void require_stages(const Scene& scene) {
+  if (scene.stages.empty())
+    refuse({scene.tree.get(), ""}, "stage",
+           "nothing would happen; write for example [[stage]] with name = \"settle\" and kind = \"settle\"");
 }
 
 std::vector<MonitorSpec> read_monitors(const Subject& scene) {

@@ -13,6 +13,8 @@ MotionSpec read_motion(const Subject& table);
 Settings read_settings(const Subject& scene);
 std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const DampingSettings& damping,
                                    double rock_weight);
+// refuses a scene without any: blocks may be cut without, nothing else can be asked of it
+void require_stages(const Scene& scene);
 std::vector<MonitorSpec> read_monitors(const Subject& scene);
 
 }  // namespace voussoir

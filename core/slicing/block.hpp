@@ -24,8 +24,8 @@ struct BlockResult {
   Polytope<Dim> part;
 };
 
-// Normals are normalised; of planes that coincide the last one, with its joint, is kept (Boon 2013, Eq. 3.8, decided as
-// in method.md section 1), and a plane that would cut off less than 1e-10 of the inscribed radius is dropped. Faces
+// Normals are normalised; of planes that coincide the last one, with its joint, is kept (Boon 2013, Eq. 3.8, keeps
+// both), and a plane that would cut off less than 1e-10 of the inscribed radius is dropped. Faces
 // come in an order of their own, so that a part has the same bits for any order of its planes (which of planes that
 // coincide names the joint apart). Vertices lie within some 64 roundings of the coordinates of the planes, measured
 // across them; volume, centroid and inertia follow from that. `joints` names the joint of each plane, or no_joint.

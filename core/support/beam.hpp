@@ -1,5 +1,5 @@
 // A straight elastic beam between two nodes of the plane that move and turn as far as they like: co-rotational, without
-// shear deformation (Boon 2013, 5.3.5; method.md section 7). Per metre out of the plane: stiffnesses in N and N m²,
+// shear deformation (Boon 2013, section 5.3.5). Per metre out of the plane: stiffnesses in N and N m²,
 // forces in N, moments in N m, energies in J, all per m. Counter-clockwise rotations and moments are positive.
 //
 // With the present chord of length l, which has turned by α, and the end rotations θ = φ - α of the nodes against it

@@ -1,4 +1,4 @@
-// Rock bolts as springs between blocks (Boon 2013, Eqs 5.1 and 5.2; method.md section 7): one at every joint that
+// Rock bolts as springs between blocks (Boon 2013, Eqs 5.1 and 5.2; cases/support/README.md): one at every joint that
 // a bolt crossed when it was installed, or, end-anchored, one from plate to anchor. Its anchors are fixed in the two
 // blocks. With d from the first to the second, s the sign of d on the bolt's axis and l0 the length at installation
 //

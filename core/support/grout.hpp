@@ -1,5 +1,5 @@
 // A bar grouted into rock along its axis: a row of elastic, perfectly plastic rods whose nodes a bond, elastic and
-// perfectly plastic too, ties to the rock (method.md section 7). The rock's displacements are given; the bar has no
+// perfectly plastic too, ties to the rock (cases/support/README.md). The rock's displacements are given; the bar has no
 // mass and is in equilibrium with them, so that it shortens no time step by itself.
 //
 // One coordinate s runs along the axis from the collar into the rock, m; displacements along it are positive, so are

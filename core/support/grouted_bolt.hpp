@@ -1,6 +1,6 @@
-// A grouted bar in its blocks (method.md section 7). What grout.hpp asks for, the displacement of the rock along the
-// bar, is the same at all nodes in a block, for a block is rigid; from one block to the next it grows by how far their
-// joint has opened along the bar:
+// A grouted bar in its blocks (cases/support/README.md). What grout.hpp asks for, the displacement of the rock along
+// the bar, is the same at all nodes in a block, for a block is rigid; from one block to the next it grows by how far
+// their joint has opened along the bar:
 //
 //   w_j = s|d_j| - l_j, or a_j · d_j where l_j = 0;   g_i = sum of the w_j before node i,
 //

@@ -1,4 +1,4 @@
-// Linings of the plane (Boon 2013, section 5.3.5; method.md section 7): nodes on the outline of an opening, beams
+// Linings of the plane (Boon 2013, section 5.3.5; cases/support/README.md): nodes on the outline of an opening, beams
 // between neighbours (beam.hpp) and, between nodes and rock, an interface with the laws of a joint. Per metre out of
 // the plane. Nodes follow each other counter-clockwise about the opening.
 //

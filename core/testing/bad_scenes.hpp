@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/scene/read_stages.hpp"
 #include "core/scene/scene.hpp"
 #include "text/plain_text.hpp"
 
@@ -97,6 +98,7 @@ inline void expect_parts(const SceneError& error) {
 inline std::string complaint_about(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
     const Scene scene = parse_scene(text, "scene.toml", overrides);
+    require_stages(scene);
     scene.dimension == 2 ? void(prepare<2>(scene)) : void(prepare<3>(scene));
   } catch (const SceneError& error) {
     expect_parts(error);

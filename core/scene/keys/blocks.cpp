@@ -26,7 +26,7 @@ KeyTable block_keys() {
      .meaning = "r: rounds edges and corners; needed where sphericity is below 1",
      .repair = "the radius of edges between planes at right angles, for example 0.05"},
     {.key = "sphericity", .members = {in(&ParticleSpec::sphericity)}, .unit = "1", .range = {0, 1},
-     .plausible = {1e-3, 1}, .example = "0.02", .required = true,
+     .plausible = {.low = 1e-3, .high = 1, .or_zero = true}, .example = "0.02", .required = true,
      .when = {"shape", "potential"},
      .meaning = "k: the fraction of the sphere, 0 (planes and r alone) to 1 (a sphere)",
      .breaks = "at 0 no point of two faces that lie on each other is chosen; 0.01 does"},

@@ -25,7 +25,7 @@ inline constexpr Range plausible_stiffness{1e6, 1e12};
 inline constexpr Range plausible_dip{.low = 1.6, .high = 90, .or_zero = true};  // 90 degrees are 1.57 radians
 inline constexpr Range plausible_direction{.low = 0.1, .high = 360, .or_zero = true};
 inline constexpr Range plausible_scatter{.low = 0.5, .high = 30, .or_zero = true};
-inline constexpr Range plausible_friction{1.6, 85};
+inline constexpr Range plausible_friction{.low = 1.6, .high = 89.9, .or_zero = true};  // as high as nothing slips
 inline constexpr Range plausible_speed{.low = 1e-9, .high = 100, .above_low = true, .or_zero = true};  // 3 cm a year
 inline constexpr Range plausible_factor{.low = 0.01, .high = 200, .or_zero = true};                    // a centrifuge
 inline constexpr Range plausible_strength{0.05, 50};

@@ -3,6 +3,12 @@
 #include "core/settings.hpp"
 
 namespace voussoir::keys {
+namespace {
+
+// Two levels of a search so far apart still differ by some hundred roundings or more, so that halving and stepping end.
+constexpr Range tolerance_range{1e-10, 90}, factor_tolerance_range{1e-10, 1000};
+
+}  // namespace
 
 // clang-format off
 KeyTable stage_reduce_keys() {
@@ -30,11 +36,11 @@ KeyTable stage_reduce_keys() {
     {.key = "to_deg", .members = {degrees(&ReducePlan::to)}, .unit = "deg", .range = friction_range,
      .plausible = {1, 85}, .example = "5", .required = true, .when = {"search", "friction"},
      .meaning = "friction angle at which the search ends", .mistake = friction_mistake},
-    {.key = "tolerance_deg", .members = {degrees(&ReducePlan::tolerance)}, .unit = "deg", .range = {0, 90, true},
+    {.key = "tolerance_deg", .members = {degrees(&ReducePlan::tolerance)}, .unit = "deg", .range = tolerance_range,
      .plausible = {5e-4, 5}, .example = "0.01", .required = true, .when = {"method", "bisection"},
      .and_when = {"search", "friction"},
      .meaning = "largest bracket at the end"},
-    {.key = "step_deg", .members = {degrees(&ReducePlan::step)}, .unit = "deg", .range = {0, 90, true},
+    {.key = "step_deg", .members = {degrees(&ReducePlan::step)}, .unit = "deg", .range = tolerance_range,
      .plausible = {0.02, 5}, .example = "0.5", .required = true, .when = {"method", "steps"},
      .and_when = {"search", "friction"},
      .meaning = "decrement"},
@@ -44,11 +50,11 @@ KeyTable stage_reduce_keys() {
     {.key = "to_factor", .members = {in(&FactorPlan::to)}, .unit = "1", .range = factor_range,
      .plausible = plausible_strength, .example = "3", .required = true, .when = {"search", "factor"},
      .meaning = "factor at which the search ends"},
-    {.key = "tolerance_factor", .members = {in(&FactorPlan::tolerance)}, .unit = "1", .range = factor_range,
+    {.key = "tolerance_factor", .members = {in(&FactorPlan::tolerance)}, .unit = "1", .range = factor_tolerance_range,
      .plausible = {5e-5, 0.5}, .example = "0.001", .required = true, .when = {"method", "bisection"},
      .and_when = {"search", "factor"},
      .meaning = "largest bracket at the end"},
-    {.key = "step_factor", .members = {in(&FactorPlan::step)}, .unit = "1", .range = factor_range,
+    {.key = "step_factor", .members = {in(&FactorPlan::step)}, .unit = "1", .range = factor_tolerance_range,
      .plausible = {1e-3, 0.5}, .example = "0.01", .required = true, .when = {"method", "steps"},
      .and_when = {"search", "factor"},
      .meaning = "increment"},
@@ -62,7 +68,7 @@ KeyTable stage_reduce_keys() {
      .meaning = "the slower speed of reduction",
      .breaks = "close to the faster one: the extrapolation magnifies small differences"},
     {.key = "failure_displacement", .members = {in(&ReducePlan::failure_displacement)}, .unit = "m",
-     .range = not_negative, .plausible = {.low = 1e-4, .high = 1, .or_zero = true}, .example = "0.01",
+     .range = not_negative, .plausible = {.low = 1e-4, .high = 30, .or_zero = true}, .example = "0.01",
      .when = {"kind", "reduce"},
      .meaning = "a block that has moved this far since the search began (rate, two_rates: since the fall began) has "
          "failed; 0: a tenth of the smallest inscribed radius of the free blocks",

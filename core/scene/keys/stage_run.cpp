@@ -29,7 +29,7 @@ KeyTable stage_run_keys() {
      .range = count, .plausible = {1e4, 1e8}, .example = "2000000", .when = {"kind", "settle|reduce"},
      .meaning = "gives up when not at rest after so many steps (reduce: in one trial)"},
     {.key = "duration_s", .members = {in(&RunPlan::duration)}, .unit = "s", .range = {0, 1e9, true},
-     .plausible = {0.01, 1000}, .example = "2", .required = true, .when = {"kind", "run"},
+     .plausible = {1e-3, 1000}, .example = "2", .required = true, .when = {"kind", "run"},
      .meaning = "simulated time", .mistake = "was it given in ms?"},
   }};
 }

@@ -8,7 +8,7 @@ namespace voussoir::keys {
 KeyTable time_keys() {
   return {"time", {
     {.key = "fraction", .members = {in(&TimeSettings::fraction)}, .unit = "1", .range = {0, 1, true},
-     .plausible = {1e-3, 0.5}, .example = "0.1",
+     .plausible = {1e-3, 1}, .example = "0.1",
      .meaning = "time step as a fraction of the stability limit; in stages of kind run 0.1 where it is not stated",
      .breaks = "above 0.2 (0.1 without damping) contacts that open and close gain energy"},
     {.key = "step_s", .members = {in(&TimeSettings::step)}, .unit = "s", .range = {0, 1e9, true},
@@ -22,7 +22,7 @@ KeyTable time_keys() {
 KeyTable equilibrium_keys() {
   return {"equilibrium", {
     {.key = "unbalanced", .members = {in(&EquilibriumSettings::unbalanced)}, .unit = "1", .range = {0, 1, true},
-     .plausible = {1e-8, 1e-5}, .example = "1e-7",
+     .plausible = {1e-9, 5e-3}, .example = "1e-7",
      .meaning = "at rest when for every free block unbalanced force and momentum stay below this fraction of the mean "
          "force of contacts and supports, or of relief loads (let_off), applied forces or water where these are larger",
      .breaks = "too loose: a slow slide passes as rest"},

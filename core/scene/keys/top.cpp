@@ -16,7 +16,7 @@ KeyTable top_keys() {
     {.key = "dimension", .members = {in(&Scene::dimension)}, .range = {2, 3}, .example = "3", .required = true,
      .meaning = "2: plane scene, x to the right, y up, unit thickness; 3: x east, y north, z up",
      .repair = "write dimension = 2 or dimension = 3"},
-    {.key = "gravity", .members = {in(&Scene::gravity)}, .unit = "m/s²", .range = sane, .plausible = {1, 30},
+    {.key = "gravity", .members = {in(&Scene::gravity)}, .unit = "m/s²", .range = sane, .plausible = {.low = 1, .high = 30, .or_zero = true},
      .example = "[0, 0, -9.81]",
      .meaning = "acceleration of gravity; without it there is none", .breaks = "a wrong sign lifts the blocks off",
      .mistake = "on earth it is 9.81; was it given in another unit?"},

@@ -1,0 +1,279 @@
+// What the program says of a scene before and after a run: names, what linings and bolts cost, repairs that fit.
+#include <random>
+#include <regex>
+
+#include "app/testing/program.hpp"
+#include "core/body_title.hpp"
+#include "core/testing/lined_opening.hpp"
+
+namespace voussoir {
+namespace {
+
+using namespace program;
+
+const std::string plane =
+    "dimension = 2\ngravity = [0, -10]\ndensity = 2000\n"
+    "joint_properties = [{ name = \"rock\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]\n";
+const std::string halves = plane +
+                           "domain = { box = { min = [0, 0], max = [40, 40] } }\n"
+                           "joints = [{ name = \"bed\", dip = 0, point = [0, 20] }]\nfix = [{ below = [\"bed\"] }]\n";
+const std::string settle = "[[stage]]\nname = \"rest\"\nkind = \"settle\"\n";
+
+class Messages : public Program {
+ protected:
+  std::string check(const std::string& scene, const std::string& more = "") const {
+    write("scene.toml", scene);
+    const Ended ended = run("check scene.toml " + more);
+    EXPECT_EQ(ended.code, 0) << ended.err << scene;
+    return ended.out;
+  }
+  void refuses(const std::string& scene, const std::string& part) const {
+    write("scene.toml", scene);
+    expect_one_line(run("check scene.toml"), 2, part);
+  }
+};
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// ---- commands and repairs -------------------------------------------------------------------------------------------
+
+TEST_F(Messages, BlocksAreCutWithoutAStage) {
+  write("scene.toml", halves);
+  EXPECT_EQ(run("slice scene.toml --out blocks").code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "blocks" / "blocks.csv"));
+  for (const char* command : {"check scene.toml", "run scene.toml --out r"})
+    expect_one_line(run(command), 2, "stage is missing");
+}
+
+// an option that takes one value each time it is written must not look as if it took many
+TEST_F(Messages, HelpPromisesNoListWhereEachValueNeedsItsOption) {
+  for (const char* command : {"run", "check", "slice", "limit", "export", "joint-test", "study run", "resume"}) {
+    const Ended help = run(std::string(command) + " --help");
+    EXPECT_EQ(help.code, 0);
+    for (const std::string& line : lines_of(help.out))
+      EXPECT_FALSE(line.starts_with("  --") && holds(line, "...")) << command << ": " << line;
+  }
+  write("scene.toml", halves + settle);
+  EXPECT_TRUE(holds(run("check scene.toml --set density=2500 --set title='\"two\"'").out, "two (2-D)"));
+  EXPECT_EQ(run("check scene.toml --set density=2500 title=two").code, 2);
+}
+
+TEST_F(Messages, LimitAnalysisIsQuietWhenAsked) {
+  if (!is_built_in("glpk")) GTEST_SKIP() << "built without GLPK";
+  write("scene.toml", halves + settle);
+  const std::string dipping =
+      "limit scene.toml --set joints.bed.dip=20 --set joints.bed.dip_direction=90 --out l --overwrite";
+  EXPECT_FALSE(run(dipping).out.empty());
+  const Ended quiet = run(dipping + " --quiet");
+  EXPECT_EQ(quiet.code, 0);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST_F(Messages, ListsThatAreTooLongAreToldWhatTheyAre) {
+  std::string points;
+  for (int k = 0; k < 1000; ++k)
+    points += fmt::format("[{}, 30], ", k);
+  const std::string water = "[[water]]\nname = \"lake\"\ntable = [" + points + "]\n";
+  write("scene.toml", halves + settle + water);
+  const Ended ended = run("check scene.toml");
+  expect_one_line(ended, 2, "water.lake.table");
+  EXPECT_FALSE(holds(ended.err, "block")) << ended.err;
+  EXPECT_TRUE(holds(ended.err, "leave out points")) << ended.err;
+  refuses(plane + settle + "[[blocks]]\nname = \"a\"\nvertices = [" + points + "]\n", "divide the block into parts");
+}
+
+TEST_F(Messages, MissingGravityIsNoWrongDensity) {
+  const std::string water = "[[water]]\nname = \"lake\"\nlevel = 39\nunit_weight = 9810\n";
+  const std::string out =
+      check(halves.substr(0, halves.find("gravity")) + halves.substr(halves.find("density")) + settle + water);
+  EXPECT_TRUE(holds(out, "water lifts it by")) << out;
+  EXPECT_TRUE(holds(out, "state gravity")) << out;
+  EXPECT_FALSE(holds(out, "is the density")) << out;
+  EXPECT_TRUE(holds(check(halves + settle + water, "--set density=500"), "is the density"));
+}
+
+TEST_F(Messages, TimeStepsAreStatedOnce) {
+  refuses(halves + settle + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "time.fraction");
+  refuses(halves + settle + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "stands beside step_s");
+  check(halves + settle + "[time]\nstep_s = 1e-4\n");
+  check(halves + settle + "[time]\nfraction = 0.1\n");
+}
+
+// what no double can hold is refused, whatever it is stated as; a search for it would not end
+TEST_F(Messages, TolerancesThatNoDoubleHoldsAreRefused) {
+  std::mt19937 random(20);
+  std::uniform_real_distribution<double> below(10.1, 99), above(3, 9.9);
+  const std::string angle = "[[stage]]\nname = \"c\"\nkind = \"reduce\"\nfrom_deg = 40\nto_deg = 10\n",
+                    factor =
+                        "[[stage]]\nname = \"c\"\nkind = \"reduce\"\nsearch = \"factor\"\nfrom_factor = 0.5\n"
+                        "to_factor = 3\n";
+  struct Key {
+    std::string scene, name, text;
+  };
+  const std::vector<Key> keys = {
+      {angle, "tolerance_deg", "tolerance_deg = {:.3e}\n"},
+      {angle + "method = \"steps\"\n", "step_deg", "step_deg = {:.3e}\n"},
+      {factor, "tolerance_factor", "tolerance_factor = {:.3e}\n"},
+      {factor + "method = \"steps\"\n", "step_factor", "step_factor = {:.3e}\n"},
+      {angle + "tolerance_deg = 0.1\n", "accuracy.error", "[accuracy]\nerror = \"{:.3e} deg\"\n"},
+      {angle + "tolerance_deg = 0.1\n", "accuracy.error", "[accuracy]\nerror = \"{:.3e} %\"\n"}};
+  for (const Key& key : keys) {
+    refuses(halves + key.scene + fmt::format(fmt::runtime(key.text), std::pow(10, -below(random))), key.name);
+    check(halves + key.scene + fmt::format(fmt::runtime(key.text), std::pow(10, -above(random))));
+  }
+}
+
+// blocks whose middle is the scene's zero, cut by joints at any angle
+TEST_F(Messages, CoordinatesThatAreZeroToRoundingAreZero) {
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> angle(1, 89), half(0.5, 50);
+  for (int trial = 0; trial < 10; ++trial) {
+    const double dip = angle(random), size = half(random);
+    const auto joint = [&](const char* name, double side) {
+      return fmt::format("[[joints]]\nname = \"{}\"\ndip = {}\ndip_direction = 90\npoint = [{}, 0]\n", name, dip,
+                         0.3 * side * size);
+    };
+    write("scene.toml", plane + fmt::format("domain = {{ box = {{ min = [-{0}, -{0}], max = [{0}, {0}] }} }}\n", size) +
+                            joint("left", -1) + joint("right", 1));
+    ASSERT_EQ(run("slice scene.toml --out blocks --overwrite").code, 0);
+    const std::vector<std::string> rows = lines_of(read(folder_ / "blocks/blocks.csv"));
+    ASSERT_EQ(rows.size(), 4u);
+    EXPECT_EQ(std::ranges::count_if(rows, [](const std::string& row) { return row.ends_with(",0,0"); }), 1)
+        << rows[1] << "\n"
+        << rows[2] << "\n"
+        << rows[3];
+  }
+}
+
+// ---- bolts and linings ----------------------------------------------------------------------------------------------
+
+// random bolts, some of which share a length with another or lie in the joint: as many as were made
+TEST_F(Messages, BoltsOnTopOfEachOtherAreCounted) {
+  std::mt19937 random(19);
+  std::uniform_real_distribution<double> at(1, 39), share(0.1, 0.9);
+  for (int trial = 0; trial < 6; ++trial) {
+    const int apart = 4 + trial, again = trial % 3, in_joint = (trial + 1) % 3;
+    std::vector<std::array<double, 4>> lines;
+    for (int k = 0; k < apart; ++k)
+      lines.push_back({at(random), at(random) / 2, at(random), 20 + at(random) / 2});
+    for (int k = 0; k < again; ++k) {  // from within the first ones, backwards or on beyond their ends
+      const auto [x, y, u, v] = lines[k];
+      const double from = share(random), to = trial % 2 ? from + 1 : from - 1;
+      lines.push_back({x + from * (u - x), y + from * (v - y), x + to * (u - x), y + to * (v - y)});
+    }
+    for (int k = 0; k < in_joint; ++k)
+      lines.push_back({10.0 * k + 1, 20, 10.0 * k + 8, 20});
+    std::string bolts, install;
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      const auto [x, y, u, v] = lines[k];
+      bolts +=
+          fmt::format("[[bolts]]\nname = \"b{}\"\nstiffness = 1e8\nfrom = [{}, {}]\nto = [{}, {}]\n", k, x, y, u, v);
+      install += fmt::format("{}\"b{}\"", k ? ", " : "", k);
+    }
+    const std::string out = check(halves + settle + "install = [" + install + "]\n" + bolts);
+    const auto count = [&](const std::string& what) {
+      int found = 0;
+      for (const std::string& line : lines_of(out))
+        found += holds(line, what);
+      return found;
+    };
+    EXPECT_EQ(count("1 of 1 lie on top of another bolt"), again) << out;
+    EXPECT_EQ(count("1 of 1 lie in a joint ('bed')"), in_joint) << out;
+  }
+}
+
+TEST_F(Messages, FansOfMoreThanAWholeTurnAreRefused) {
+  const auto fan = [](double from, double to) {
+    return fmt::format(
+        "[[bolts]]\nname = \"roof\"\nstiffness = 1e8\nfan = {{ centre = [20, 18], start = 1, length = 5, "
+        "from_deg = {}, to_deg = {}, spacing_deg = 30 }}\n",
+        from, to);
+  };
+  const std::string scene = halves + settle + "install = [\"roof\"]\n";
+  refuses(scene + fan(-10, 360), "to_deg");
+  refuses(scene + fan(-360, 360), "whole turn");
+  EXPECT_FALSE(holds(check(scene + fan(-180, 150)), "on top"));
+  EXPECT_TRUE(holds(check(scene + fan(0, 360)), "1 of 13 lie on top of another bolt"));
+}
+
+// steps that `check` expects of a stage
+double steps_of(const std::string& out, const std::string& stage) {
+  std::smatch found;
+  const std::regex line(stage + R"(: steps of \S+ s, \w+ \w+ (\S+) of them|)" + stage +
+                        R"(: steps of \S+ s, about (\S+) of them)");
+  if (!std::regex_search(out, found, line)) return -1;
+  return std::stod(found[1].matched ? found[1] : found[2]);
+}
+
+TEST_F(Messages, LiningsCostWhatTheirNodesDo) {
+  using namespace lined_opening;
+  const std::string scene = rock + held + shell + lined_opening::stage("weight", "gravity_ramp_s = 0.01") +
+                            lined_opening::stage("line", "excavate = [\"tunnel\"]\ninstall = [\"shell\"]");
+  for (const int nodes : {48, 200, 600}) {
+    const std::string out = check(scene, fmt::format("--set linings.shell.nodes={}", nodes));
+    // printed with one digit: 1.5 as 1
+    EXPECT_GE(1.5 * steps_of(out, "line"), nodes * nodes) << out;
+  }
+  // Newton's method does not go by the stiffest mode
+  EXPECT_LT(steps_of(check(scene, "--set linings.shell.nodes=600 --set damping.statics='\"newton\"'"), "line"), 1e5);
+  const std::string thick = "beams of 0.314 m are shorter than the lining is thick, 0.5 m";
+  EXPECT_TRUE(holds(check(scene, "--set linings.shell.nodes=60 --set linings.shell.thickness=0.5"), "are shorter than"))
+      << thick;
+  EXPECT_FALSE(
+      holds(check(scene, "--set linings.shell.nodes=60 --set linings.shell.thickness=0.2"), "shorter than the lining"));
+}
+
+// ---- names ----------------------------------------------------------------------------------------------------------
+
+TEST(BodyTitle, NamesWhatTheSceneNames) {
+  const lined_opening::Cast cast;
+  EXPECT_EQ(title_of(cast.model, cast.body(1)), "node 2 of lining 'shell'");
+  for (std::size_t b = 0; b < cast.scene.model.bodies.size(); ++b) {
+    const std::string title = title_of(cast.model, static_cast<int>(b));
+    EXPECT_TRUE(title.starts_with("of joint left, tunnel face") || title.starts_with("of joints ")) << title;
+  }
+  Model<2> model = cast.model;
+  model.bodies[0].name = "key";
+  EXPECT_EQ(title_of(model, 0), "key");
+  model.bodies[0].name.clear();
+  for (Polytope<2>& part : model.bodies[0].parts)
+    std::ranges::fill(part.joints, no_joint);
+  EXPECT_TRUE(title_of(model, 0).starts_with("at (")) << title_of(model, 0);
+}
+
+TEST_F(Messages, NumbersOfBlocksHaveNamesBeside) {
+  const std::string out = check(halves + settle);
+  EXPECT_TRUE(holds(out, "block 0 (of joint bed)")) << out;
+  const std::string falls = check(plane + "domain = { box = { min = [0, 0], max = [1, 1] } }\n" + settle);
+  EXPECT_TRUE(std::regex_search(falls, std::regex(R"(block 0 \(at \(0\.5, 0\.5\) m\) has no neighbour)"))) << falls;
+}
+
+TEST_F(Messages, AStudysWarningsNameTheirRows) {
+  write("scene.toml",
+        halves + settle + "[[monitors]]\nname = \"top\"\nquantities = [\"displacement\"]\nabove = [\"bed\"]\n");
+  write("study.toml",
+        "scene = \"scene.toml\"\nquantity = \"top_displacement_y\"\n[[sweep]]\nname = \"density\"\nkey = \"density\"\n"
+        "values = [2000, 20000, 30000]\n");
+  const Ended ended = run("study study.toml --out s --jobs 1");
+  EXPECT_TRUE(holds(ended.err, "voussoir: warning: rows 3-4: (of row 3, the others alike) ")) << ended.err << ended.out;
+  EXPECT_TRUE(holds(ended.err, "density = 20000: is unusual")) << ended.err;
+  EXPECT_FALSE(holds(ended.err, "rows 1")) << ended.err;
+}
+
+TEST_F(Messages, AUnitOfOneIsNotPrinted) {
+  write("scene.toml", halves + settle +
+                          "[[stage]]\nname = \"c\"\nkind = \"reduce\"\nsearch = \"factor\"\nfrom_factor = 0.2\n"
+                          "to_factor = 3\ntolerance_factor = 0.1\n");
+  write("study.toml",
+        "scene = \"scene.toml\"\nquantity = \"factor_of_safety\"\n[[sample]]\nname = \"all\"\nrows = 3\nseed = 1\nset "
+        "= [\"joints.bed.dip_direction=90\"]\n"
+        "keys = [{ key = \"joints.bed.dip\", law = \"uniform\", least = 20, most = 30 }]\n");
+  const Ended ended = run("study study.toml --out s --jobs 1");
+  EXPECT_TRUE(holds(ended.out, "deviation ")) << ended.out << ended.err;
+  EXPECT_FALSE(std::regex_search(ended.out, std::regex(R"(deviation \S+ 1\b)"))) << ended.out;
+}
+
+}  // namespace
+}  // namespace voussoir
