@@ -39,15 +39,16 @@ monitors = [{{ name = "top", inside = [0.5, 0.5, {}], quantities = ["displacemen
   return text;
 }
 
-// every file by its name; of results.json all but the clock, of the lock nothing
+// every file by its name; of results.json all but the clock, of the lock, and the hash that counts the clock, nothing
 using Contents = std::map<std::string, std::string>;
 
 inline Contents contents_of(const std::filesystem::path& folder) {
   Contents contents;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file() || entry.path().filename() == ".lock") continue;
+    const std::filesystem::path name = entry.path().filename();
+    if (!entry.is_regular_file() || name == ".lock" || name == "results.hash") continue;
     std::string text = read(entry.path());
-    if (entry.path().filename() == "results.json") {
+    if (name == "results.json") {
       nlohmann::ordered_json results = nlohmann::ordered_json::parse(text);
       results.erase("timing");
       text = results.dump();
