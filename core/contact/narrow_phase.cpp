@@ -4,10 +4,10 @@
 #include <array>
 
 #include "core/contact/extended_precision_overlap.hpp"
-#include "core/contact/facet_weights.hpp"
 #include "core/contact/kernel/kernel.hpp"
 #include "core/contact/reference_kernel.hpp"
 #include "core/contact/separation.hpp"
+#include "core/geometry/facet_weights.hpp"
 
 namespace voussoir {
 namespace {

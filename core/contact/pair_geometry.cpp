@@ -5,8 +5,8 @@
 #include <limits>
 #include <span>
 
-#include "core/contact/facet_weights.hpp"
 #include "core/contact/rounding.hpp"
+#include "core/geometry/facet_weights.hpp"
 
 namespace voussoir {
 namespace {

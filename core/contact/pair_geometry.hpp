@@ -15,7 +15,7 @@ void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>&
 
 // Direction from A to B at a point (Eqs 3.31-3.35): difference of the gradients of the parts' inner potentials
 // sum w <a·x - d + r>², normalised. False when it vanishes. `fallback` tells that a face normal stood in for a zero
-// gradient. `weights` as in facet_weights.hpp; empty: all are 1.
+// gradient. `weights` as in geometry/facet_weights.hpp; empty: all are 1.
 template <int Dim>
 bool contact_normal(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, double radius,
                     Vector<Dim>& normal, bool& fallback, std::span<const double> weights = {});

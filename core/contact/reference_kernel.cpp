@@ -8,10 +8,10 @@
 
 #include "core/contact/bracketing.hpp"
 #include "core/contact/extended_precision_overlap.hpp"
-#include "core/contact/facet_weights.hpp"
 #include "core/contact/overlap_region.hpp"
 #include "core/contact/pair_geometry.hpp"
 #include "core/contact/rounding.hpp"
+#include "core/geometry/facet_weights.hpp"
 #include "core/optimise/central_path.hpp"
 #include "core/optimise/weighted_centre.hpp"
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/facet_weights.hpp"
 #include "core/contact/pair_geometry.hpp"
 #include "core/contact/rounding.hpp"
+#include "core/geometry/facet_weights.hpp"
 #include "core/optimise/symmetric_system.hpp"
 
 namespace voussoir {

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/contact/facet_weights.hpp"
 #include "core/contact/sensitivity.hpp"
+#include "core/geometry/facet_weights.hpp"
 #include "core/testing/contacts.hpp"
 #include "core/testing/exact_contacts.hpp"
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/facet_weights.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -68,8 +70,15 @@ template <int Dim>
 Particle<Dim> inner_particle(const Polytope<Dim>& part, double fraction) {
   PotentialShape<Dim> shape;
   shape.corner_radius = fraction * part.inscribed_radius;
-  for (const HalfSpace<Dim>& face : part.faces)
-    shape.planes.push_back({face.normal, face.offset - face.normal.dot(part.centre) - shape.corner_radius});
+  // Σ w <a·x - d>²: facets of one face would else end it r / √m outside their planes, not r
+  std::vector<double> weights;
+  append_weights(part, weights);
+  for (std::size_t f = 0; f < part.faces.size(); ++f) {
+    const HalfSpace<Dim>& face = part.faces[f];
+    const double root = std::sqrt(weights[f]);
+    shape.planes.push_back(
+        {root * face.normal, root * (face.offset - face.normal.dot(part.centre) - shape.corner_radius)});
+  }
   for (const Vector<Dim>& v : part.vertices)
     shape.sphere_radius = std::max(shape.sphere_radius, (v - part.centre).norm());
   Particle<Dim> particle = make_particle<Dim>(shape);

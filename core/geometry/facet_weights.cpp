@@ -1,4 +1,4 @@
-#include "core/contact/facet_weights.hpp"
+#include "core/geometry/facet_weights.hpp"
 
 namespace voussoir {
 
