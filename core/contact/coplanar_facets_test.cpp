@@ -10,6 +10,7 @@
 #include "core/geometry/facet_weights.hpp"
 #include "core/optimise/central_path.hpp"
 #include "core/optimise/weighted_centre.hpp"
+#include "core/potential/particle.hpp"
 #include "core/run.hpp"
 #include "core/testing/models.hpp"
 #include "core/testing/oracles.hpp"
@@ -200,6 +201,34 @@ TEST(CoplanarFacets, AFirstTouchByRoundingIsNoFlight) {
     expect_no_flight<2>(depth);
     expect_no_flight<3>(depth);
   }
+}
+
+// What a part is to a potential particle: its potential 1 at r outside a face, by facets too.
+template <int Dim>
+void expect_the_potential_of_one_face(int seed) {
+  constexpr double fraction = 0.02;
+  Random random(seed);
+  const Box<Dim> box{Vector<Dim>::Constant(-size), Vector<Dim>::Constant(size)};
+  const double radius = fraction * size;
+  const PotentialShape<Dim> exact = inner_particle<Dim>(exact_box<Dim>(box), fraction).shape;
+  for (const double noise : some_noises)
+    for (int i = 0; i < 20; ++i) {
+      const Polytope<Dim> part = i % 2 ? noisy_planes<Dim>(box, noise, random) : noisy_corners<Dim>(box, noise, random);
+      const PotentialShape<Dim> shape = inner_particle<Dim>(part, fraction).shape;
+      for (int k = 0; k < 10; ++k) {
+        Vector<Dim> at = size * shapes::direction<Dim>(random);
+        at /= at.cwiseAbs().maxCoeff();  // on a face
+        const double f = value<Dim>(placed<Dim>(shape), at - part.centre),
+                     expected = value<Dim>(placed<Dim>(exact), at);
+        // at most Dim faces; of each the slack, over r, and the weight of two facets or three
+        const double allowed = Dim * (2 * leaning * noise / radius + 2 * leaning * noise / leans_apart) + 1e-9;
+        EXPECT_NEAR(f, expected, allowed) << noise;
+      }
+    }
+}
+TEST(CoplanarFacets, ActAsOneFaceOnPotentialParticles) {
+  expect_the_potential_of_one_face<2>(81);
+  expect_the_potential_of_one_face<3>(82);
 }
 
 // ---- weights --------------------------------------------------------------------------------------------------------

@@ -1,7 +1,8 @@
 // How much each face of a part counts if a contact sums over faces: in the analytic centre (Eq. 3.28), the potential of
-// the normal (Eqs 3.31-3.35) and the barrier of the central path. A face that is cut into facets, coplanar but for the
-// rounding of a file or of its corners, would count once for each of them and draw the contact point to one side of the
-// body; merging the facets within a tolerance only moves the noise at which that begins.
+// the normal (Eqs 3.31-3.35), the barrier of the central path and the inner potential particle. A face that is cut into
+// facets, coplanar but for the rounding of a file or of its corners, would count once for each of them and draw the
+// contact point to one side of the body; merging the facets within a tolerance only moves the noise at which that
+// begins.
 #pragma once
 
 #include <vector>

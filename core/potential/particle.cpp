@@ -68,8 +68,13 @@ template <int Dim>
 Particle<Dim> inner_particle(const Polytope<Dim>& part, double fraction) {
   PotentialShape<Dim> shape;
   shape.corner_radius = fraction * part.inscribed_radius;
-  for (const HalfSpace<Dim>& face : part.faces)
-    shape.planes.push_back({face.normal, face.offset - face.normal.dot(part.centre) - shape.corner_radius});
+  // Σ w <a·x - d>²: facets of one face would else end it r / √m outside their planes, not r
+  for (std::size_t f = 0; f < part.faces.size(); ++f) {
+    const HalfSpace<Dim>& face = part.faces[f];
+    const double root = part.face_weights.empty() ? 1 : std::sqrt(part.face_weights[f]);
+    shape.planes.push_back(
+        {root * face.normal, root * (face.offset - face.normal.dot(part.centre) - shape.corner_radius)});
+  }
   for (const Vector<Dim>& v : part.vertices)
     shape.sphere_radius = std::max(shape.sphere_radius, (v - part.centre).norm());
   Particle<Dim> particle = make_particle<Dim>(shape);
