@@ -79,7 +79,7 @@ struct MovedBody {
   double inscribed_radius = 0;  // m
   int against = -1;             // the nearest of the bodies that it lay against and that stayed; -1: none did
   std::vector<double> place{};  // m, world coordinates: its centroid at the end
-  bool left_all = false;        // it touches none of those any more that it touched
+  bool left_all = false;        // it touches none of those any more that it touched, and hangs on no bolt
 };
 
 // column names carry their unit: time_s, wedge_displacement_x_m, friction_rock_deg …

@@ -105,8 +105,10 @@ struct Settling {
       }
   }
 
-  // whether it has left all that it touched, if it touched anything
+  // whether it has left all that it touched, if it touched anything, and no bolt holds it
   bool has_left_all(int body) const {
+    for (const BoltSpring<Dim>& spring : now.bolt_springs)
+      if (!spring.broken && (spring.body_a == body || spring.body_b == body)) return false;
     bool touched = false;
     for (const NearBodies& pair : begin.near) {
       if (!pair.touched || (pair.a != body && pair.b != body)) continue;
