@@ -151,6 +151,7 @@ void judge_bolts(const Model<Dim>& model, const State<Dim>& state, std::vector<s
 template <int Dim>
 void judge_linings(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings) {
   constexpr int least_on_side = 3, least_on_stretch = 2;
+  constexpr double least_slenderness = 1.0 / 3;
   constexpr double unusual_section = 20;  // times, or a fraction, of a rectangle's
   if constexpr (Dim == 2)
     for (const Lining& lining : model.linings) {
@@ -169,11 +170,11 @@ void judge_linings(const Model<Dim>& model, const State<Dim>& state, std::vector
             fmt::format("linings.{}.bending_stiffness = {:.3g} N m²/m is {:.2g} times young_modulus thickness³ / 12 = "
                         "{:.3g}: was it given in MN m²/m?",
                         name, lining.properties.bending(), of_rectangle, rectangle.bending()));
-      if (spacing < lining.properties.thickness)
-        warnings.push_back(fmt::format(
-            "linings.{}.nodes: beams of {:.3g} m are shorter than the lining is thick, {:.3g} m, so that they are no "
-            "beams (shear is left out) and set a small time step: state {:.0f} or fewer",
-            name, spacing, lining.properties.thickness, std::floor(beams / lining.properties.thickness)));
+      if (const double thickness = lining.properties.thickness; spacing < least_slenderness * thickness)
+        warnings.push_back(
+            fmt::format("linings.{}.nodes: beams of {:.3g} m are much shorter than the lining is thick, {:.3g} m: they "
+                        "make it no truer and set a small time step: state {:.0f} or fewer",
+                        name, spacing, thickness, std::floor(beams / (least_slenderness * thickness))));
       if (outline < least_on_side * spacing * static_cast<double>(lining.sides.size()))
         warnings.push_back(fmt::format(
             "linings.{}.nodes: beams of {:.3g} m on {} sides of {:.3g} m cut the outline's corners; state at least {}",
