@@ -1,10 +1,15 @@
 #include "core/settled.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
+
+#include "core/run.hpp"
 
 namespace voussoir {
 namespace {
@@ -169,6 +174,20 @@ std::vector<MovedBody> moved_bodies(const Model<Dim>& model, const SettleBegin<D
   return all;
 }
 
+template <int Dim>
+std::string moved_text(const Model<Dim>& model, const std::vector<MovedBody>& moved) {
+  const auto left = std::ranges::find_if(moved, &MovedBody::left_all);
+  const MovedBody& worst = left == moved.end() ? moved.front() : *left;
+  std::string text = fmt::format(
+      "{} moved by {:.3g} m while settling, more than its inscribed radius of {:.3g} m{}, and came to rest at ({:.4g})",
+      label_of(model, worst.body), worst.distance, worst.inscribed_radius,
+      worst.left_all ? ", lost every contact that it had" : "", fmt::join(worst.place, ", "));
+  if (moved.size() > 1) text += fmt::format("; so did {} more (results.json, moved)", moved.size() - 1);
+  return text;
+}
+
+template std::string moved_text<2>(const Model<2>&, const std::vector<MovedBody>&);
+template std::string moved_text<3>(const Model<3>&, const std::vector<MovedBody>&);
 template SettleBegin<2> settle_begin<2>(const Model<2>&, const State<2>&, bool);
 template SettleBegin<3> settle_begin<3>(const Model<3>&, const State<3>&, bool);
 template std::vector<MovedBody> moved_bodies<2>(const Model<2>&, const SettleBegin<2>&, const State<2>&);

@@ -1,6 +1,7 @@
 // Which bodies a stage that settles has moved away from those that they lay against when it began.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/results.hpp"
@@ -31,5 +32,9 @@ SettleBegin<Dim> settle_begin(const Model<Dim>& model, const State<Dim>& state, 
 // the other body's frame sees it, without the closure of their joint. `now`: its contacts have been found.
 template <int Dim>
 std::vector<MovedBody> moved_bodies(const Model<Dim>& model, const SettleBegin<Dim>& begin, const State<Dim>& now);
+
+// One line on these, one at least: a body that lost every contact before others, the farthest first.
+template <int Dim>
+std::string moved_text(const Model<Dim>& model, const std::vector<MovedBody>& moved);
 
 }  // namespace voussoir

@@ -4,19 +4,18 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
 
-#include "core/accuracy.hpp"
 #include "core/cast_lining.hpp"
+#include "core/doubts.hpp"
 #include "core/history.hpp"
 #include "core/install.hpp"
 #include "core/motion/free_fall.hpp"
 #include "core/motion/relaxation.hpp"
-#include "core/open_ledger.hpp"
 #include "core/stable_state.hpp"
 #include "core/state_hash.hpp"
 #include "core/step.hpp"
@@ -374,22 +373,16 @@ struct Simulation {
   void judge_moved(const State<Dim>& now) {
     std::vector<MovedBody> moved = moved_bodies(model, progress.settle, now);
     if (moved.empty()) return;
-    const auto left = std::ranges::find_if(moved, &MovedBody::left_all);
+    const bool left = std::ranges::any_of(moved, &MovedBody::left_all);
     const bool searched = std::any_of(scene.stages.begin() + progress.stage, scene.stages.end(),
                                       [](const StagePlan& s) { return std::holds_alternative<ReducePlan>(s.plan); });
-    const MovedBody& worst = left == moved.end() ? moved.front() : *left;
-    std::string told = fmt::format(
-        "{} moved by {:.3g} m while settling, more than its inscribed radius of {:.3g} m{}, and came to "
-        "rest at ({:.4g})",
-        label_of(model, worst.body), worst.distance, worst.inscribed_radius,
-        worst.left_all ? ", lost every contact that it had" : "", fmt::join(worst.place, ", "));
-    if (moved.size() > 1) told += fmt::format("; so did {} more (results.json, moved)", moved.size() - 1);
+    const std::string told = moved_text(model, moved);
     for (MovedBody& m : moved) {
       m.stage = plan().name;
       results.moved.push_back(std::move(m));
     }
     results.warnings.push_back(fmt::format("stage {}: {}", plan().name, told));
-    if (left != moved.end() || searched)
+    if (left || searched)
       fail(Outcome::incomplete,
            told + (searched ? "; the search that follows needs the blocks where the scene has them" : ""));
   }
@@ -425,18 +418,8 @@ struct Simulation {
     report_progress(state, r.ended, r.unbalanced, 1);
   }
 
-  // where an accuracy level set how closely an angle is found, its promise ends below some angle
-  void judge_level() {
-    for (const auto& [name, value] : results.values)
-      if (!scene.accuracy_level.empty() && name.ends_with("critical_friction") && value.value < least_promised_angle)
-        results.warnings.push_back(fmt::format(
-            "accuracy.level = \"{}\" promises its accuracy of critical angles from {:g} deg on; {} is {:.3g} "
-            "± {:.2g} deg: lower tolerance_deg or step_deg of its stage, or take a finer level",
-            scene.accuracy_level, least_promised_angle, name, value.value, value.error_bar.value_or(0)));
-  }
-
   void add_final_results() {
-    judge_level();
+    std::ranges::move(doubts_of_level(scene.accuracy_level, results), std::back_inserter(results.warnings));
     const std::vector<Column> columns = monitor_columns<Dim>(scene.monitors);
     const std::vector<double> values = monitor_values<Dim>(
         scene.monitors, model, with_forces(state, results.outcome == Outcome::failed), progress.ends);

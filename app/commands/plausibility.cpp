@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "app/commands/plausible_assembly.hpp"
-#include "app/commands/plausible_ramps.hpp"
+#include "app/commands/plausible_steps.hpp"
 #include "app/commands/plausible_support.hpp"
 #include "core/cast_lining.hpp"
 #include "core/motion/relaxation.hpp"
@@ -29,13 +29,12 @@ constexpr double large_overlap_fraction = 0.01;  // of the inscribed radius: blo
 constexpr double least_overlap_fraction = 1e-9;  // stiffer than rock can be: rounding becomes visible
 constexpr double large_overlap = 0.01;           // m: joints in rock close by a millimetre or so
 constexpr double many_steps = 1e6;               // hours
-constexpr double few_steps = 10;                 // show nothing of a motion
-constexpr double small_step_fraction = 1e-3;     // of the stable time step, when stated
-constexpr double many_frames = 1e4;              // files
-constexpr double long_interval = 2;              // of output, over the longest stage
-constexpr double many_rows = 1e6;                // of history.csv: a hundred megabytes
-constexpr double relaxed_fraction = 0.9;         // of the stability limit: what relaxation takes for its step
-constexpr double dashpot_error = 0.4;            // of a restitution, over the fraction of the step (cases/bounce)
+constexpr double few_steps = 10;
+constexpr double many_frames = 1e4;       // files
+constexpr double long_interval = 2;       // of output, over the longest stage
+constexpr double many_rows = 1e6;         // of history.csv: a hundred megabytes
+constexpr double relaxed_fraction = 0.9;  // of the stability limit: what relaxation takes for its step
+constexpr double dashpot_error = 0.4;     // of a restitution, over the fraction of the step (cases/bounce)
 constexpr double large_dashpot_error = 0.041;
 constexpr double settlement_margin = 10;  // failure displacement over elastic settlement
 constexpr double wide_size_ratio = 100;   // largest over smallest inscribed radius
@@ -413,19 +412,6 @@ void judge_multipliers(const ContactSettings& contact, const Model<Dim>& model, 
   for (std::size_t p = 0; p < used.size(); ++p)
     constant &= !used[p] || model.properties[p].constant_stiffness;
   if (!constant) result.warnings.push_back(fmt::format("{} joint_properties.constant_stiffness = true", keeps));
-}
-
-void judge_stated_step(const TimeSettings& time, Plausibility& result) {
-  if (!time.step || !std::isfinite(result.step_limit)) return;
-  if (*time.step > result.step_limit)
-    result.warnings.push_back(fmt::format(
-        "time.step_s = {:.3g} s exceeds the stability limit of {:.2g} s: the blocks will fly apart; lower it, or leave "
-        "it out",
-        *time.step, result.step_limit));
-  if (*time.step < small_step_fraction * result.step_limit)
-    result.warnings.push_back(
-        fmt::format("time.step_s = {:.3g} s is tiny beside the stability limit of {:.2g} s; is it in s?", *time.step,
-                    result.step_limit));
 }
 
 template <int Dim>

@@ -1,4 +1,4 @@
-// How long the ramps of a stage take, and limits that end it before.
+// How long the ramps of a stage take, limits that end it before, and the time step that is stated.
 #pragma once
 
 #include <string>
@@ -15,5 +15,8 @@ double ramp_of(const StagePlan& stage);
 // Limits of steps within which neither the ramps nor rest can be reached.
 void judge_limits(const StagePlan& stage, const Settings& settings, const StageForecast& forecast,
                   std::vector<std::string>& warnings);
+
+// beside the stability limit
+void judge_stated_step(const TimeSettings& time, Plausibility& result);
 
 }  // namespace voussoir

@@ -1,8 +1,10 @@
-#include "core/open_ledger.hpp"
+#include "core/doubts.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+
+#include "core/accuracy.hpp"
 
 namespace voussoir {
 namespace {
@@ -51,6 +53,19 @@ std::string doubts_of(const EnergyLedger& energy, std::span<const StagePlan> sta
       "the energy ledger does not close: {:.2g} J, {:.2g} of the largest energy of the run, is unexplained, in the "
       "balance of {}",
       energy.worst_error, energy.relative_error(), open_balance(energy, stages, scene));
+}
+
+std::vector<std::string> doubts_of_level(std::string_view level, const Results& results) {
+  std::vector<std::string> doubts;
+  if (level.empty()) return doubts;
+  for (const auto& [name, value] : results.values)
+    if (name.ends_with("critical_friction") && value.value < least_promised_angle)
+      doubts.push_back(
+          fmt::format("accuracy.level = \"{}\" promises its accuracy of critical angles from {:g} deg on; {} is {:.3g} "
+                      "± {:.2g} deg: "
+                      "lower tolerance_deg or step_deg of its stage, or take a finer level",
+                      level, least_promised_angle, name, value.value, value.error_bar.value_or(0)));
+  return doubts;
 }
 
 }  // namespace voussoir

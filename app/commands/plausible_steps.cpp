@@ -1,12 +1,16 @@
-#include "app/commands/plausible_ramps.hpp"
+#include "app/commands/plausible_steps.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace voussoir {
 namespace {
+
+// show nothing of a motion
+constexpr double small_step_fraction = 1e-3;  // of the stable time step, when stated
 
 // of a stage that seeks rest
 std::optional<long long> step_limit_of(const StagePlan& stage) {
@@ -56,6 +60,19 @@ void judge_limits(const StagePlan& stage, const Settings& settings, const StageF
                     "reached; shorten "
                     "the ramp (gravity_ramp_s, duration_s of water and let_off), or raise step_limit",
                     where, *limit, ramp, steps, forecast.time_step));
+}
+
+void judge_stated_step(const TimeSettings& time, Plausibility& result) {
+  if (!time.step || !std::isfinite(result.step_limit)) return;
+  if (*time.step > result.step_limit)
+    result.warnings.push_back(fmt::format(
+        "time.step_s = {:.3g} s exceeds the stability limit of {:.2g} s: the blocks will fly apart; lower it, or leave "
+        "it out",
+        *time.step, result.step_limit));
+  if (*time.step < small_step_fraction * result.step_limit)
+    result.warnings.push_back(
+        fmt::format("time.step_s = {:.3g} s is tiny beside the stability limit of {:.2g} s; is it in s?", *time.step,
+                    result.step_limit));
 }
 
 }  // namespace voussoir
