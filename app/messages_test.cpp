@@ -4,6 +4,9 @@
 
 #include "app/testing/program.hpp"
 #include "core/body_title.hpp"
+#include "core/install.hpp"
+#include "core/output/paraview.hpp"
+#include "core/scene/scene.hpp"
 #include "core/testing/lined_opening.hpp"
 
 namespace voussoir {
@@ -222,6 +225,61 @@ TEST_F(Messages, LiningsCostWhatTheirNodesDo) {
   const std::string shorter = "are much shorter than the lining is thick";
   EXPECT_TRUE(holds(check(scene, "--set linings.shell.nodes=60 --set linings.shell.thickness=1"), shorter));
   EXPECT_FALSE(holds(check(scene, "--set linings.shell.nodes=60 --set linings.shell.thickness=0.9"), shorter));
+}
+
+// random bolts of every kind through random joints, as they are installed and after each block has moved by itself
+TEST(BoltLines, GoFromCollarToToe) {
+  std::mt19937 random(22);
+  std::uniform_real_distribution<double> at(2, 38), share(0, 1);
+  const char* const kinds[] = {"stiffness = 1e8\n", "kind = \"end_anchored\"\naxial_stiffness = 1e8\n",
+                               "kind = \"grouted\"\naxial_stiffness = 1e8\nbond_stiffness = 5e8\n"};
+  int drawn = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    std::string scene = plane + "domain = { box = { min = [0, 0], max = [40, 40] } }\n";
+    for (int k = 0; k < 1 + trial % 4; ++k)
+      scene += fmt::format("[[joints]]\nname = \"j{}\"\ndip = {}\ndip_direction = 90\npoint = [20, {}]\n", k,
+                           40 * share(random), 5 + 9 * k);
+    const Vector<2> collar(at(random), 1), toe(at(random), 39);
+    scene += fmt::format("[[bolts]]\nname = \"b\"\nfrom = [{}, {}]\nto = [{}, {}]\n{}", collar[0], collar[1], toe[0],
+                         toe[1], kinds[trial % 3]);
+    scene += settle + "install = [\"b\"]\n";
+    const Prepared<2> prepared = prepare<2>(parse_scene(scene, "scene.toml", {}));
+    State<2> state = prepared.state;
+    install(prepared.model, {"b"}, state);
+    if (state.bolt_springs.empty()) continue;
+    const auto moved = [&](const Vector<2>& point, int body) {
+      const Motion<2>& m = state.motions[body];
+      const Vector<2> centroid = prepared.model.origin + prepared.model.bodies[body].reference;
+      return Vector<2>(centroid + m.displacement + matrix(m.rotation) * (point - centroid));
+    };
+    const int first = state.bolt_springs.front().body_a, last = state.bolt_springs.back().body_b;
+    for (int step = 0; step < 2; ++step) {
+      const PolyData lines = bolt_lines(prepared.model, state, 0);
+      const auto end = [&](std::size_t cell, int which) {
+        const auto& p = lines.points[lines.cells[cell][which]];
+        return Vector<2>(p[0], p[1]);
+      };
+      ASSERT_FALSE(lines.cells.empty());
+      EXPECT_LT((end(0, 0) - moved(collar, first)).norm(), 1e-9) << scene;
+      EXPECT_LT((end(lines.cells.size() - 1, 1) - moved(toe, last)).norm(), 1e-9) << scene;
+      double length = 0;
+      for (std::size_t c = 0; c < lines.cells.size(); ++c) {
+        length += (end(c, 1) - end(c, 0)).norm();
+        if (c > 0) {
+          EXPECT_LT((end(c, 0) - end(c - 1, 1)).norm(), 1e-9) << scene;
+        }
+      }
+      if (step == 0) {
+        EXPECT_NEAR(length, (toe - collar).norm(), 1e-9) << scene;
+      }
+      ++drawn;
+      for (Motion<2>& m : state.motions) {
+        m.displacement += Vector<2>(share(random), share(random));
+        m.rotation.angle += 0.1 * share(random);
+      }
+    }
+  }
+  EXPECT_GT(drawn, 40);
 }
 
 // ---- names ----------------------------------------------------------------------------------------------------------

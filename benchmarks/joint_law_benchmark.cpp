@@ -74,8 +74,8 @@ std::map<std::string, JointProperties> ways() {
   return all;
 }
 
-// Plain Coulomb and nothing else, one point a contact: the same sums as core/step/joint_forces.cpp for this case, with the
-// same ledger.
+// Plain Coulomb and nothing else, one point a contact: the same sums as core/step/joint_forces.cpp for this case, with
+// the same ledger.
 void by_hand(const Model<3>& model, State<3>& state) {
   state.energy.elastic = 0;
   const double dt = state.time_step;

@@ -101,6 +101,20 @@ Vector<Dim> in_body(const Model<Dim>& model, const State<Dim>& state, int body, 
   return matrix(motion.rotation).transpose() * (point - model.bodies[body].reference - motion.displacement);
 }
 
+// Which length of the bolt each spring stands for: all from collar to toe, ending midway between joints, m from the
+// collar.
+template <int Dim>
+void share_out(const Model<Dim>& model, const State<Dim>& state, const Line<Dim>& line,
+               const std::vector<double>& joints, std::vector<BoltSpring<Dim>>& springs) {
+  for (std::size_t k = 0; k < springs.size(); ++k) {
+    BoltSpring<Dim>& s = springs[k];
+    const double begin = k == 0 ? 0 : 0.5 * (joints[k - 1] + joints[k]);
+    const double end = k + 1 == springs.size() ? line.length : 0.5 * (joints[k] + joints[k + 1]);
+    s.begin = in_body<Dim>(model, state, s.body_a, line.collar + begin * line.along);
+    s.end = in_body<Dim>(model, state, s.body_b, line.collar + end * line.along);
+  }
+}
+
 // where the nodes of a bar must not share a cell, m from its begin, ascending: joints, edges of air, the end of the
 // free length
 std::vector<double> breaks_of(const std::vector<Chord>& chords, double free_length, double spacing) {
@@ -172,11 +186,13 @@ std::vector<BoltSpring<Dim>> springs_of(const Model<Dim>& model, const State<Dim
     spring.stiffness = stiffness;
     springs.push_back(spring);
   };
+  std::vector<double> joints;
   if (p.kind == BoltKind::end_anchored) {
     if (chords.size() > 1 && chords.front().body != chords.back().body) {
       const double begin = chords.front().begin, end = chords.back().end;
       add(chords.front().body, begin, chords.back().body, end, p.axial_stiffness / (end - begin));
     }
+    share_out(model, state, line, joints, springs);
     return springs;
   }
   for (std::size_t k = 1; k < chords.size(); ++k) {
@@ -184,7 +200,9 @@ std::vector<BoltSpring<Dim>> springs_of(const Model<Dim>& model, const State<Dim
     if (a.body == b.body) continue;
     const double joint = 0.5 * (a.end + b.begin);
     add(a.body, joint - anchor_of(p, a), b.body, joint + anchor_of(p, b), p.stiffness);
+    joints.push_back(joint);
   }
+  share_out(model, state, line, joints, springs);
   return springs;
 }
 
@@ -261,6 +279,20 @@ std::vector<std::string> install(const Model<Dim>& model, const std::vector<std:
 
 namespace {
 
+// Whether the rock at both anchors is left, with which the spring then goes; an end whose rock is gone is drawn at its
+// anchor.
+template <int Dim>
+bool follow_spring(const std::function<bool(int& body, Vector<Dim>& place)>& is_left, BoltSpring<Dim>& s) {
+  const auto follow_end = [&](int was, int body, const Vector<Dim>& anchor, Vector<Dim>& end) {
+    if (!is_left(was, end) || was != body) end = anchor;
+  };
+  const int a = s.body_a, b = s.body_b;
+  if (!is_left(s.body_a, s.place_a) || !is_left(s.body_b, s.place_b)) return false;
+  follow_end(a, s.body_a, s.place_a, s.begin);
+  follow_end(b, s.body_b, s.place_b, s.end);
+  return true;
+}
+
 // What is left of a bar, and of its joints, goes to the ends of the lists.
 template <int Dim>
 void cut_bar(const std::function<bool(int& body, Vector<Dim>& place)>& is_left, GroutedBolt<Dim> g,
@@ -271,7 +303,7 @@ void cut_bar(const std::function<bool(int& body, Vector<Dim>& place)>& is_left, 
   for (std::size_t i = 0; i < nodes; ++i)
     node_left[i] = is_left(g.body[i], g.place[i]);
   for (std::size_t j = 0; j < joints.size(); ++j)
-    joint_left[j] = is_left(joints[j].body_a, joints[j].place_a) && is_left(joints[j].body_b, joints[j].place_b);
+    joint_left[j] = follow_spring(is_left, joints[j]);
   const auto holds_on = [&](std::size_t i) {  // node i to the next
     if (i + 1 == nodes || !node_left[i] || !node_left[i + 1]) return false;
     return g.stretch[i] == g.stretch[i + 1] ? g.body[i] == g.body[i + 1] : joint_left[g.stretch[i]] != 0;
@@ -305,7 +337,7 @@ void cut_bolts(const std::function<bool(int& body, Vector<Dim>& place)>& is_left
       s = end;
       ++bar;
     } else {
-      if (is_left(s->body_a, s->place_a) && is_left(s->body_b, s->place_b)) springs.push_back(*s);
+      if (follow_spring(is_left, *s)) springs.push_back(*s);
       ++s;
     }
   }

@@ -23,7 +23,7 @@ void find_principal_axes(Body<3>& body, const MassProperties<3>& mass, double de
     body.inertia = tensor.diagonal();
     return;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix<3>> eigen(tensor);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(tensor);
   body.inertia = eigen.eigenvalues();
   body.principal_axes = eigen.eigenvectors();
   if (body.principal_axes.determinant() < 0) body.principal_axes.col(0) *= -1;

@@ -129,6 +129,21 @@ void list_by_body(const Model<Dim>& model, State<Dim>& state) {
   each([&](int body, int place) { places[--first[body]] = place; });
 }
 
+template <int Dim>
+Vector<Dim> between(const CachedPose<Dim>& a, const CachedPose<Dim>& b) {
+  return (b.reference - a.reference) + (b.displacement - a.displacement);
+}
+
+template <int Dim>
+Standing<Dim> standing(const CachedPose<Dim>& pose) {
+  return {pose.reference + pose.displacement, pose.axes};
+}
+
+template <int Dim>
+Vector<Dim> weight(const Model<Dim>& model, const State<Dim>& state, std::size_t body) {
+  return model.bodies[body].mass * state.schedule.gravity_factor * model.gravity;
+}
+
 template void add_bodies<2>(const Model<2>&, State<2>&);
 template void add_bodies<3>(const Model<3>&, State<3>&);
 template void forget_lists<2>(State<2>&);
@@ -141,5 +156,11 @@ template void cache_poses<2>(const Model<2>&, int, State<2>&);
 template void cache_poses<3>(const Model<3>&, int, State<3>&);
 template void list_by_body<2>(const Model<2>&, State<2>&);
 template void list_by_body<3>(const Model<3>&, State<3>&);
+template Vector<2> between<2>(const CachedPose<2>&, const CachedPose<2>&);
+template Vector<3> between<3>(const CachedPose<3>&, const CachedPose<3>&);
+template Standing<2> standing<2>(const CachedPose<2>&);
+template Standing<3> standing<3>(const CachedPose<3>&);
+template Vector<2> weight<2>(const Model<2>&, const State<2>&, std::size_t);
+template Vector<3> weight<3>(const Model<3>&, const State<3>&, std::size_t);
 
 }  // namespace voussoir

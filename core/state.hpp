@@ -79,8 +79,8 @@ struct Relaxation {
 // first: translations, then turns.
 template <int Dim>
 struct PairStiffness {
-  using Block = Eigen::Matrix<double, freedoms<Dim>, freedoms<Dim>>;
-  using Wrench = Eigen::Matrix<double, freedoms<Dim>, 1>;
+  using Block = FixedMatrix<freedoms<Dim>, freedoms<Dim>>;
+  using Wrench = FixedMatrix<freedoms<Dim>, 1>;
   int contact = 0;  // place in State::contacts; -1: of a bolt or a lining
   int body_a = 0, body_b = 0;
   Block stiffness = Block::Zero();          // minus the derivative, N/m, N and N m
@@ -308,15 +308,11 @@ void set_strength(const Model<Dim>& model, Searched searched, const std::vector<
 // The second body's centroid seen from the first's, m: reference positions first, so that small displacements are not
 // lost.
 template <int Dim>
-Vector<Dim> between(const CachedPose<Dim>& a, const CachedPose<Dim>& b) {
-  return (b.reference - a.reference) + (b.displacement - a.displacement);
-}
+Vector<Dim> between(const CachedPose<Dim>& a, const CachedPose<Dim>& b);
 
 // where the body stands as loads ask
 template <int Dim>
-Standing<Dim> standing(const CachedPose<Dim>& pose) {
-  return {pose.reference + pose.displacement, pose.axes};
-}
+Standing<Dim> standing(const CachedPose<Dim>& pose);
 
 // State::poses from the motions
 template <int Dim>
@@ -328,9 +324,7 @@ void list_by_body(const Model<Dim>& model, State<Dim>& state);
 
 // of a body under the gravity of now, N
 template <int Dim>
-Vector<Dim> weight(const Model<Dim>& model, const State<Dim>& state, std::size_t body) {
-  return model.bodies[body].mass * state.schedule.gravity_factor * model.gravity;
-}
+Vector<Dim> weight(const Model<Dim>& model, const State<Dim>& state, std::size_t body);
 
 // a body as a node of a lining
 BeamNode moved_node(const State<2>& state, int body);

@@ -4,7 +4,7 @@ find_package(Boost 1.74 REQUIRED)
 add_library(voussoir_oracle_algebra STATIC testing/dense.cpp)
 target_link_libraries(voussoir_oracle_algebra PUBLIC Eigen3::Eigen PRIVATE voussoir_flags)
 target_include_directories(voussoir_oracle_algebra PUBLIC ${PROJECT_SOURCE_DIR})
-target_compile_definitions(voussoir_oracle_algebra PUBLIC EIGEN_MAX_STATIC_ALIGN_BYTES=16 EIGEN_DONT_VECTORIZE)
+target_compile_definitions(voussoir_oracle_algebra PUBLIC EIGEN_DONT_VECTORIZE)
 
 voussoir_test(unit.blocks LABEL unit
   SOURCES floating_point_traps_test.cpp on_threads_test.cpp geometry/geometry_test.cpp optimise/optimise_test.cpp slicing/slicing_test.cpp

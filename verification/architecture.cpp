@@ -48,7 +48,8 @@ const std::vector<Order> orders{
       {"reduction", "settled"},
       {"progress", "history", "stable_state", "doubts"},
       {"checkpoint", "simulate", "snapshot", "begin"}}},
-    {"core/geometry", {{"types"}, {"half_space"}, {"facet_weights", "polytope", "surface"}, {"outline"}}},
+    {"core/geometry",
+     {{"types"}, {"half_space"}, {"half_space_inl"}, {"facet_weights", "polytope", "surface"}, {"outline"}}},
     {"core/law",
      {{"joint_properties", "joint_state", "face_friction"}, {"elastic_coulomb"}, {"joint_law"}, {"joint_path"}}},
     {"core/exchange", {{"mesh", "tables"}, {"convex_corners"}}},
@@ -253,7 +254,8 @@ std::vector<std::string> include_paths(std::string_view text) {
 std::vector<std::string> type_names(std::string_view text) {
   static const std::regex silent(R"re(//.*|"(\\.|[^"\\])*"|'\{'|'\}')re");
   static const std::regex space(R"(^\s*(?:inline )?namespace\s*([\w:]*)\s*\{)");
-  static const std::regex type(R"(^(?:template\s*<.*>\s*)?(?:struct|class|enum(?: class)?)\s+(\w+)\b[^;]*(?:\{.*)?$)");
+  static const std::regex type(
+      R"(^(?:template\s*<.*>\s*)?(?:struct|class|enum(?: class)?)\s+(?:alignas\(.*\)\s*)?(\w+)\b[^;]*(?:\{.*)?$)");
   std::vector<std::string> found;
   std::vector<std::pair<long, std::string>> spaces;  // that are open: braces before them, name
   long open = 0;

@@ -82,11 +82,12 @@ TEST(Architecture, FindsTheTypesOfAFile) {
   const std::string text =
       "namespace voussoir {\nstruct Ahead;\nclass Ahead2;\n"
       "template <int Dim> struct Block {  // struct Said\n  struct Within {};\n};\n"
-      "enum class Kind { one };\nstruct\nnamespace {\nstruct Hidden {\n};\n}\n"
+      "enum class Kind { one };\nstruct alignas(2 * sizeof(double)) Pair {\n};\nstruct\nnamespace {\nstruct Hidden "
+      "{\n};\n}\n"
       "namespace cases {\nclass Trial final : public Base {\n};\nconst char* brace = \"{\";\n}\n"
       "inline namespace parts {\nstruct Wall\n{\n};\n}\n}\nstruct Free {};\n";
-  EXPECT_EQ(type_names(text), (std::vector<std::string>{"voussoir::Block", "voussoir::Kind", "voussoir::cases::Trial",
-                                                        "voussoir::parts::Wall", "Free"}));
+  EXPECT_EQ(type_names(text), (std::vector<std::string>{"voussoir::Block", "voussoir::Kind", "voussoir::Pair",
+                                                        "voussoir::cases::Trial", "voussoir::parts::Wall", "Free"}));
 }
 
 TEST(Architecture, RefusesTwoTypesOfOneName) {

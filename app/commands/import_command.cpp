@@ -79,8 +79,8 @@ struct Rounded {
   double largest = 0;  // m
 
   double operator()(double x) const {
-    constexpr double rounding = 1e-12;
-    return std::abs(x) > rounding * largest ? x : 0.0;
+    constexpr double relative_rounding = 1e-12;
+    return std::abs(x) > relative_rounding * largest ? x : 0.0;
   }
 };
 

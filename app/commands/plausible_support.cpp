@@ -21,7 +21,7 @@ constexpr double same_place = 1e-6;
 // A bolt's straight line without its ends: unit direction and the point nearest to the origin, rounded so that bolts on
 // one line have the same.
 template <int Dim>
-std::array<long long, 2 * Dim> line_of(const Bolt<Dim>& bolt, double rounding) {
+std::array<long long, 2 * Dim> line_of(const Bolt<Dim>& bolt, double grid) {
   Vector<Dim> along = (bolt.toe - bolt.collar).normalized();
   for (int k = 0; k < Dim; ++k) {
     if (std::abs(along[k]) <= same_place) continue;
@@ -30,7 +30,7 @@ std::array<long long, 2 * Dim> line_of(const Bolt<Dim>& bolt, double rounding) {
   }
   const Vector<Dim> foot = bolt.collar - bolt.collar.dot(along) * along;
   // numbers on a grid are no border between two cells
-  const auto cell = [&](double x) { return std::llround(x / rounding + 0.3); };
+  const auto cell = [&](double x) { return std::llround(x / grid + 0.3); };
   std::array<long long, 2 * Dim> key;
   for (int k = 0; k < Dim; ++k) {
     key[k] = std::llround(along[k] / (10 * same_place) + 0.3);
@@ -45,10 +45,10 @@ std::vector<int> bolts_on_others(const Model<Dim>& model) {
   double longest = 0;
   for (const Bolt<Dim>& bolt : model.bolts)
     longest = std::max(longest, (bolt.toe - bolt.collar).norm());
-  const double rounding = 10 * same_place * longest;
+  const double grid = 10 * same_place * longest;
   std::map<std::array<long long, 2 * Dim>, std::vector<int>> lines;
   for (std::size_t i = 0; i < model.bolts.size(); ++i)
-    lines[line_of(model.bolts[i], rounding)].push_back(static_cast<int>(i));
+    lines[line_of(model.bolts[i], grid)].push_back(static_cast<int>(i));
   std::vector<int> again;
   for (const auto& [line, bolts] : lines) {
     const Vector<Dim> along = (model.bolts[bolts.front()].toe - model.bolts[bolts.front()].collar).normalized();
@@ -64,7 +64,7 @@ std::vector<int> bolts_on_others(const Model<Dim>& model) {
     std::ranges::stable_sort(lengths, {}, &Length::begin);
     double reached = -std::numeric_limits<double>::infinity();
     for (const Length& length : lengths) {
-      if (length.begin < reached - rounding) again.push_back(length.bolt);
+      if (length.begin < reached - grid) again.push_back(length.bolt);
       reached = std::max(reached, length.end);
     }
   }

@@ -73,14 +73,15 @@ void print_budget(const Value& value) {
 
 // bodies that came to rest somewhere else than where their stage began
 void print_moved(const std::vector<MovedBody>& moved) {
-  constexpr std::size_t most_shown = 10;
-  for (std::size_t k = 0; k < std::min(moved.size(), most_shown); ++k) {
+  constexpr std::size_t most_moved_shown = 10;
+  for (std::size_t k = 0; k < std::min(moved.size(), most_moved_shown); ++k) {
     const MovedBody& m = moved[k];
     fmt::print("  moved in stage {}: body {}{} by {:.3g} m, rests at ({:.4g}){}\n", m.stage, m.body,
                m.name.empty() ? "" : " (" + m.name + ")", m.distance, fmt::join(m.place, ", "),
                m.left_all ? ", in other contacts" : "");
   }
-  if (moved.size() > most_shown) fmt::print("  and {} more (results.json, moved)\n", moved.size() - most_shown);
+  if (moved.size() > most_moved_shown)
+    fmt::print("  and {} more (results.json, moved)\n", moved.size() - most_moved_shown);
 }
 
 void print_summary(const LoadedScene& scene, const Results& results, const RunOptions& options,

@@ -20,7 +20,7 @@ struct RunFound {
   long long contact_evaluations = 0, steps = 0;
   double seconds = 0;
   std::vector<std::string> warnings = {};  // of its results
-  std::vector<Origin> origins = {};  // of all that computed it; empty where it does not say
+  std::vector<Origin> origins = {};        // of all that computed it; empty where it does not say
 };
 
 // reads results.json, and history.csv where the plan takes the quantity from there

@@ -40,9 +40,9 @@ std::vector<std::string> warning_lines(const std::vector<RowWarning>& all) {
       break;
     }
     const char* const rows = warning.rows.size() == 1 ? "row" : "rows";
-    lines.push_back(fmt::format("{} {}: {}{}", rows, ranges_of_rows(warning.rows),
-                                warning.same ? "" : fmt::format("(of row {}, the others alike) ", *warning.rows.begin()),
-                                warning.text));
+    lines.push_back(fmt::format(
+        "{} {}: {}{}", rows, ranges_of_rows(warning.rows),
+        warning.same ? "" : fmt::format("(of row {}, the others alike) ", *warning.rows.begin()), warning.text));
   }
   return lines;
 }

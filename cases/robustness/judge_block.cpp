@@ -113,9 +113,8 @@ Judgement judge_part(const Polytope<3>& part, double band, double* spread_of_vol
   // supports in the faces' directions and in some others
   double support_fraction = 0;
   for (std::size_t f = 0; f < part.faces.size() + 7; ++f) {
-    const Vector<3> u = f < part.faces.size()
-                            ? part.faces[f].normal
-                            : Vector<3>(std::sin(1.0 + f), std::sin(2.3 * f), std::cos(3.1 * f)).normalized();
+    Vector<3> u(std::sin(1.0 + f), std::sin(2.3 * f), std::cos(3.1 * f));
+    u = f < part.faces.size() ? part.faces[f].normal : Vector<3>(u.normalized());
     const double found = support(part.vertices, u), least = support(b.inner.corners, u),
                  most = support(b.outer.corners, u);
     const double allowed = merged * extent + band;

@@ -210,7 +210,7 @@ void study(CaseReport& report, const Growth& growth) {
     report.report(of + "linear programs without culling over those with it", "1", programs_saved,
                   fmt::format("at {} blocks", columns[2][growth.culled_too - 1]));
     report.report_time(of + "time without culling over time with it", "1", seconds_saved,
-                  fmt::format("at {} blocks; on this machine", columns[2][growth.culled_too - 1]));
+                       fmt::format("at {} blocks; on this machine", columns[2][growth.culled_too - 1]));
   }
   report.report(of + "blocks", "1", columns[2].back(), "the largest of these runs");
   report.report_time(of + "time", "s", columns[3].back(), "one thread, vertices and mass included; on this machine");

@@ -160,10 +160,10 @@ void serialize(Archive& archive, EnergyLedger& e) {
 
 template <class Archive, int Dim>
 void serialize(Archive& archive, BoltSpring<Dim>& s) {
-  auto& [bolt, number, body_a, body_b, place_a, place_b, axis, length, stiffness, plastic, slip, broken, extension,
-         force, shear] = s;
-  archive(bolt, number, body_a, body_b, place_a, place_b, axis, length, stiffness, plastic, slip, broken, extension,
-          force, shear);
+  auto& [bolt, number, body_a, body_b, place_a, place_b, axis, begin, end, length, stiffness, plastic, slip, broken,
+         extension, force, shear] = s;
+  archive(bolt, number, body_a, body_b, place_a, place_b, axis, begin, end, length, stiffness, plastic, slip, broken,
+          extension, force, shear);
 }
 
 template <class Archive>

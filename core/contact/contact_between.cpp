@@ -17,7 +17,7 @@ constexpr double axes_rounding = 1e-12;
 
 // a total order, so that even 0 and -0 differ: what compares equal has the same bits
 template <int Size>
-std::strong_ordering compare(const Eigen::Matrix<double, Size, 1>& a, const Eigen::Matrix<double, Size, 1>& b) {
+std::strong_ordering compare(const FixedMatrix<Size, 1>& a, const FixedMatrix<Size, 1>& b) {
   return std::lexicographical_compare_three_way(a.data(), a.data() + Size, b.data(), b.data() + Size,
                                                 [](double x, double y) { return std::strong_order(x, y); });
 }

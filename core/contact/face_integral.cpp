@@ -21,9 +21,9 @@ constexpr int most_cuts = 24;
 template <int Dim>
 struct MeanPlane {
   Vector<Dim> normal, origin;
-  Eigen::Matrix<double, Dim, Dim - 1> axes;
+  FixedMatrix<Dim, Dim - 1> axes;
   double at_origin;
-  Eigen::Matrix<double, Dim - 1, 1> gradient;
+  FixedMatrix<Dim - 1, 1> gradient;
 
   MeanPlane(const HalfSpace<Dim>& a, const HalfSpace<Dim>& b) {
     const Vector<Dim> difference = a.normal - b.normal, sum = a.normal + b.normal;
@@ -38,8 +38,8 @@ struct MeanPlane {
   }
 
   // what of a vector lies in it
-  Eigen::Matrix<double, Dim - 1, 1> along(const Vector<Dim>& v) const {
-    Eigen::Matrix<double, Dim - 1, 1> y;
+  FixedMatrix<Dim - 1, 1> along(const Vector<Dim>& v) const {
+    FixedMatrix<Dim - 1, 1> y;
     for (int k = 0; k < Dim - 1; ++k)
       y[k] = axes.col(k).dot(v);
     return y;
@@ -49,7 +49,7 @@ struct MeanPlane {
 // What of the mean plane a side plane leaves: q·y <= slack. |q| is the sine between both.
 template <int Flat>
 struct Edge {
-  Eigen::Matrix<double, Flat, 1> q;
+  FixedMatrix<Flat, 1> q;
   double slack;
   int plane;
 };
@@ -85,11 +85,11 @@ constexpr double flush_overlaps = 10, flush_width = 0.02, flush_sine2 = 0.0076;
 template <int Flat>
 struct Border {
   int plane;
-  int twin = -1;                         // the other one
-  double twins = 0;                      // its share
-  double sine2;                          // |q|²
-  double square;                         // ∫ u² ds
-  Eigen::Matrix<double, Flat, 1> lever;  // ∫ u² y ds
+  int twin = -1;               // the other one
+  double twins = 0;            // its share
+  double sine2;                // |q|²
+  double square;               // ∫ u² ds
+  FixedMatrix<Flat, 1> lever;  // ∫ u² y ds
 };
 template <int Flat>
 using Borders = std::vector<Border<Flat>>;
@@ -109,15 +109,15 @@ void share_with(int plane, double behind, double within, double sine2, Border<Fl
 template <int Flat>
 struct Sums {
   double area = 0, volume = 0, square = 0, polar = 0;
-  Eigen::Matrix<double, Flat, 1> centre = Eigen::Matrix<double, Flat, 1>::Zero();
-  Eigen::Matrix<double, Flat, 1> lean = Eigen::Matrix<double, Flat, 1>::Zero();  // ∫ u (y - centre) dA
+  FixedMatrix<Flat, 1> centre = FixedMatrix<Flat, 1>::Zero();
+  FixedMatrix<Flat, 1> lean = FixedMatrix<Flat, 1>::Zero();  // ∫ u (y - centre) dA
 };
 
 bool measure(const HalfSpaces<2>& planes, int faces_a, int face_a, int face_b, const MeanPlane<2>& mean, double reach,
              std::vector<Vector<2>>&, Sums<1>& sums, Borders<1>& borders) {
   double low = -reach, high = reach;
   bool open = false;
-  Edge<1> lowest{Eigen::Matrix<double, 1, 1>(1), 0, pressed_edge}, highest = lowest;
+  Edge<1> lowest{FixedMatrix<1, 1>(1), 0, pressed_edge}, highest = lowest;
   each_edge(planes, face_a, face_b, mean, [&](const Edge<1>& e) {
     if (e.q[0] == 0) {
       open |= e.slack < 0;
@@ -145,7 +145,7 @@ bool measure(const HalfSpaces<2>& planes, int faces_a, int face_a, int face_b, c
   const auto add = [&](const Edge<1>& e, double y, double u) {
     if (e.plane == pressed_edge) return;
     const double square = u * u / std::abs(e.q[0]);
-    Border<1> border{e.plane, -1, 0, e.q[0] * e.q[0], square, Eigen::Matrix<double, 1, 1>(square * y)};
+    Border<1> border{e.plane, -1, 0, e.q[0] * e.q[0], square, FixedMatrix<1, 1>(square * y)};
     each_edge(planes, face_a, face_b, mean, [&](const Edge<1>& other) {
       if (other.plane == pressed_edge || (other.plane < faces_a) == (e.plane < faces_a) || other.q[0] * e.q[0] <= 0)
         return;

@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "core/geometry/half_space_inl.hpp"
 #include "core/geometry/polytope.hpp"
 #include "core/geometry/surface.hpp"
 #include "core/optimise/analytic_centre.hpp"

@@ -15,7 +15,7 @@ enum class QueryLevel {
 
 // Two parts as the first one sees them. Positions were subtracted (Eq. 3.26): nothing depends on where the pair lies.
 template <int Dim>
-struct Pair {
+struct alignas(2 * sizeof(double)) Pair {
   const Polytope<Dim>* a = nullptr;
   const Polytope<Dim>* b = nullptr;
   Matrix<Dim> axes;      // frame of the first body -> world

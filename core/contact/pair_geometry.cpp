@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/contact/rounding.hpp"
+#include "core/geometry/half_space_inl.hpp"
 
 namespace voussoir {
 namespace {

@@ -11,6 +11,7 @@
 #include "core/contact/overlap_region.hpp"
 #include "core/contact/pair_geometry.hpp"
 #include "core/contact/rounding.hpp"
+#include "core/geometry/half_space_inl.hpp"
 #include "core/optimise/central_path.hpp"
 #include "core/optimise/weighted_centre.hpp"
 

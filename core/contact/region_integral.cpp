@@ -135,13 +135,13 @@ template <int Dim>
 void sharpen(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, double half, LiftedPolytope<Dim>& polytope) {
   for (Corner<Dim>& c : polytope.corners) {
     if (!fewer_than<Dim + 2>(c.on) || (c.on & of_simplex) != 0) continue;
-    Eigen::Matrix<double, Dim + 1, Dim + 1> rows;
-    Eigen::Matrix<double, Dim + 1, 1> off;
+    FixedMatrix<Dim + 1, Dim + 1> rows;
+    FixedMatrix<Dim + 1, 1> off;
     Planes left = c.on;
     for (int k = 0; k <= Dim; ++k, left &= left - 1) {
       const int b = std::countr_zero(left);
       if (b == base) {
-        rows.row(k) = Eigen::Matrix<double, 1, Dim + 1>::Unit(Dim);
+        rows.row(k) = FixedMatrix<1, Dim + 1>::Unit(Dim);
         off[k] = -c.t;
         continue;
       }
@@ -149,11 +149,11 @@ void sharpen(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, double hal
       rows.row(k) << p.normal.transpose(), 1;
       off[k] = (p.offset - p.normal.dot(shift)) - p.normal.dot(c.x) - c.t;
     }
-    Eigen::Matrix<double, Dim + 1, Dim + 1> inverse;
+    FixedMatrix<Dim + 1, Dim + 1> inverse;
     bool independent = false;
     rows.computeInverseWithCheck(inverse, independent);
     if (!independent) continue;
-    const Eigen::Matrix<double, Dim + 1, 1> step = inverse * off;
+    const FixedMatrix<Dim + 1, 1> step = inverse * off;
     if (!(step.norm() < cut_error * half)) continue;
     c.x += step.template head<Dim>();
     c.t += step[Dim];

@@ -147,7 +147,7 @@ struct Finder {
   // Every edge moves outwards in the section's plane, linearly along itself: by its middle times its length.
   double area_change(const Moved<Dim>& m, const std::vector<Vector<2>>& section) const {
     static_assert(Dim == 3);
-    Eigen::Matrix<double, 3, 2> t;
+    FixedMatrix<3, 2> t;
     t.col(0) = perpendicular(n);
     t.col(1) = n.cross(Vector<3>(t.col(0)));
     double sum = 0;

@@ -21,8 +21,8 @@ namespace voussoir {
 // Point and normal in the first body's frame.
 template <int Dim>
 struct ContactSensitivity {
-  Eigen::Matrix<double, Dim, freedoms<Dim>> point, normal;  // m/m and m/rad; 1/m and 1/rad
-  Eigen::Matrix<double, 1, freedoms<Dim>> overlap, area;    // the area's: m²/m and m²/rad (2-D: m/m and m/rad)
+  FixedMatrix<Dim, freedoms<Dim>> point, normal;  // m/m and m/rad; 1/m and 1/rad
+  FixedMatrix<1, freedoms<Dim>> overlap, area;    // the area's: m²/m and m²/rad (2-D: m/m and m/rad)
 };
 
 // Whether these settings' point, normal and overlap have one: analytic centre, potential particles, closed form.

@@ -19,7 +19,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 template <int Flat>
 struct Ruler {
   double first = 0;
-  Eigen::Matrix<double, Flat, 1> slope;
+  FixedMatrix<Flat, 1> slope;
   int cells = 1;
 
   // cells with numbers out of range belong to the last ones: what overlaps may reach a little beyond a face
@@ -31,20 +31,20 @@ struct Ruler {
 template <int Flat>
 struct CellArea {
   double area = 0;
-  Eigen::Matrix<double, Flat, 1> centroid;
-  Eigen::Matrix<double, Flat, Flat> moment;  // about the centroid, over the area, m²
+  FixedMatrix<Flat, 1> centroid;
+  FixedMatrix<Flat, Flat> moment;  // about the centroid, over the area, m²
 };
 
 // directions of a face: 2-D its own, 3-D its longest edge and across
 template <int Dim>
-Eigen::Matrix<double, Dim, Dim - 1> directions(const Polytope<Dim>& part, int face) {
+FixedMatrix<Dim, Dim - 1> directions(const Polytope<Dim>& part, int face) {
   const std::vector<int>& loop = part.loops[face];
   Vector<Dim> longest = Vector<Dim>::Zero();
   for (std::size_t k = 0; k < (Dim == 2 ? 1 : loop.size()); ++k) {
     const Vector<Dim> edge = part.vertices[loop[(k + 1) % loop.size()]] - part.vertices[loop[k]];
     if (edge.squaredNorm() > longest.squaredNorm()) longest = edge;
   }
-  Eigen::Matrix<double, Dim, Dim - 1> e;
+  FixedMatrix<Dim, Dim - 1> e;
   e.col(0) = longest.normalized();
   if constexpr (Dim == 3) e.col(1) = part.faces[face].normal.cross(e.col(0));
   return e;
@@ -53,9 +53,8 @@ Eigen::Matrix<double, Dim, Dim - 1> directions(const Polytope<Dim>& part, int fa
 // the grid of the divided face as the section's axes see it; `origin` and `turn` take its frame to the first part's
 template <int Dim>
 void lay_rulers(const Polytope<Dim>& part, int face, const Vector<Dim>& origin, const Matrix<Dim>& turn, int along,
-                const Vector<Dim>& point, const Eigen::Matrix<double, Dim, Dim - 1>& axes,
-                Ruler<Dim - 1> (&rulers)[Dim - 1]) {
-  const Eigen::Matrix<double, Dim, Dim - 1> e = directions(part, face);
+                const Vector<Dim>& point, const FixedMatrix<Dim, Dim - 1>& axes, Ruler<Dim - 1> (&rulers)[Dim - 1]) {
+  const FixedMatrix<Dim, Dim - 1> e = directions(part, face);
   const Vector<Dim> seen = turn.transpose() * (point - origin);
   for (int k = 0; k < Dim - 1; ++k) {
     double low = infinity, high = -infinity;
@@ -73,7 +72,7 @@ void lay_rulers(const Polytope<Dim>& part, int face, const Vector<Dim>& origin, 
 // ---- plane: the section is a segment
 // ---------------------------------------------------------------------------------
 
-Eigen::Matrix<double, 2, 1> section_axes(const Vector<2>& normal) {
+FixedMatrix<2, 1> section_axes(const Vector<2>& normal) {
   return perpendicular(normal);
 }
 
@@ -105,8 +104,8 @@ void visit_cells(const HalfSpaces<2>& planes, const Vector<2>& normal, double re
 // ---- space: a polygon
 // ------------------------------------------------------------------------------------------------
 
-Eigen::Matrix<double, 3, 2> section_axes(const Vector<3>& normal) {
-  Eigen::Matrix<double, 3, 2> axes;
+FixedMatrix<3, 2> section_axes(const Vector<3>& normal) {
+  FixedMatrix<3, 2> axes;
   axes.col(0) = perpendicular(normal);
   axes.col(1) = normal.cross(axes.col(0));
   return axes;
@@ -197,7 +196,7 @@ void divide(const Pair<Dim>& pair, int along, Contact<Dim>& contact, std::span<S
   const bool on_b = face_area<Dim>(b, face_b) < face_area<Dim>(a, face_a);
   const int face = on_b ? faces_a + face_b : face_a;
   Ruler<Dim - 1> rulers[Dim - 1];
-  const Eigen::Matrix<double, Dim, Dim - 1> axes = section_axes(normal);
+  const FixedMatrix<Dim, Dim - 1> axes = section_axes(normal);
   if (on_b)
     lay_rulers<Dim>(b, face_b, pair.offset, pair.rotation, along, point, axes, rulers);
   else

@@ -7,8 +7,9 @@
 
 namespace voussoir {
 
+// In both dimensions as long as four numbers, which the contact kernel loads together.
 template <int Dim>
-struct HalfSpace {
+struct alignas(2 * sizeof(double)) HalfSpace {
   Vector<Dim> normal;  // unit, outward
   double offset;       // m
 };
@@ -18,23 +19,15 @@ using HalfSpaces = std::vector<HalfSpace<Dim>>;
 
 // distance of a point to the plane, negative inside
 template <int Dim>
-double signed_distance(const HalfSpace<Dim>& plane, const Vector<Dim>& point) {
-  return plane.normal.dot(point) - plane.offset;
-}
+double signed_distance(const HalfSpace<Dim>& plane, const Vector<Dim>& point);
 
 // whether a point lies inside all of them, not on a face
 template <int Dim>
-bool lies_inside(const HalfSpaces<Dim>& region, const Vector<Dim>& point) {
-  for (const HalfSpace<Dim>& face : region)
-    if (!(signed_distance<Dim>(face, point) < 0)) return false;
-  return true;
-}
+bool lies_inside(const HalfSpaces<Dim>& region, const Vector<Dim>& point);
 
 // the same half-space seen from an origin moved by `shift` (Eqs 3.19 and 3.20)
 template <int Dim>
-HalfSpace<Dim> moved_origin(const HalfSpace<Dim>& plane, const Vector<Dim>& shift) {
-  return {plane.normal, plane.offset - plane.normal.dot(shift)};
-}
+HalfSpace<Dim> moved_origin(const HalfSpace<Dim>& plane, const Vector<Dim>& shift);
 
 // of the entries of a normal as it was stated, and whether that is a unit normal's to the six digits that someone may
 // write

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/geometry/half_space_inl.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -145,7 +147,7 @@ double measure_inside(const HalfSpace<2>& plane, const Outline<2>& outline, cons
 template <int Dim>
 bool contains(const Outline<Dim>& outline, const Vector<Dim>& point) {
   if (outline.shape == OutlineForm::none) return true;
-  const Eigen::Matrix<double, Dim - 1, 1> x = outline.axes.transpose() * (point - outline.centre);
+  const FixedMatrix<Dim - 1, 1> x = outline.axes.transpose() * (point - outline.centre);
   if constexpr (Dim == 3) {
     if (outline.shape == OutlineForm::polygon) {
       const Vector<2> p(x[0], x[1]);

@@ -18,7 +18,7 @@ enum class OutlineForm {
 
 // columns: unit, in the plane and perpendicular, along the strike and down the dip; 2-D: down the dip alone
 template <int Dim>
-using PlaneAxes = Eigen::Matrix<double, Dim, Dim - 1>;
+using PlaneAxes = FixedMatrix<Dim, Dim - 1>;
 
 template <int Dim>
 struct Outline {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/half_space_inl.hpp"
+
 namespace voussoir {
 namespace {
 

@@ -23,18 +23,18 @@ struct Particle;
 
 template <int Dim>
 struct Polytope {
-  HalfSpaces<Dim> faces;                                  // body frame, none redundant
-  std::vector<int> joints;                                // for each face the joint that made it, or no_joint
-  std::vector<Vector<Dim>> vertices;                      // body frame, m
-  std::vector<std::vector<int>> loops;                    // vertices of each face, counter-clockwise seen from outside
-  MassProperties<Dim> mass;                               // about the body's origin, per unit density
-  double inscribed_radius = 0;                            // Chebyshev radius, m: the size of the part (Eq. 3.18)
-  Vector<Dim> centre = Vector<Dim>::Zero();               // its centre, m
-  double radius = 0;                                      // largest distance of a vertex from the body's origin, m
-  std::array<int, Dim + 1> basis{};                       // faces that touch the inscribed ball: the LP's start
-  Eigen::Matrix<double, Dim + 1, Dim + 1> basis_inverse;  // of the columns (normal, 1) of these faces
-  double vertex_error = 0;  // m: no point of the half-spaces lies farther outside the vertices' hull than this
-  double largest_face = 0;  // area of the largest face, m² (2-D: m)
+  HalfSpaces<Dim> faces;                        // body frame, none redundant
+  std::vector<int> joints;                      // for each face the joint that made it, or no_joint
+  std::vector<Vector<Dim>> vertices;            // body frame, m
+  std::vector<std::vector<int>> loops;          // vertices of each face, counter-clockwise seen from outside
+  MassProperties<Dim> mass;                     // about the body's origin, per unit density
+  double inscribed_radius = 0;                  // Chebyshev radius, m: the size of the part (Eq. 3.18)
+  Vector<Dim> centre = Vector<Dim>::Zero();     // its centre, m
+  double radius = 0;                            // largest distance of a vertex from the body's origin, m
+  std::array<int, Dim + 1> basis{};             // faces that touch the inscribed ball: the LP's start
+  FixedMatrix<Dim + 1, Dim + 1> basis_inverse;  // of the columns (normal, 1) of these faces
+  double vertex_error = 0;           // m: no point of the half-spaces lies farther outside the vertices' hull than this
+  double largest_face = 0;           // area of the largest face, m² (2-D: m)
   std::vector<double> face_weights;  // of facets of one face (facet_weights.hpp); empty: every face counts 1
   // Where the part is a potential particle the faces only enclose it; where it meets some, what it is to them; else
   // none.

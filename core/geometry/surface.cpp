@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include "core/geometry/half_space_inl.hpp"
+
 namespace voussoir {
 namespace {
 

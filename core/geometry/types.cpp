@@ -4,6 +4,22 @@
 
 namespace voussoir {
 
+Vector<2> cross(const Spin<2>& w, const Vector<2>& r) {
+  return {-w[0] * r[1], w[0] * r[0]};
+}
+
+Vector<3> cross(const Spin<3>& w, const Vector<3>& r) {
+  return w.cross(r);
+}
+
+Spin<2> moment(const Vector<2>& r, const Vector<2>& f) {
+  return Spin<2>(r[0] * f[1] - r[1] * f[0]);
+}
+
+Spin<3> moment(const Vector<3>& r, const Vector<3>& f) {
+  return r.cross(f);
+}
+
 Matrix<2> matrix(const Rotation<2>& rotation) {
   const double c = std::cos(rotation.angle), s = std::sin(rotation.angle);
   Matrix<2> q;
@@ -23,7 +39,7 @@ Rotation<3> turned(const Rotation<3>& rotation, const Spin<3>& turn) {
   const double angle = turn.norm();
   // sin(x/2)/x by its series near zero, where the quotient is 0/0
   const double half_sinc = angle > 1e-4 ? std::sin(0.5 * angle) / angle : 0.5 - angle * angle / 48;
-  const Eigen::Quaterniond q(std::cos(0.5 * angle), half_sinc * turn[0], half_sinc * turn[1], half_sinc * turn[2]);
+  const Quaternion q(std::cos(0.5 * angle), half_sinc * turn[0], half_sinc * turn[1], half_sinc * turn[2]);
   // renormalised, or rounding alone would let the norm drift over 1e7 steps
   return {(q * rotation.quaternion).normalized()};
 }
@@ -33,7 +49,7 @@ Spin<2> rotation_vector(const Rotation<2>& rotation) {
 }
 
 Spin<3> rotation_vector(const Rotation<3>& rotation) {
-  const Eigen::Quaterniond& q = rotation.quaternion;
+  const Quaternion& q = rotation.quaternion;
   const double sine = q.vec().norm();
   if (sine == 0) return Spin<3>::Zero();
   const double sign = q.w() < 0 ? -1 : 1;

@@ -6,10 +6,18 @@
 
 namespace voussoir {
 
+// Without the alignment that Eigen gives fixed sizes by a compiler's flags (-mavx2): a struct that holds one has the
+// same layout for the library and for whatever uses it.
+template <int Rows, int Columns>
+using FixedMatrix =
+    Eigen::Matrix<double, Rows, Columns,
+                  int(Eigen::DontAlign) | int(Rows == 1 && Columns != 1 ? Eigen::RowMajor : Eigen::ColMajor)>;
+using Quaternion = Eigen::Quaternion<double, Eigen::DontAlign>;
+
 template <int Dim>
-using Vector = Eigen::Matrix<double, Dim, 1>;
+using Vector = FixedMatrix<Dim, 1>;
 template <int Dim>
-using Matrix = Eigen::Matrix<double, Dim, Dim>;
+using Matrix = FixedMatrix<Dim, Dim>;
 
 // one rotation in the plane, three in space
 template <int Dim>
@@ -21,7 +29,7 @@ inline constexpr int freedoms = Dim + spin_freedoms<Dim>;
 
 // rotation vector, angular velocity, angular momentum or moment
 template <int Dim>
-using Spin = Eigen::Matrix<double, spin_freedoms<Dim>, 1>;
+using Spin = FixedMatrix<spin_freedoms<Dim>, 1>;
 
 // an orientation relative to the reference configuration
 template <int Dim>
@@ -32,24 +40,16 @@ struct Rotation<2> {
 };
 template <>
 struct Rotation<3> {
-  Eigen::Quaterniond quaternion = Eigen::Quaterniond::Identity();
+  Quaternion quaternion = Quaternion::Identity();
 };
 
 // velocity of a point at lever arm r of a body that spins at w: w × r
-inline Vector<2> cross(const Spin<2>& w, const Vector<2>& r) {
-  return {-w[0] * r[1], w[0] * r[0]};
-}
-inline Vector<3> cross(const Spin<3>& w, const Vector<3>& r) {
-  return w.cross(r);
-}
+Vector<2> cross(const Spin<2>& w, const Vector<2>& r);
+Vector<3> cross(const Spin<3>& w, const Vector<3>& r);
 
 // moment of a force at lever arm r: r × f
-inline Spin<2> moment(const Vector<2>& r, const Vector<2>& f) {
-  return Spin<2>(r[0] * f[1] - r[1] * f[0]);
-}
-inline Spin<3> moment(const Vector<3>& r, const Vector<3>& f) {
-  return r.cross(f);
-}
+Spin<2> moment(const Vector<2>& r, const Vector<2>& f);
+Spin<3> moment(const Vector<3>& r, const Vector<3>& f);
 
 // the matrix that takes body axes to world axes (Eq. 3.21)
 Matrix<2> matrix(const Rotation<2>& rotation);

@@ -240,6 +240,11 @@ std::vector<DrawnJoint<Dim>> draw(const JointSet& set, const Ball<Dim>& ball) {
   return joints;
 }
 
+template <int Dim>
+HalfSpace<Dim> plane_of(const DrawnJoint<Dim>& joint, const Vector<Dim>& origin) {
+  return {joint.normal, joint.normal.dot(joint.point - origin)};
+}
+
 template double mean_projection<2>(const JointSet&);
 template double mean_projection<3>(const JointSet&);
 template double stated_intensity<2>(const JointSet&);
@@ -252,5 +257,7 @@ template double expected_number<2>(const JointSet&, double);
 template double expected_number<3>(const JointSet&, double);
 template std::vector<DrawnJoint<2>> draw<2>(const JointSet&, const Ball<2>&);
 template std::vector<DrawnJoint<3>> draw<3>(const JointSet&, const Ball<3>&);
+template HalfSpace<2> plane_of<2>(const DrawnJoint<2>&, const Vector<2>&);
+template HalfSpace<3> plane_of<3>(const DrawnJoint<3>&, const Vector<3>&);
 
 }  // namespace voussoir

@@ -87,9 +87,7 @@ std::vector<DrawnJoint<Dim>> draw(const JointSet& set, const Ball<Dim>& ball);
 
 // the plane of a joint seen from an origin
 template <int Dim>
-HalfSpace<Dim> plane_of(const DrawnJoint<Dim>& joint, const Vector<Dim>& origin) {
-  return {joint.normal, joint.normal.dot(joint.point - origin)};
-}
+HalfSpace<Dim> plane_of(const DrawnJoint<Dim>& joint, const Vector<Dim>& origin);
 
 // the same outline seen from an origin
 template <int Dim>

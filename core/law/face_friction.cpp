@@ -132,7 +132,7 @@ Resistance resistance(const PressedPolygon& polygon, const Vector<2>& v, double 
   const double sign = w > 0 ? 1 : -1;
   Resistance result{{sign * quarter_turn(sum.direction), sign * (sum.distance + pole.dot(sum.direction))}};
   // j is r̂ and its part in the turning of the pole
-  Eigen::Matrix<double, 3, 2> motion;
+  FixedMatrix<3, 2> motion;
   motion << Matrix<2>::Identity(), quarter_turn(pole).transpose();
   result.curvature = motion * sum.bending * motion.transpose() / std::abs(w);
   return result;
@@ -202,7 +202,7 @@ bool nearest(const LimitSurface& surface, const Vector<3>& trial, Vector<3>& nor
   double beyond = normal.dot(trial - at.at);
   const double enough = along_the_normal * std::max(1.0, trial.norm());
   for (int i = 0; i < newton_limit; ++i) {
-    Eigen::Matrix<double, 3, 2> tangent;
+    FixedMatrix<3, 2> tangent;
     tangent.col(0) = perpendicular(normal);
     tangent.col(1) = normal.cross(tangent.col(0));
     const Vector<2> gradient = tangent.transpose() * (trial - at.at);

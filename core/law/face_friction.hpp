@@ -20,7 +20,7 @@ namespace voussoir {
 // A contact polygon with the overlap on it; in its own coordinates, m, from the centre of its area.
 struct PressedPolygon {
   std::vector<Vector<2>> corners;          // counter-clockwise
-  Eigen::Matrix<double, 3, 2> axes;        // of its coordinates, ẑ their cross product
+  FixedMatrix<3, 2> axes;                  // of its coordinates, ẑ their cross product
   double overlap = 0;                      // at the centre, m
   Vector<2> gradient = Vector<2>::Zero();  // of the overlap, which is not negative in any corner
 };

@@ -84,6 +84,11 @@ std::vector<FacePoint<3>> face_points(const Corners<3>& ring, const Vector<3>& n
 }  // namespace
 
 template <int Dim>
+Matrix<Dim> DepthStress<Dim>::at(const Vector<Dim>& point) const {
+  return above + std::max(0.0, surface - point[Dim - 1]) * per_depth;
+}
+
+template <int Dim>
 std::vector<DeadLoad<Dim>> boundary_loads(const Polytope<Dim>& part, const DepthStress<Dim>& stress) {
   if (stress.per_depth.isZero(0)) return boundary_loads<Dim>(part, stress.above);
   std::vector<DeadLoad<Dim>> loads;
@@ -125,6 +130,8 @@ Matrix<3> stress_tensor_3d(const std::vector<double>& c) {
   return stress;
 }
 
+template struct DepthStress<2>;
+template struct DepthStress<3>;
 template std::vector<DeadLoad<2>> boundary_loads(const Polytope<2>&, const Matrix<2>&);
 template std::vector<DeadLoad<3>> boundary_loads(const Polytope<3>&, const Matrix<3>&);
 template std::vector<DeadLoad<2>> boundary_loads(const Polytope<2>&, const DepthStress<2>&);

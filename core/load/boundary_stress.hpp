@@ -1,7 +1,6 @@
 // Stress brought in from outside: forces on the faces that no joint made.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "core/geometry/polytope.hpp"
@@ -21,7 +20,7 @@ struct DepthStress {
   Matrix<Dim> per_depth = Matrix<Dim>::Zero();  // Pa/m: what each metre below it adds
   double surface = 0;                           // m: its elevation, as the part's coordinates have it
 
-  Matrix<Dim> at(const Vector<Dim>& point) const { return above + std::max(0.0, surface - point[Dim - 1]) * per_depth; }
+  Matrix<Dim> at(const Vector<Dim>& point) const;
 };
 
 // The same of such a stress, at as many points of each face as give its force and its moment exactly. A face that the

@@ -11,11 +11,7 @@ struct Load {
   Vector<Dim> force = Vector<Dim>::Zero();  // N
   Spin<Dim> moment = Spin<Dim>::Zero();     // N m about the centroid
 
-  Load& operator+=(const Load& more) {
-    force += more.force;
-    moment += more.moment;
-    return *this;
-  }
+  Load& operator+=(const Load& more);
 };
 
 // What a load adds to the stiffness of a body, at most, for the time step.
@@ -33,8 +29,6 @@ struct DeadLoad {
 
 // on a body whose frame is `axes`
 template <int Dim>
-Load<Dim> load_of(const DeadLoad<Dim>& load, const Matrix<Dim>& axes) {
-  return {load.force, moment(Vector<Dim>(axes * load.place), load.force)};
-}
+Load<Dim> load_of(const DeadLoad<Dim>& load, const Matrix<Dim>& axes);
 
 }  // namespace voussoir

@@ -102,7 +102,7 @@ void turn_about(int k, double dt, const Body<3>& body, Motion<3>& motion) {
   momentum[i] += 2 * s * (c * mj - s * mi);
   momentum[j] -= 2 * s * (c * mi + s * mj);
   const Vector<3> axis = s * body.principal_axes.col(k);
-  motion.rotation.quaternion *= Eigen::Quaterniond(c, axis[0], axis[1], axis[2]);
+  motion.rotation.quaternion *= Quaternion(c, axis[0], axis[1], axis[2]);
 }
 
 void drift_spin(const Body<3>& body, double dt, Motion<3>& motion) {

@@ -16,7 +16,7 @@ namespace voussoir {
 namespace {
 
 template <int Dim>
-using Stiffness = Eigen::Matrix<double, freedoms<Dim>, freedoms<Dim>>;
+using Stiffness = FixedMatrix<freedoms<Dim>, freedoms<Dim>>;
 // velocity of a point at lever arm r from the body's spin
 Vector<2> turning(const Vector<2>& r) {
   return {-r[1], r[0]};
@@ -72,12 +72,12 @@ double largest_eigenvalue(const FreeBlock& stiffness, const FreeBlock& inertia) 
 // sum of their 32nd powers, the trace of the matrix's. Where the second is nine tenths of the largest or less, 0.1 %
 // more.
 template <int Size>
-double bound_of_largest_eigenvalue(Eigen::Matrix<double, Size, Size> s) {
+double bound_of_largest_eigenvalue(FixedMatrix<Size, Size> s) {
   const double trace = s.trace();
   if (!(trace > 0)) return 0;
   s /= trace;
   for (int power = 1; power < 16; power *= 2)
-    s = Eigen::Matrix<double, Size, Size>(s.lazyProduct(s));
+    s = FixedMatrix<Size, Size>(s.lazyProduct(s));
   double root = s.squaredNorm();
   for (int power = 1; power < 32; power *= 2)
     root = std::sqrt(root);
@@ -177,7 +177,7 @@ void add(Stiffness<Dim>& k, const Tangent& now, double area, const Vector<Dim>& 
   k.template topRightCorner<Dim, S>() += shear * x;
   k.template bottomLeftCorner<S, Dim>() += shear * x.transpose();
   k.template bottomRightCorner<S, S>() += shear * (x.transpose() * x);
-  Eigen::Matrix<double, freedoms<Dim>, 1> along;
+  FixedMatrix<freedoms<Dim>, 1> along;
   along << n, moment(r, n);
   for (int j = 0; j < freedoms<Dim>; ++j)
     k.col(j) += more * along[j] * along;

@@ -23,10 +23,10 @@ inline constexpr int steps_between_looks = 100;
 
 // λ = max over free bodies of λ_max(M⁻¹ Σ f J^T K J) over the body's 3 or 6 freedoms, lever arms included; f = 2 where
 // both bodies are free: between 1/√2 and 1 of the true limit. λ_max is taken by a bound: where several modes of a body
-// are equally stiff, the limit comes out shorter by up to 3 %, mostly by less than 0.1 %. Contacts that touch count with their area; pairs that
-// are near each other (contact/nearness) but do not touch, with the smaller of the two parts' largest faces at the
-// lever arm of the body's radius, so that a first impact is safe. Notes in the state each contact's rated area and each
-// body's stiffest frequency.
+// are equally stiff, the limit comes out shorter by up to 3 %, mostly by less than 0.1 %. Contacts that touch count
+// with their area; pairs that are near each other (contact/nearness) but do not touch, with the smaller of the two
+// parts' largest faces at the lever arm of the body's radius, so that a first impact is safe. Notes in the state each
+// contact's rated area and each body's stiffest frequency.
 template <int Dim>
 TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
                                     State<Dim>& state);

@@ -146,7 +146,7 @@ void BlockFactors<Size>::factorise() {
 
 template <int Size>
 Eigen::VectorXd BlockFactors<Size>::solve(const Eigen::VectorXd& b) const {
-  using Segment = Eigen::Matrix<double, Size, 1>;
+  using Segment = FixedMatrix<Size, 1>;
   const std::vector<typename BlockMatrix<Size>::Block>& blocks = factors.blocks;
   const auto from = [&](int i) { return Size * (complete() ? order[i] : i); };
   Eigen::VectorXd x(b.size());

@@ -43,7 +43,7 @@ template <int Size>
 Eigen::VectorXd BlockMatrix<Size>::times(int threads, const Eigen::VectorXd& x) const {
   Eigen::VectorXd y(x.size());
   each_on_threads(threads, diagonal.size(), [&](int i) {
-    Eigen::Matrix<double, Size, 1> sum = Eigen::Matrix<double, Size, 1>::Zero();
+    FixedMatrix<Size, 1> sum = FixedMatrix<Size, 1>::Zero();
     for (int p = first[i]; p < first[i + 1]; ++p)
       sum.noalias() += blocks[p] * x.segment<Size>(Size * column[p]);
     y.segment<Size>(Size * i) = sum;

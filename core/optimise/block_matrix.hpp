@@ -5,11 +5,13 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/geometry/types.hpp"
+
 namespace voussoir {
 
 template <int Size>
 struct BlockMatrix {
-  using Block = Eigen::Matrix<double, Size, Size>;
+  using Block = FixedMatrix<Size, Size>;
 
   struct Entry {
     int column;

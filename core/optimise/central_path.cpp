@@ -3,19 +3,20 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/geometry/half_space_inl.hpp"
 #include "core/optimise/symmetric_system.hpp"
 
 namespace voussoir {
 namespace {
 
 template <int Size>
-using Row = Eigen::Matrix<double, Size, 1>;
+using Row = FixedMatrix<Size, 1>;
 
 // Axes fitted to the rows: each along the largest remainder that the axes before it leave. In these axes the Hessian
 // Σ p pᵀ is graded, so that factorising it top down loses nothing, however near some planes are and far others. False
 // when the rows do not span space. Leaves nothing of the rows.
 template <int Size>
-bool graded_frame(std::vector<Row<Size>>& rows, Eigen::Matrix<double, Size, Size>& frame) {
+bool graded_frame(std::vector<Row<Size>>& rows, FixedMatrix<Size, Size>& frame) {
   for (int k = 0; k < Size; ++k) {
     const Row<Size>& largest = *std::max_element(rows.begin(), rows.end(), [](const Row<Size>& a, const Row<Size>& b) {
       return a.squaredNorm() < b.squaredNorm();
@@ -59,7 +60,7 @@ CentralPathResult<Dim> follow_central_path(const HalfSpaces<Dim>& planes, const 
   // as in weighted_centre.cpp
   const double least_weight =
       request.weights.empty() ? 1 : *std::min_element(request.weights.begin(), request.weights.end());
-  Eigen::Matrix<double, size, size> frame;
+  FixedMatrix<size, size> frame;
   bool settled = false;  // near the end the frame stays
   while (result.iterations < request.limit) {
     ++result.iterations;
@@ -74,7 +75,7 @@ CentralPathResult<Dim> follow_central_path(const HalfSpaces<Dim>& planes, const 
         turned[i] = frame * rows[i];
     }
     Row<size> gradient = -frame.col(Dim) / request.weight;
-    Eigen::Matrix<double, size, size> hessian = Eigen::Matrix<double, size, size>::Zero();
+    FixedMatrix<size, size> hessian = FixedMatrix<size, size>::Zero();
     for (std::size_t i = 0; i < count; ++i) {
       scaled[i] = turned[i] / t[i];
       if (request.weights.empty()) {

@@ -33,15 +33,15 @@ template <int Dim>
 struct Basis {
   static constexpr int size = Dim + 1;
   std::array<int, size> planes{};
-  Eigen::Matrix<double, size, size> inverse;
-  Eigen::Matrix<double, size, 1> offsets;
+  FixedMatrix<size, size> inverse;
+  FixedMatrix<size, 1> offsets;
 
   auto multipliers() const { return inverse.col(Dim); }
 };
 
 template <int Dim>
 bool factorise(Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far) {
-  Eigen::Matrix<double, Dim + 1, Dim + 1> columns;
+  FixedMatrix<Dim + 1, Dim + 1> columns;
   for (int k = 0; k <= Dim; ++k) {
     const HalfSpace<Dim> p = basis_plane(planes, basis.planes[k], far);
     columns.template block<Dim, 1>(0, k) = p.normal;
@@ -68,7 +68,7 @@ Basis<Dim> start_basis(const HalfSpaces<Dim>& planes, const FeasibilityRequest<D
 
 // the tight plane that leaves when the plane (column) enters: the first to lose its multiplier
 template <int Dim>
-int leaving(const Basis<Dim>& basis, const Eigen::Matrix<double, Dim + 1, 1>& mu) {
+int leaving(const Basis<Dim>& basis, const FixedMatrix<Dim + 1, 1>& mu) {
   int leave = -1;
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= Dim; ++k) {
@@ -84,7 +84,7 @@ int leaving(const Basis<Dim>& basis, const Eigen::Matrix<double, Dim + 1, 1>& mu
 }
 
 template <int Dim>
-void pivot(Basis<Dim>& basis, int leave, int enter, double offset, const Eigen::Matrix<double, Dim + 1, 1>& mu) {
+void pivot(Basis<Dim>& basis, int leave, int enter, double offset, const FixedMatrix<Dim + 1, 1>& mu) {
   basis.inverse.row(leave) /= mu[leave];
   for (int k = 0; k <= Dim; ++k)
     if (k != leave) basis.inverse.row(k) -= mu[k] * basis.inverse.row(leave);
@@ -95,9 +95,8 @@ void pivot(Basis<Dim>& basis, int leave, int enter, double offset, const Eigen::
 // The point where the tight planes intersect, and -s. Refined: planes that are nearly parallel, as of two faces in
 // contact, leave few correct digits in the inverse.
 template <int Dim>
-Eigen::Matrix<double, Dim + 1, 1> intersection_point(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes,
-                                                     double far) {
-  Eigen::Matrix<double, Dim + 1, 1> solution = basis.inverse.transpose() * basis.offsets, residual;
+FixedMatrix<Dim + 1, 1> intersection_point(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far) {
+  FixedMatrix<Dim + 1, 1> solution = basis.inverse.transpose() * basis.offsets, residual;
   for (int step = 0; step < refinement_steps; ++step) {
     for (int k = 0; k <= Dim; ++k)
       residual[k] = basis.offsets[k] -
@@ -117,7 +116,7 @@ void record(const Basis<Dim>& basis, FeasibilityResult<Dim>& result) {
 // whether the point lies on its tight planes, as far as rounding lets it
 template <int Dim>
 bool lies_on_planes(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far,
-                    const Eigen::Matrix<double, Dim + 1, 1>& solution, double coordinates) {
+                    const FixedMatrix<Dim + 1, 1>& solution, double coordinates) {
   for (int k = 0; k <= Dim; ++k) {
     const double residual = basis_plane(planes, basis.planes[k], far).normal.dot(solution.template head<Dim>()) +
                             solution[Dim] - basis.offsets[k];
@@ -137,9 +136,9 @@ FeasibilityResult<Dim> search(const HalfSpaces<Dim>& planes, const FeasibilityRe
   FeasibilityResult<Dim> result;
   bool polished = false;  // the inverse was just computed, not updated, and the point refined
   for (; result.pivots < limit; ++result.pivots) {
-    const Eigen::Matrix<double, Dim + 1, 1> solution =
-        polished ? intersection_point(basis, planes, far)
-                 : Eigen::Matrix<double, Dim + 1, 1>(basis.inverse.transpose() * basis.offsets);
+    const FixedMatrix<Dim + 1, 1> solution = polished
+                                                 ? intersection_point(basis, planes, far)
+                                                 : FixedMatrix<Dim + 1, 1>(basis.inverse.transpose() * basis.offsets);
     result.point = solution.template head<Dim>();
     result.value = -solution[Dim];
 
@@ -175,9 +174,9 @@ FeasibilityResult<Dim> search(const HalfSpaces<Dim>& planes, const FeasibilityRe
       continue;
     }
 
-    Eigen::Matrix<double, Dim + 1, 1> column;
+    FixedMatrix<Dim + 1, 1> column;
     column << planes[enter].normal, 1;
-    const Eigen::Matrix<double, Dim + 1, 1> mu = basis.inverse * column;
+    const FixedMatrix<Dim + 1, 1> mu = basis.inverse * column;
     const int leave = leaving<Dim>(basis, mu);
     if (leave < 0) break;  // impossible in exact arithmetic: sum(mu) = 1
     pivot<Dim>(basis, leave, enter, planes[enter].offset, mu);

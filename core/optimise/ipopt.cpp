@@ -311,8 +311,8 @@ Matrix<3> aligning_rotation(const Vector<3>& n) {
   // the quaternion of Eqs 3.39-3.43 before it is made unit: w = 1 + n·z, (x, y, z) = z × n. Near -z the sum cancels;
   // there (x² + y²)/(1 - n·z) is the same
   const double across = n[0] * n[0] + n[1] * n[1];
-  Eigen::Quaterniond turn(n[2] > 0 ? 1 + n[2] : across / (1 - n[2]), -n[1], n[0], 0);
-  if (n[2] < 0 && across < opposite) turn = Eigen::Quaterniond(0, 1, 0, 0);
+  Quaternion turn(n[2] > 0 ? 1 + n[2] : across / (1 - n[2]), -n[1], n[0], 0);
+  if (n[2] < 0 && across < opposite) turn = Quaternion(0, 1, 0, 0);
   return turn.normalized().toRotationMatrix();
 }
 

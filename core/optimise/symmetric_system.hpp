@@ -1,14 +1,14 @@
 // The small symmetric systems of Newton's methods.
 #pragma once
 
-#include <Eigen/Core>
+#include "core/geometry/types.hpp"
 
 namespace voussoir {
 
 // Solves H y = g by LDLᵀ without pivoting, y in place of g; false when H is not positive definite. Only H's lower half
 // is looked at. The order of operations is written out: the same bits for every instruction set.
 template <int Size>
-bool solve_symmetric(Eigen::Matrix<double, Size, Size> h, Eigen::Matrix<double, Size, 1>& g) {
+bool solve_symmetric(FixedMatrix<Size, Size> h, FixedMatrix<Size, 1>& g) {
   for (int k = 0; k < Size; ++k) {
     if (!(h(k, k) > 0)) return false;
     for (int i = k + 1; i < Size; ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/geometry/half_space_inl.hpp"
 #include "core/optimise/symmetric_system.hpp"
 
 namespace voussoir {

@@ -286,6 +286,32 @@ PolyData force_lines(const Model<Dim>& model, const State<Dim>& state, double ti
   return data;
 }
 
+namespace {
+
+template <int Dim>
+Vector<Dim> place_of(const Model<Dim>& model, const State<Dim>& state, int body, const Vector<Dim>& place) {
+  const Motion<Dim>& m = state.motions[body];
+  return model.origin + model.bodies[body].reference + m.displacement + matrix(m.rotation) * place;
+}
+
+// The nodes of a bar, the first and last moved out to collar and toe, where these are left.
+template <int Dim>
+std::vector<Vector<Dim>> drawn_nodes(const Model<Dim>& model, const State<Dim>& state, const GroutedBolt<Dim>& g) {
+  std::vector<Vector<Dim>> nodes;
+  for (std::size_t i = 0; i < g.body.size(); ++i)
+    nodes.push_back(place_of(model, state, g.body[i], g.place[i]));
+  const BoltSpring<Dim>&first = state.bolt_springs[g.first_spring],
+        &last = state.bolt_springs[g.first_spring + g.joints() - 1];
+  const Vector<Dim> along = matrix(state.motions[first.body_a].rotation) * first.axis;
+  const Vector<Dim> collar = place_of(model, state, first.body_a, first.begin),
+                    toe = place_of(model, state, last.body_b, last.end);
+  if (along.dot(nodes.front() - collar) > 0) nodes.front() = collar;
+  if (along.dot(toe - nodes.back()) > 0) nodes.back() = toe;
+  return nodes;
+}
+
+}  // namespace
+
 template <int Dim>
 PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double time) {
   PolyData data;
@@ -294,14 +320,8 @@ PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double tim
   DataArray bolts{"bolts", 1, true, {}}, number{"bolt", 1, true, {}}, joint{"joint", 1, true, {}},
       force{"force_N", 1, false, {}}, shear{"shear_N", 1, false, {}}, plastic{"plastic_m", 1, false, {}},
       use{"use", 1, false, {}}, broken{"broken", 1, true, {}};
-  const auto anchor = [&](int body, const Vector<Dim>& place) {
-    const Motion<Dim>& m = state.motions[body];
-    return Vector<Dim>(model.origin + model.bodies[body].reference + m.displacement + matrix(m.rotation) * place);
-  };
+  const auto anchor = [&](int body, const Vector<Dim>& place) { return place_of(model, state, body, place); };
   const std::vector<BoltSpring<Dim>>& springs = state.bolt_springs;
-  const auto middle = [&](const BoltSpring<Dim>& s) {
-    return Vector<Dim>(0.5 * (anchor(s.body_a, s.place_a) + anchor(s.body_b, s.place_b)));
-  };
   const auto add = [&](const Vector<Dim>& begin, const Vector<Dim>& end, int of, int at_joint, double f,
                        double plastic_f) {
     const int first = static_cast<int>(data.points.size());
@@ -317,27 +337,23 @@ PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double tim
     plastic.values.push_back(plastic_f);
     use.values.push_back(p.yield ? std::abs(f) / *p.yield : 0);
   };
-  for (std::size_t i = 0; i < springs.size(); ++i) {
-    const BoltSpring<Dim>& s = springs[i];
+  for (const BoltSpring<Dim>& s : springs) {
     const BoltProperties& p = model.bolt_properties[model.bolts[s.bolt].properties];
     if (p.kind == BoltKind::grouted) continue;
-    const auto same = [&](std::size_t k) { return k < springs.size() && springs[k].bolt == s.bolt; };
-    const Vector<Dim> begin =
-        i > 0 && same(i - 1) ? Vector<Dim>(0.5 * (middle(springs[i - 1]) + middle(s))) : anchor(s.body_a, s.place_a);
-    const Vector<Dim> end =
-        same(i + 1) ? Vector<Dim>(0.5 * (middle(s) + middle(springs[i + 1]))) : anchor(s.body_b, s.place_b);
-    add(begin, end, s.bolt, s.number, s.force, s.plastic);
+    add(anchor(s.body_a, s.begin), anchor(s.body_b, s.end), s.bolt, s.number, s.force, s.plastic);
     shear.values.push_back(p.spacing * s.shear.norm());
     broken.values.push_back(s.broken);
   }
-  for (const GroutedBolt<Dim>& g : state.grouted)
-    for (std::size_t i = 0; i + 1 < g.body.size(); ++i) {
+  for (const GroutedBolt<Dim>& g : state.grouted) {
+    const std::vector<Vector<Dim>> nodes = drawn_nodes(model, state, g);
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
       const int next = std::min(g.stretch[i], g.joints() - 1);
-      add(anchor(g.body[i], g.place[i]), anchor(g.body[i + 1], g.place[i + 1]), g.bolt,
-          springs[g.first_spring + next].number, g.state.bar_force[i], g.state.plastic_stretch[i]);
+      add(nodes[i], nodes[i + 1], g.bolt, springs[g.first_spring + next].number, g.state.bar_force[i],
+          g.state.plastic_stretch[i]);
       shear.values.push_back(0);
       broken.values.push_back(0);
     }
+  }
   data.cell_data = {bolts, number, joint, force, shear, plastic, use, broken};
   data.names = {{"bolt_names", names_of(model.bolt_properties)}};
   return data;

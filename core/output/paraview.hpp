@@ -35,10 +35,10 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
 template <int Dim>
 PolyData force_lines(const Model<Dim>& model, const State<Dim>& state, double time);
 
-// The springs of bolts, a line each, between the middles of the bolt's length from joint to joint, from its first
-// anchor to its last; of grouted bolts the rods between the nodes of their bars, with the joint that they cross or that
-// comes next. Cell data: bolts, bolt, joint, force_N and shear_N (of one bolt, tension positive), plastic_m,
-// use (of yield; 0 where it has none), broken. Field data: bolt_names.
+// The springs of bolts, a line each, between the middles of the bolt's length from joint to joint, from its
+// collar to its toe; of grouted bolts the rods between the nodes of their bars, the first and last as long, with the
+// joint that they cross or that comes next. Cell data: bolts, bolt, joint, force_N and shear_N (of one bolt, tension
+// positive), plastic_m, use (of yield; 0 where it has none), broken. Field data: bolt_names.
 template <int Dim>
 PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double time);
 

@@ -25,7 +25,7 @@ Matrix<Dim> rotation_by(const Turn<Dim>& turn) {
   if constexpr (Dim == 2)
     return Eigen::Rotation2Dd(turn[0]).toRotationMatrix();
   else
-    return turn.norm() > 0 ? Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()
+    return turn.norm() > 0 ? Matrix<3>(Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix())
                            : Matrix<3>(Matrix<3>::Identity());
 }
 

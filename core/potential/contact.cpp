@@ -277,9 +277,9 @@ class Search {
 
   // Newton's step by the Hessian, and where it leads
   static void foresee(Place<Dim>& at) {
-    Eigen::Matrix<double, Dim, 2> right;
+    FixedMatrix<Dim, 2> right;
     right << at.gradient, at.a.gradient - at.b.gradient;
-    const Eigen::Matrix<double, Dim, 2> solution = newton_solutions<Dim>(at.hessian, at.spheres, right);
+    const FixedMatrix<Dim, 2> solution = newton_solutions<Dim>(at.hessian, at.spheres, right);
     at.newton = solution.col(0);
     at.across = solution.col(1);
     at.decrement = -at.gradient.dot(at.newton);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/half_space_inl.hpp"
 #include "core/potential/rounding.hpp"
 
 namespace voussoir {
@@ -94,7 +95,7 @@ bool hold_planes(const WeightedPotentials<Dim>& sum, const Vector<Dim>& point, d
 
 // as solve_symmetric, with one division for each of H's pivots; the loops are short, and unrolled stay in registers
 template <int Dim, int Columns>
-bool solve_by_factors(Matrix<Dim>& h, Eigen::Matrix<double, Dim, Columns>& g) {
+bool solve_by_factors(Matrix<Dim>& h, FixedMatrix<Dim, Columns>& g) {
   double inverse[Dim];
 #pragma GCC unroll 3
   for (int k = 0; k < Dim; ++k) {
@@ -124,18 +125,17 @@ bool solve_by_factors(Matrix<Dim>& h, Eigen::Matrix<double, Dim, Columns>& g) {
 }
 
 template <int Dim, int Columns>
-Eigen::Matrix<double, Dim, Columns> solve(const Matrix<Dim>& hessian, double spheres,
-                                          const Eigen::Matrix<double, Dim, Columns>& right) {
+FixedMatrix<Dim, Columns> solve(const Matrix<Dim>& hessian, double spheres, const FixedMatrix<Dim, Columns>& right) {
   const double rounding = floor_of_curvature * hessian.trace();
   if (spheres > 0 && spheres < drowned_curvature * rounding) {
-    const Eigen::SelfAdjointEigenSolver<Matrix<Dim>> own(hessian);
-    Eigen::Matrix<double, Dim, Columns> along = own.eigenvectors().transpose() * right;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> own(hessian);
+    FixedMatrix<Dim, Columns> along = own.eigenvectors().transpose() * right;
     for (int k = 0; k < Dim; ++k)
       along.row(k) /= own.eigenvalues()[k] > drowned_curvature * rounding ? own.eigenvalues()[k] : spheres;
     return -(own.eigenvectors() * along);
   }
   Matrix<Dim> h = hessian;
-  Eigen::Matrix<double, Dim, Columns> solution = -right;
+  FixedMatrix<Dim, Columns> solution = -right;
   if (!(spheres > 0))
     for (int k = 0; k < Dim; ++k)
       h(k, k) += rounding;
@@ -151,8 +151,7 @@ Vector<Dim> newton_solution(const Matrix<Dim>& hessian, double spheres, const Ve
   return solve<Dim, 1>(hessian, spheres, right);
 }
 template <int Dim>
-Eigen::Matrix<double, Dim, 2> newton_solutions(const Matrix<Dim>& hessian, double spheres,
-                                               const Eigen::Matrix<double, Dim, 2>& right) {
+FixedMatrix<Dim, 2> newton_solutions(const Matrix<Dim>& hessian, double spheres, const FixedMatrix<Dim, 2>& right) {
   return solve<Dim, 2>(hessian, spheres, right);
 }
 
@@ -201,8 +200,7 @@ LeastPoint<Dim> find_least_point(const WeightedPotentials<Dim>& sum, const Vecto
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                \
   template Vector<Dim> newton_solution<Dim>(const Matrix<Dim>&, double, const Vector<Dim>&);                     \
-  template Eigen::Matrix<double, Dim, 2> newton_solutions<Dim>(const Matrix<Dim>&, double,                       \
-                                                               const Eigen::Matrix<double, Dim, 2>&);            \
+  template FixedMatrix<Dim, 2> newton_solutions<Dim>(const Matrix<Dim>&, double, const FixedMatrix<Dim, 2>&);    \
   template Vector<Dim> descent_step<Dim>(const WeightedPotentials<Dim>&, const Vector<Dim>&, const Vector<Dim>&, \
                                          Matrix<Dim>&, double, RayScratch&);                                     \
   template LeastPoint<Dim> find_least_point<Dim>(const WeightedPotentials<Dim>&, const Vector<Dim>&, RayScratch&);

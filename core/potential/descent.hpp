@@ -31,8 +31,7 @@ template <int Dim>
 Vector<Dim> newton_solution(const Matrix<Dim>& hessian, double spheres, const Vector<Dim>& right);
 // the same for two right sides, columns
 template <int Dim>
-Eigen::Matrix<double, Dim, 2> newton_solutions(const Matrix<Dim>& hessian, double spheres,
-                                               const Eigen::Matrix<double, Dim, 2>& right);
+FixedMatrix<Dim, 2> newton_solutions(const Matrix<Dim>& hessian, double spheres, const FixedMatrix<Dim, 2>& right);
 
 // A step down from the point, given the sum's derivatives there: along Newton's direction, as far as 1 where that
 // brings the slope of h well down, otherwise to where the slope vanishes. Along a line the slope is a rising chain of

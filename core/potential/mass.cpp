@@ -19,7 +19,7 @@ constexpr int first_cells = 4;  // each way
 
 // Integrals in units of the half extents, from the centre: volume, first moments, second moments' lower triangle.
 template <int Dim>
-using Integrals = Eigen::Matrix<double, 1 + Dim + Dim*(Dim + 1) / 2, 1>;
+using Integrals = FixedMatrix<1 + Dim + Dim*(Dim + 1) / 2, 1>;
 
 template <int Dim>
 struct MeasuredShape {
@@ -31,7 +31,7 @@ struct MeasuredShape {
 template <int Dim>
 struct Cell {
   int axis, side;
-  Eigen::Matrix<double, Dim - 1, 1> middle;
+  FixedMatrix<Dim - 1, 1> middle;
   double half;
   Integrals<Dim> kept = Integrals<Dim>::Zero();  // by its parts
   double error = 0;
@@ -106,7 +106,7 @@ template <int Dim>
 Enclosure<Dim> enclose(const MeasuredShape<Dim>& body, const Cell<Dim>& cell) {
   constexpr int corners = 1 << (Dim - 1);
   const PlacedPotential<Dim>& potential = body.potential;
-  const auto ray = [&](const Eigen::Matrix<double, Dim - 1, 1>& across) {
+  const auto ray = [&](const FixedMatrix<Dim - 1, 1>& across) {
     Vector<Dim> through;
     through[cell.axis] = cell.side;
     for (int k = 0; k < Dim - 1; ++k)
@@ -122,7 +122,7 @@ Enclosure<Dim> enclose(const MeasuredShape<Dim>& body, const Cell<Dim>& cell) {
   std::array<Vector<Dim>, 2 * corners> points;
   double farthest = 1;
   for (int i = 0; i < corners; ++i) {
-    Eigen::Matrix<double, Dim - 1, 1> across = cell.middle;
+    FixedMatrix<Dim - 1, 1> across = cell.middle;
     for (int k = 0; k < Dim - 1; ++k)
       across[k] += i >> k & 1 ? cell.half : -cell.half;
     const Vector<Dim> direction = ray(across);

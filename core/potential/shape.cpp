@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/half_space_inl.hpp"
 #include "core/potential/rounding.hpp"
 
 namespace voussoir {

@@ -85,19 +85,19 @@ std::pair<double, double> cosine_and_sine(double degrees) {
 }
 
 template <int Dim>
-Eigen::Matrix<double, Dim, Dim> turn_of(const CopiesSpec&, double degrees) {
+Matrix<Dim> turn_of(const CopiesSpec&, double degrees) {
   const auto [c, s] = cosine_and_sine(degrees);
-  return (Eigen::Matrix2d() << c, -s, s, c).finished();
+  return (Matrix<2>() << c, -s, s, c).finished();
 }
 
 // Rodrigues' formula
 template <>
-Eigen::Matrix3d turn_of<3>(const CopiesSpec& spec, double degrees) {
+Matrix<3> turn_of<3>(const CopiesSpec& spec, double degrees) {
   const auto [c, s] = cosine_and_sine(degrees);
   const Vector<3> axis = to_vector<3>(spec.axis).normalized();
-  Eigen::Matrix3d across;
+  Matrix<3> across;
   across << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;
-  return c * Eigen::Matrix3d::Identity() + s * across + (1 - c) * axis * axis.transpose();
+  return c * Matrix<3>::Identity() + s * across + (1 - c) * axis * axis.transpose();
 }
 
 // ---- blocks
@@ -161,7 +161,7 @@ void move_outline(Node& joint, const std::string& path, const Vector<3>& normal,
     forget(joint, "width");
   } else if (shape->text == "ellipse" && joint.find("length")->number != joint.find("width")->number) {
     constexpr double rounding = 1e-9;
-    const Eigen::Matrix2d between = plane_axes(upward).transpose() * move.turn * plane_axes(normal);
+    const Matrix<2> between = plane_axes(upward).transpose() * move.turn * plane_axes(normal);
     if (std::abs(between(0, 1)) > rounding)
       refuse(
           {&joint, path}, "shape",
@@ -213,6 +213,11 @@ void move_fan(Node& fan, const RigidMove<Dim>& move) {
 }
 
 }  // namespace
+
+template <int Dim>
+Vector<Dim> RigidMove<Dim>::operator()(const Vector<Dim>& point) const {
+  return about + turn * (point - about) + shift;
+}
 
 template <int Dim>
 RigidMove<Dim> move_of(const CopiesSpec& spec, int times) {
@@ -272,6 +277,8 @@ void move_bolt(Node& bolt, const RigidMove<Dim>& move) {
       turn_direction<Dim>(row.find("step"), move);
 }
 
+template struct RigidMove<2>;
+template struct RigidMove<3>;
 template RigidMove<2> move_of<2>(const CopiesSpec&, int);
 template RigidMove<3> move_of<3>(const CopiesSpec&, int);
 template void move_block<2>(Node&, const RigidMove<2>&);

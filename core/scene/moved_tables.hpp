@@ -12,11 +12,11 @@ namespace voussoir {
 template <int Dim>
 struct RigidMove {
   bool turns = false;
-  Eigen::Matrix<double, Dim, Dim> turn = Eigen::Matrix<double, Dim, Dim>::Identity();
+  Matrix<Dim> turn = Matrix<Dim>::Identity();
   double degrees = 0;                                                    // 2-D: of the turn, counter-clockwise
   Vector<Dim> about = Vector<Dim>::Zero(), shift = Vector<Dim>::Zero();  // m
 
-  Vector<Dim> operator()(const Vector<Dim>& point) const { return about + turn * (point - about) + shift; }
+  Vector<Dim> operator()(const Vector<Dim>& point) const;
 };
 
 // From the stated one to a copy `times` steps on. Turns by multiples of 90 degrees are exact.

@@ -236,8 +236,8 @@ struct StageSpec {
 struct MonitorSpec {
   SelectorSpec body;  // empty for a joint or a water
   std::string name, joint, water, bolts, lining;
-  std::string excavation;      // of convergence
-  std::vector<double> angles;  // deg, of convergence and lining_force
+  std::string excavation;          // of convergence
+  std::vector<double> angles;      // deg, of convergence and lining_force
   std::string since, since_start;  // a stage from whose end, or start, it counts; empty: from the start
   Over over{};
   std::vector<Monitored> quantities;

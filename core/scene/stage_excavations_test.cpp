@@ -62,9 +62,10 @@ TEST(StageExcavations, AShareAboveTheOneInForceIsRefused) {
       ++read;
     } catch (const SceneError& error) {
       EXPECT_EQ(error.key, wrong) << error.what() << '\n' << stages;
-      if (letting)
+      if (letting) {
         EXPECT_NE(std::string(error.what()).find(fmt::format("{:g} still acts after stage.s", most)), std::string::npos)
             << error.what();
+      }
       ++refused;
     }
   }

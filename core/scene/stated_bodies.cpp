@@ -49,7 +49,8 @@ bool is_empty(const Box<Dim>& box) {
 template <int Dim>
 Matrix<Dim> round_axes_of(const Polytope<Dim>& part) {
   const Vector<Dim>& c = part.mass.centroid;
-  const Eigen::SelfAdjointEigenSolver<Matrix<Dim>> own(part.mass.second_moment / part.mass.volume - c * c.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> own(part.mass.second_moment / part.mass.volume -
+                                                                           c * c.transpose());
   // no convex part spreads less than the ball in it: a bound where rounding leaves nothing
   const double least = 0.1 * part.inscribed_radius;
   const Vector<Dim> widths = own.eigenvalues().cwiseMax(least * least).cwiseSqrt();

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/geometry/facet_weights.hpp"
+#include "core/geometry/half_space_inl.hpp"
 #include "core/geometry/surface.hpp"
 #include "core/optimise/feasibility.hpp"
 
@@ -122,7 +123,7 @@ BlockStatus judge(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& b
 // basis is free: the faces most independent of the others take those places.
 template <int Dim>
 void complete_basis(Polytope<Dim>& part) {
-  using Column = Eigen::Matrix<double, Dim + 1, 1>;
+  using Column = FixedMatrix<Dim + 1, 1>;
   const auto column = [&](std::size_t f) {
     Column c;
     c << part.faces[f].normal, 1;
@@ -147,7 +148,7 @@ void complete_basis(Polytope<Dim>& part) {
       }
     directions.push_back(remainder(column(place)).normalized());
   }
-  Eigen::Matrix<double, Dim + 1, Dim + 1> columns;
+  FixedMatrix<Dim + 1, Dim + 1> columns;
   for (int k = 0; k <= Dim; ++k)
     columns.col(k) = column(part.basis[k]);
   part.basis_inverse = columns.inverse();

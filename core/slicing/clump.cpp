@@ -7,6 +7,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/geometry/half_space_inl.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -21,7 +23,7 @@ constexpr double extent_rounding = 1e-9;
 template <int Dim>
 struct JointFace {
   int part, face;
-  Eigen::Matrix<double, Dim - 1, 1> low, high;  // box along the joint's axes
+  FixedMatrix<Dim - 1, 1> low, high;  // box along the joint's axes
 };
 
 template <int Dim>
@@ -79,7 +81,7 @@ std::vector<FacesOfJoint<Dim>> faces_by_joint(const std::vector<Polytope<Dim>>& 
       face.low.setConstant(std::numeric_limits<double>::max());
       face.high.setConstant(std::numeric_limits<double>::lowest());
       for (const int v : parts[p].loops[f]) {
-        const Eigen::Matrix<double, Dim - 1, 1> y = axes.transpose() * parts[p].vertices[v];
+        const FixedMatrix<Dim - 1, 1> y = axes.transpose() * parts[p].vertices[v];
         face.low = face.low.cwiseMin(y);
         face.high = face.high.cwiseMax(y);
       }

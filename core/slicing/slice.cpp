@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/geometry/half_space_inl.hpp"
 #include "core/on_threads.hpp"
 #include "core/slicing/block.hpp"
 

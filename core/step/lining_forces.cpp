@@ -97,8 +97,8 @@ void follow_rock(const Model<2>& model, State<2>& state) {
   }
 }
 
-void add_pair(int body_a, int body_b, const State<2>& state, const Eigen::Matrix<double, 3, 3>& stiffness,
-              const Eigen::Matrix<double, 3, 1>& wrench, std::vector<PairStiffness<2>>& pairs) {
+void add_pair(int body_a, int body_b, const State<2>& state, const FixedMatrix<3, 3>& stiffness,
+              const FixedMatrix<3, 1>& wrench, std::vector<PairStiffness<2>>& pairs) {
   PairStiffness<2> pair;
   pair.contact = -1;
   pair.body_a = body_a;
@@ -209,7 +209,7 @@ void add_lining_pairs(const Model<Dim>& model, const Settings& settings, const S
         };
         const double h = small_motion * length;
         const Vector<2> here = force_at(0, 0);
-        Eigen::Matrix<double, 3, 3> stiffness = Eigen::Matrix<double, 3, 3>::Zero();
+        FixedMatrix<3, 3> stiffness = FixedMatrix<3, 3>::Zero();
         stiffness.topLeftCorner<2, 2>() = ((here - force_at(h, 0)) / h) * at.normal.transpose() +
                                           ((here - force_at(0, h)) / h) * at.along.transpose();
         const Vector<2> now = at.force(contact);

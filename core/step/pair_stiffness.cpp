@@ -198,7 +198,7 @@ template <int Dim>
 void add_point(const JointProperties& properties, const Vector<Dim>& normal, const Vector<Dim>& lever, double area,
                typename PairStiffness<Dim>::Block& stiffness) {
   const Matrix<Dim> along = normal * normal.transpose(), across = Matrix<Dim>::Identity() - along;
-  Eigen::Matrix<double, Dim, freedoms<Dim>> motion;  // of the point with the second body
+  FixedMatrix<Dim, freedoms<Dim>> motion;  // of the point with the second body
   motion.template leftCols<Dim>().setIdentity();
   for (int k = 0; k < spin_freedoms<Dim>; ++k)
     motion.col(Dim + k) = cross(Spin<Dim>(Spin<Dim>::Unit(k)), lever);

@@ -7,7 +7,7 @@ namespace voussoir {
 
 namespace {
 
-using BeamVector = Eigen::Matrix<double, 6, 1>;
+using BeamVector = FixedMatrix<6, 1>;
 
 // what changes with the six freedoms, for a chord along `along`: its length, and its turn times its length
 BeamVector lengthening(const Vector<2>& along) {

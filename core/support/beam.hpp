@@ -54,7 +54,7 @@ struct BeamForces {
 BeamForces beam_forces(const Beam& beam, const BeamStrain& strain);
 
 // rows and columns: displacement x, y and rotation of the first node, then of the second
-using BeamMatrix = Eigen::Matrix<double, 6, 6>;
+using BeamMatrix = FixedMatrix<6, 6>;
 
 // The Hessian of the potential: minus the derivative of the nodes' forces. Symmetric; N/m, N, N m.
 BeamMatrix beam_tangent(const Beam& beam, const BeamStrain& strain);

@@ -69,10 +69,12 @@ struct BoltSpring {
   int body_a = 0, body_b = 0;                                                // a is nearer to the collar
   Vector<Dim> place_a = Vector<Dim>::Zero(), place_b = Vector<Dim>::Zero();  // of the anchors, body frames, m
   Vector<Dim> axis = Vector<Dim>::Zero();                                    // unit, towards the toe, frame of body a
-  double length = 0;                                                         // l0, m; 0: both anchors at the joint
-  double stiffness = 0;                                                      // K, N/m
-  double plastic = 0;                                                        // m, plastic extension
-  Vector<Dim> slip = Vector<Dim>::Zero();                                    // m, plastic slip of the dowel, frame of a
+  Vector<Dim> begin = Vector<Dim>::Zero(), end = Vector<Dim>::Zero();  // of the length of bolt that it stands for,
+                                                                       // frames of a and b, m: drawn, no force
+  double length = 0;                                                   // l0, m; 0: both anchors at the joint
+  double stiffness = 0;                                                // K, N/m
+  double plastic = 0;                                                  // m, plastic extension
+  Vector<Dim> slip = Vector<Dim>::Zero();                              // m, plastic slip of the dowel, frame of a
   bool broken = false;
   double extension = 0;                     // m, since installation
   double force = 0;                         // f, N, tension positive

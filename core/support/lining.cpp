@@ -98,6 +98,14 @@ void weigh_nodes(Lining& lining) {
 
 }  // namespace
 
+Vector<2> LiningSide::along() const {
+  return {-normal[1], normal[0]};
+}
+
+Beam Lining::beam(int k) const {
+  return {nodes[next(k)].place - nodes[k].place, properties.axial(), properties.bending()};
+}
+
 Lining make_lining(const LiningProperties& properties, std::vector<LiningSide> sides, const Vector<2>& centre,
                    const std::vector<double>& turns, bool closed) {
   Lining lining{.properties = properties, .closed = closed, .sides = std::move(sides), .nodes = {}};

@@ -43,7 +43,7 @@ struct LiningSide {
   Vector<2> normal = Vector<2>::Zero();  // unit, into the rock
   double length = 0;                     // m
 
-  Vector<2> along() const { return {-normal[1], normal[0]}; }
+  Vector<2> along() const;
 };
 
 // a node, and the two halves of outline that it stands for: before and after it
@@ -65,7 +65,7 @@ struct Lining {
 
   int beams() const { return static_cast<int>(nodes.size()) - (closed ? 0 : 1); }
   int next(int node) const { return (node + 1) % static_cast<int>(nodes.size()); }
-  Beam beam(int k) const { return {nodes[next(k)].place - nodes[k].place, properties.axial(), properties.bending()}; }
+  Beam beam(int k) const;
 };
 
 // A lining on the sides of a convex outline, all of them in order. `turns` are the directions of the nodes from a point

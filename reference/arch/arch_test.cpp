@@ -137,7 +137,9 @@ TEST(ClosedArch, ThrustsOnHardJointsAsItsHingesSay) {
   for (const double stiffness : {1e12, 1e13, 1e14}) {
     const double off = 1 - closed_arch(arch, {stiffness, stiffness}, thickness, closed).thrust / least;
     EXPECT_GT(off, 0) << stiffness;
-    if (last > 0) EXPECT_LT(off, last / std::sqrt(10.0) + 2 * closed / arch.radius) << stiffness;
+    if (last > 0) {
+      EXPECT_LT(off, last / std::sqrt(10.0) + 2 * closed / arch.radius) << stiffness;
+    }
     last = off;
   }
   EXPECT_LT(last, 0.003);

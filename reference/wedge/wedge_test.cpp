@@ -11,9 +11,9 @@
 #include <stdexcept>
 
 using namespace voussoir::reference;
-using voussoir::degree;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using voussoir::degree;
 
 namespace {
 

@@ -1,0 +1,13 @@
+// A library of someone else, built with its own flags, whose interface holds a fixed-size vector of Eigen.
+#pragma once
+
+#include <Eigen/Core>
+
+struct Sample {
+  char kind = 0;
+  Eigen::Vector4d values;
+};
+
+Sample make_sample();
+Eigen::Matrix4d make_matrix();
+std::size_t size_of_sample();
