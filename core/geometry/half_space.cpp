@@ -37,8 +37,6 @@ Vector<2> upward_normal_2d(double dip, double dip_direction) {
   return {std::sin(dip_direction) < 0 ? -std::sin(dip) : std::sin(dip), std::cos(dip)};
 }
 
-template double signed_distance<2>(const HalfSpace<2>&, const Vector<2>&);
-template double signed_distance<3>(const HalfSpace<3>&, const Vector<3>&);
 template bool lies_inside<2>(const HalfSpaces<2>&, const Vector<2>&);
 template bool lies_inside<3>(const HalfSpaces<3>&, const Vector<3>&);
 template HalfSpace<2> moved_origin<2>(const HalfSpace<2>&, const Vector<2>&);
