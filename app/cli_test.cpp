@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/commands/progress_line.hpp"
+#include "app/base/progress_line.hpp"
 #include "app/testing/program.hpp"
 
 namespace voussoir {

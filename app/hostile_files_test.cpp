@@ -7,7 +7,7 @@
 #include <functional>
 #include <map>
 
-#include "app/run_scene.hpp"
+#include "app/base/run_scene.hpp"
 #include "app/testing/program.hpp"
 
 namespace voussoir {

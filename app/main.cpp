@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include "app/commands/command_line.hpp"
-#include "core/floating_point_traps.hpp"
+#include "core/base/floating_point_traps.hpp"
 
 int main(int argument_count, char** arguments) {
   // as in the tests: stop where the first NaN or infinity is made

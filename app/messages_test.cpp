@@ -3,10 +3,10 @@
 #include <regex>
 
 #include "app/testing/program.hpp"
-#include "core/body_title.hpp"
-#include "core/install.hpp"
+#include "core/model/body_title.hpp"
 #include "core/output/paraview.hpp"
 #include "core/scene/scene.hpp"
+#include "core/stage/install_bolts.hpp"
 #include "core/testing/lined_opening.hpp"
 
 namespace voussoir {

@@ -10,7 +10,7 @@
 #include <mutex>
 
 #include "benchmarks/peers/peers.hpp"
-#include "core/output/version.hpp"
+#include "core/base/version.hpp"
 
 namespace voussoir::benchmarks {
 namespace {

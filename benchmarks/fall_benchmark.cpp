@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "app/commands/progress_line.hpp"
+#include "app/base/progress_line.hpp"
+#include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
-#include "core/simulate.hpp"
 #include "core/step.hpp"
 #include "core/testing/fall_scene.hpp"
 #include "core/testing/fall_watch.hpp"

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/law/elastic_coulomb.hpp"
+#include "core/joint_laws/elastic_coulomb.hpp"
 #include "core/step.hpp"
 #include "core/step/joint_forces.hpp"
 #include "core/testing/models.hpp"

@@ -10,7 +10,7 @@
 #include "benchmarks/explicit_slicer.hpp"
 #include "benchmarks/shapes.hpp"
 #ifdef VOUSSOIR_PEER_GLPK
-#include "core/optimise/glpk.hpp"
+#include "core/solvers/glpk.hpp"
 #endif
 #include "core/slicing/slice.hpp"
 #include "text/angle.hpp"

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "benchmarks/shapes.hpp"
-#include "core/run.hpp"
+#include "core/run/run.hpp"
 #include "core/step.hpp"
 
 namespace voussoir::benchmarks {

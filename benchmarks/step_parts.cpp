@@ -10,16 +10,16 @@
 #include <functional>
 
 #include "core/contact/narrow_phase.hpp"
-#include "core/motion/integrate.hpp"
-#include "core/motion/relaxation.hpp"
-#include "core/motion/time_step.hpp"
+#include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
-#include "core/simulate.hpp"
 #include "core/step.hpp"
+#include "core/step/integrate.hpp"
 #include "core/step/joint_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
 #include "core/step/neighbours.hpp"
+#include "core/step/relaxation.hpp"
+#include "core/step/time_step.hpp"
 #include "core/testing/fall_scene.hpp"
 
 namespace voussoir::benchmarks {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/run_scene.hpp"
+#include "app/base/run_scene.hpp"
 #include "verification/case_report.hpp"
 
 namespace voussoir::cases {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cases/picture.hpp"
-#include "core/model.hpp"
-#include "core/state.hpp"
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
 
 namespace voussoir::cases {
 

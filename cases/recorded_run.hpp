@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/run_scene.hpp"
+#include "app/base/run_scene.hpp"
 
 namespace voussoir::cases {
 

@@ -6,7 +6,7 @@
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
 #include "core/step/neighbours.hpp"
-#include "core/step/newton.hpp"
+#include "core/step/static_solver.hpp"
 
 namespace voussoir {
 

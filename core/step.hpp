@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "core/model.hpp"
-#include "core/settings.hpp"
-#include "core/state.hpp"
+#include "core/base/settings.hpp"
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
 
 namespace voussoir {
 

@@ -5,12 +5,12 @@
 
 #include <limits>
 
-#include "core/checkpoint/fields.hpp"
-#include "core/floating_point_traps.hpp"
-#include "core/motion/relaxation.hpp"
-#include "core/run.hpp"
+#include "core/base/floating_point_traps.hpp"
+#include "core/model/state_hash.hpp"
+#include "core/run/fields.hpp"
+#include "core/run/run.hpp"
 #include "core/slicing/slice.hpp"
-#include "core/state_hash.hpp"
+#include "core/step/relaxation.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir {

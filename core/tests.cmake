@@ -7,7 +7,7 @@ target_include_directories(voussoir_oracle_algebra PUBLIC ${PROJECT_SOURCE_DIR})
 target_compile_definitions(voussoir_oracle_algebra PUBLIC EIGEN_DONT_VECTORIZE)
 
 voussoir_test(unit.blocks LABEL unit
-  SOURCES floating_point_traps_test.cpp on_threads_test.cpp geometry/geometry_test.cpp optimise/optimise_test.cpp slicing/slicing_test.cpp
+  SOURCES base/floating_point_traps_test.cpp base/on_threads_test.cpp geometry/geometry_test.cpp solvers/solvers_test.cpp slicing/slicing_test.cpp
     slicing/sliver_test.cpp slicing/joints_test.cpp slicing/tiling_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
@@ -16,14 +16,14 @@ voussoir_test(unit.joint_sets LABEL unit
   LIBS voussoir_core Boost::headers fmt::fmt)
 
 voussoir_test(unit.law_and_motion LABEL unit
-  SOURCES law/law_test.cpp law/joint_law_test.cpp law/face_friction_test.cpp motion/motion_test.cpp support/bolt_test.cpp
+  SOURCES joint_laws/law_test.cpp joint_laws/joint_law_test.cpp joint_laws/face_friction_test.cpp step/motion_test.cpp support/bolt_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.support LABEL unit SOURCES support/beam_test.cpp support/grout_test.cpp support/lining_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.extremes LONG LABEL unit
-  SOURCES law/law_extremes_test.cpp motion/motion_extremes_test.cpp motion/step_extremes_test.cpp
+  SOURCES joint_laws/law_extremes_test.cpp step/motion_extremes_test.cpp step/step_extremes_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers fmt::fmt)
 
 voussoir_test(unit.contact LABEL unit
@@ -36,10 +36,10 @@ voussoir_test(unit.neighbours LABEL unit SOURCES step/neighbours_test.cpp LIBS v
 voussoir_test(unit.scene LABEL unit
   SOURCES scene/scene_test.cpp scene/bad_input_test.cpp scene/bad_stage_loads_test.cpp scene/bad_bolts_test.cpp scene/bad_linings_test.cpp scene/bad_water_test.cpp scene/bad_search_test.cpp scene/bad_faces_test.cpp scene/keys_test.cpp scene/number_text_test.cpp
     scene/permuted_input_test.cpp scene/accuracy_level_test.cpp scene/slicing_scene_test.cpp scene/repeat_test.cpp
-    scene/stated_bodies_test.cpp scene/divided_strength_test.cpp stable_state_test.cpp
+    scene/stated_bodies_test.cpp scene/divided_strength_test.cpp run/stable_state_test.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)
 
-voussoir_test(unit.monitors LABEL unit SOURCES monitor_test.cpp scene/bad_monitors_test.cpp begin_test.cpp
+voussoir_test(unit.monitors LABEL unit SOURCES output/monitor_test.cpp scene/bad_monitors_test.cpp run/begin_test.cpp
   LIBS voussoir_core cereal::cereal)
 
 voussoir_test(unit.output LABEL unit SOURCES output/output_test.cpp output/view_test.cpp
@@ -51,7 +51,7 @@ foreach(solver voussoir_glpk voussoir_ipopt)
     list(APPEND outside_solvers ${solver})
   endif()
 endforeach()
-voussoir_test(unit.outside_solvers LABEL unit SOURCES optimise/outside_solvers_test.cpp
+voussoir_test(unit.outside_solvers LABEL unit SOURCES solvers/outside_solvers_test.cpp
   LIBS voussoir_core ${outside_solvers} Boost::headers)
 
 
@@ -93,15 +93,15 @@ voussoir_test(unit.faces LABEL unit
   LIBS voussoir_exact_referee cereal::cereal Boost::headers fmt::fmt)
 
 voussoir_test(unit.newton LONG LABEL unit
-  SOURCES step/newton_test.cpp step/newton_verdict_test.cpp optimise/block_solver_test.cpp
+  SOURCES step/static_solver_test.cpp step/static_solver_verdict_test.cpp solvers/block_solver_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra cereal::cereal Boost::headers)
 
 voussoir_test(unit.step LABEL unit
-  SOURCES step_test.cpp simulate_test.cpp take_out_test.cpp install_test.cpp install_grouted_test.cpp cast_lining_test.cpp testing/whole_scenes_test.cpp step/joint_forces_test.cpp step/loads_test.cpp testing/step_memory_test.cpp energy_test.cpp motion/prescribed_test.cpp
+  SOURCES step_test.cpp run/simulate_test.cpp run/excavate_test.cpp stage/install_bolts_test.cpp stage/install_grouted_test.cpp stage/install_linings_test.cpp testing/whole_scenes_test.cpp step/joint_forces_test.cpp step/loads_test.cpp testing/step_memory_test.cpp base/energy_test.cpp step/prescribed_test.cpp
     load/boundary_stress_test.cpp load/water_test.cpp load/water_bends_test.cpp step/water_test.cpp scene/water_scene_test.cpp
-    state_hash_test.cpp reduction/reduction_test.cpp motion/relaxation_test.cpp checkpoint/checkpoint_test.cpp
+    model/state_hash_test.cpp run/reduction_test.cpp step/relaxation_test.cpp run/checkpoint_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra cereal::cereal Boost::headers fmt::fmt)
 
 voussoir_test(unit.rest LABEL unit
-  SOURCES motion/rest_test.cpp motion/free_fall_test.cpp settled_test.cpp scene/stage_excavations_test.cpp
+  SOURCES step/rest_test.cpp step/free_fall_test.cpp run/settled_test.cpp scene/stage_excavations_test.cpp
   LIBS voussoir_core cereal::cereal Boost::headers fmt::fmt)

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <cstring>
 
+#include "core/base/version.hpp"
 #include "core/output/output_error.hpp"
-#include "core/output/version.hpp"
 #include "core/scene/effective_scene.hpp"
 #include "core/scene/scene.hpp"
 #include "python/stepped_run.hpp"

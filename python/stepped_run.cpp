@@ -4,22 +4,22 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/fingerprint.hpp"
+#include "core/base/version.hpp"
+#include "core/model/state_hash.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/bolts_csv.hpp"
-#include "core/output/fingerprint.hpp"
 #include "core/output/history_csv.hpp"
 #include "core/output/lining_csv.hpp"
 #include "core/output/paraview.hpp"
 #include "core/output/results_json.hpp"
-#include "core/output/version.hpp"
+#include "core/run/simulate.hpp"
+#include "core/run/snapshot.hpp"
 #include "core/scene/accuracy_target.hpp"
 #include "core/scene/effective_scene.hpp"
 #include "core/scene/plausibility.hpp"
 #include "core/scene/read_stages.hpp"
 #include "core/scene/scene.hpp"
-#include "core/simulate.hpp"
-#include "core/snapshot.hpp"
-#include "core/state_hash.hpp"
 
 namespace voussoir::python {
 namespace {

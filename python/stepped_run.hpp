@@ -9,9 +9,9 @@
 #include <variant>
 #include <vector>
 
+#include "core/model/prepared.hpp"
+#include "core/output/results.hpp"
 #include "core/output/vtp.hpp"
-#include "core/prepared.hpp"
-#include "core/results.hpp"
 #include "core/scene/scene_spec.hpp"
 
 namespace voussoir::python {
@@ -55,7 +55,7 @@ class SteppedRun {
   virtual long long steps() const = 0;
   virtual std::string stage() const = 0;  // under way, or the last one
   virtual std::vector<std::string> body_names() const = 0;
-  virtual std::string state_hash() const = 0;  // core/state_hash.hpp
+  virtual std::string state_hash() const = 0;  // core/model/state_hash.hpp
 
   // The arrays of now. They stay where they are, and get the numbers of the present with `show_motions`, until a stage
   // adds bodies; those of before then keep the last numbers that they had.

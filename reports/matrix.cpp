@@ -63,7 +63,7 @@ bool names_a_reference(const Matrix& matrix, const std::string& source) {
 }
 
 void judge(const Matrix& matrix, const Equation& equation, std::vector<std::string>& found) {
-  const Whereabouts at = whereabouts(matrix, equation);
+  const EquationPlaces at = equation_places(matrix, equation);
   const bool tested = !at.tests.empty() || !at.cases.empty();
   const auto say = [&](const std::string& what) {
     found.push_back(fmt::format("equations.toml: Eq. {} {}", equation.number, what));
@@ -106,8 +106,8 @@ Matrix read_matrix(const fs::path& repository) {
           in_one_line(read_text(repository / "README.md"))};
 }
 
-Whereabouts whereabouts(const Matrix& matrix, const Equation& equation) {
-  Whereabouts at;
+EquationPlaces equation_places(const Matrix& matrix, const Equation& equation) {
+  EquationPlaces at;
   for (const Naming& naming : matrix.names.namings) {
     if (naming.number != equation.number) continue;
     switch (naming.place) {

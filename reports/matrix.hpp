@@ -27,13 +27,13 @@ struct Matrix {
 Matrix read_matrix(const std::filesystem::path& repository);
 
 // Where an equation is, each file or test once, in order.
-struct Whereabouts {
+struct EquationPlaces {
   std::vector<std::string> code;        // files of the method, the program or a case
   std::vector<std::string> references;  // files of closed forms
   std::vector<std::string> tests;       // Suite.Name
   std::vector<std::string> cases;       // whose checks name it in their source, as their code states it
 };
-Whereabouts whereabouts(const Matrix& matrix, const Equation& equation);
+EquationPlaces equation_places(const Matrix& matrix, const Equation& equation);
 
 enum class Verified { yes, not_verified, left_out };
 Verified verified(const Equation& equation);

@@ -81,7 +81,7 @@ std::string chapter_title(char chapter) {
 }
 
 std::string equation_row(const Matrix& matrix, const Verdicts& verdicts, const Equation& equation) {
-  const Whereabouts at = whereabouts(matrix, equation);
+  const EquationPlaces at = equation_places(matrix, equation);
   std::string subject = escape(equation.subject);
   for (const auto& [title, reason] : {std::pair{"Instead", equation.instead},
                                       {"Left out", equation.left_out},

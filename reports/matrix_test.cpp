@@ -50,7 +50,7 @@ struct Copy {
     write_atomically(root / "README.md", "It is fast.\n");
     write_atomically(root / "core/law/law.cpp", "// the cone (Eqs 4.8\n// and 4.9)\nvoid f() {}\n");
     write_atomically(
-        root / "core/law/law_test.cpp",
+        root / "core/joint_laws/law_test.cpp",
         "// Eq. 4.8\nTEST(Cone, Holds) {\n  int x;  // Eq. 4.9\n}\n\n// Eq. 4.7, of a helper\nint helper();\n" + test);
     write_atomically(root / "cases/beam/beam_test.cpp", "const char* source = \"Boon (2013), Eq. E.2\";\n");
     write_atomically(root / "cases/CMakeLists.txt", "voussoir_case(beam SOURCES beam_test.cpp)\n");
@@ -88,12 +88,12 @@ bool holds(const std::vector<std::string>& problems, const std::string& part) {
 TEST(Matrix, IsMadeOfWhatTheSourcesName) {
   const Copy copy;
   const Matrix matrix = read_matrix(copy.root);
-  const Whereabouts limit = whereabouts(matrix, equation(matrix, "4.8"));
+  const EquationPlaces limit = equation_places(matrix, equation(matrix, "4.8"));
   EXPECT_EQ(limit.code, Numbers{"core/law/law.cpp"});
   EXPECT_EQ(limit.tests, Numbers{"Cone.Holds"});
-  EXPECT_EQ(whereabouts(matrix, equation(matrix, "4.9")).tests, Numbers{"Cone.Holds"});
-  EXPECT_EQ(whereabouts(matrix, equation(matrix, "E.2")).cases, Numbers{"beam"});
-  const Whereabouts helper = whereabouts(matrix, equation(matrix, "4.7"));
+  EXPECT_EQ(equation_places(matrix, equation(matrix, "4.9")).tests, Numbers{"Cone.Holds"});
+  EXPECT_EQ(equation_places(matrix, equation(matrix, "E.2")).cases, Numbers{"beam"});
+  const EquationPlaces helper = equation_places(matrix, equation(matrix, "4.7"));
   EXPECT_TRUE(helper.code.empty() && helper.tests.empty());
   EXPECT_TRUE(matrix.names.tests.contains("Cone.Holds"));
   EXPECT_TRUE(matrix.names.programs.contains("case.beam"));
@@ -114,7 +114,7 @@ TEST(Matrix, OfThisRepositoryFits) {
 
 TEST(Matrix, ANameWithoutEquationShows) {
   const Copy copy("// Eq. 4.19\nTEST(Cone, More) {\n}\n");
-  EXPECT_TRUE(holds(problems(read_matrix(copy.root)), "core/law/law_test.cpp:8: the thesis has no Eq. 4.19"));
+  EXPECT_TRUE(holds(problems(read_matrix(copy.root)), "core/joint_laws/law_test.cpp:8: the thesis has no Eq. 4.19"));
 }
 
 TEST(Matrix, AnEquationWithoutTestShows) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/accuracy.hpp"
+#include "core/base/accuracy.hpp"
 #include "reports/study_order.hpp"
 
 namespace voussoir::reports {

@@ -24,105 +24,18 @@ constexpr int one_screen = 60;     // lines of core/step.cpp: the whole method a
 constexpr std::array top_folders{"text",  "core",       "app",     "reference", "verification",
                                  "cases", "benchmarks", "reports", "fuzz",      "python"};
 
-// What stands on what in a folder of the core, from the ground up: a line may include the lines before its own. A name
-// is a folder, or a header with its source; a source without a header stands above the one that declares what it
-// defines.
-struct Order {
-  std::string_view folder;
-  std::vector<std::vector<std::string_view>> lines;
-};
-const std::vector<Order> orders{
-    {"core",
-     {{"geometry", "settings", "accuracy", "energy", "floating_point_traps", "on_threads"},
-      {"law", "exchange"},
-      {"optimise", "load", "support"},
-      {"potential"},
-      {"contact", "slicing", "joint_sets", "model"},
-      {"waters", "excavation", "body_title"},
-      {"apply", "state", "limit"},
-      {"prepared"},
-      {"results", "scene"},
-      {"motion", "monitor", "output", "install", "cast_lining"},
-      {"step", "state_hash", "bonded_contacts"},
-      {"run", "take_out"},
-      {"reduction", "settled"},
-      {"progress", "history", "stable_state", "doubts"},
-      {"checkpoint", "simulate", "snapshot", "begin"}}},
-    {"core/geometry",
-     {{"types"}, {"half_space"}, {"half_space_inl"}, {"facet_weights", "polytope", "surface"}, {"outline"}}},
-    {"core/law",
-     {{"joint_properties", "joint_state", "face_friction"}, {"elastic_coulomb"}, {"joint_law"}, {"joint_path"}}},
-    {"core/exchange", {{"mesh", "tables"}, {"convex_corners"}}},
-    {"core/optimise",
-     {{"feasibility_program", "far_planes", "double_double", "symmetric_system", "glpk_environment", "block_matrix"},
-      {"extended_precision_feasibility", "analytic_centre", "central_path", "block_factors"},
-      {"feasibility", "block_solver", "weighted_centre"},
-      {"solvers", "glpk", "ipopt"}}},
-    {"core/support", {{"beam", "grout"}, {"bolt", "lining"}, {"grouted_bolt"}}},
-    {"core/load", {{"load", "time_factor"}, {"boundary_stress", "water"}}},
-    {"core/contact",
-     {{"contact", "pair", "kernel_counters", "rounding", "carried_whole"},
-      {"broad_phase", "thin_directions", "separation", "pair_geometry", "overlap_region", "bracketing",
-       "extended_precision_overlap"},
-      {"nearness", "sub_contacts", "face_integral", "region_integral", "sensitivity", "kernel", "reference_kernel"},
-      {"narrow_phase", "pressed_face"},
-      {"contact_between", "particles"}}},
-    {"core/contact/kernel",
-     {{"workspace", "packs_inl"},
-      {"lanes_inl"},
-      {"records_inl", "section_inl"},
-      {"batch_inl"},
-      {"warm_start_inl"},
-      {"cold_start_inl", "central_inl"},
-      {"kernel"}}},
-    {"core/potential",
-     {{"rounding"},
-      {"shape"},
-      {"descent", "surface", "first_point"},
-      {"support", "contact"},
-      {"mass", "valid_shape", "drawing", "ipopt"},
-      {"particle"}}},
-    {"core/slicing", {{"block", "joint"}, {"clump", "slice"}}},
-    {"core/joint_sets", {{"portable_math"}, {"random_stream"}, {"joint_set"}, {"statistics"}}},
-    {"core/limit", {{"interfaces", "linear_program"}, {"glpk_program", "self_stress"}, {"limit"}, {"mechanism"}}},
-    {"core/scene",
-     {{"scene_error"},
-      {"node"},
-      {"key_row", "effective_scene"},
-      {"scene_text", "scene_spec"},
-      {"keys", "toml_text", "accuracy_target"},
-      {"check_keys"},
-      {"accuracy_level", "overrides", "scene_files", "read_plane", "particles"},
-      {"bodies"},
-      {"base_scene", "plausibility", "joint_outline", "region", "read_slicing", "read_water", "wet_faces", "bolts",
-       "stated_bodies"},
-      {"joint_ends"},
-      {"divided_strength", "domain_blocks", "draw_joint_sets", "linings", "read_joint_sets", "read_stages",
-       "shared_stages", "stage_excavations", "wall_points", "moved_tables"},
-      {"repeat", "scene"},
-      {"canonical_text", "documentation", "prepare", "read_scene"}}},
-    {"core/scene/keys",
-     {{"ranges", "members"},
-      {"tables"},
-      {"accuracy",     "bolts",       "blocks",           "contact",    "copies",  "damping",
-       "domain",       "excavations", "joint_properties", "joint_sets", "joints",  "linings",
-       "monitors",     "move",        "output",           "selectors",  "slicing", "stage",
-       "stage_change", "stage_loads", "stage_reduce",     "stage_run",  "time",    "top",
-       "water"}}},
-    {"core/motion", {{"integrate", "time_step", "free_fall"}, {"work", "prescribed"}, {"relaxation"}}},
-    {"core/step",
-     {{"neighbours", "pair_motion", "bolt_forces", "lining_forces", "motion", "tangent", "newton_base"},
-      {"contacts", "face_forces", "step_length", "loads"},
-      {"joint_forces"},
-      {"pair_stiffness", "water_stiffness"},
-      {"newton"}}},
-    {"core/output",
-     {{"fingerprint", "version", "output_error", "vtp"},
-      {"atomic_file", "origin"},
-      {"history_csv", "bolts_csv", "lining_csv", "paraview", "results_json"},
-      {"view"}}},
-    {"core/reduction", {{"reduction"}}},
-    {"core/checkpoint", {{"fields"}, {"checkpoint"}}},
+// The rooms of the core from the ground up: a room may include those of the lines before its own. Files within a room
+// need no line: there, as everywhere, circles alone are refused. So contact, joint_laws, load and support know neither
+// Model nor State, and output and scene do not know each other.
+const std::vector<std::vector<std::string_view>> floors{
+    {"base/", "geometry/"},
+    {"exchange/", "joint_laws/", "joint_sets/", "load/", "potential/", "solvers/"},
+    {"contact/", "slicing/", "support/"},
+    {"model/"},
+    {"limit/", "stage/"},
+    {"output/", "scene/", "step/"},
+    {"step"},  // step.hpp and step.cpp: one screen
+    {"run/"},
 };
 
 // what another folder of the house may include besides itself, folders or single files
@@ -139,7 +52,7 @@ const std::vector<Reach> reaches{
     {"cases", {"core", "app", "reference", "verification", "text"}},
     {"benchmarks", {"core", "app", "text"}},
     {"reports",
-     {"verification", "text", "core/accuracy.hpp"}},  // what the accuracy levels promise, which reports judge
+     {"verification", "text", "core/base/accuracy.hpp"}},  // what the accuracy levels promise, which reports judge
     {"fuzz", {"core", "app", "text"}},
     {"python", {"core", "text"}},
 };
@@ -153,30 +66,30 @@ bool is_ours(std::string_view path) {
          std::find(top_folders.begin(), top_folders.end(), top_folder(path)) != top_folders.end();
 }
 
-// what the order of a folder calls a file in it: core/contact/pair.hpp -> contact in core, pair in core/contact
+// what a folder holds: a folder in it, or a header with its source. core/contact/pair.hpp -> contact/ in core, pair in
+// core/contact
 std::string_view name_in(std::string_view folder, std::string_view path) {
-  const std::string_view rest = path.substr(folder.size() + 1);
-  return rest.substr(0, rest.find_first_of("/."));
+  const std::string_view rest = path.substr(folder.empty() ? 0 : folder.size() + 1);
+  const std::size_t end = rest.find_first_of("/.");
+  return rest.substr(0, end + (end < rest.size() && rest[end] == '/'));
 }
 
 std::string_view folder_of(std::string_view path) {
   return path.substr(0, path.rfind('/'));
 }
 
-// the innermost folder that holds both
-std::string_view common_folder(std::string_view a, std::string_view b) {
-  std::string_view folder = folder_of(a);
-  while (!b.starts_with(std::string(folder) + '/'))
-    folder = folder_of(folder);
+// the innermost folder that holds both; empty: the repository's root
+std::string common_folder(std::string_view a, std::string_view b) {
+  std::string folder(folder_of(a));
+  while (!folder.empty() && !b.starts_with(folder + '/'))
+    folder = folder.find('/') == std::string::npos ? "" : std::string(folder_of(folder));
   return folder;
 }
 
-// nothing: the folder's order has no such name
-std::optional<std::size_t> line_of(std::string_view folder, std::string_view name) {
-  const auto order = std::find_if(orders.begin(), orders.end(), [&](const Order& o) { return o.folder == folder; });
-  if (order == orders.end()) return std::nullopt;
-  for (std::size_t i = 0; i < order->lines.size(); ++i)
-    if (std::find(order->lines[i].begin(), order->lines[i].end(), name) != order->lines[i].end()) return i;
+// nothing: the room has no line
+std::optional<std::size_t> floor_of(std::string_view room) {
+  for (std::size_t i = 0; i < floors.size(); ++i)
+    if (std::ranges::find(floors[i], room) != floors[i].end()) return i;
   return std::nullopt;
 }
 
@@ -186,29 +99,15 @@ bool is_test(std::string_view path) {
 }
 
 // both files lie in the core
-std::string judge_order(const std::string& from_path, const std::string& to_path) {
+std::string judge_floors(const std::string& from_path, const std::string& to_path) {
   if (is_test(from_path)) return {};
   if (is_test(to_path)) return "only tests may include it";
-  const std::string_view folder = common_folder(from_path, to_path);
-  const std::string_view from = name_in(folder, from_path), to = name_in(folder, to_path);
-  const auto from_line = line_of(folder, from), to_line = line_of(folder, to);
-  if (from == to || !from_line || !to_line) return {};  // what has no line is reported once
-  if (from == "output" && to == "scene") return "output and scene do not know each other";
-  if (*to_line < *from_line) return {};
-  return *to_line == *from_line ? fmt::format("{} and {} stand side by side in {}", from, to, folder)
-                                : fmt::format("{} stands above {} in {}", to, from, folder);
-}
-
-// the names under which the orders of the core's folders know a file, with their folders
-std::vector<std::pair<std::string, std::string>> places_of(const std::string& path) {
-  std::vector<std::pair<std::string, std::string>> places;
-  if (top_folder(path) != "core" || path.starts_with("core/testing/")) return places;
-  for (std::size_t slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1)) {
-    const bool innermost = path.find('/', slash + 1) == std::string::npos;
-    const std::string folder = path.substr(0, slash);
-    if (!innermost || !is_test(path)) places.emplace_back(folder, name_in(folder, path));
-  }
-  return places;
+  const std::string_view from = name_in("core", from_path), to = name_in("core", to_path);
+  const auto from_floor = floor_of(from), to_floor = floor_of(to);
+  if (from == to || !from_floor || !to_floor || *to_floor < *from_floor)
+    return {};  // a room without a line is reported once
+  return *to_floor == *from_floor ? fmt::format("core/{} and core/{} are on one floor", from, to)
+                                  : fmt::format("core/{} is above core/{}", to, from);
 }
 
 std::string judge_folders(const std::string& from, const std::string& to_path) {
@@ -225,6 +124,59 @@ std::string judge_folders(const std::string& from, const std::string& to_path) {
 bool in_one_program(const std::string& a, const std::string& b) {
   const auto case_of = [](const std::string& path) { return top_folder(path) == "cases" ? folder_of(path) : ""; };
   return case_of(a).empty() || case_of(b).empty() || case_of(a) == case_of(b);
+}
+
+// What a folder holds and who includes whom there, with one #include for each arrow.
+struct FolderGraph {
+  std::map<std::string, std::map<std::string, std::string>> arrows;
+
+  // the shortest circle through a name, as one sentence; empty: none
+  std::string circle_through(const std::string& start) const {
+    std::map<std::string, std::string> from;  // who led to each
+    std::vector<std::string> reached{start};
+    for (std::size_t k = 0; k < reached.size(); ++k) {
+      const auto out = arrows.find(reached[k]);
+      if (out == arrows.end()) continue;
+      for (const auto& [to, include] : out->second) {
+        if (to == start) return sentence(start, reached[k], from);
+        if (from.emplace(to, reached[k]).second) reached.push_back(to);
+      }
+    }
+    return {};
+  }
+
+ private:
+  std::string sentence(const std::string& start, std::string last,
+                       const std::map<std::string, std::string>& from) const {
+    std::string text = arrows.at(last).at(start);
+    for (; last != start; last = from.at(last))
+      text = arrows.at(from.at(last)).at(last) + ", " + text;
+    return text;
+  }
+};
+
+// circles of files and folders in any folder of the house, each told once; tests include what they like
+void check_circles(const std::vector<SourceFile>& sources, std::vector<std::string>& found) {
+  std::map<std::string, FolderGraph> graphs;
+  for (const SourceFile& source : sources) {
+    if (is_test(source.path)) continue;
+    for (const std::string& path : source.includes) {
+      if (!is_ours(path) || path.starts_with('.')) continue;
+      const std::string folder = common_folder(source.path, path);
+      const std::string from(name_in(folder, source.path)), to(name_in(folder, path));
+      if (from != to) graphs[folder].arrows[from].emplace(to, source.path + " includes " + path);
+    }
+  }
+  for (const auto& [folder, graph] : graphs) {
+    std::set<std::string> told;
+    for (const auto& [name, out] : graph.arrows) {
+      const std::string circle = graph.circle_through(name);
+      if (circle.empty() || told.contains(name)) continue;
+      found.push_back(fmt::format("a circle in {}: {}", folder.empty() ? "the house" : folder, circle));
+      for (const auto& [other, unused] : graph.arrows)
+        if (circle.find('/' + other + (other.ends_with('/') ? "" : ".")) != std::string::npos) told.insert(other);
+    }
+  }
 }
 
 void check_types(const std::vector<SourceFile>& sources, std::vector<std::string>& found) {
@@ -304,23 +256,24 @@ std::vector<SourceFile> read_sources(const fs::path& root) {
 
 std::vector<std::string> violations(const std::vector<SourceFile>& sources) {
   std::vector<std::string> found;
-  std::set<std::pair<std::string, std::string>> unknown;
-  const auto check_places = [&](const std::string& path) {
-    for (const auto& [folder, name] : places_of(path))
-      if (!line_of(folder, name) && unknown.emplace(folder, name).second)
-        found.push_back(fmt::format("{}/{} has no line: give it one in verification/architecture.cpp", folder, name));
+  std::set<std::string> unknown;
+  const auto check_room = [&](const std::string& path) {
+    if (top_folder(path) != "core" || is_test(path)) return;
+    const std::string room(name_in("core", path));
+    if (!floor_of(room) && unknown.insert(room).second)
+      found.push_back(fmt::format("core/{} has no floor: give it one in verification/architecture.cpp", room));
   };
 
   for (const SourceFile& source : sources) {
-    check_places(source.path);
+    check_room(source.path);
     for (const std::string& path : source.includes) {
       if (path.starts_with("./") || path.starts_with("../"))
         found.push_back(fmt::format("{} includes {}: write the path from the repository's root", source.path, path));
       if (!is_ours(path)) continue;
-      check_places(path);
+      check_room(path);
       const std::string from = top_folder(source.path);
       std::string problem = judge_folders(from, path);
-      if (problem.empty() && from == "core" && top_folder(path) == "core") problem = judge_order(source.path, path);
+      if (problem.empty() && from == "core" && top_folder(path) == "core") problem = judge_floors(source.path, path);
       if (!problem.empty()) found.push_back(fmt::format("{} includes {}: {}", source.path, path, problem));
     }
 
@@ -328,6 +281,7 @@ std::vector<std::string> violations(const std::vector<SourceFile>& sources) {
     if (source.lines > limit)
       found.push_back(fmt::format("{} has {} lines, more than {}", source.path, source.lines, limit));
   }
+  check_circles(sources, found);
   check_types(sources, found);
   return found;
 }
@@ -385,17 +339,14 @@ std::vector<std::string> dead_citations(const fs::path& root) {
   return dead;
 }
 
-std::vector<std::string> names_without_file(const std::vector<SourceFile>& sources) {
-  std::set<std::pair<std::string, std::string>> there;
-  for (const SourceFile& source : sources)
-    for (const auto& place : places_of(source.path))
-      there.insert(place);
+std::vector<std::string> rooms_without_file(const std::vector<SourceFile>& sources) {
   std::vector<std::string> names;
-  for (const Order& order : orders)
-    for (const auto& line : order.lines)
-      for (const std::string_view name : line)
-        if (!there.contains({std::string(order.folder), std::string(name)}))
-          names.push_back(fmt::format("{}/{}", order.folder, name));
+  for (const auto& line : floors)
+    for (const std::string_view room : line)
+      if (std::ranges::none_of(sources, [&](const SourceFile& source) {
+            return top_folder(source.path) == "core" && name_in("core", source.path) == room;
+          }))
+        names.push_back(fmt::format("core/{}", room));
   return names;
 }
 

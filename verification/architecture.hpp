@@ -1,7 +1,8 @@
 #pragma once
-// Who may include whom: the order of the folders, of the rooms of the core and of the files in each room is stated
-// once, in architecture.cpp, and enforced by unit.architecture. Where no arrow points up there is no cycle. And no two
-// types of one program have one name: the linker would take the functions of either for both, without a word.
+// Who may include whom: the order of the folders and of the rooms of the core is stated once, in architecture.cpp, and
+// enforced by unit.architecture; all else follows from the #include lines: in no folder may files or folders include
+// each other in a circle. And no two types of one program have one name: the linker would take the functions of either
+// for both, without a word.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -26,8 +27,8 @@ std::vector<std::string> type_names(std::string_view text);
 // All .hpp and .cpp files below the project's folders, sorted by path.
 std::vector<SourceFile> read_sources(const std::filesystem::path& root);
 
-// One sentence per violation: an arrow that runs back up or across, a file without a line in its folder's order, a file
-// that is too long, a type that another file defines, too.
+// One sentence per violation: an arrow that runs back up or across, a circle of files or folders, a room of the core
+// without a floor, a file that is too long, a type that another file defines, too.
 std::vector<std::string> violations(const std::vector<SourceFile>& sources);
 
 // The files and folders that the comments of a text cite: paths from one of the repository's folders, with their
@@ -38,7 +39,7 @@ std::vector<std::string> cited_paths(std::string_view text);
 // core, nor, of a name alone, anywhere.
 std::vector<std::string> dead_citations(const std::filesystem::path& root);
 
-// What the orders name and no source is called: renamed or deleted since.
-std::vector<std::string> names_without_file(const std::vector<SourceFile>& sources);
+// Rooms that have a floor and no file: renamed or deleted since.
+std::vector<std::string> rooms_without_file(const std::vector<SourceFile>& sources);
 
 }  // namespace voussoir::verification

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/commands/commands.hpp"
-#include "app/commands/exit_codes.hpp"
+#include "app/base/exit_codes.hpp"
+#include "app/study/study_command.hpp"
 
 namespace voussoir {
 

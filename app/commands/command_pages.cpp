@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <vector>
 
-#include "app/commands/exit_codes.hpp"
-#include "core/output/version.hpp"
+#include "app/base/exit_codes.hpp"
+#include "core/base/version.hpp"
 
 namespace voussoir {
 namespace {

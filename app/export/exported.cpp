@@ -4,7 +4,7 @@
 #include <map>
 
 #include "app/export/formats.hpp"
-#include "core/output/version.hpp"
+#include "core/base/version.hpp"
 
 namespace voussoir {
 namespace {

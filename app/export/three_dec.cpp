@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "app/bad_input.hpp"
-#include "app/dip_angles.hpp"
+#include "app/base/bad_input.hpp"
+#include "app/base/dip_angles.hpp"
 #include "app/export/formats.hpp"
 
 namespace voussoir {

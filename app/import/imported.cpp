@@ -7,7 +7,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "app/dip_angles.hpp"
+#include "app/base/dip_angles.hpp"
 #include "text/plain_text.hpp"
 
 namespace voussoir {

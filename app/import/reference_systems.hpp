@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "app/import/units.hpp"
+#include "app/import/length_unit.hpp"
 
 namespace voussoir {
 

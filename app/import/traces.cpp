@@ -7,7 +7,7 @@
 
 #include "app/import/formats.hpp"
 #include "app/import/units.hpp"
-#include "core/floating_point_traps.hpp"
+#include "core/base/floating_point_traps.hpp"
 
 namespace voussoir {
 namespace {

@@ -5,13 +5,9 @@
 #include <string_view>
 
 #include "app/import/imported.hpp"
+#include "app/import/length_unit.hpp"
 
 namespace voussoir {
-
-struct LengthUnit {
-  std::string_view name;
-  double metres = 1;
-};
 
 // Where a file's points are in the scene: in m, moved by the --shift.
 class FilePlacement {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "app/bad_input.hpp"
-#include "core/body_title.hpp"
-#include "core/waters.hpp"
+#include "app/base/bad_input.hpp"
+#include "core/model/body_title.hpp"
+#include "core/model/water_surfaces.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {

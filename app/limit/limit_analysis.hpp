@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/run_scene.hpp"
+#include "app/base/run_scene.hpp"
 #include "core/limit/mechanism.hpp"
-#include "core/results.hpp"
+#include "core/output/results.hpp"
 
 namespace voussoir {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/results_hash.hpp"
+#include "app/run_folder/results_hash.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/paraview.hpp"
 

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/limit/limit_files.hpp"
-#include "app/origin.hpp"
-#include "core/output/version.hpp"
+#include "app/run_folder/origin.hpp"
+#include "core/base/version.hpp"
 
 namespace voussoir {
 namespace {

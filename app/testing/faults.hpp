@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/testing/process.hpp"
-#include "core/checkpoint/checkpoint.hpp"
+#include "core/run/checkpoint.hpp"
 
 namespace voussoir {
 

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/run_scene.hpp"
+#include "app/base/run_scene.hpp"
 
 namespace voussoir::program {
 

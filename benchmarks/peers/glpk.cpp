@@ -6,7 +6,7 @@
 #include <map>
 
 #include "benchmarks/peers/peers.hpp"
-#include "core/optimise/glpk.hpp"
+#include "core/solvers/glpk.hpp"
 
 namespace voussoir::benchmarks {
 namespace {
@@ -18,7 +18,7 @@ struct DeleteProblem {
   void operator()(glp_prob* problem) const { glp_delete_prob(problem); }
 };
 
-// min Σ d_i λ_i  subject to  Σ λ_i a_i = 0, Σ λ_i = 1, λ >= 0. Its optimum is -s (optimise/feasibility_program.hpp):
+// min Σ d_i λ_i  subject to  Σ λ_i a_i = 0, Σ λ_i = 1, λ >= 0. Its optimum is -s (solvers/feasibility_program.hpp):
 // positive when the parts overlap.
 class DualProgram {
  public:

@@ -1,5 +1,5 @@
 // Ipopt on the analytic centre, in the thesis' slack form (Eq. 3.38), from the point that the LP found.
-#include "core/optimise/ipopt.hpp"
+#include "core/solvers/ipopt.hpp"
 
 #include "benchmarks/peers/peers.hpp"
 

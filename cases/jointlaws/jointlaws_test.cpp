@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "cases/case_tools.hpp"
-#include "core/law/joint_path.hpp"
+#include "core/joint_laws/joint_path.hpp"
 #include "core/scene/scene.hpp"
 #include "reference/jointedbeam/joint.hpp"
 #include "reference/small/shear_curve.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/potential/shape.hpp"
-#include "core/simulate.hpp"
+#include "core/run/simulate.hpp"
 
 namespace voussoir::cases {
 

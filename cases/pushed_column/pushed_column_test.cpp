@@ -7,7 +7,7 @@
 
 #include "cases/case_tools.hpp"
 #include "cases/recorded_run.hpp"
-#include "core/motion/integrate.hpp"
+#include "core/step/integrate.hpp"
 #include "reference/pushed_column/pushed_column.hpp"
 #include "text/angle.hpp"
 

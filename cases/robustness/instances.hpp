@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "cases/robustness/atlas.hpp"
-#include "core/model.hpp"
+#include "core/model/model.hpp"
 #include "core/testing/shapes.hpp"
 
 namespace voussoir::atlas {

@@ -9,11 +9,11 @@
 
 #include "cases/case_tools.hpp"
 #include "cases/picture.hpp"
-#include "core/optimise/feasibility.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/scene.hpp"
 #include "core/slicing/clump.hpp"
+#include "core/solvers/feasibility.hpp"
 #include "reference/slicing/arrangement.hpp"
 
 namespace voussoir::cases {

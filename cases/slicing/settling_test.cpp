@@ -81,7 +81,7 @@ void check(CaseReport& report, const std::string& which, const RecordedRun<3>& s
          "conservation of energy: work of all forces against kinetic energy", 0, {1e-10, 0},
          "leapfrog closes to the rounding of some ten thousand steps", std::abs(state.energy.motion_error) / released);
   record("energy that is not accounted for", "1", Kind::limit, "demanded: the drift beyond which a run is doubted", 0,
-         {0.05, 0, Bound::at_most}, "core/simulate.cpp: areas and normals of contacts change while blocks settle",
+         {0.05, 0, Bound::at_most}, "core/run/simulate.cpp: areas and normals of contacts change while blocks settle",
          state.energy.relative_error());
 
   const Contacts now = contacts(model, state);

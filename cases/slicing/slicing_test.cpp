@@ -9,7 +9,7 @@
 #include <map>
 
 #include "cases/case_tools.hpp"
-#include "core/model.hpp"
+#include "core/model/model.hpp"
 #include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/scene.hpp"
 #include "core/slicing/clump.hpp"

@@ -8,9 +8,9 @@
 namespace voussoir::cases {
 namespace {
 
-// Long: the thesis' way takes four million steps of fifty contacts. Sought is the angle of this model with this failure
-// displacement, found by a finer bracket: the slope yields and rests again while it moves, so that the angle goes with
-// the displacement that counts as failure (README), which is no matter of the search.
+// Long: the thesis' way takes four million steps of fifty contacts. SearchedQuantity is the angle of this model with
+// this failure displacement, found by a finer bracket: the slope yields and rests again while it moves, so that the
+// angle goes with the displacement that counts as failure (README), which is no matter of the search.
 TEST(SlumpSavingLong, BisectionAgainstTheThesisRate) {
   verification::CaseReport report("slump", {"critical friction, bisection over ten degrees"});
   const SceneRun fine = run("scene.toml");

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/run_scene.hpp"
+#include "app/base/run_scene.hpp"
 #include "reference/tunnel/mechanism.hpp"
 
 namespace voussoir::cases {

@@ -11,12 +11,12 @@
 #include <optional>
 #include <thread>
 
-#include "app/child_process.hpp"
-#include "app/claimed_folder.hpp"
-#include "app/message.hpp"
+#include "app/base/message.hpp"
+#include "app/run_folder/child_process.hpp"
+#include "app/run_folder/claimed_folder.hpp"
 #include "cases/tunnel/draws.hpp"
+#include "core/base/fingerprint.hpp"
 #include "core/output/atomic_file.hpp"
-#include "core/output/fingerprint.hpp"
 #include "text/read_file.hpp"
 
 namespace {

@@ -49,7 +49,7 @@ Freedoms motion_between(const Motion<2>& from, const Motion<2>& to) {
 void let_off_held(const StageEnd& before, const StageEnd& after, const std::vector<int>& number,
                   std::vector<Block>& blocks) {
   for (std::size_t i = 0; i < after.state.held.size(); ++i) {
-    const HeldLoad<2>& held = after.state.held[i];
+    const ReliefLoad<2>& held = after.state.held[i];
     const double change = held.share - before.state.held[i].share;
     Freedoms& load = blocks[number[held.body]].load;
     load[0] += change * held.load.force[0];

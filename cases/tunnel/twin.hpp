@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/run_scene.hpp"
+#include "app/base/run_scene.hpp"
 #include "reference/tunnel/blocks.hpp"
 
 namespace voussoir::cases {

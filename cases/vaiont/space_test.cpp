@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cases/case_tools.hpp"
-#include "core/waters.hpp"
+#include "core/model/water_surfaces.hpp"
 #include "reference/vaiont/slide_in_space.hpp"
 
 namespace voussoir::cases {

@@ -7,7 +7,7 @@
 
 #include "cases/recorded_run.hpp"
 #include "cases/water/plane_failure.hpp"
-#include "core/motion/integrate.hpp"
+#include "core/step/integrate.hpp"
 
 namespace voussoir::cases {
 namespace {

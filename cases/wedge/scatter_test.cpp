@@ -10,8 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "app/commands/study_plan.hpp"
-#include "app/commands/study_statistics.hpp"
+#include "app/study/plan.hpp"
+#include "app/study/statistics.hpp"
 #include "cases/case_tools.hpp"
 #include "cases/wedge/wedge_scene.hpp"
 

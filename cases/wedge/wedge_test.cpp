@@ -8,7 +8,7 @@
 
 #include "cases/case_tools.hpp"
 #include "cases/wedge/wedge_scene.hpp"
-#include "core/accuracy.hpp"
+#include "core/base/accuracy.hpp"
 #include "reference/wedge/wedge.hpp"
 #include "reference/wedge/wedge_path.hpp"
 #include "text/angle.hpp"
@@ -91,7 +91,7 @@ TEST(Wedge, LevelsKeepTheirPromises) {
                    "Hoek & Bray (1974)",
                    expected,
                    {0, accuracy_promises[k]},
-                   "the level's own promise (core/accuracy.hpp)"},
+                   "the level's own promise (core/base/accuracy.hpp)"},
                   value(scene, "critical_friction"), cost(scene));
   }
 }

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/on_threads.hpp"
+#include "core/base/on_threads.hpp"
 
 namespace voussoir {
 namespace {

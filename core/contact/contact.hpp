@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "core/law/joint_state.hpp"
+#include "core/joint_laws/joint_state.hpp"
 
 namespace voussoir {
 

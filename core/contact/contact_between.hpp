@@ -1,10 +1,10 @@
 // The contact of two parts anywhere, whichever is given first: for users and tests that have no model.
 #pragma once
 
+#include "core/base/settings.hpp"
 #include "core/contact/contact.hpp"
 #include "core/contact/pair.hpp"
-#include "core/optimise/solvers.hpp"
-#include "core/settings.hpp"
+#include "core/solvers/solvers.hpp"
 
 namespace voussoir {
 

@@ -6,12 +6,12 @@
 #include <functional>
 #include <numbers>
 
-#include "core/floating_point_traps.hpp"
+#include "core/base/floating_point_traps.hpp"
 #include "core/geometry/facet_weights.hpp"
-#include "core/optimise/central_path.hpp"
-#include "core/optimise/weighted_centre.hpp"
 #include "core/potential/particle.hpp"
-#include "core/run.hpp"
+#include "core/run/run.hpp"
+#include "core/solvers/central_path.hpp"
+#include "core/solvers/weighted_centre.hpp"
 #include "core/testing/models.hpp"
 #include "core/testing/oracles.hpp"
 

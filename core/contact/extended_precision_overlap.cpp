@@ -4,7 +4,7 @@
 #include <limits>
 #include <span>
 
-#include "core/optimise/double_double.hpp"
+#include "core/solvers/double_double.hpp"
 
 namespace voussoir {
 namespace {

@@ -23,7 +23,7 @@
 #pragma once
 
 #include "core/geometry/half_space.hpp"
-#include "core/law/face_friction.hpp"
+#include "core/joint_laws/face_friction.hpp"
 
 namespace voussoir {
 

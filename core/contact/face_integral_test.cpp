@@ -132,7 +132,7 @@ void judge(std::uint64_t number, Score& score) {
     for (HalfSpace<Dim>& p : f.planes)
       p = moved_origin(p, inside);
   }
-  const exact::PressedFace truth = exact::pressed_face(exact_planes(f.planes), 0, f.faces_a);
+  const exact::IntegratedContact truth = exact::pressed_face(exact_planes(f.planes), 0, f.faces_a);
   const bool found = integrate_face<Dim>(f.planes, f.faces_a, 0, f.faces_a, f.reach, face, polygon);
   if (!found) {
     ++score.open;

@@ -4,11 +4,11 @@
 
 #include <span>
 
+#include "core/base/settings.hpp"
 #include "core/contact/contact.hpp"
 #include "core/contact/kernel_counters.hpp"
 #include "core/contact/pair.hpp"
-#include "core/optimise/solvers.hpp"
-#include "core/settings.hpp"
+#include "core/solvers/solvers.hpp"
 
 namespace voussoir {
 

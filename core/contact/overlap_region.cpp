@@ -7,7 +7,7 @@
 #include "core/geometry/half_space_inl.hpp"
 #include "core/geometry/polytope.hpp"
 #include "core/geometry/surface.hpp"
-#include "core/optimise/analytic_centre.hpp"
+#include "core/solvers/analytic_centre.hpp"
 
 namespace voussoir {
 namespace {

@@ -12,8 +12,8 @@
 #include "core/contact/pair_geometry.hpp"
 #include "core/contact/rounding.hpp"
 #include "core/geometry/half_space_inl.hpp"
-#include "core/optimise/central_path.hpp"
-#include "core/optimise/weighted_centre.hpp"
+#include "core/solvers/central_path.hpp"
+#include "core/solvers/weighted_centre.hpp"
 
 namespace voussoir {
 namespace {

@@ -2,11 +2,11 @@
 // than the SIMD kernel (kernel/) and its fallback: it answers what that could not prove.
 #pragma once
 
+#include "core/base/settings.hpp"
 #include "core/contact/contact.hpp"
 #include "core/contact/kernel_counters.hpp"
 #include "core/contact/pair.hpp"
-#include "core/optimise/solvers.hpp"
-#include "core/settings.hpp"
+#include "core/solvers/solvers.hpp"
 
 namespace voussoir {
 

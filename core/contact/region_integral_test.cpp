@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/contact/face_integral.hpp"
-#include "core/contact/pressed_face.hpp"
+#include "core/contact/integrated_contact.hpp"
 #include "core/testing/contacts.hpp"
 #include "core/testing/exact_referee.hpp"
 
@@ -384,11 +384,11 @@ void expect_one_energy() {
     Overlapping<Dim> o;
     const double depth = power_of_ten(random, -4, -1.5);
     lay_on(random, power_of_ten(random, -3, -0.2), depth, o);
-    PressedFace<Dim> face;
+    IntegratedContact<Dim> face;
     Contact<Dim>& contact = o.contact;
     HalfSpaces<Dim> planes;
     find_nearest_faces<Dim>(o.pair, contact, planes);
-    press_face<Dim>(o.pair, planes, contact, face);
+    integrate_contact<Dim>(o.pair, planes, contact, face);
     ASSERT_GT(face.square, 0);
     // which of both it is
     RegionIntegral<Dim> r = region_of<Dim>(seen_planes(o), static_cast<int>(o.a.faces.size()), reach_of(o.pair));
@@ -412,10 +412,10 @@ void expect_one_energy() {
     Eigen::Matrix<double, freedoms<Dim>, 1> w;
     w << face.force, moment(contact.geometry.point, face.force) + face.couple;
     const double worst = worst_difference<Dim>(o.pair, 1e-4 * depth, face.force.norm(), w, [&](const Pair<Dim>& pair) {
-      PressedFace<Dim> then;
+      IntegratedContact<Dim> then;
       Contact<Dim> c = o.contact;
       find_nearest_faces<Dim>(pair, c, planes);
-      press_face<Dim>(pair, planes, c, then);
+      integrate_contact<Dim>(pair, planes, c, then);
       return then.square;
     });
     // of flush edges E's derivative is shared out (face_integral.hpp): at most the deepest overlap over the width
@@ -427,7 +427,7 @@ void expect_one_energy() {
   EXPECT_GT(region, 20);
 }
 
-TEST(PressedFace, IsOneEnergyFromFaceToCorner) {
+TEST(IntegratedContact, IsOneEnergyFromFaceToCorner) {
   expect_one_energy<2>();
   expect_one_energy<3>();
 }

@@ -7,7 +7,7 @@
 
 #include "core/contact/pair_geometry.hpp"
 #include "core/contact/rounding.hpp"
-#include "core/optimise/symmetric_system.hpp"
+#include "core/solvers/symmetric_system.hpp"
 
 namespace voussoir {
 namespace {

@@ -11,9 +11,9 @@
 // gains a corner) the derivative is that of the planes of now.
 #pragma once
 
+#include "core/base/settings.hpp"
 #include "core/contact/contact.hpp"
 #include "core/contact/pair.hpp"
-#include "core/settings.hpp"
 
 namespace voussoir {
 

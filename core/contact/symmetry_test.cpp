@@ -10,9 +10,9 @@
 #include <numeric>
 #include <span>
 
+#include "core/base/version.hpp"
 #include "core/contact/contact_between.hpp"
 #include "core/contact/kernel/kernel.hpp"
-#include "core/output/version.hpp"
 #include "core/slicing/block.hpp"
 #include "core/testing/contacts.hpp"
 #include "core/testing/pair_families.hpp"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/base/floating_point_traps.hpp"
 #include "core/exchange/mesh.hpp"
 #include "core/exchange/tables.hpp"
-#include "core/floating_point_traps.hpp"
 #include "core/geometry/half_space.hpp"
 #include "core/slicing/block.hpp"
 #include "core/testing/shapes.hpp"

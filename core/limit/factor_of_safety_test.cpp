@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/limit/limit.hpp"
+#include "core/model/water_surfaces.hpp"
 #include "core/testing/limit_models.hpp"
-#include "core/waters.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {

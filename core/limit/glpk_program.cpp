@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/limit/linear_program.hpp"
-#include "core/optimise/glpk_environment.hpp"
+#include "core/solvers/glpk_environment.hpp"
 
 namespace voussoir {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "core/model.hpp"
+#include "core/model/model.hpp"
 
 namespace voussoir {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/motion/integrate.hpp"
-#include "core/run.hpp"
+#include "core/run/run.hpp"
+#include "core/step/integrate.hpp"
 #include "core/testing/models.hpp"
 #include "core/testing/oracles.hpp"
 

@@ -1,7 +1,7 @@
 // A factor that varies with time, of loads and of prescribed motions.
 #pragma once
 
-#include "core/settings.hpp"
+#include "core/base/settings.hpp"
 
 namespace voussoir {
 

@@ -5,13 +5,13 @@
 //   trial                  where a stage searches by trials: 0 on the path to the answer, whose time never goes back,
 //                          or the number of the trial, from 1, that ended here and was taken back
 //   friction_<name>_deg    friction angle in force of each joint property whose friction a stage reduces or states
-//   <monitor>_<quantity>…  what the monitors follow (core/monitor.hpp)
+//   <monitor>_<quantity>…  what the monitors follow (core/output/monitor.hpp)
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-#include "core/results.hpp"
+#include "core/output/results.hpp"
 
 namespace voussoir {
 

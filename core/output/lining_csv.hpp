@@ -16,7 +16,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/results.hpp"
+#include "core/output/results.hpp"
 
 namespace voussoir {
 

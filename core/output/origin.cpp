@@ -5,7 +5,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "core/output/fingerprint.hpp"
+#include "core/base/fingerprint.hpp"
 
 namespace voussoir {
 namespace {

@@ -6,12 +6,12 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/base/fingerprint.hpp"
+#include "core/base/version.hpp"
 #include "core/output/atomic_file.hpp"
-#include "core/output/fingerprint.hpp"
 #include "core/output/history_csv.hpp"
 #include "core/output/paraview.hpp"
 #include "core/output/results_json.hpp"
-#include "core/output/version.hpp"
 #include "core/output/xml_reader_test.hpp"
 #include "core/slicing/block.hpp"
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/model.hpp"
+#include "core/model/model.hpp"
+#include "core/model/prepared.hpp"
+#include "core/model/state.hpp"
 #include "core/output/vtp.hpp"
-#include "core/prepared.hpp"
-#include "core/state.hpp"
 
 namespace voussoir {
 

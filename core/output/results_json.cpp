@@ -3,8 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/version.hpp"
 #include "core/output/atomic_file.hpp"
-#include "core/output/version.hpp"
 
 namespace voussoir {
 namespace {

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "core/law/joint_law.hpp"
+#include "core/base/version.hpp"
+#include "core/joint_laws/joint_law.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/paraview.hpp"
-#include "core/output/version.hpp"
 #include "core/potential/particle.hpp"
 #include "text/angle.hpp"
 #include "text/read_file.hpp"

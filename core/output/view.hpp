@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/model.hpp"
-#include "core/prepared.hpp"
-#include "core/state.hpp"
+#include "core/model/model.hpp"
+#include "core/model/prepared.hpp"
+#include "core/model/state.hpp"
 
 namespace voussoir {
 

@@ -11,7 +11,7 @@
 #include <limits>
 #include <mutex>
 
-#include "core/floating_point_traps.hpp"
+#include "core/base/floating_point_traps.hpp"
 
 namespace voussoir {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/accuracy.hpp"
+#include "core/base/accuracy.hpp"
 #include "core/scene/accuracy_target.hpp"
 #include "core/scene/keys.hpp"
 

@@ -8,9 +8,9 @@
 
 namespace voussoir {
 
-// Adds the settings of the level that the scene names, or that an accuracy asked for begins with (core/accuracy.hpp) to
-// its tree, where it does not state them itself, and says which: "equilibrium.unbalanced = 1e-06". Without a level, or
-// with one that does not exist, it does nothing: check_keys complains about that.
+// Adds the settings of the level that the scene names, or that an accuracy asked for begins with
+// (core/base/accuracy.hpp) to its tree, where it does not state them itself, and says which: "equilibrium.unbalanced =
+// 1e-06". Without a level, or with one that does not exist, it does nothing: check_keys complains about that.
 std::vector<std::string> apply_accuracy_level(Node& scene);
 
 }  // namespace voussoir

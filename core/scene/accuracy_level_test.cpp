@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/accuracy.hpp"
+#include "core/base/accuracy.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/scene.hpp"
 #include "text/angle.hpp"

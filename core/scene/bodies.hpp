@@ -1,7 +1,7 @@
 // The solids of a scene: the domain and the blocks given directly, seen from an origin in their middle.
 #pragma once
 
-#include "core/model.hpp"
+#include "core/model/model.hpp"
 #include "core/scene/scene_spec.hpp"
 
 namespace voussoir {

@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "core/results.hpp"
+#include "core/output/results.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_text.hpp"
 #include "text/angle.hpp"

@@ -79,7 +79,7 @@ Origins origins_of(const std::vector<Polytope<Dim>>& parts, const std::vector<Cu
 
 // follows what `excavated` takes out of these parts
 template <int Dim>
-void take_out(const std::vector<Polytope<Dim>>& parts, const HalfSpaces<Dim>& region, double least, Origins& origins) {
+void excavate(const std::vector<Polytope<Dim>>& parts, const HalfSpaces<Dim>& region, double least, Origins& origins) {
   std::vector<int> left;
   for (std::size_t p = 0; p < parts.size(); ++p)
     if (lies_inside<Dim>(region, parts[p].mass.centroid))
@@ -132,7 +132,7 @@ std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
     if (in_a_stage)
       model.excavations.push_back({spec.name, regions[e], least});
     else
-      take_out<Dim>(parts, regions[e], least, origins);
+      excavate<Dim>(parts, regions[e], least, origins);
     std::vector<Polytope<Dim>> left = excavated<Dim>(in_a_stage ? parts : std::move(parts), regions[e]);
     const Subject& subject = spec.region.subject;
     if (left.size() == before)

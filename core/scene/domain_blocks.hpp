@@ -1,7 +1,7 @@
 // The scene's domain, cut by its joints and excavations.
 #pragma once
 
-#include "core/model.hpp"
+#include "core/model/model.hpp"
 #include "core/scene/scene_spec.hpp"
 
 namespace voussoir {

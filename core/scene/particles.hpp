@@ -1,7 +1,7 @@
 // Blocks that are potential particles, from what a scene states of them.
 #pragma once
 
-#include "core/model.hpp"
+#include "core/model/model.hpp"
 #include "core/scene/scene_spec.hpp"
 
 namespace voussoir {

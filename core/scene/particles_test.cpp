@@ -8,12 +8,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/checkpoint/checkpoint.hpp"
-#include "core/checkpoint/fields.hpp"
 #include "core/contact/particles.hpp"
 #include "core/potential/particle.hpp"
+#include "core/run/checkpoint.hpp"
+#include "core/run/fields.hpp"
+#include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
-#include "core/simulate.hpp"
 #include "core/step.hpp"
 #include "core/step/neighbours.hpp"
 #include "core/testing/counted_allocations.hpp"

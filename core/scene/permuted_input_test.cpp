@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
+#include "core/model/state_hash.hpp"
 #include "core/scene/scene.hpp"
-#include "core/state_hash.hpp"
 #include "core/step.hpp"
 #include "core/testing/models.hpp"
 

@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/model/water_surfaces.hpp"
 #include "core/potential/particle.hpp"
 #include "core/potential/valid_shape.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/keys/ranges.hpp"
-#include "core/waters.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {

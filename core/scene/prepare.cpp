@@ -6,7 +6,8 @@
 #include <limits>
 #include <map>
 
-#include "core/body_title.hpp"
+#include "core/model/body_title.hpp"
+#include "core/model/water_surfaces.hpp"
 #include "core/potential/particle.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/bolts.hpp"
@@ -20,7 +21,6 @@
 #include "core/scene/stated_bodies.hpp"
 #include "core/scene/wall_points.hpp"
 #include "core/scene/wet_faces.hpp"
-#include "core/waters.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/contact/carried_whole.hpp"
+#include "core/contact/integrable.hpp"
 #include "core/scene/accuracy_level.hpp"
 #include "core/scene/accuracy_target.hpp"
 #include "core/scene/base_scene.hpp"

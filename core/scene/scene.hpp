@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/prepared.hpp"
+#include "core/model/prepared.hpp"
 #include "core/scene/scene_spec.hpp"
 
 namespace voussoir {

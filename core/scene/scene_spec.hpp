@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "core/base/settings.hpp"
+#include "core/joint_laws/joint_properties.hpp"
 #include "core/joint_sets/joint_set.hpp"
-#include "core/law/joint_properties.hpp"
-#include "core/prepared.hpp"
+#include "core/model/prepared.hpp"
 #include "core/scene/node.hpp"
-#include "core/settings.hpp"
 #include "core/slicing/slice.hpp"
 
 namespace voussoir {

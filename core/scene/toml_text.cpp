@@ -24,7 +24,7 @@
 #include <cctype>
 #include <vector>
 
-#include "core/floating_point_traps.hpp"
+#include "core/base/floating_point_traps.hpp"
 #include "core/scene/scene_text.hpp"
 #include "text/text_scan.hpp"
 

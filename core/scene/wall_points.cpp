@@ -8,11 +8,11 @@
 #include <limits>
 #include <utility>
 
-#include "core/excavation.hpp"
 #include "core/potential/particle.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/bolts.hpp"
 #include "core/scene/region.hpp"
+#include "core/stage/excavation.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/prepared.hpp"
+#include "core/model/prepared.hpp"
 #include "core/scene/scene_spec.hpp"
 
 namespace voussoir {

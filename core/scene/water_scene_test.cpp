@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/checkpoint/checkpoint.hpp"
-#include "core/checkpoint/fields.hpp"
+#include "core/model/state_hash.hpp"
+#include "core/model/water_surfaces.hpp"
+#include "core/run/checkpoint.hpp"
+#include "core/run/fields.hpp"
+#include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
-#include "core/simulate.hpp"
-#include "core/state_hash.hpp"
-#include "core/waters.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {

@@ -1,7 +1,7 @@
 // Which water is on which face.
 #pragma once
 
-#include "core/model.hpp"
+#include "core/model/model.hpp"
 #include "core/scene/scene_spec.hpp"
 
 namespace voussoir {

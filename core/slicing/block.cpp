@@ -9,7 +9,7 @@
 #include "core/geometry/facet_weights.hpp"
 #include "core/geometry/half_space_inl.hpp"
 #include "core/geometry/surface.hpp"
-#include "core/optimise/feasibility.hpp"
+#include "core/solvers/feasibility.hpp"
 
 namespace voussoir {
 namespace {

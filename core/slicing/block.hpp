@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/geometry/polytope.hpp"
-#include "core/optimise/feasibility.hpp"
+#include "core/solvers/feasibility.hpp"
 
 namespace voussoir {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "core/model.hpp"
+#include "core/model/model.hpp"
 #include "core/slicing/block.hpp"
 #include "core/slicing/clump.hpp"
 #include "core/slicing/slice.hpp"

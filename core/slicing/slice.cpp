@@ -9,8 +9,8 @@
 #include <numeric>
 #include <optional>
 
+#include "core/base/on_threads.hpp"
 #include "core/geometry/half_space_inl.hpp"
-#include "core/on_threads.hpp"
 #include "core/slicing/block.hpp"
 
 namespace voussoir {

@@ -1,7 +1,7 @@
 // Blocks near the limit of what double precision resolves: thin, with nearly coplanar faces, barely cut, or far away.
 #include <gtest/gtest.h>
 
-#include "core/model.hpp"
+#include "core/model/model.hpp"
 #include "core/slicing/block.hpp"
 #include "core/slicing/slice.hpp"
 #include "core/testing/shapes.hpp"

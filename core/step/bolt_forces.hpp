@@ -1,8 +1,8 @@
 // What bolts do to their blocks (core/support/bolt.hpp, core/support/grouted_bolt.hpp).
 #pragma once
 
-#include "core/model.hpp"
-#include "core/state.hpp"
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
 
 namespace voussoir {
 

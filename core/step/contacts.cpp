@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 
-#include "core/contact/carried_whole.hpp"
+#include "core/base/on_threads.hpp"
+#include "core/contact/integrable.hpp"
 #include "core/contact/narrow_phase.hpp"
 #include "core/contact/rounding.hpp"
 #include "core/contact/sub_contacts.hpp"
-#include "core/on_threads.hpp"
 #include "core/step/neighbours.hpp"
 
 namespace voussoir {
@@ -19,14 +19,14 @@ constexpr std::size_t expected_corners = 16;
 template <int Dim>
 bool needs_area(const Model<Dim>& model, const ContactSettings& settings) {
   return std::any_of(model.properties.begin(), model.properties.end(), [&](const JointProperties& p) {
-    return (!p.constant_stiffness || p.sub_contacts > 1) && !carried_whole(settings, p);
+    return (!p.constant_stiffness || p.sub_contacts > 1) && !is_integrated(settings, p);
   });
 }
 
 // how far contacts are resolved: those that are carried as a whole need no more than a point in the overlap
 template <int Dim>
 QueryLevel level_of(const Model<Dim>& model, const ContactSettings& settings) {
-  const auto whole = [&](const JointProperties& p) { return carried_whole(settings, p); };
+  const auto whole = [&](const JointProperties& p) { return is_integrated(settings, p); };
   if (!model.properties.empty() && std::ranges::all_of(model.properties, whole)) return QueryLevel::point;
   return needs_area(model, settings) ? QueryLevel::area : QueryLevel::overlap;
 }
@@ -40,7 +40,7 @@ bool choose_joint(const Model<Dim>& model, const ContactSettings& settings, cons
     find_nearest_faces<Dim>(pair, c, planes);
   c.joint = joint_of(model, c);
   c.properties = c.joint == no_joint ? model.default_properties : model.joints[c.joint].properties;
-  return carried_whole(settings, model.properties[c.properties]);
+  return is_integrated(settings, model.properties[c.properties]);
 }
 
 // nor do its sub-contacts count any more
@@ -84,8 +84,8 @@ struct Waiting {
     Pair<Dim>& pair = pairs[count];
     set_pair(model, state, c.part_a, c.part_b, level, pair);
     all[looked_at++] = &c;
-    if (c.touching() && carried_whole(settings.contact, model.properties[c.properties])) [[unlikely]] {
-      if (press_as_before<Dim>(pair, c, state.faces[&c - state.contacts.data()])) {
+    if (c.touching() && is_integrated(settings.contact, model.properties[c.properties])) [[unlikely]] {
+      if (integrate_as_before<Dim>(pair, c, state.faces[&c - state.contacts.data()])) {
         ++counters.evaluations;
         return;
       }
@@ -113,7 +113,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
       const int along = model.properties[c->properties].sub_contacts;
       if (whole) [[unlikely]] {
         c->cells = 0;
-        if (!press_face<Dim>(waiting.pairs[i], planes, *c, state.faces[place])) {
+        if (!integrate_contact<Dim>(waiting.pairs[i], planes, *c, state.faces[place])) {
           c->status = ContactStatus::no_face;
           ++tally.unconverged;
         }
@@ -197,7 +197,7 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
   count_travels(model, settings, state);
   state.contact_loads.resize(state.contacts.size());
   if (std::ranges::any_of(model.properties,
-                          [&](const JointProperties& p) { return carried_whole(settings.contact, p); })) {
+                          [&](const JointProperties& p) { return is_integrated(settings.contact, p); })) {
     const std::size_t before = state.faces.size();
     if (before < state.contacts.size()) state.faces.resize(state.contacts.size());
     for (std::size_t i = before; i < state.faces.size(); ++i)

@@ -4,10 +4,10 @@
 #include <functional>
 #include <span>
 
-#include "core/model.hpp"
-#include "core/on_threads.hpp"
-#include "core/settings.hpp"
-#include "core/state.hpp"
+#include "core/base/on_threads.hpp"
+#include "core/base/settings.hpp"
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
 
 namespace voussoir {
 

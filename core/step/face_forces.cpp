@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/law/elastic_coulomb.hpp"
+#include "core/joint_laws/elastic_coulomb.hpp"
 
 namespace voussoir {
 namespace {
@@ -56,7 +56,7 @@ void change_area(const Vector<Dim>& normal, const Vector<Dim>& apart, double are
 
 // what Coulomb's friction leaves of shear and twist, and the energy that slip took
 template <int Dim>
-double slip(const PressedFace<Dim>& face, double shear_stiffness, double limit, const Vector<Dim>& shear_before,
+double slip(const IntegratedContact<Dim>& face, double shear_stiffness, double limit, const Vector<Dim>& shear_before,
             double twist_before, JointState<Dim>& h) {
   Vector<Dim> way = Vector<Dim>::Zero();
   double turn = 0;
@@ -86,7 +86,7 @@ double slip(const PressedFace<Dim>& face, double shear_stiffness, double limit, 
 template <int Dim>
 FaceForce<Dim> face_force(const JointProperties& properties, double friction, double dashpot, double time_step,
                           const PairMotion<Dim>& motion, const ContactGeometry<Dim>& geometry,
-                          const PressedFace<Dim>& face, JointState<Dim>& h) {
+                          const IntegratedContact<Dim>& face, JointState<Dim>& h) {
   const double kn = properties.normal_stiffness, ks = properties.shear_stiffness, dt = time_step;
   const Vector<Dim>& n = face.normal;
   const Vector<Dim> velocity = motion.velocity_at(face.centre);
@@ -145,8 +145,8 @@ FaceForce<Dim> face_force(const JointProperties& properties, double friction, do
 }
 
 template FaceForce<2> face_force<2>(const JointProperties&, double, double, double, const PairMotion<2>&,
-                                    const ContactGeometry<2>&, const PressedFace<2>&, JointState<2>&);
+                                    const ContactGeometry<2>&, const IntegratedContact<2>&, JointState<2>&);
 template FaceForce<3> face_force<3>(const JointProperties&, double, double, double, const PairMotion<3>&,
-                                    const ContactGeometry<3>&, const PressedFace<3>&, JointState<3>&);
+                                    const ContactGeometry<3>&, const IntegratedContact<3>&, JointState<3>&);
 
 }  // namespace voussoir

@@ -1,15 +1,15 @@
-// What a contact that is carried as a whole answers (contact/pressed_face.hpp): the normal force and moment of its
-// potential; shear and twist by springs ks A and ks J over its area, from the slip at its centre and the turn about its
-// normal; Coulomb's friction in both together where two faces lie on each other (law/face_friction.hpp), else in
-// translation.
+// What a contact that is carried as a whole answers (contact/integrated_contact.hpp): the normal force and moment of
+// its potential; shear and twist by springs ks A and ks J over its area, from the slip at its centre and the turn about
+// its normal; Coulomb's friction in both together where two faces lie on each other (joint_laws/face_friction.hpp),
+// else in translation.
 //
 // The springs' stress is even, and turns about the centre. When the contact loses area, what is left keeps its own
 // share of it; what it gains begins without stress, and force and moment stay. Either way the springs, which are even
 // again, hold less than before: energy that is lost to the change of area.
 #pragma once
 
-#include "core/contact/pressed_face.hpp"
-#include "core/law/joint_properties.hpp"
+#include "core/contact/integrated_contact.hpp"
+#include "core/joint_laws/joint_properties.hpp"
 #include "core/step/pair_motion.hpp"
 
 namespace voussoir {
@@ -25,6 +25,6 @@ struct FaceForce {
 template <int Dim>
 FaceForce<Dim> face_force(const JointProperties& properties, double friction, double dashpot, double time_step,
                           const PairMotion<Dim>& motion, const ContactGeometry<Dim>& geometry,
-                          const PressedFace<Dim>& face, JointState<Dim>& history);
+                          const IntegratedContact<Dim>& face, JointState<Dim>& history);
 
 }  // namespace voussoir

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/checkpoint/fields.hpp"
-#include "core/motion/time_step.hpp"
-#include "core/state_hash.hpp"
+#include "core/model/state_hash.hpp"
+#include "core/run/fields.hpp"
 #include "core/step.hpp"
+#include "core/step/time_step.hpp"
 #include "core/testing/counted_allocations.hpp"
 #include "core/testing/pressed_block.hpp"
 
@@ -159,7 +159,7 @@ TEST(WholeFaces, CarryTheirStressWhenTheyLoseASide) {
   h.twist = 0.7;
   // the half beyond x = 0 is left: 1 by 1 about (0.5, 0)
   JointProperties properties{"joint", 1e9, 1e9, 60 * degree, false};
-  PressedFace<3> face;
+  IntegratedContact<3> face;
   face.flat = true;
   face.normal = {0, 0, 1};
   face.centre = {0.5, 0, 0};

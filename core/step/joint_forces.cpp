@@ -5,9 +5,9 @@
 #include <functional>
 #include <vector>
 
-#include "core/contact/carried_whole.hpp"
-#include "core/law/joint_law.hpp"
-#include "core/on_threads.hpp"
+#include "core/base/on_threads.hpp"
+#include "core/contact/integrable.hpp"
+#include "core/joint_laws/joint_law.hpp"
 #include "core/step/contacts.hpp"
 #include "core/step/face_forces.hpp"
 #include "core/step/neighbours.hpp"
@@ -164,8 +164,9 @@ template <int Dim>
 template <int Dim>
 [[gnu::noinline]] FaceForce<Dim> whole_face_force(const JointProperties& properties, const Settings& settings,
                                                   const State<Dim>& state, const PairMotion<Dim>& motion,
-                                                  const ContactGeometry<Dim>& geometry, const PressedFace<Dim>& face,
-                                                  double friction, JointState<Dim>& history) {
+                                                  const ContactGeometry<Dim>& geometry,
+                                                  const IntegratedContact<Dim>& face, double friction,
+                                                  JointState<Dim>& history) {
   const double dashpot = dashpot_of(settings, state, motion, geometry.area) * std::sqrt(properties.normal_stiffness);
   return face_force<Dim>(properties, friction, dashpot, state.time_step, motion, geometry, face, history);
 }
@@ -216,7 +217,7 @@ template <int Dim>
     bond_what_presses(properties, place, state, sums.bonds_made);
   const Friction& friction = frictions[c.properties];
   const PairMotion<Dim> motion = motion_of(model, state, c);
-  if (carried_whole(settings.contact, properties)) [[unlikely]] {
+  if (is_integrated(settings.contact, properties)) [[unlikely]] {
     const FaceForce<Dim> f = whole_face_force<Dim>(properties, settings, state, motion, c.geometry, state.faces[place],
                                                    friction.coefficient, c.history);
     c.force = f.force;
@@ -285,9 +286,9 @@ void add(const std::vector<JointSums>& sums, State<Dim>& state) {
 
 template <int Dim>
 PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
-                             const Contact<Dim>& c, std::span<const SubContact<Dim>> subs, const PressedFace<Dim>* face,
-                             const PairMotion<Dim>& motion, const JointState<Dim>& history,
-                             std::span<const JointState<Dim>> sub_histories) {
+                             const Contact<Dim>& c, std::span<const SubContact<Dim>> subs,
+                             const IntegratedContact<Dim>* face, const PairMotion<Dim>& motion,
+                             const JointState<Dim>& history, std::span<const JointState<Dim>> sub_histories) {
   PairWrench<Dim> wrench = PairWrench<Dim>::Zero();
   if (!c.touching()) return wrench;
   const JointProperties& properties = model.properties[c.properties];
@@ -397,11 +398,11 @@ BondCount count_bonds(const State<Dim>& state) {
 }
 
 template PairWrench<2> joint_wrench<2>(const Model<2>&, const Settings&, const State<2>&, const Contact<2>&,
-                                       std::span<const SubContact<2>>, const PressedFace<2>*, const PairMotion<2>&,
-                                       const JointState<2>&, std::span<const JointState<2>>);
+                                       std::span<const SubContact<2>>, const IntegratedContact<2>*,
+                                       const PairMotion<2>&, const JointState<2>&, std::span<const JointState<2>>);
 template PairWrench<3> joint_wrench<3>(const Model<3>&, const Settings&, const State<3>&, const Contact<3>&,
-                                       std::span<const SubContact<3>>, const PressedFace<3>*, const PairMotion<3>&,
-                                       const JointState<3>&, std::span<const JointState<3>>);
+                                       std::span<const SubContact<3>>, const IntegratedContact<3>*,
+                                       const PairMotion<3>&, const JointState<3>&, std::span<const JointState<3>>);
 template void zero_slip<2>(State<2>&);
 template void zero_slip<3>(State<3>&);
 template void remove_bonds<2>(const Model<2>&, State<2>&);

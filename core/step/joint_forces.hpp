@@ -1,9 +1,9 @@
 // The step's second line: which candidate pairs touch, and what their joints answer.
 #pragma once
 
-#include "core/model.hpp"
-#include "core/settings.hpp"
-#include "core/state.hpp"
+#include "core/base/settings.hpp"
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
 #include "core/step/pair_motion.hpp"
 
 namespace voussoir {
@@ -25,7 +25,7 @@ using PairWrench = typename PairStiffness<Dim>::Wrench;
 template <int Dim>
 PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
                              const Contact<Dim>& contact, std::span<const SubContact<Dim>> subs,
-                             const PressedFace<Dim>* face, const PairMotion<Dim>& motion,
+                             const IntegratedContact<Dim>* face, const PairMotion<Dim>& motion,
                              const JointState<Dim>& history, std::span<const JointState<Dim>> sub_histories);
 
 // Bonds every closed joint that has tensile strength or cohesion: where it presses at once, elsewhere as soon as it

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/contact/sub_contacts.hpp"
-#include "core/law/joint_law.hpp"
-#include "core/motion/time_step.hpp"
+#include "core/joint_laws/joint_law.hpp"
 #include "core/step.hpp"
 #include "core/step/joint_forces.hpp"
+#include "core/step/time_step.hpp"
 #include "core/testing/pressed_block.hpp"
 
 namespace voussoir {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/cast_lining.hpp"
+#include "core/stage/install_linings.hpp"
 
 namespace voussoir {
 namespace {

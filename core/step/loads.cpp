@@ -1,10 +1,10 @@
 #include "core/step/loads.hpp"
 
+#include "core/base/on_threads.hpp"
 #include "core/load/time_factor.hpp"
-#include "core/on_threads.hpp"
+#include "core/model/water_surfaces.hpp"
 #include "core/step/bolt_forces.hpp"
 #include "core/step/lining_forces.hpp"
-#include "core/waters.hpp"
 
 namespace voussoir {
 namespace {
@@ -92,7 +92,7 @@ void add_water_stiffness(const Model<Dim>& model, const State<Dim>& state, std::
 
 template <int Dim>
 void held_loads(const Model<Dim>&, int, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
-  for (const HeldLoad<Dim>& held : state.held)
+  for (const ReliefLoad<Dim>& held : state.held)
     loads[held.body] += {held.share * held.load.force, held.share * held.load.moment};
 }
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/checkpoint/checkpoint.hpp"
-#include "core/checkpoint/fields.hpp"
 #include "core/load/time_factor.hpp"
-#include "core/motion/integrate.hpp"
-#include "core/motion/time_step.hpp"
-#include "core/simulate.hpp"
+#include "core/run/checkpoint.hpp"
+#include "core/run/fields.hpp"
+#include "core/run/simulate.hpp"
+#include "core/step/integrate.hpp"
+#include "core/step/time_step.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/motion/integrate.hpp"
-#include "core/motion/prescribed.hpp"
-#include "core/motion/relaxation.hpp"
-#include "core/motion/time_step.hpp"
-#include "core/motion/work.hpp"
-#include "core/on_threads.hpp"
-#include "core/waters.hpp"
+#include "core/base/on_threads.hpp"
+#include "core/model/water_surfaces.hpp"
+#include "core/step/integrate.hpp"
+#include "core/step/prescribed.hpp"
+#include "core/step/relaxation.hpp"
+#include "core/step/time_step.hpp"
+#include "core/step/work.hpp"
 
 namespace voussoir {
 namespace {

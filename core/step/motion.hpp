@@ -1,9 +1,9 @@
 // The step's last line: where the loads take the bodies.
 #pragma once
 
-#include "core/model.hpp"
-#include "core/settings.hpp"
-#include "core/state.hpp"
+#include "core/base/settings.hpp"
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
 
 namespace voussoir {
 

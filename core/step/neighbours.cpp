@@ -8,13 +8,13 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/on_threads.hpp"
 #include "core/contact/broad_phase.hpp"
-#include "core/contact/carried_whole.hpp"
+#include "core/contact/integrable.hpp"
 #include "core/contact/nearness.hpp"
 #include "core/contact/rounding.hpp"
 #include "core/contact/sub_contacts.hpp"
 #include "core/contact/thin_directions.hpp"
-#include "core/on_threads.hpp"
 
 namespace voussoir {
 namespace {
@@ -154,7 +154,7 @@ template <int Dim>
 std::size_t most_cells(const Model<Dim>& model, const ContactSettings& settings) {
   int most = 0;
   for (const JointProperties& p : model.properties)
-    if (!carried_whole(settings, p)) most = std::max(most, sub_contact_count<Dim>(p.sub_contacts));
+    if (!is_integrated(settings, p)) most = std::max(most, sub_contact_count<Dim>(p.sub_contacts));
   return static_cast<std::size_t>(most);
 }
 

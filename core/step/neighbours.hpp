@@ -5,10 +5,10 @@
 #include <span>
 #include <stdexcept>
 
+#include "core/base/settings.hpp"
 #include "core/contact/particles.hpp"
-#include "core/model.hpp"
-#include "core/settings.hpp"
-#include "core/state.hpp"
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
 
 namespace voussoir {
 

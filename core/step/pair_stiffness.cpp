@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact/carried_whole.hpp"
+#include "core/base/on_threads.hpp"
+#include "core/contact/integrable.hpp"
 #include "core/contact/sensitivity.hpp"
 #include "core/contact/sub_contacts.hpp"
-#include "core/on_threads.hpp"
 #include "core/step/joint_forces.hpp"
 #include "core/step/neighbours.hpp"
 
@@ -122,7 +122,7 @@ struct MovedContacts {
     const double way = std::max(of_overlap * c.geometry.overlap, of_size * size);
     const Pair<Dim> here = pair_of(model, state, c.part_a, c.part_b, QueryLevel::area);
     ContactSensitivity<Dim> sensitivity;
-    const bool whole = carried_whole(settings.contact, model.properties[c.properties]);  // pressed again, by whom asks
+    const bool whole = is_integrated(settings.contact, model.properties[c.properties]);  // pressed again, by whom asks
     const bool closed_form = !whole && c.proof.kind != ProofKind::least_point && has_sensitivity(settings.contact) &&
                              find_sensitivity<Dim>(here, settings.contact, c, sensitivity);
     for (int f = 0; f < freedoms<Dim>; ++f) {
@@ -147,7 +147,7 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
   constexpr int F = freedoms<Dim>;
   static thread_local MovedContacts<Dim> after;
   static thread_local std::vector<SubContact<Dim>> cells;
-  static thread_local PressedFace<Dim> pressed;
+  static thread_local IntegratedContact<Dim> pressed;
   static thread_local HalfSpaces<Dim> planes;
   after.find(model, settings, state, batch, counters);
 
@@ -158,7 +158,7 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
     const JointState<Dim>& history = state.newton.histories[p.contact].history;
     const std::span<const JointState<Dim>> sub_histories = sub_histories_of(state, p.contact);
     const CachedPose<Dim>&a = state.poses[p.body_a], &b = state.poses[p.body_b];
-    const bool whole = carried_whole(settings.contact, model.properties[c.properties]);
+    const bool whole = is_integrated(settings.contact, model.properties[c.properties]);
     const int along = model.properties[c.properties].sub_contacts, count = whole ? 0 : sub_contact_count<Dim>(along);
     p.apart = between(a, b);
     const PairMotion<Dim> now{p.apart, b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
@@ -184,7 +184,7 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
       }
       if (whole) {
         find_nearest_faces<Dim>(after.pairs[i * F + f], then_contact, planes);
-        press_face<Dim>(after.pairs[i * F + f], planes, then_contact, pressed);
+        integrate_contact<Dim>(after.pairs[i * F + f], planes, then_contact, pressed);
       }
       const PairWrench<Dim> wrench = joint_wrench<Dim>(model, settings, state, then_contact, subs,
                                                        whole ? &pressed : nullptr, then, history, sub_histories);
@@ -309,11 +309,11 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
     };
     JointState<Dim>& history = state.newton.histories[closed.contact].history;
     const int count = sub_contact_count<Dim>(properties.sub_contacts);
-    if (carried_whole(settings.contact, properties)) {
-      PressedFace<Dim> face;
+    if (is_integrated(settings.contact, properties)) {
+      IntegratedContact<Dim> face;
       HalfSpaces<Dim> planes;
       find_nearest_faces<Dim>(pairs[j], c, planes);
-      press_face<Dim>(pairs[j], planes, c, face);
+      integrate_contact<Dim>(pairs[j], planes, c, face);
       stand(history, face.centre, c.geometry.area);
       history.normal = face.normal;
       history.polar = face.polar;

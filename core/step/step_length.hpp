@@ -1,9 +1,9 @@
 // How long a step of Newton's method on the joints may be.
 #pragma once
 
-#include "core/model.hpp"
-#include "core/state.hpp"
-#include "core/step/newton_base.hpp"
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
+#include "core/step/static_solver_base.hpp"
 
 namespace voussoir {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/optimise/block_matrix.hpp"
-#include "core/state.hpp"
+#include "core/model/state.hpp"
+#include "core/solvers/block_matrix.hpp"
 
 namespace voussoir {
 

@@ -1,7 +1,7 @@
 #include "core/step/water_stiffness.hpp"
 
-#include "core/on_threads.hpp"
-#include "core/waters.hpp"
+#include "core/base/on_threads.hpp"
+#include "core/model/water_surfaces.hpp"
 
 namespace voussoir {
 namespace {

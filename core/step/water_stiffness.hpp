@@ -1,13 +1,13 @@
 // How the load of water changes as a body moves: what Newton's method on the joints needs of it.
 #pragma once
 
-#include "core/model.hpp"
-#include "core/settings.hpp"
-#include "core/state.hpp"
+#include "core/base/settings.hpp"
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
 
 namespace voussoir {
 
-// NewtonIncrement::of_water: minus the derivative of each free body's water load with its own motion, translations then
+// StaticIncrement::of_water: minus the derivative of each free body's water load with its own motion, translations then
 // turns, by central differences about where it stands, N/m, N and N m. None without water.
 template <int Dim>
 void find_water_stiffness(const Model<Dim>& model, const Settings& settings, State<Dim>& state);

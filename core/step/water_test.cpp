@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "core/run.hpp"
+#include "core/model/water_surfaces.hpp"
+#include "core/run/run.hpp"
 #include "core/step.hpp"
 #include "core/testing/models.hpp"
-#include "core/waters.hpp"
 
 namespace voussoir {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <Eigen/LU>
 
-#include "core/law/joint_law.hpp"
+#include "core/joint_laws/joint_law.hpp"
 
 namespace voussoir {
 namespace {

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "core/law/elastic_coulomb.hpp"
+#include "core/joint_laws/elastic_coulomb.hpp"
 #include "core/support/beam.hpp"
 
 namespace voussoir {

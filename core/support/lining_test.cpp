@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/law/joint_law.hpp"
+#include "core/joint_laws/joint_law.hpp"
 
 namespace voussoir {
 namespace {

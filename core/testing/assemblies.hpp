@@ -1,7 +1,7 @@
 // Random bodies with random contacts between them, and the frequency of the stiffest of their modes.
 #pragma once
 
-#include "core/state.hpp"
+#include "core/model/state.hpp"
 #include "core/testing/dense.hpp"
 #include "core/testing/shapes.hpp"
 

@@ -301,7 +301,7 @@ Section section(const Planes& planes, const Point& point, const Point& n) {
   return result;
 }
 
-PressedFace pressed_face(const Planes& planes, int face_a, int face_b) {
+IntegratedContact pressed_face(const Planes& planes, int face_a, int face_b) {
   const Plane &a = planes[face_a], &b = planes[face_b];
   Plane mean{{}, a.offset - b.offset}, open{{}, a.offset + b.offset};
   for (int k = 0; k < 3; ++k) {
@@ -323,7 +323,7 @@ PressedFace pressed_face(const Planes& planes, int face_a, int face_b) {
   std::vector<Quad> overlap;
   const Point first = chart.lift(polygon[0]);
   const Line pressed_edge = chart.line(open);
-  PressedFace face;
+  IntegratedContact face;
   for (const Corner& c : polygon) {
     const Point x = chart.lift(c);
     overlap.push_back(quad(open.offset - dot(open.normal, x)) / (length / 2));

@@ -93,7 +93,7 @@ Quad section_area(const Planes& planes, const Vector<3>& point, const Vector<3>&
 // What one face of A and one of B do to each other on the plane that halves their angle (contact/face_integral.hpp says
 // on which, and what the overlap u is there); planes of A stand first, normals as they are, unit or not. The solid must
 // be closed.
-struct PressedFace {
+struct IntegratedContact {
   Quad area = 0;                    // 0: they do not press on each other
   Quad volume = 0;                  // ∫ u
   Quad square = 0;                  // ∫ u²
@@ -102,7 +102,7 @@ struct PressedFace {
   Quad least_sine = 1;              // of the angles between that plane and unit side planes that bound the polygon
   QuadVector centre{}, pressure{};  // of the area, of u
 };
-PressedFace pressed_face(const Planes& planes, int face_a, int face_b);
+IntegratedContact pressed_face(const Planes& planes, int face_a, int face_b);
 
 struct Solid {
   Quad volume = 0;

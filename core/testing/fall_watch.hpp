@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/simulate.hpp"
+#include "core/run/simulate.hpp"
 
 namespace voussoir::shapes {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/cast_lining.hpp"
 #include "core/scene/scene.hpp"
+#include "core/stage/install_linings.hpp"
 
 namespace voussoir::lined_opening {
 
@@ -70,7 +70,7 @@ struct Cast {
     model = apply(scene.model, scene.stages.front().change);
     state = scene.state;
     add_bodies(model, state);
-    cast_linings(model, scene.stages.front().change.install, state);
+    install_linings(model, scene.stages.front().change.install, state);
     cache_poses(model, 1, state);
   }
   const Lining& lining() const { return model.linings.front(); }

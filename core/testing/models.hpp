@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/model.hpp"
+#include "core/model/model.hpp"
 #include "core/slicing/slice.hpp"
 #include "core/testing/shapes.hpp"
 #include "text/angle.hpp"

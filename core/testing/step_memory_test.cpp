@@ -1,10 +1,10 @@
 // A step that keeps its neighbours asks for no memory, even while blocks move, meet and part.
 #include <gtest/gtest.h>
 
-#include "core/install.hpp"
-#include "core/motion/relaxation.hpp"
 #include "core/scene/scene.hpp"
+#include "core/stage/install_bolts.hpp"
 #include "core/step.hpp"
+#include "core/step/relaxation.hpp"
 #include "core/testing/counted_allocations.hpp"
 #include "core/testing/lined_opening.hpp"
 #include "core/testing/models.hpp"

@@ -1,7 +1,7 @@
 // Linked into every test program: floating-point traps are on before main, and in every `voussoir` that a test starts.
 #include <cstdlib>
 
-#include "core/floating_point_traps.hpp"
+#include "core/base/floating_point_traps.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Whole scenes with closed forms: what stages of kind run do by themselves, and that a row is of one time.
-#include "core/simulate.hpp"
+#include "core/run/simulate.hpp"
 
 #include <gtest/gtest.h>
 

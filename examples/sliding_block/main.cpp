@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <utility>
-#include <voussoir/core/run.hpp>
+#include <voussoir/core/run/run.hpp>
 #include <voussoir/core/slicing/block.hpp>
 #include <voussoir/core/slicing/slice.hpp>
 

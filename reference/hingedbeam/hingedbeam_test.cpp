@@ -33,14 +33,14 @@ struct Published {
   double at[4];             // kN at .06, .10, .16, .20
 };
 
-TEST(HingedBeam, closed_form_has_its_published_peak) {
+TEST(HingedBeam, ClosedFormHasItsPublishedPeak) {
   const HingedBeamLoad peak = hinged_beam_second_order_peak(beam);
   EXPECT_NEAR(peak.weight / 1e3, 37.027, kilonewtons);
   EXPECT_NEAR(peak.rotation, 0.117755, 1.1e-6);
   EXPECT_NEAR(peak.thrust / 1e3, 149.32, 5.1e-3);
 }
 
-TEST(HingedBeam, true_arm_normal_and_abutments_have_their_published_numbers) {
+TEST(HingedBeam, TrueArmNormalAndAbutmentsHaveTheirPublishedNumbers) {
   const Published published[] = {
       {wall, HingeNormal::horizontal, 36.634, 0.11717, {28.694, 35.963, 32.869, 23.553}},
       {wall, HingeNormal::mean, 36.895, 0.11726, {28.841, 36.208, 33.094, 23.676}},
@@ -58,7 +58,7 @@ TEST(HingedBeam, true_arm_normal_and_abutments_have_their_published_numbers) {
 }
 
 // Eqs E.1 and E.2: with level forces on tall walls clipping is the closed form, but for the weight's arm
-TEST(HingedBeam, clipping_agrees_with_the_closed_form) {
+TEST(HingedBeam, ClippingAgreesWithTheClosedForm) {
   for (const double rotation : {0.001, 0.02, 0.1, 0.2, 0.3}) {
     const HingedBeamLoad closed = hinged_beam_second_order(beam, rotation);
     const HingedBeamState s = hinged_beam_equilibrium(model_of(wall, HingeNormal::horizontal), rotation);
@@ -69,7 +69,7 @@ TEST(HingedBeam, clipping_agrees_with_the_closed_form) {
   }
 }
 
-TEST(HingedBeam, first_order_is_the_tangent_and_has_no_peak) {
+TEST(HingedBeam, FirstOrderIsTheTangentAndHasNoPeak) {
   const double small = 1e-6;
   const HingedBeamLoad first = hinged_beam_first_order(beam, small), second = hinged_beam_second_order(beam, small);
   EXPECT_NEAR(second.weight / first.weight, 1, 1e-5);
@@ -77,14 +77,14 @@ TEST(HingedBeam, first_order_is_the_tangent_and_has_no_peak) {
   EXPECT_GT(hinged_beam_first_order(beam, 0.3).weight, 2 * hinged_beam_second_order_peak(beam).weight);
 }
 
-TEST(HingedBeam, goodmans_limit_is_where_the_corners_are_level) {
+TEST(HingedBeam, GoodmansLimitIsWhereTheCornersAreLevel) {
   const double limit = hinged_beam_geometric_limit(beam);
   EXPECT_NEAR(limit, 0.321751, 5.1e-7);
   EXPECT_NEAR(beam.depth * std::cos(limit) - beam.length * std::sin(limit), 0, 1e-15);
 }
 
 // forces and moments of what is returned, written out once more
-TEST(HingedBeam, equilibrium_holds) {
+TEST(HingedBeam, EquilibriumHolds) {
   for (const HingePoint point : {HingePoint::centroid, HingePoint::analytic_centre})
     for (const HingeAbutment& abutment : {wall, aligned}) {
       const HingedBeamModel model = model_of(abutment, HingeNormal::mean, point);
@@ -95,7 +95,7 @@ TEST(HingedBeam, equilibrium_holds) {
     }
 }
 
-TEST(HingedBeam, forces_scale_with_stiffness_and_size) {
+TEST(HingedBeam, ForcesScaleWithStiffnessAndSize) {
   HingedBeamModel model = model_of(aligned, HingeNormal::mean, HingePoint::analytic_centre);
   const double weight = hinged_beam_equilibrium(model, 0.1).weight;
   model.beam.stiffness *= 3;
@@ -107,7 +107,7 @@ TEST(HingedBeam, forces_scale_with_stiffness_and_size) {
 }
 
 // a stiff joint rolls without slip; with tall walls the height does not matter
-TEST(HingedBeam, the_path_ends_in_the_equilibrium_at_its_height) {
+TEST(HingedBeam, ThePathEndsInTheEquilibriumAtItsHeight) {
   const HingedBeamModel tall = model_of(wall, HingeNormal::mean);
   const std::vector<HingedBeamState> path = hinged_beam_path(tall, 1e9, 0.15, 30);
   for (const HingedBeamState& s : path)
@@ -120,7 +120,7 @@ TEST(HingedBeam, the_path_ends_in_the_equilibrium_at_its_height) {
   EXPECT_LT(hinged_beam_path(ends, 1e8, 0.15, 100).back().weight, fine);
 }
 
-TEST(HingedBeam, a_path_books_the_shear_of_what_it_moves) {
+TEST(HingedBeam, APathBooksTheShearOfWhatItMoves) {
   const HingedBeamModel tall = model_of(wall, HingeNormal::horizontal);
   const double stiffness = 1e7, rotation = 0.1;
   const std::vector<HingedBeamState> path = hinged_beam_path(tall, stiffness, rotation, 400);
@@ -135,7 +135,7 @@ TEST(HingedBeam, a_path_books_the_shear_of_what_it_moves) {
   EXPECT_NEAR(path.back().shear_force, -stiffness * moved, 2e-4 * path.back().shear_force);
 }
 
-TEST(HingedBeam, a_sampled_curve_has_the_peak_of_its_parabola) {
+TEST(HingedBeam, ASampledCurveHasThePeakOfItsParabola) {
   std::vector<HingedBeamLoad> curve;
   for (const double t : {0.0, 0.3, 0.4, 0.6, 1.0})
     curve.push_back({t, 5 - (t - 0.45) * (t - 0.45), 2 * t});
@@ -181,7 +181,7 @@ Planes rectangle(Point low, Point high) {
   return {{{1, 0}, high.x}, {{-1, 0}, -low.x}, {{0, 1}, high.y}, {{0, -1}, -low.y}};
 }
 
-TEST(AnalyticCentre, of_a_triangle_is_its_centroid) {
+TEST(AnalyticCentre, OfATriangleIsItsCentroid) {
   const double s = std::sqrt(0.5);
   const Planes corner{{{-1, 0}, 0}, {{0, -1}, 0}}, cut{{{s, s}, 3 * s}};
   const Point centre = analytic_centre(corner, cut, {0.1, 0.1});
@@ -189,7 +189,7 @@ TEST(AnalyticCentre, of_a_triangle_is_its_centroid) {
   EXPECT_NEAR(centre.y, 1, 1e-10);
 }
 
-TEST(AnalyticCentre, of_two_rectangles_is_known) {
+TEST(AnalyticCentre, OfTwoRectanglesIsKnown) {
   const Planes a = rectangle({0, 0}, {1, 1}), b = rectangle({0.5, 0}, {1.5, 1});
   // along x: slacks 1 - x, x, 1.5 - x, x - 0.5, symmetric about 0.75; along y two equal pairs
   const Point centre = analytic_centre(a, b, {0.6, 0.1});
@@ -197,7 +197,7 @@ TEST(AnalyticCentre, of_two_rectangles_is_known) {
   EXPECT_NEAR(centre.y, 0.5, 1e-12);
 }
 
-TEST(AnalyticCentre, agrees_with_a_search_without_derivatives) {
+TEST(AnalyticCentre, AgreesWithASearchWithoutDerivatives) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> turn(0.01, 0.3);
   for (int i = 0; i < 20; ++i) {
@@ -215,7 +215,7 @@ TEST(AnalyticCentre, agrees_with_a_search_without_derivatives) {
   }
 }
 
-TEST(AnalyticCentre, refuses_a_start_outside) {
+TEST(AnalyticCentre, RefusesAStartOutside) {
   EXPECT_THROW(analytic_centre(rectangle({0, 0}, {1, 1}), {}, {2, 0}), std::domain_error);
 }
 

@@ -55,7 +55,7 @@ JointForce pressed(const JointLaw& law, double apart, double turn, double height
 
 // ---- one joint ----------------------------------------------------------------------------------------------------
 
-TEST(BeamJoint, carries_what_a_triangle_of_stress_does) {
+TEST(BeamJoint, CarriesWhatATriangleOfStressDoes) {
   constexpr double height = 0.04, width = 0.05, turn = -1e-3, stiffness = 10e9;
   JointLaw law;
   // the overlap is 0 at 1 mm below the middle and grows by 1e-3 downwards: right faces that turn clockwise open above
@@ -88,7 +88,7 @@ TEST(BeamJoint, carries_what_a_triangle_of_stress_does) {
   EXPECT_THROW(pressed(law, least, turn, height, width), std::invalid_argument);
 }
 
-TEST(BeamJoint, stress_integrates_its_stiffness) {
+TEST(BeamJoint, StressIntegratesItsStiffness) {
   for (const StressStiffness& k : {StressStiffness{10e9, 0, 1}, StressStiffness{4e9, 7.4e4, 1},
                                    StressStiffness{2e9, 3.7e4, 1}, StressStiffness{0, 2.1e6, 0.75}}) {
     const double u = 3e-5, h = 1e-10, stress = normal_stress(k, u);
@@ -104,7 +104,7 @@ TEST(BeamJoint, stress_integrates_its_stiffness) {
 
 // Continuously yielding under constant pressure: slip = τ/ks + p, τ = σ tanφ (1 - exp(-p/u_peak)); in one step or in
 // many.
-TEST(BeamJoint, hardens_along_the_closed_form) {
+TEST(BeamJoint, HardensAlongTheClosedForm) {
   JointLaw law;
   law.cells = 1;
   law.shear = {0, 1.9e6, 0.7};
@@ -130,7 +130,7 @@ TEST(BeamJoint, hardens_along_the_closed_form) {
 // ---- the beam -----------------------------------------------------------------------------------------------------
 
 // Known before, to the digits given: of joints whose cells do not slip, deflection at the third block's centroid.
-TEST(JointedBeam, has_the_values_known_before) {
+TEST(JointedBeam, HasTheValuesKnownBefore) {
   const std::vector<BeamState> full = raise_gravity(without_slip(full_block()), {40});
   ASSERT_EQ(full.size(), 1u);
   EXPECT_NEAR(full[0].thrust, 296.0, 0.05);
@@ -143,7 +143,7 @@ TEST(JointedBeam, has_the_values_known_before) {
 
 // Coulomb's law in every cell: a tenth of the pressure at an abutment is on cells that slip, the others take their
 // shear, and the beam sinks by 6 % more at almost the same thrust. Half blocks fall 0.3 g earlier.
-TEST(JointedBeam, sinks_more_where_cells_slip) {
+TEST(JointedBeam, SinksMoreWhereCellsSlip) {
   const BeamState slips = raise_gravity(full_block(), {40}).at(0);
   const BeamState holds = raise_gravity(without_slip(full_block()), {40}).at(0);
   EXPECT_NEAR(slips.joints[0].sliding, 0.11, 0.01);
@@ -154,7 +154,7 @@ TEST(JointedBeam, sinks_more_where_cells_slip) {
 }
 
 // one centroid point, and n of them; as known before, in percent at 10 and 40 g
-TEST(JointedBeam, few_points_deviate_as_known) {
+TEST(JointedBeam, FewPointsDeviateAsKnown) {
   const JointedBeam beam = without_slip(full_block());
   const std::vector<BeamState> exact = raise_gravity(beam, {10, 20, 30, 40});
   const auto deviation = [&](int cells, int at, bool thrust) {
@@ -180,7 +180,7 @@ TEST(JointedBeam, few_points_deviate_as_known) {
 }
 
 // mean closures carry the normal force exactly, so what converges is where cells slip
-TEST(JointedBeam, converges_with_the_number_of_cells) {
+TEST(JointedBeam, ConvergesWithTheNumberOfCells) {
   const auto at_forty = [](int cells, CellClosure closure) {
     return raise_gravity(with_cells(full_block(), cells, closure), {40}).at(0);
   };
@@ -198,7 +198,7 @@ TEST(JointedBeam, converges_with_the_number_of_cells) {
 }
 
 // stiffness that changes with stress is followed from step to step
-TEST(JointedBeam, does_not_depend_on_its_steps) {
+TEST(JointedBeam, DoesNotDependOnItsSteps) {
   JointedBeam beam = with_cells(full_block(), 8, CellClosure::mean);
   beam.joint.normal = {2e9, 3.7e4, 1};
   beam.joint.shear = {0, 1.9e6, 0.7};
@@ -211,7 +211,7 @@ TEST(JointedBeam, does_not_depend_on_its_steps) {
 }
 
 // sums that know nothing of joints: of forces on all blocks, and of moments on the left half where it has gone
-TEST(JointedBeam, balances_as_a_whole_and_by_halves) {
+TEST(JointedBeam, BalancesAsAWholeAndByHalves) {
   for (const JointedBeam& beam : {full_block(), half_block()}) {
     const double gravity = 35, weight = weight_of_all(beam, gravity);
     const BeamState s = raise_gravity(beam, {gravity}).at(0);
@@ -231,7 +231,7 @@ TEST(JointedBeam, balances_as_a_whole_and_by_halves) {
 }
 
 // but for cells that are counted from the left face: half a cell slips more or less
-TEST(JointedBeam, is_symmetric) {
+TEST(JointedBeam, IsSymmetric) {
   const BeamState s = raise_gravity(full_block(), {40}).at(0);
   for (int b = 0; b < 6; ++b) {
     const BeamBlock &here = s.blocks[b], &there = s.blocks[5 - b];
@@ -262,7 +262,7 @@ TwoBlocks two_blocks(const JointedBeam& beam, double k, double m, double closure
 
 // The more a joint stiffens with stress, the more its pressure draws to the edge: without prestress the thrust is (m +
 // 2)/(m + 1) times the least, that of three hinges at the corners.
-TEST(JointedBeam, of_two_blocks_is_the_closed_form_and_tends_to_three_hinges) {
+TEST(JointedBeam, OfTwoBlocksIsTheClosedFormAndTendsToThreeHinges) {
   JointedBeam beam = without_slip(full_block());
   beam.blocks = 2;
   beam.abutment_height = 1;
@@ -286,7 +286,7 @@ TEST(JointedBeam, of_two_blocks_is_the_closed_form_and_tends_to_three_hinges) {
   }
 }
 
-TEST(JointedBeam, is_lost_where_deflection_no_longer_asks_for_gravity) {
+TEST(JointedBeam, IsLostWhereDeflectionNoLongerAsksForGravity) {
   const JointedBeam beam = half_block();
   const BeamSteps steps{.gravity = 0.5, .deflection = 5e-5};
   const BeamLimit limit = limit_of(raise_deflection(beam, 0.009, steps));
@@ -299,7 +299,7 @@ TEST(JointedBeam, is_lost_where_deflection_no_longer_asks_for_gravity) {
   EXPECT_THROW(limit_of(raise_deflection(beam, 0.001, steps)), std::domain_error);
 }
 
-TEST(JointedBeam, closure_gives_the_thrust_at_one_g) {
+TEST(JointedBeam, ClosureGivesTheThrustAtOneG) {
   for (JointedBeam beam : {full_block(), half_block()})
     for (const StressStiffness& k : {StressStiffness{10e9, 0, 1}, StressStiffness{4e9, 7.4e4, 1}}) {
       beam.joint.normal = k;
@@ -310,7 +310,7 @@ TEST(JointedBeam, closure_gives_the_thrust_at_one_g) {
 }
 
 // their own iteration, for one fraction of the height
-TEST(VoussoirBeam, is_the_iteration_of_Diederichs_and_Kaiser) {
+TEST(VoussoirBeam, IsTheIterationOfDiederichsAndKaiser) {
   const JointedBeam beam = half_block();
   const double gravity = 30, span = 0.276, modulus = 10e9 * span / 7, load = 1207 * 9.81 * gravity;
   const VoussoirBeam found = voussoir_beam(beam, gravity);

@@ -32,7 +32,7 @@ RoofWedge unequal_wedge() {
   return wedge_of({55, 65, 70}, {20, 160, 280});
 }
 
-TEST(RoofWedge, has_its_published_numbers) {
+TEST(RoofWedge, HasItsPublishedNumbers) {
   const RoofWedgeState ten = first_slip(thesis_wedge(10));
   EXPECT_NEAR(ten.friction / degree, 34.401950, 5.1e-7);
   EXPECT_NEAR(ten.displacement[2], -0.333333e-3, 5.1e-10);
@@ -49,7 +49,7 @@ TEST(RoofWedge, has_its_published_numbers) {
 }
 
 // the closed surface of the wedge carries no resultant area, and what the joints carry is what was cut and its weight
-TEST(RoofWedge, faces_close_and_forces_balance) {
+TEST(RoofWedge, FacesCloseAndForcesBalance) {
   RoofWedge w = unequal_wedge();
   w.stress = {60e3, 45e3, 10e3, 2e3, -3e3, 5e3};
   const RoofWedgeFaces faces = roof_wedge_faces(w);
@@ -72,7 +72,7 @@ TEST(RoofWedge, faces_close_and_forces_balance) {
   EXPECT_LT(sum.norm(), 1e-8);
 }
 
-TEST(RoofWedge, only_the_ratio_of_stiffnesses_and_of_stress_to_weight_matters) {
+TEST(RoofWedge, OnlyTheRatioOfStiffnessesAndOfStressToWeightMatters) {
   RoofWedge w = unequal_wedge();
   const double slip = first_slip(w).friction, fall = collapse(w).friction;
   w.normal_stiffness *= 7;
@@ -88,7 +88,7 @@ TEST(RoofWedge, only_the_ratio_of_stiffnesses_and_of_stress_to_weight_matters) {
 }
 
 // with rigid joints in shear nothing relaxes: N stays what the stress gives
-TEST(RoofWedge, stiff_shear_keeps_the_normal_forces) {
+TEST(RoofWedge, StiffShearKeepsTheNormalForces) {
   RoofWedge w = thesis_wedge();
   w.shear_stiffness = 1e6 * w.normal_stiffness;
   const RoofWedgeState s = first_slip(w);
@@ -97,14 +97,14 @@ TEST(RoofWedge, stiff_shear_keeps_the_normal_forces) {
 }
 
 // equal planes slip together, and nothing is left to hold
-TEST(RoofWedge, equal_planes_collapse_at_first_slip) {
+TEST(RoofWedge, EqualPlanesCollapseAtFirstSlip) {
   const RoofWedge w = thesis_wedge();
   const RoofWedgeState fall = collapse(w);
   EXPECT_NEAR(fall.friction, first_slip(w).friction, 1e-8);
   EXPECT_NEAR(fall.displacement[2], first_slip(w).displacement[2], 1e-9);
 }
 
-TEST(RoofWedge, unequal_planes_hold_on_after_first_slip) {
+TEST(RoofWedge, UnequalPlanesHoldOnAfterFirstSlip) {
   for (RoofWedge w : {unequal_wedge(), wedge_of({60, 60, 60}, {30, 150, 270})}) {
     if (w.planes[0].dip == w.planes[1].dip) w.planes[1].strength = 1.3;
     const RoofWedgeState slip = first_slip(w), fall = collapse(w);
@@ -154,7 +154,7 @@ bool holds_by_dynamics(const RoofWedge& w, double target) {
   return v.norm() * dt < 1e-12;
 }
 
-TEST(RoofWedge, collapse_agrees_with_dynamics) {
+TEST(RoofWedge, CollapseAgreesWithDynamics) {
   RoofWedge weaker = thesis_wedge();
   weaker.planes[1].strength = 1.3;
   for (const RoofWedge& w : {unequal_wedge(), weaker}) {
@@ -164,7 +164,7 @@ TEST(RoofWedge, collapse_agrees_with_dynamics) {
   }
 }
 
-TEST(RoofWedge, refuses_what_is_no_wedge) {
+TEST(RoofWedge, RefusesWhatIsNoWedge) {
   EXPECT_THROW(roof_wedge_faces(wedge_of({60, 60, 60}, {30, 60, 90})), std::invalid_argument);
   EXPECT_THROW(roof_wedge_faces(wedge_of({60, 60, 95}, {30, 150, 270})), std::invalid_argument);
   EXPECT_THROW(roof_wedge_faces(wedge_of({60, 60, 60}, {30, 210, 120})), std::invalid_argument);

@@ -31,7 +31,7 @@ ShakenPosition stepped(const ShakenIncline& s, double time, int steps) {
   return {distance, velocity};
 }
 
-TEST(ShakenBlock, agrees_with_small_steps) {
+TEST(ShakenBlock, AgreesWithSmallSteps) {
   for (const double speed : {0.31, 0.35, 0.4, 0.5, 0.57})
     for (const double time : {0.03, 0.1, 0.37, 0.8, 2.0}) {
       ShakenIncline s = example;
@@ -43,7 +43,7 @@ TEST(ShakenBlock, agrees_with_small_steps) {
 }
 
 // begun at full acceleration: the first slip is v (1 - cos wt)/w - a t²/2
-TEST(ShakenBlock, first_slip_is_the_difference_of_two_ways) {
+TEST(ShakenBlock, FirstSlipIsTheDifferenceOfTwoWays) {
   const double t = 0.05, w = 4 * pi,
                limit = 9.81 * (std::tan(30 * degree) * std::cos(10 * degree) - std::sin(10 * degree));
   EXPECT_NEAR(shaken_block(example, t).distance, 0.4 / w * (1 - std::cos(w * t)) - 0.5 * limit * t * t, 1e-15);
@@ -51,14 +51,14 @@ TEST(ShakenBlock, first_slip_is_the_difference_of_two_ways) {
 }
 
 // from the second cycle on each is like the one before
-TEST(ShakenBlock, cycles_repeat) {
+TEST(ShakenBlock, CyclesRepeat) {
   const double second = shaken_block(example, 1.2).distance - shaken_block(example, 0.7).distance;
   const double third = shaken_block(example, 1.7).distance - shaken_block(example, 1.2).distance;
   EXPECT_GT(second, 0);
   EXPECT_NEAR(second, third, 1e-14);
 }
 
-TEST(ShakenBlock, stays_below_the_limit_and_refuses_what_it_does_not_model) {
+TEST(ShakenBlock, StaysBelowTheLimitAndRefusesWhatItDoesNotModel) {
   ShakenIncline s = example;
   s.speed = 0.3;  // 3.77 m/s² of 3.87
   EXPECT_EQ(shaken_block(s, 5).distance, 0);

@@ -22,7 +22,7 @@ constexpr double pi = std::numbers::pi;
 
 // --- incline
 
-TEST(Incline, worked_values) {
+TEST(Incline, WorkedValues) {
   const Incline slides{30 * degree, 20 * degree, 9.81, 0};
   const double acceleration = 9.81 * (0.5 - std::cos(30 * degree) * std::tan(20 * degree));
   EXPECT_NEAR(incline_critical_friction(slides) / degree, 30, 1e-12);
@@ -33,7 +33,7 @@ TEST(Incline, worked_values) {
   EXPECT_EQ(incline_distance({0, 0, 9.81, 0}, 1), 0);
 }
 
-TEST(Incline, stops_by_energy) {
+TEST(Incline, StopsByEnergy) {
   // Moving and above the critical friction: work of friction less gravity takes off the kinetic energy.
   const Incline stops{20 * degree, 35 * degree, 9.81, 3};
   const double distance = incline_distance(stops, 1e6);
@@ -43,7 +43,7 @@ TEST(Incline, stops_by_energy) {
   EXPECT_NEAR(incline_velocity(stops, 0.1), 3 - 0.1 * resistance, 1e-12);
 }
 
-TEST(Incline, numerical_integration_and_scaling) {
+TEST(Incline, NumericalIntegrationAndScaling) {
   const Incline slides{50 * degree, 33 * degree, 9.81, 1.5};
   const auto right = [](double, const double* y, double* slope) {
     slope[0] = y[1];
@@ -56,7 +56,7 @@ TEST(Incline, numerical_integration_and_scaling) {
 }
 
 // Friction that falls while the block slides, integrated until it has slid the distance: the leading term and the next.
-TEST(Incline, the_bias_of_a_rate_is_the_leading_term) {
+TEST(Incline, TheBiasOfARateIsTheLeadingTerm) {
   const double angle = 30 * degree, distance = 0.1, damping = 0.7;
   for (const double rate : {0.025 * degree, 0.1 * degree, 1 * degree}) {
     const double bias = incline_rate_bias({angle, 0, 9.81, 0}, distance, rate, damping);
@@ -112,7 +112,7 @@ BounceResult bounce_by_integration(const Bounce& b, double longest) {
   return result;
 }
 
-TEST(Bounce, limits_without_gravity) {
+TEST(Bounce, LimitsWithoutGravity) {
   const Bounce elastic{2, 800, 0, 3, 0};
   EXPECT_NEAR(bounce(elastic).restitution, 1, 1e-15);
   EXPECT_NEAR(bounce(elastic).duration, pi / 20, 1e-14);
@@ -125,7 +125,7 @@ TEST(Bounce, limits_without_gravity) {
   EXPECT_GT(bounce({1, 1, 0.5, 1, 0}).restitution, std::exp(-pi * 0.5 / std::sqrt(0.75)));
 }
 
-TEST(Bounce, numerical_integration) {
+TEST(Bounce, NumericalIntegration) {
   for (const double damping : {0.0, 0.1, 0.5, 0.9, 1.0, 1.3, 3.0})
     for (const double gravity : {0.0, 0.05, 0.5, 3.0}) {
       const Bounce b{2, 50, damping, 0.7, gravity};
@@ -141,7 +141,7 @@ TEST(Bounce, numerical_integration) {
     }
 }
 
-TEST(Bounce, gravity) {
+TEST(Bounce, Gravity) {
   // Without damping the energy comes back: e = 1; the contact lasts longer, w t = 2 (pi/2 + atan(g/(v w))).
   const Bounce heavy{2, 50, 0, 0.7, 9.81};
   const BounceResult result = bounce(heavy);
@@ -153,7 +153,7 @@ TEST(Bounce, gravity) {
   EXPECT_FALSE(bounce({2, 50, 0.3, 0.01, 9.81}).rebounds);
 }
 
-TEST(Bounce, scaling) {
+TEST(Bounce, Scaling) {
   const BounceResult base = bounce({2, 50, 0.3, 0.7, 0.2});
   const BounceResult heavy = bounce({20, 500, 0.3, 0.7, 0.2});  // mass and stiffness
   const BounceResult quick = bounce({2, 5000, 0.3, 0.7, 2});    // ten times the frequency, gravity with v w
@@ -167,7 +167,7 @@ TEST(Bounce, scaling) {
 
 // --- column
 
-TEST(Column, overlaps_and_frequencies_against_the_stiffness_matrix) {
+TEST(Column, OverlapsAndFrequenciesAgainstTheStiffnessMatrix) {
   for (const int blocks : {1, 2, 5, 30}) {
     const Column column{blocks, 3, 700, 9.81};
     Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(blocks, blocks);
@@ -189,7 +189,7 @@ TEST(Column, overlaps_and_frequencies_against_the_stiffness_matrix) {
   }
 }
 
-TEST(Column, limits_and_scaling) {
+TEST(Column, LimitsAndScaling) {
   EXPECT_NEAR(column_frequency({1, 2, 50, 9.81}), 5, 1e-14);
   // many blocks: an elastic bar, pi/2 sqrt(k/m)/N
   EXPECT_NEAR(column_frequency({10000, 1, 1, 9.81}) * 10000, pi / 2, 1e-4);
@@ -212,7 +212,7 @@ std::vector<double> euler(const FreeRotation& body, double time) {
   return integrate_ode(right, {body.angular_velocity.begin(), body.angular_velocity.end()}, 0, time, 1e-13);
 }
 
-TEST(FreeRotation, euler_equations_integrated) {
+TEST(FreeRotation, EulerEquationsIntegrated) {
   boost::random::mt19937_64 engine(37);
   auto uniform = [&](double low, double high) { return boost::random::uniform_real_distribution<>(low, high)(engine); };
   for (int trial = 0; trial < 300; ++trial) {
@@ -236,7 +236,7 @@ TEST(FreeRotation, euler_equations_integrated) {
   }
 }
 
-TEST(FreeRotation, energy_and_angular_momentum_stay) {
+TEST(FreeRotation, EnergyAndAngularMomentumStay) {
   const FreeRotation body{box_inertia(1, {1, 0.6, 0.3}), {0.01, 2, 0.01}};  // close to the middle axis: it tumbles
   auto invariants = [&](const std::array<double, 3>& w) {
     double energy = 0, momentum = 0;
@@ -256,7 +256,7 @@ TEST(FreeRotation, energy_and_angular_momentum_stay) {
   EXPECT_LT(lowest, -1.99);
 }
 
-TEST(FreeRotation, symmetric_body_and_steady_rotation) {
+TEST(FreeRotation, SymmetricBodyAndSteadyRotation) {
   // Symmetric about the third axis: the transverse part turns at (I3 - I1)/I1 w3.
   const FreeRotation disc{{1, 1, 1.8}, {0.3, 0, 2}}, rod{{1, 1, 0.2}, {0.3, 0, 2}};
   for (const FreeRotation& body : {disc, rod}) {
@@ -282,7 +282,7 @@ TEST(FreeRotation, symmetric_body_and_steady_rotation) {
   EXPECT_EQ(free_rotation(ball, 5), ball.angular_velocity);
 }
 
-TEST(FreeRotation, in_space_circles_about_the_momentum) {
+TEST(FreeRotation, InSpaceCirclesAboutTheMomentum) {
   // A symmetric body: the spin, which lies in the plane of momentum and axis, turns with it about the momentum, L/I1.
   const FreeRotation disc{{1, 1, 1.8}, {0.3, 0, 2}};
   const double momentum = std::hypot(0.3, 3.6);
@@ -307,7 +307,7 @@ TEST(FreeRotation, in_space_circles_about_the_momentum) {
   }
 }
 
-TEST(FreeRotation, scaling_and_errors) {
+TEST(FreeRotation, ScalingAndErrors) {
   const FreeRotation body{{1, 1.3, 2}, {1, 2, 3}};
   const FreeRotation heavy{{10, 13, 20}, {1, 2, 3}}, fast{{1, 1.3, 2}, {10, 20, 30}};
   for (int k = 0; k < 3; ++k) {
@@ -321,7 +321,7 @@ TEST(FreeRotation, scaling_and_errors) {
 
 // --- falling over an edge
 
-TEST(FallOver, numerical_integration) {
+TEST(FallOver, NumericalIntegration) {
   for (const double start : {1e-3, 0.1, 1.0, 2.5})
     for (const double lean : {start, 1.5 * start, 0.5 * (start + pi), pi}) {
       if (lean > pi) continue;
@@ -338,7 +338,7 @@ TEST(FallOver, numerical_integration) {
     }
 }
 
-TEST(FallOver, limits) {
+TEST(FallOver, Limits) {
   // a small lean grows like cosh; hanging, it is a quarter of a pendulum's swing of small amplitude
   const FallOver block{3, 6, 2, 1e-4, 10};
   const double rate = std::sqrt(3 * 10 * 2 / 6.0);

@@ -46,7 +46,7 @@ std::vector<Block> one_each(const std::vector<Polygon>& pieces) {
 }
 
 // Bricks: faces in part, and the ground that is longer than all of them.
-TEST(NetworkBlocks, faces_in_part) {
+TEST(NetworkBlocks, FacesInPart) {
   std::vector<Block> blocks{{{box(-5, -1, 5, 0)}, {true, true, true}},
                             {{box(0, 0, 2, 1)}},
                             {{box(2, 0, 4, 1)}},
@@ -65,7 +65,7 @@ TEST(NetworkBlocks, faces_in_part) {
   EXPECT_EQ(faces(blocks, 2e-3).size(), 4u);  // the gap of a millimetre counts as closed
 }
 
-TEST(NetworkBlocks, cells_of_a_face) {
+TEST(NetworkBlocks, CellsOfAFace) {
   const Face face{0, 1, {0, 0}, {3, 0}, {0, -1}};
   const std::vector<Spring> two = springs({face}, 2, 1, 1);
   ASSERT_EQ(two.size(), 2u);
@@ -77,7 +77,7 @@ TEST(NetworkBlocks, cells_of_a_face) {
 }
 
 // Lines in general position through a box: 1 + lines + crossings pieces, no area lost, and every inner edge a face.
-TEST(NetworkBlocks, cut_by_lines) {
+TEST(NetworkBlocks, CutByLines) {
   const std::vector<Line> lines{{{1, 0.3}, 0.2}, {{-0.4, 2}, -0.1}, {{1, 1}, 0.9}};
   const std::vector<Block> blocks = one_each(cut(box(-2, -2, 2, 2), lines, 1e-9));
   EXPECT_EQ(blocks.size(), 7u);
@@ -94,7 +94,7 @@ TEST(NetworkBlocks, cut_by_lines) {
 // Spacing s at right angles: blocks of s by s. Three sets at 60°: any two cross sin 60°/s² times per area, and every
 // crossing stands for one block, on an area whose rim matters less and less. Two thirds of that where all three meet in
 // points, which they do where the outer shifts add up to the middle one.
-TEST(NetworkBlocks, persistent_sets) {
+TEST(NetworkBlocks, PersistentSets) {
   const std::vector<Block> squares =
       one_each(cut(box(-4, -4, 4, 4), persistent_sets({0, pi / 2}, {0.5, 0.5}, 1, 6), 1e-9));
   EXPECT_EQ(squares.size(), 81u);
@@ -105,7 +105,7 @@ TEST(NetworkBlocks, persistent_sets) {
   EXPECT_THROW(persistent_sets({0}, {}, 1, 2), std::invalid_argument);
 }
 
-TEST(NetworkBlocks, opening) {
+TEST(NetworkBlocks, Opening) {
   const Polygon outline = regular(48, 3);
   const std::vector<Line> lines = persistent_sets({0.2, 1.3, 2.2}, {0.1, 0.4, 0.8}, 0.7, 12);
   const std::vector<Block> blocks = take_out(cut(box(-8, -8, 8, 8), lines, 1e-9), outline, 1e-9);
@@ -125,7 +125,7 @@ TEST(NetworkBlocks, opening) {
 }
 
 // A block that bulges into the opening on both sides of a neck falls apart.
-TEST(NetworkBlocks, block_parted_by_the_opening) {
+TEST(NetworkBlocks, BlockPartedByTheOpening) {
   const std::vector<Block> blocks = take_out({box(-3, -0.5, 3, 0.5)}, box(-1, -2, 1, 2), 1e-9);
   ASSERT_EQ(blocks.size(), 2u);
   EXPECT_NEAR(area(blocks[0]), 2, 1e-12);
@@ -136,7 +136,7 @@ TEST(NetworkBlocks, block_parted_by_the_opening) {
 
 // What is let off together is the weight of the rock that is gone, through its centroid, and at each wall the stress
 // there.
-TEST(NetworkBlocks, let_off_is_the_weight_of_what_is_gone) {
+TEST(NetworkBlocks, LetOffIsTheWeightOfWhatIsGone) {
   Polygon outline = regular(12, 3);
   for (Point& corner : outline)
     corner = {corner[0] + 0.7, corner[1] - 1.2};
@@ -163,7 +163,7 @@ TEST(NetworkBlocks, let_off_is_the_weight_of_what_is_gone) {
   EXPECT_NEAR(pair[1].load[0], -2e5, 1e-6);
 }
 
-TEST(NetworkBlocks, bolts_cross_faces) {
+TEST(NetworkBlocks, BoltsCrossFaces) {
   const std::vector<Block> blocks =
       one_each({box(0, 0, 1, 1), box(1, 0, 2, 1), box(2, 0, 2.05, 1), box(2.05, 0, 4, 1)});
   const std::vector<Bolt> bolts = bolts_across(faces(blocks, 1e-9), {3.5, 0.5}, {0.2, 0.4}, 1e8, 0.0336);
@@ -180,7 +180,7 @@ TEST(NetworkBlocks, bolts_cross_faces) {
   EXPECT_NEAR(apart(bolts[0]), 0.0336 + 0.025 * std::hypot(3.3, 0.1) / 3.3, 1e-12);  // the thin block: its middle
 }
 
-TEST(NetworkBlocks, ties_at_corners_and_joints) {
+TEST(NetworkBlocks, TiesAtCornersAndJoints) {
   // a wall of two blocks on one side of a square opening, one on the next
   const Polygon opening = box(0, 0, 2, 2);
   const std::vector<Block> blocks = one_each({box(0, -1, 0.5, 0), box(0.5, -1, 2, 0), box(2, 0, 3, 2)});
@@ -203,7 +203,7 @@ TEST(NetworkBlocks, ties_at_corners_and_joints) {
 
 // Nodes on a hundred rays to an outline of twelve sides: beams cut the corners, every node rests on the side it lies
 // on.
-TEST(NetworkBlocks, ring_on_rays) {
+TEST(NetworkBlocks, RingOnRays) {
   Polygon outline = regular(12, 5);
   const std::vector<Block> blocks =
       take_out(cut(box(-9, -9, 9, 9), persistent_sets({0.2, 1.3, 2.2}, {0.1, 0.4, 0.8}, 0.7, 13), 1e-9), outline, 1e-9);

@@ -17,13 +17,13 @@ BoltedRing boon_ring(double shear_modulus, double poisson_ratio) {
 }
 
 // Eqs 5.3 and G.3
-TEST(BoltedRing, boon_wall_bolt_forces) {
+TEST(BoltedRing, BoonWallBoltForces) {
   EXPECT_NEAR(bolted_ring_at(boon_ring(0.385e9, 0.2), 5).bolt_force / 1e3, 113.27, 0.006);
   EXPECT_NEAR(bolted_ring_at(boon_ring(1.604e9, 0.2), 5).bolt_force / 1e3, 30.55, 0.006);
   EXPECT_NEAR(bolted_ring_at(boon_ring(0.527e9, 0.37), 5).bolt_force / 1e3, 88.85, 0.006);
 }
 
-TEST(BoltedRing, closed_form_agrees_with_the_differential_equation) {
+TEST(BoltedRing, ClosedFormAgreesWithTheDifferentialEquation) {
   for (const double shear_modulus : {0.05e9, 0.385e9, 1.604e9, 50e9})
     for (const double poisson_ratio : {0.0, 0.2, 0.37, 0.49})
       for (const double distance : {5.0, 6.0, 8.0, 11.9, 12.0, 13.0, 40.0}) {
@@ -37,7 +37,7 @@ TEST(BoltedRing, closed_form_agrees_with_the_differential_equation) {
 }
 
 // Equilibrium of the total stresses, by differences of the returned stresses: no equation of the code is used.
-TEST(BoltedRing, stresses_are_in_equilibrium) {
+TEST(BoltedRing, StressesAreInEquilibrium) {
   const BoltedRing ring = boon_ring(0.385e9, 0.2);
   EXPECT_NEAR(bolted_ring_at(ring, 5).radial_stress, 0, 1e-6);
   EXPECT_NEAR(bolted_ring_at(ring, 5e4).radial_stress, 662175, 1e-2);
@@ -60,7 +60,7 @@ TEST(BoltedRing, stresses_are_in_equilibrium) {
   EXPECT_NEAR(inner.convergence, outer.convergence, 1e-11);
 }
 
-TEST(BoltedRing, no_bolts_is_the_plain_opening) {
+TEST(BoltedRing, NoBoltsIsThePlainOpening) {
   BoltedRing ring = boon_ring(0.385e9, 0.3);
   for (const double stiffness : {0.0, 1e-290, 1e-6, 1e-3}) {
     ring.bolt_stiffness = stiffness;
@@ -77,7 +77,7 @@ TEST(BoltedRing, no_bolts_is_the_plain_opening) {
 }
 
 // Held at R: the closed form against integration from R inwards; R to infinity; u(R) = 0; no bolts: Lamé's annulus.
-TEST(BoltedRing, held_at_a_radius) {
+TEST(BoltedRing, HeldAtARadius) {
   for (const double shear_modulus : {0.2e9, 1.6e9})
     for (const double poisson_ratio : {0.0, 0.37, 0.45})
       for (const double held : {12.5, 20.0, 35.0, 400.0})
@@ -112,7 +112,7 @@ TEST(BoltedRing, held_at_a_radius) {
   EXPECT_EQ(modulus_of_held_rock(0.385e9, nu, a, endless.fixed_radius), 0.385e9);
 }
 
-TEST(BoltedRing, mean_force_is_the_integral) {
+TEST(BoltedRing, MeanForceIsTheIntegral) {
   BoltedRing ring = boon_ring(0.385e9, 0.3);
   ring.fixed_radius = 35;
   double sum = 0;
@@ -122,7 +122,7 @@ TEST(BoltedRing, mean_force_is_the_integral) {
   EXPECT_NEAR(mean_bolt_force(ring), sum, 1e-6 * sum);  // midpoint rule, second order in 1/2000
 }
 
-TEST(BoltedRing, scales_with_length_and_pressure) {
+TEST(BoltedRing, ScalesWithLengthAndPressure) {
   const BoltedRing ring = boon_ring(0.385e9, 0.2);
   const BoltedRingState base = bolted_ring_at(ring, 6);
   BoltedRing large = ring;  // lengths by 10; force per bolt by 100, so stiffness times spacing by 100
@@ -140,7 +140,7 @@ TEST(BoltedRing, scales_with_length_and_pressure) {
   EXPECT_NEAR(bolted_ring_at(dense, 6).bolt_force, base.bolt_force / 2, 1e-7);
 }
 
-TEST(BoltedRing, refuses_bad_input) {
+TEST(BoltedRing, RefusesBadInput) {
   BoltedRing ring = boon_ring(0.385e9, 0.5);
   EXPECT_THROW(bolted_ring_at(ring, 5), std::invalid_argument);
   ring = boon_ring(0.385e9, 0.2);

@@ -35,7 +35,7 @@ std::vector<Block> mass(double spacing, double half, const std::vector<double>& 
   return blocks;
 }
 
-TEST(IsotropicMass, moduli_and_back) {
+TEST(IsotropicMass, ModuliAndBack) {
   const IsotropicModuli moduli = isotropic_moduli(0.77, 5e9, 0.5e9);
   EXPECT_NEAR(moduli.shear_modulus, 2 * 0.77 / 3 * 5e9 * 0.5e9 / 5.5e9, 1e-3);
   EXPECT_NEAR(moduli.poisson_ratio, 9.0 / 22, 1e-15);
@@ -54,7 +54,7 @@ TEST(IsotropicMass, moduli_and_back) {
 
 // Hooke's law, Eqs 5.10 and 5.11. Any uniform stress on the rim: every spring carries it exactly, no block turns, and
 // blocks far apart move as the isotropic solid does, but for the jumps of fewer than two joints of each set.
-TEST(IsotropicMass, uniform_stress_is_exact) {
+TEST(IsotropicMass, UniformStressIsExact) {
   const Tensor stress{{{1.3e6, -0.4e6}, {-0.4e6, 0.5e6}}};  // tension positive
   const double spacing = 1, half = 8, kn = 5e9, ks = 0.5e9;
   Network network;
@@ -126,7 +126,7 @@ Point pressed_stress(double half, double kn, double ks, double strain, int along
 // Oedometer, along either axis: G = (s1 - s3)/2e, nu = s3/(s1 + s3), Eqs 5.12 and 5.13. The rim, blocks that follow the
 // strain by their centroids, cannot give as the mass does: an error of a spacing over the width, 1/57 for the larger
 // mass, that falls with the width.
-TEST(IsotropicMass, oedometer) {
+TEST(IsotropicMass, Oedometer) {
   const double kn = 5e9, ks = 0.5e9, strain = 1e-4;
   const IsotropicModuli moduli = isotropic_moduli(1, kn, ks);
   for (const int along : {0, 1}) {
@@ -199,7 +199,7 @@ Ratios mean_of_offsets(double relative_spacing) {
 }
 
 // The short sibling of the long test: one offset, two spacings.
-TEST(IsotropicOpening, approaches_the_smeared_forms) {
+TEST(IsotropicOpening, ApproachesTheSmearedForms) {
   const Ratios coarse = ratios(0.4, 0), fine = ratios(0.2, 0);
   for (std::size_t i = 0; i < fine.size(); ++i) {
     EXPECT_NEAR(fine[i], 1, 0.15);
@@ -210,7 +210,7 @@ TEST(IsotropicOpening, approaches_the_smeared_forms) {
 
 // Least squares in s/a. What is left of the bolts is that they are 32 and not smeared: at s/a = 0.2 the ratio is 0.927,
 // 0.949, 0.961, 0.965 for 16, 32, 64, 128 bolts of the same stiffness together.
-TEST(IsotropicOpeningLong, extrapolates_to_the_smeared_forms) {
+TEST(IsotropicOpeningLong, ExtrapolatesToTheSmearedForms) {
   const std::array spacings{0.4, 0.2, 0.14};
   std::array<Ratios, 3> mean;
   for (std::size_t i = 0; i < spacings.size(); ++i) {
@@ -232,7 +232,7 @@ TEST(IsotropicOpeningLong, extrapolates_to_the_smeared_forms) {
 }
 
 // Support that meets only what is left of the convergence.
-TEST(IsotropicOpening, let_off_before_support) {
+TEST(IsotropicOpening, LetOffBeforeSupport) {
   OpeningNetwork built = build(opening(0.4, 1));
   OpeningNetwork whole = built;
   let_off(whole.network.blocks, whole.wall, {0, 0, 1, pressure});
@@ -256,7 +256,7 @@ TEST(IsotropicOpening, let_off_before_support) {
 }
 
 // Plain rock that is held at 7 a: the wall comes as far as the annulus of the closed form, and evenly.
-TEST(IsotropicOpening, unsupported_convergence) {
+TEST(IsotropicOpening, UnsupportedConvergence) {
   const IsotropicOpening stated = opening(0.2, 2);
   OpeningNetwork built = build(stated);
   let_off(built.network.blocks, built.wall, {0, 0, 1, pressure});
@@ -272,7 +272,7 @@ TEST(IsotropicOpening, unsupported_convergence) {
   EXPECT_LT(solution.unbalanced, 1e-11);
 }
 
-TEST(IsotropicOpening, refuses_bad_input) {
+TEST(IsotropicOpening, RefusesBadInput) {
   IsotropicOpening bad = opening(0.4, 0);
   bad.fixed_radius = 4;
   EXPECT_THROW(build(bad), std::invalid_argument);

@@ -61,7 +61,7 @@ RingLiningForces by_stress_function(const LinedOpening& o) {
 
 // Rock that is held far away and a stiff interface: the relative stiffness solution, but for I/(A a²) = 3e-4, by which
 // the ring's bending adds to its hoop stiffness in one and not in the other.
-TEST(LinedOpening, stress_function_far_from_where_it_is_held) {
+TEST(LinedOpening, StressFunctionFarFromWhereItIsHeld) {
   LinedOpening o;
   o.fixed_radius = 1e4, o.interface = 1e15;
   const double g = o.rock.shear_modulus, nu = o.rock.poisson_ratio;
@@ -92,7 +92,7 @@ RingLiningForces by_network(const LinedOpening& o, double relative_spacing) {
 }
 
 // Blocks of a fifth of the radius: within 15 %, and nearer than twice as large ones do, to first order or faster.
-TEST(LinedOpening, unequal_stresses) {
+TEST(LinedOpening, UnequalStresses) {
   for (const double interface : {0.1e9, 1e9}) {
     LinedOpening o;
     o.interface = interface;

@@ -24,14 +24,14 @@ RingLining boon_ring(double horizontal_ratio) {
 }
 
 // Eqs 5.14 and H.6
-TEST(SoftLining, boon_hoop_forces) {
+TEST(SoftLining, BoonHoopForces) {
   EXPECT_NEAR(lining_hoop_force(boon_lining(1e6)) / 1e3, 21.29, 0.006);
   EXPECT_NEAR(lining_hoop_force(boon_lining(0.1e9)) / 1e3, 1084.3, 0.06);
   EXPECT_NEAR(lining_hoop_force(boon_lining(1e9)) / 1e3, 1985.7, 0.06);
 }
 
 // Eqs H.1-H.6 as three springs that share one pressure: iterate on the pressure instead of solving.
-TEST(SoftLining, compatibility_of_displacements) {
+TEST(SoftLining, CompatibilityOfDisplacements) {
   const SoftLining l = boon_lining(0.1e9);
   double low = 0, high = l.in_situ_pressure;
   for (int i = 0; i < 200; ++i) {
@@ -44,7 +44,7 @@ TEST(SoftLining, compatibility_of_displacements) {
   EXPECT_NEAR(lining_hoop_force(l), low * l.radius, 1e-8);
 }
 
-TEST(SoftLining, limits_and_scaling) {
+TEST(SoftLining, LimitsAndScaling) {
   SoftLining l = boon_lining(1e30);
   l.lining_modulus = 1e30;
   EXPECT_NEAR(lining_hoop_force(l), l.in_situ_pressure * l.radius, 1e-6);  // rigid: the whole pressure
@@ -59,7 +59,7 @@ TEST(SoftLining, limits_and_scaling) {
 
 // Ground held at R: plain rock integrated inwards from there, and the lining's pressure from the wall's two conditions,
 // displacement = pressure times the support's flexibility, stress taken off = p0 - pressure.
-TEST(SoftLining, held_ground_by_integration) {
+TEST(SoftLining, HeldGroundByIntegration) {
   for (const double held : {7.0, 35.0})
     for (const double interface : {1e6, 0.1e9, 1e9}) {
       SoftLining l = boon_lining(interface);
@@ -130,7 +130,7 @@ RingLiningForces by_airy_function(const RingLining& l, LiningContact contact) {
   return forces;
 }
 
-TEST(RingLining, independent_elastic_solution) {
+TEST(RingLining, IndependentElasticSolution) {
   for (const double k : {0.3, 0.5, 1.0, 1.5})
     for (const double nu : {0.0, 0.2, 0.37, 0.49})
       for (const double modulus : {1e6, 1e8, 1e10, 1e13})
@@ -150,7 +150,7 @@ TEST(RingLining, independent_elastic_solution) {
           }
 }
 
-TEST(RingLining, hydrostatic_is_the_axisymmetric_lining) {
+TEST(RingLining, HydrostaticIsTheAxisymmetricLining) {
   const RingLining ring = boon_ring(1);
   for (const LiningContact contact : {LiningContact::full_slip, LiningContact::no_slip}) {
     const RingLiningForces forces = ring_lining(ring, contact);
@@ -166,7 +166,7 @@ TEST(RingLining, hydrostatic_is_the_axisymmetric_lining) {
   EXPECT_NEAR(ring_lining(thin, LiningContact::no_slip).thrust_mean, exact, 1e-8 * exact);
 }
 
-TEST(RingLining, stiffness_limits) {
+TEST(RingLining, StiffnessLimits) {
   RingLining l = boon_ring(0.5);
   const double nu = l.ground_poisson_ratio, wave = l.vertical_stress * 0.25 * l.radius;
   // no bending stiffness, full slip: no moment, no wave of thrust
@@ -185,7 +185,7 @@ TEST(RingLining, stiffness_limits) {
   }
 }
 
-TEST(RingLining, symmetry_signs_and_scaling) {
+TEST(RingLining, SymmetrySignsAndScaling) {
   for (const LiningContact contact : {LiningContact::full_slip, LiningContact::no_slip}) {
     const RingLiningForces low = ring_lining(boon_ring(0.5), contact);
     EXPECT_GT(moment_at(low, 0), 0);                       // the crown sags

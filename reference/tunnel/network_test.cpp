@@ -35,7 +35,7 @@ std::string refusal(const Network& network) {
   return "";
 }
 
-TEST(Network, hung_block) {
+TEST(Network, HungBlock) {
   Network network;
   network.blocks = {ground(box(-2, 1, 2, 2)), {{box(-1, 0, 1, 1)}}};
   network.blocks[1].held[0] = true;
@@ -60,7 +60,7 @@ TEST(Network, hung_block) {
 // As stiff as a mass with a joint every L, E = kn L and G = ks L (Eqs 5.6, 5.7, 6.1, 6.2). Square blocks of side L on
 // each other, pressed, pushed and turned at the top: every joint shortens by N/(kn L), slips by V/(ks L) and turns by M
 // over kn L³/12, or kn L³/16 where its two points have no spread of their own.
-TEST(Network, column) {
+TEST(Network, Column) {
   constexpr int count = 6;
   constexpr double side = 2, pressed = 3e5, pushed = 1e4;
   for (const bool with_spread : {true, false}) {
@@ -99,7 +99,7 @@ TEST(Network, column) {
   }
 }
 
-TEST(Network, pretension_over_joints) {
+TEST(Network, PretensionOverJoints) {
   for (const int joints : {1, 10}) {
     Network network;
     network.blocks.push_back(ground(box(-1, -1, 1, 0)));
@@ -120,7 +120,7 @@ TEST(Network, pretension_over_joints) {
 }
 
 // One joint at an angle to its bolt, which is a dowel too: springs add up in one frame.
-TEST(Network, bolt_and_dowel_across_one_joint) {
+TEST(Network, BoltAndDowelAcrossOneJoint) {
   Network network;
   network.blocks = {ground(box(-1, -1, 1, 0)), {{box(-1, 0, 1, 2)}}};
   const std::vector<Face> joint = faces(network.blocks, 1e-6);
@@ -145,7 +145,7 @@ TEST(Network, bolt_and_dowel_across_one_joint) {
 }
 
 // A dowel off the centroids: the forces on both blocks have one line of action, so that the whole stays in balance.
-TEST(Network, dowel_keeps_the_balance_of_moments) {
+TEST(Network, DowelKeepsTheBalanceOfMoments) {
   Network network;
   network.blocks = {ground(box(-1, -1, 1, 0)), {{box(-1, 0, 1, 2)}}};
   network.springs = springs(faces(network.blocks, 1e-6), 2, 1e9, 1e8);
@@ -161,7 +161,7 @@ TEST(Network, dowel_keeps_the_balance_of_moments) {
 }
 
 // Put in after half of the load, bolt and dowel take half of what they take of all of it, pretension apart.
-TEST(Network, installed_under_load) {
+TEST(Network, InstalledUnderLoad) {
   Network network;
   network.blocks = {ground(box(-1, -1, 1, 0)), {{box(-1, 0, 1, 2)}}};
   network.springs = springs(faces(network.blocks, 1e-6), 2, 1e9, 1e8);
@@ -181,7 +181,7 @@ TEST(Network, installed_under_load) {
 }
 
 // Long beam on springs, load in the middle: w = P b/(2 k), M = P/(4 b), b = (k/4EI)^(1/4) (Hetényi 1946).
-TEST(Network, beam_on_an_elastic_foundation) {
+TEST(Network, BeamOnAnElasticFoundation) {
   constexpr double ei = 56.25e6, foundation = 1e9, load = 1e5;
   const double b = std::pow(foundation / (4 * ei), 0.25);
   double error[2];
@@ -223,7 +223,7 @@ void press(Lining& lining, int i, double pressure) {
   lining.nodes[i].load = {-force * at[0], -force * at[1], 0};
 }
 
-TEST(Network, ring_under_uniform_pressure) {
+TEST(Network, RingUnderUniformPressure) {
   constexpr int count = 96;
   Network network;
   network.lining = ring(count, 5, 7.5e9, 56.25e6);
@@ -238,7 +238,7 @@ TEST(Network, ring_under_uniform_pressure) {
 }
 
 // p cos 2t on an inextensible ring: M = p a²/3 where it presses, w = p a⁴/(9 EI)
-TEST(Network, ring_under_an_oval_pressure) {
+TEST(Network, RingUnderAnOvalPressure) {
   constexpr double radius = 5, ei = 56.25e6, pressure = 1e5;
   double error[2];
   for (const int finer : {0, 1}) {
@@ -267,7 +267,7 @@ TEST(Network, ring_under_an_oval_pressure) {
 // elastic foundation, EI w'''' + K w = K d, w'(±h) = 0, and its ends give with the thrust of the sides, w(h)
 // tan²(pi/12) EA/h = K int (d - w) over half a side: 4.97708 kN, -595.35 and 297.57 N m; 967.499 kN, -89017.7, 32401.4
 // N m.
-TEST(Network, twelve_sides_pressed_inwards) {
+TEST(Network, TwelveSidesPressedInwards) {
   constexpr int sides = 12, beams = 20;
   constexpr double inscribed = 5;
   const double half = inscribed * std::tan(pi / sides);
@@ -311,7 +311,7 @@ TEST(Network, twelve_sides_pressed_inwards) {
   EXPECT_NEAR(soft.beams[0].start_moment, vertex.moment, 2e-2 * std::abs(vertex.moment));
 }
 
-TEST(Network, refuses_loose_blocks_by_name) {
+TEST(Network, RefusesLooseBlocksByName) {
   Network network;
   network.blocks = {ground(box(-1, -1, 1, 0)), {{box(-1, 0, 1, 1)}}, {{box(-1, 1, 1, 2)}}, {{box(-1, 2, 1, 3)}}};
   network.springs = springs(faces(network.blocks, 1e-6), 2, kn, ks);
@@ -332,7 +332,7 @@ TEST(Network, refuses_loose_blocks_by_name) {
   EXPECT_NE(refusal(free_ring).find("node 0 of the lining is loose"), std::string::npos) << refusal(free_ring);
 }
 
-TEST(Network, refuses_bad_numbers_by_name) {
+TEST(Network, RefusesBadNumbersByName) {
   Network good;
   good.blocks = {ground(box(-1, -1, 1, 0)), {{box(-1, 0, 1, 1)}}};
   good.springs = springs(faces(good.blocks, 1e-6), 2, kn, ks);

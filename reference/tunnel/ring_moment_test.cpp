@@ -100,7 +100,7 @@ std::vector<Vector2d> regular_polygon(int sides, double circumradius) {
   return corner;
 }
 
-TEST(RingMoment, vertical_pressure_against_a_frame) {
+TEST(RingMoment, VerticalPressureAgainstAFrame) {
   const int count = 180;
   const double a = 5, p = 662175;
   const auto corner = regular_polygon(count, a);
@@ -122,7 +122,7 @@ TEST(RingMoment, vertical_pressure_against_a_frame) {
   EXPECT_NEAR(ring_under_vertical_pressure(p, a, pi / 2).thrust, p * a, 1e-6);
 }
 
-TEST(RingMoment, polygon_against_a_frame) {
+TEST(RingMoment, PolygonAgainstAFrame) {
   for (const int sides : {3, 4, 12, 25}) {
     const double a = 5, q = 1e5;
     const auto corner = regular_polygon(sides, a);
@@ -146,7 +146,7 @@ TEST(RingMoment, polygon_against_a_frame) {
   }
 }
 
-TEST(RingMoment, limits_and_scaling) {
+TEST(RingMoment, LimitsAndScaling) {
   EXPECT_NEAR(polygon_under_pressure(1, 5, 100000, 0).moment, 0, 1e-7);  // a circle has no ripple
   EXPECT_NEAR(polygon_under_pressure(1, 5, 100000, 0).thrust, 5, 1e-7);
   EXPECT_NEAR(polygon_under_pressure(7, 50, 12, 0.2).moment, 700 * polygon_under_pressure(1, 5, 12, 0.2).moment, 1e-9);
@@ -155,7 +155,7 @@ TEST(RingMoment, limits_and_scaling) {
 }
 
 // Eqs I.1-I.3: cut the ring at the crown, integrate, close it by mean and first harmonics of the cut ring's moment.
-TEST(RingMoment, ring_moments_by_cutting_and_closing) {
+TEST(RingMoment, RingMomentsByCuttingAndClosing) {
   const int count = 720;
   const double a = 5;
   auto pressure_at = [](double t) {
@@ -201,7 +201,7 @@ TEST(RingMoment, ring_moments_by_cutting_and_closing) {
   EXPECT_NEAR(ring_moments(oval, 5)[0], 25.0 / 3, 1e-12);
 }
 
-TEST(RingMoment, pressure_from_a_side) {
+TEST(RingMoment, PressureFromASide) {
   std::vector<double> position, moment;
   for (int i = 0; i <= 6; ++i) {
     position.push_back(1000 + 0.4 * i);

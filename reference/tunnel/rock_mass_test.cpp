@@ -25,7 +25,7 @@ std::vector<Block> one_each(const std::vector<Polygon>& pieces) {
   return blocks;
 }
 
-TEST(RockMass, inscribed_radius) {
+TEST(RockMass, InscribedRadius) {
   EXPECT_NEAR(inscribed_radius(box(1000, 3, 1005, 4.2)), 0.6, 1e-12);
   EXPECT_NEAR(inscribed_radius({{0, 0}, {4, 0}, {0, 3}}), 1, 1e-12);  // (3 + 4 - 5)/2
   EXPECT_NEAR(inscribed_radius({{0, 0}, {4e-3, 0}, {0, 3e-3}}), 1e-3, 1e-15);
@@ -35,7 +35,7 @@ TEST(RockMass, inscribed_radius) {
   EXPECT_NEAR(inscribed_radius(twelve), std::cos(15 * degree), 1e-12);
 }
 
-TEST(RockMass, traces_are_extended_in_turn) {
+TEST(RockMass, TracesAreExtendedInTurn) {
   const Polygon whole = box(0, 0, 4, 4);
   const Trace across{{1, 2}, 0, 0.5}, up{{3, 3}, 90 * degree, 0.5};
   const std::vector<Polygon> pieces = cut_by_traces(whole, {across, up}, 0.1);
@@ -51,7 +51,7 @@ TEST(RockMass, traces_are_extended_in_turn) {
   EXPECT_THROW(cut_by_traces(whole, {across}, 0), std::invalid_argument);
 }
 
-TEST(RockMass, traces_are_drawn_as_stated) {
+TEST(RockMass, TracesAreDrawnAsStated) {
   const std::vector<Trace> traces = draw_traces({-30, -20}, {70, 80}, 0.65, 0.4, 0.02, 2, 7);
   ASSERT_EQ(traces.size(), 6500u);
   double x = 0, y = 0, angle = 0, square = 0;
@@ -68,7 +68,7 @@ TEST(RockMass, traces_are_drawn_as_stated) {
 }
 
 // Eqs 5.6-5.9: the moduli of table 5.3, rounded as printed; where kn = 2 (1 + nu) ks both shear moduli are one
-TEST(RockMass, spaced_joints) {
+TEST(RockMass, SpacedJoints) {
   const SpacedJointsModuli printed = spaced_joints_moduli(0.77, 5e9, 0.5e9, 0.2);
   EXPECT_NEAR(printed.shear_modulus / 1e9, 0.385, 0.0005);
   EXPECT_NEAR(printed.isotropic_shear_modulus / 1e9, 1.604, 0.0005);
@@ -80,7 +80,7 @@ TEST(RockMass, spaced_joints) {
 }
 
 // Squares in columns: n + 1 joints of kn over the height, nothing sideways; pressed sideways the same with its numbers.
-TEST(RockMass, oedometer_of_columns) {
+TEST(RockMass, OedometerOfColumns) {
   std::vector<Polygon> squares;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 8; ++k)
@@ -108,7 +108,7 @@ OedometerAnswer chapter_answer(const std::vector<Polygon>& pieces, int along) {
 
 // Table 5.3 has G 0.527 to 0.542 GPa and nu 0.36 to 0.37, for a least inscribed diameter of 0.5 m. Draws scatter by 3 %
 // in G and 0.004 in nu about that: three times this for one draw.
-TEST(RockMass, one_draw_of_the_chapter) {
+TEST(RockMass, OneDrawOfTheChapter) {
   const std::vector<Polygon> pieces = chapter_mass(0.25, 1);
   EXPECT_NEAR(static_cast<double>(pieces.size()), 5700, 150);
   const OedometerAnswer up = chapter_answer(pieces, 1);
@@ -118,7 +118,7 @@ TEST(RockMass, one_draw_of_the_chapter) {
 
 // Means of four draws; a radius of 0.5 m, as Table 5.2 can be read, gives a third of the blocks and nearly twice the
 // modulus. Pressed horizontally the mass is stiffer: it is not isotropic.
-TEST(RockMassLong, chapter) {
+TEST(RockMassLong, Chapter) {
   for (const double least : {0.25, 0.5}) {
     double up[2] = {0, 0}, across[2] = {0, 0}, blocks = 0;
     for (int seed = 1; seed <= 4; ++seed) {

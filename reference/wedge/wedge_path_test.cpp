@@ -78,7 +78,7 @@ double critical_deg_by_dynamics(const ElasticPlasticWedge& block, double slower_
   return friction_deg;
 }
 
-TEST(WedgePath, boon_wedge_with_equal_areas) {
+TEST(WedgePath, BoonWedgeWithEqualAreas) {
   // Values of an independent calculation that does not state its areas; equal ones come within 0.03, which is what
   // 8 % on the area ratio does. Its 33.135 at ks/kn = 2 would need a ratio of 0.8 and is not gated here.
   EXPECT_NEAR(critical_deg(0.1), 33.355, 0.03);
@@ -94,7 +94,7 @@ TEST(WedgePath, boon_wedge_with_equal_areas) {
   EXPECT_NEAR(critical_deg(2, 1.1305), 33.293, 8e-4);
 }
 
-TEST(WedgePath, damped_dynamics_agrees) {
+TEST(WedgePath, DampedDynamicsAgrees) {
   // Failure is seen late: the block, weight 1, damper c = 0.2, rate r = 2e-6 degrees, moves 2.5 units (four less the
   // settlement) within sqrt(2 c 2.5 r / 0.016) = 0.011 degrees.
   for (const double ratio : {1.0, 2.0})
@@ -123,7 +123,7 @@ double wet_critical_deg(const ElasticPlasticWedge& block, double start_deg = 70,
   return elastic_plastic_path(block, settings).critical_friction / degree;
 }
 
-TEST(WedgeUplift, closed_form_with_water) {
+TEST(WedgeUplift, ClosedFormWithWater) {
   EXPECT_NEAR(*critical_friction(wet_wedge(1, 1000).wedge) / degree, 46.637327, 5e-7);
   const Wedge full = wet_wedge(1, 0, 0.5).wedge;
   EXPECT_NEAR(full.a.uplift_force, 332.7566, 5e-5);
@@ -134,7 +134,7 @@ TEST(WedgeUplift, closed_form_with_water) {
 }
 
 // Second derivation: the pressure on a face summed in thin strips.
-TEST(WedgeUplift, by_strips) {
+TEST(WedgeUplift, ByStrips) {
   const int strips = 4000;
   const double level = 0.7;
   double sum = 0;
@@ -149,7 +149,7 @@ TEST(WedgeUplift, by_strips) {
   EXPECT_NEAR(wedge_uplift({100, 300, 1000}, 10, 10 * level, 9810).a, 1000 * uplift.a, 1e-7);
 }
 
-TEST(WedgePath, with_water) {
+TEST(WedgePath, WithWater) {
   // the table of the header, its rounding and the step error
   EXPECT_NEAR(wet_critical_deg(wet_wedge(0.01, 1000)), 46.608, 1e-3);
   EXPECT_NEAR(wet_critical_deg(wet_wedge(0.1, 1000)), 46.410, 1e-3);
@@ -166,14 +166,14 @@ TEST(WedgePath, with_water) {
   EXPECT_NEAR(wet_critical_deg(light), wet_critical_deg(dry), 1e-6);
 }
 
-TEST(WedgePath, damped_dynamics_agrees_with_water) {
+TEST(WedgePath, DampedDynamicsAgreesWithWater) {
   for (const double ratio : {0.5, 1.0}) {
     const ElasticPlasticWedge block = wet_wedge(ratio, 1000);
     EXPECT_NEAR(critical_deg_by_dynamics(block, 47, 46.7), wet_critical_deg(block), 0.02) << ratio;
   }
 }
 
-TEST(WedgePath, never_above_the_closed_form) {
+TEST(WedgePath, NeverAboveTheClosedForm) {
   const double closed = *critical_friction(boon_wedge()) / degree;
   double last = closed;
   for (const double ratio : {0.1, 0.5, 1.0, 2.0}) {
@@ -185,7 +185,7 @@ TEST(WedgePath, never_above_the_closed_form) {
   EXPECT_NEAR(critical_deg(0.001), closed, 2e-4);  // no shear stiffness, nothing to lock
 }
 
-TEST(WedgePath, single_plane_and_symmetric_wedge) {
+TEST(WedgePath, SinglePlaneAndSymmetricWedge) {
   // Single plane: nothing to lock against. Symmetric: both normal forces rise alike.
   const Wedge symmetric = wedge(50, 30, 50, 330), single = wedge(35, 180, 70, 190);
   for (const double ratio : {0.1, 2.0}) {
@@ -198,7 +198,7 @@ TEST(WedgePath, single_plane_and_symmetric_wedge) {
   EXPECT_NEAR(two.normal_force_a, two.normal_force_b, 1e-9);
 }
 
-TEST(WedgePath, steps_converge) {
+TEST(WedgePath, StepsConverge) {
   WedgePathSettings coarse;
   coarse.friction_step = 0.02 * degree;
   const ElasticPlasticWedge block{boon_wedge(), 1, 1, 1, 1};
@@ -208,7 +208,7 @@ TEST(WedgePath, steps_converge) {
   EXPECT_NEAR(far.critical_friction, near.critical_friction, 4 * far.step_error);
 }
 
-TEST(WedgePath, weight_stiffness_and_size_cancel) {
+TEST(WedgePath, WeightStiffnessAndSizeCancel) {
   Wedge heavy = boon_wedge();
   heavy.weight = 3e7;
   const double reference = critical_deg(0.5, 1.1);
@@ -216,7 +216,7 @@ TEST(WedgePath, weight_stiffness_and_size_cancel) {
   EXPECT_NEAR(elastic_plastic_path({heavy, 1.1e4, 1e4, 1e7, 0.5e7}).critical_friction / degree, reference, 1e-6);
 }
 
-TEST(WedgePath, faces_of_the_block) {
+TEST(WedgePath, FacesOfTheBlock) {
   // Vertical face across a symmetric wedge, dips 45, dip directions 45 either side: corners by hand.
   const WedgeFaces faces = wedge_faces(wedge(45, 45, 45, 315), 90 * degree, 0, 1);
   const double back = std::numbers::sqrt2, wide = std::numbers::sqrt2;  // top triangle: depth and half width
@@ -230,7 +230,7 @@ TEST(WedgePath, faces_of_the_block) {
   EXPECT_NEAR(wedge_faces(boon_wedge(), 90 * degree, 180 * degree, 1).area_a, 1.226961, 1e-6);
 }
 
-TEST(WedgePath, refuses_bad_input) {
+TEST(WedgePath, RefusesBadInput) {
   EXPECT_THROW(elastic_plastic_path({boon_wedge(), 0, 1, 1, 1}), std::invalid_argument);
   WedgePathSettings weak;
   weak.friction_start = 20 * degree;

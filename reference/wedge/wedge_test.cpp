@@ -52,7 +52,7 @@ struct RandomWedges {
 
 // --- worked values
 
-TEST(Wedge, boon_section_4_8) {
+TEST(Wedge, BoonSection48) {
   const WedgeSolution s = solve_wedge(boon_wedge());
   EXPECT_NEAR(*critical_friction(boon_wedge()) / degree, 33.357221408834, 1e-11);
   EXPECT_EQ(s.mode, WedgeMode::both_planes);
@@ -66,7 +66,7 @@ TEST(Wedge, boon_section_4_8) {
 
 // Hoek & Bray's friction-only chart, example 40/165 and 70/285, friction 35 and 20: read off A = 1.5, B = 0.7, F
 // = 1.30.
-TEST(Wedge, hoek_and_bray_chart_example) {
+TEST(Wedge, HoekAndBrayChartExample) {
   Wedge w = wedge(40, 165, 70, 285);
   w.a.friction_angle = 35 * degree;
   w.b.friction_angle = 20 * degree;
@@ -79,7 +79,7 @@ TEST(Wedge, hoek_and_bray_chart_example) {
 // Wyllie & Mah (2004), Rock Slope Engineering, chapter 7: 45/105 and 70/235, face 65/185, top 12/195, H 40 m, c 24 and
 // 48 kPa, friction 30 and 20, 25 and 9.81 kN/m3: F = .241 + .494 + .893 - .376 + .342 - .244 = 1.35 wet. X and Y are
 // coded here from their angles.
-TEST(Wedge, hoek_and_bray_cohesion_and_water) {
+TEST(Wedge, HoekAndBrayCohesionAndWater) {
   Wedge w = wedge(45, 105, 70, 235);
   const Vector3d n_a = pole(w.a), n_b = pole(w.b), face = pole(plane(65, 185)), top = pole(plane(12, 195));
   auto angle_cosine = [](const Vector3d& p, const Vector3d& q) { return p.normalized().dot(q.normalized()); };
@@ -107,7 +107,7 @@ TEST(Wedge, hoek_and_bray_cohesion_and_water) {
 
 // --- limits
 
-TEST(Wedge, symmetric_wedge) {
+TEST(Wedge, SymmetricWedge) {
   // Both planes dip d, dip directions p either side of north: N = W cos(plunge) / (2 sin(xi/2)), xi between the faces.
   for (const double dip : {30.0, 50.0, 70.0})
     for (const double half : {20.0, 60.0, 80.0}) {
@@ -122,7 +122,7 @@ TEST(Wedge, symmetric_wedge) {
     }
 }
 
-TEST(Wedge, single_plane_slides_down_its_dip) {
+TEST(Wedge, SinglePlaneSlidesDownItsDip) {
   // B dips the same way as A but more steeply: the block parts from B and slides down A.
   const Wedge w = wedge(35, 180, 70, 190);
   const WedgeSolution s = solve_wedge(w);
@@ -133,7 +133,7 @@ TEST(Wedge, single_plane_slides_down_its_dip) {
   EXPECT_EQ(solve_wedge(wedge(70, 190, 35, 180)).mode, WedgeMode::plane_b);
 }
 
-TEST(Wedge, extremes_of_strength_and_load) {
+TEST(Wedge, ExtremesOfStrengthAndLoad) {
   EXPECT_EQ(solve_wedge(boon_wedge(0)).factor_of_safety, 0);
 
   // horizontal line of intersection: nothing drives
@@ -153,7 +153,7 @@ TEST(Wedge, extremes_of_strength_and_load) {
   EXPECT_EQ(*critical_friction(glued), 0);
 }
 
-TEST(Wedge, uplift_takes_off_its_own_normal_force_only) {
+TEST(Wedge, UpliftTakesOffItsOwnNormalForceOnly) {
   Wedge w = boon_wedge(40);
   const WedgeSolution dry = solve_wedge(w);
   w.a.uplift_force = 0.1;
@@ -167,7 +167,7 @@ TEST(Wedge, uplift_takes_off_its_own_normal_force_only) {
 
 // Hoek & Bray's wedge factor: F = [sin beta / sin(xi/2)] tan(phi) / tan(plunge), from angles in the section across the
 // line.
-TEST(Wedge, hoek_and_bray_wedge_factor) {
+TEST(Wedge, HoekAndBrayWedgeFactor) {
   RandomWedges random;
   int both = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -193,7 +193,7 @@ TEST(Wedge, hoek_and_bray_wedge_factor) {
 }
 
 // Equilibrium of forces as a 3 x 3 system in N_A, N_B and the mobilised strength, any friction, cohesion, water, load.
-TEST(Wedge, equilibrium_solved_numerically) {
+TEST(Wedge, EquilibriumSolvedNumerically) {
   RandomWedges random;
   int both = 0, one = 0, none = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -241,7 +241,7 @@ TEST(Wedge, equilibrium_solved_numerically) {
   EXPECT_GT(none, 10);
 }
 
-TEST(Wedge, critical_friction_gives_a_factor_of_one) {
+TEST(Wedge, CriticalFrictionGivesAFactorOfOne) {
   RandomWedges random;
   for (int i = 0; i < 500; ++i) {
     Wedge w = random.next();
@@ -254,7 +254,7 @@ TEST(Wedge, critical_friction_gives_a_factor_of_one) {
 
 // --- scaling and symmetry
 
-TEST(Wedge, weight_rotation_and_names_do_not_matter) {
+TEST(Wedge, WeightRotationAndNamesDoNotMatter) {
   RandomWedges random;
   for (int i = 0; i < 500; ++i) {
     const Wedge w = random.next();
@@ -276,7 +276,7 @@ TEST(Wedge, weight_rotation_and_names_do_not_matter) {
 
 // --- classification and errors
 
-TEST(Wedge, classification) {
+TEST(Wedge, Classification) {
   EXPECT_TRUE(classify_wedge(boon_wedge()).non_degenerate);
   EXPECT_NE(classify_wedge(wedge(45, 90, 45, 268)).reason.find("plunges"), std::string::npos);
   EXPECT_FALSE(classify_wedge(wedge(45, 90, 50, 95)).non_degenerate);
@@ -298,7 +298,7 @@ TEST(Wedge, classification) {
   EXPECT_GT(kept_one, 100);
 }
 
-TEST(Wedge, refuses_bad_input) {
+TEST(Wedge, RefusesBadInput) {
   EXPECT_THROW(solve_wedge(wedge(40, 130, 40, 130)), std::invalid_argument);
   EXPECT_THROW(solve_wedge(wedge(100, 130, 40, 130)), std::invalid_argument);
   EXPECT_THROW(solve_wedge(wedge(40, 130, 60, 220, 90.1)), std::invalid_argument);

@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <cstdio>
 #include <vector>
+#include <voussoir/core/run/simulate.hpp>
 #include <voussoir/core/scene/scene.hpp>
-#include <voussoir/core/simulate.hpp>
 
 #include "app/testing/beside_another_library/other.hpp"
 

@@ -1,4 +1,4 @@
-// A contact by multipliers on the central path (optimise/central_path.hpp), from a point known to lie inside both
+// A contact by multipliers on the central path (solvers/central_path.hpp), from a point known to lie inside both
 // parts: Newton in x and s, then the gradient and the value of the barrier, which are normal and overlap. In the first
 // part's axes: distances to the planes, s included, are never less than the smoothing, and no frame must fit them.
 #if defined(VOUSSOIR_CENTRAL_INL) == defined(HWY_TARGET_TOGGLE)

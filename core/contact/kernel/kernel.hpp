@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <span>
 
+#include "core/base/settings.hpp"
 #include "core/contact/contact.hpp"
 #include "core/contact/kernel_counters.hpp"
 #include "core/contact/pair.hpp"
-#include "core/settings.hpp"
 
 namespace voussoir {
 

@@ -1,5 +1,5 @@
 // [accuracy]
-#include "core/accuracy.hpp"
+#include "core/base/accuracy.hpp"
 #include "core/scene/keys/tables.hpp"
 
 namespace voussoir::keys {

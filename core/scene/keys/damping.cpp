@@ -1,6 +1,6 @@
 // [damping], of a scene and of a stage.
+#include "core/base/settings.hpp"
 #include "core/scene/keys/tables.hpp"
-#include "core/settings.hpp"
 
 namespace voussoir::keys {
 

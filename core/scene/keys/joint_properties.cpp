@@ -1,5 +1,5 @@
 // [[joint_properties]]: the parameters of the laws in core/law.
-#include "core/law/joint_properties.hpp"
+#include "core/joint_laws/joint_properties.hpp"
 #include "core/scene/keys/tables.hpp"
 
 namespace voussoir::keys {

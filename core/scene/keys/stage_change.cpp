@@ -1,6 +1,6 @@
 // [[stage]]: what changes when it begins.
+#include "core/base/settings.hpp"
 #include "core/scene/keys/tables.hpp"
-#include "core/settings.hpp"
 
 namespace voussoir::keys {
 

@@ -1,6 +1,6 @@
 // [[stage]]: keys of the kind reduce.
+#include "core/base/settings.hpp"
 #include "core/scene/keys/tables.hpp"
-#include "core/settings.hpp"
 
 namespace voussoir::keys {
 namespace {

@@ -2,9 +2,9 @@
 // rounding anywhere soon shows in every digit.
 #pragma once
 
+#include "core/model/water_surfaces.hpp"
 #include "core/slicing/slice.hpp"
 #include "core/testing/models.hpp"
-#include "core/waters.hpp"
 
 namespace voussoir::probe {
 
@@ -107,7 +107,7 @@ inline Scene<3> smooth_tumble() {
 
 // both with their contacts carried as a whole: from faces over edges to corners and back
 template <int Dim>
-Scene<Dim> carried_whole_in(Scene<Dim> scene, const char* name) {
+Scene<Dim> integrated_in(Scene<Dim> scene, const char* name) {
   scene.name = name;
   scene.settings.contact.face = ContactFace::integrated;
   return scene;

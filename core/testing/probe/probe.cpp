@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "core/state_hash.hpp"
+#include "core/model/state_hash.hpp"
 #include "core/step.hpp"
 #include "core/testing/probe/models.hpp"
 
@@ -103,6 +103,6 @@ int main(int argc, char** argv) {
   run(probe::smooth_tumble(), options);
   run(probe::flooded_tumble(), options);
   run(probe::flooded_wall(), options);
-  run(probe::carried_whole_in(probe::tumble(), "whole_tumble"), options);
-  run(probe::carried_whole_in(probe::wall(), "whole_wall"), options);
+  run(probe::integrated_in(probe::tumble(), "whole_tumble"), options);
+  run(probe::integrated_in(probe::wall(), "whole_wall"), options);
 }

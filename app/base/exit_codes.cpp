@@ -1,0 +1,17 @@
+#include "app/base/exit_codes.hpp"
+
+namespace voussoir {
+
+ExitCode exit_code(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::done:
+      return ExitCode::done;
+    case Outcome::incomplete:
+      return ExitCode::incomplete;
+    case Outcome::failed:
+      return ExitCode::numerical;
+  }
+  return ExitCode::numerical;
+}
+
+}  // namespace voussoir

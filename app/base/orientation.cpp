@@ -1,0 +1,34 @@
+#include "app/base/orientation.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <limits>
+
+namespace voussoir {
+
+template <int Dim>
+MeanOrientation mean_orientation(const std::vector<Vector<Dim>>& normals) {
+  using Matrix = Eigen::Matrix<double, Dim, Dim>;
+  Matrix moments = Matrix::Zero();
+  for (const Vector<Dim>& normal : normals)
+    moments += normal * normal.transpose();
+  Vector<Dim> mean = Eigen::SelfAdjointEigenSolver<Matrix>(moments).eigenvectors().col(Dim - 1);
+  if (mean[Dim - 1] < 0) mean = -mean;
+  Vector<Dim> sum = Vector<Dim>::Zero();
+  for (const Vector<Dim>& normal : normals)
+    sum += normal.dot(mean) < 0 ? Vector<Dim>(-normal) : normal;
+  MeanOrientation found{angles_of(mean), {}};
+  const auto n = static_cast<double>(normals.size());
+  const bool scattered = Dim == 3 && n > 1 && n - sum.norm() > n * std::numeric_limits<double>::epsilon();
+  if (scattered) found.fisher_constant = (n - 1) / (n - sum.norm());
+  return found;
+}
+
+std::pair<double, double> pole_of(const Vector<3>& normal) {
+  const DipAndDirection angles = angles_of(normal);
+  return {(angles.direction + 180) * degree, (90 - angles.dip) * degree};
+}
+
+template MeanOrientation mean_orientation<2>(const std::vector<Vector<2>>&);
+template MeanOrientation mean_orientation<3>(const std::vector<Vector<3>>&);
+
+}  // namespace voussoir

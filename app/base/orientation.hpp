@@ -1,0 +1,26 @@
+// Orientations as reports tell them: the mean of a set's joints, and poles for a stereonet.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "app/base/dip_angles.hpp"
+
+namespace voussoir {
+
+struct MeanOrientation {
+  DipAndDirection angles{0, 0};
+  std::optional<double> fisher_constant;  // 3-D; nothing where the normals do not scatter
+};
+
+// Of unit normals that have no sign: the axis of their largest moment. Fisher's constant is that of the normals turned
+// to its side, (n - 1)/(n - |sum|) (Fisher 1953). At least one normal.
+template <int Dim>
+MeanOrientation mean_orientation(const std::vector<Vector<Dim>>& normals);
+
+// Trend (clockwise from north) and plunge (below horizontal) of the downward normal, rad: it plunges as steeply as the
+// plane is flat, away from the dip direction.
+std::pair<double, double> pole_of(const Vector<3>& normal);
+
+}  // namespace voussoir

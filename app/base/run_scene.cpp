@@ -1,0 +1,128 @@
+#include "app/base/run_scene.hpp"
+
+#include "app/base/bad_input.hpp"
+#include "app/base/message.hpp"
+#include "core/base/fingerprint.hpp"
+#include "core/base/version.hpp"
+#include "core/scene/effective_scene.hpp"
+#include "core/scene/plausibility.hpp"
+#include "core/scene/read_stages.hpp"
+#include "core/scene/scene.hpp"
+#ifdef VOUSSOIR_HAS_GLPK
+#include "core/solvers/glpk.hpp"
+#endif
+#ifdef VOUSSOIR_HAS_IPOPT
+#include "core/solvers/ipopt.hpp"
+#endif
+
+namespace voussoir {
+namespace {
+
+template <int Dim>
+void use_glpk([[maybe_unused]] Solvers<Dim>& solvers) {
+#ifdef VOUSSOIR_HAS_GLPK
+  solvers.feasibility = &solve_feasibility_glpk<Dim>;
+#else
+  throw BadInput(
+      "contact.lp = \"glpk\": GLPK is not built in; configure with -DVOUSSOIR_WITH_GLPK=ON, or write lp = \"own\"");
+#endif
+}
+
+// Ipopt as chosen, and where it is built in also for what our own search leaves unanswered
+template <int Dim>
+void use_ipopt([[maybe_unused]] CentreSolver chosen, [[maybe_unused]] Solvers<Dim>& solvers) {
+#ifdef VOUSSOIR_HAS_IPOPT
+  if (chosen == CentreSolver::own) solvers.fallback = &solve_analytic_centre_ipopt<Dim>;
+  if (chosen == CentreSolver::ipopt) solvers.centre = &solve_analytic_centre_ipopt<Dim>;
+  if (chosen == CentreSolver::ipopt_scaled) solvers.centre = &solve_analytic_centre_ipopt_scaled<Dim>;
+#else
+  if (chosen != CentreSolver::own)
+    throw BadInput(
+        "contact.centre: Ipopt is not built in; configure with -DVOUSSOIR_WITH_IPOPT=ON, or write centre = \"own\"");
+#endif
+}
+
+template <int Dim>
+Prepared<Dim> prepare_to_run(const Scene& scene, int threads) {
+  Prepared<Dim> prepared = prepare<Dim>(scene);
+  if (prepared.settings.contact.lp == LpSolver::glpk) use_glpk(prepared.model.solvers);
+  use_ipopt(prepared.settings.contact.centre, prepared.model.solvers);
+  prepared.settings.threads = threads;
+  return prepared;
+}
+
+template <int Dim>
+void load_prepared(const Scene& scene, int threads, LoadedScene& loaded) {
+  Prepared<Dim> prepared = prepare_to_run<Dim>(scene, threads);
+  loaded.warnings = implausible_values<Dim>(scene, prepared);
+  loaded.prepared = std::move(prepared);
+}
+
+template <int Dim>
+Results simulate_prepared(const Prepared<Dim>& prepared, const ProgressHook& hook) {
+  Progress<Dim> progress = initial_progress(prepared);
+  Watcher<Dim> watcher;
+  watcher.progress = hook;
+  simulate(prepared, progress, watcher);
+  return std::move(progress.results);
+}
+
+LoadedScene load(Scene scene, int threads) {
+  LoadedScene loaded;
+  loaded.dimension = scene.dimension;
+  loaded.text = toml_text(*scene.tree);
+  loaded.files = scene.files;
+  loaded.from_level = scene.from_level;
+  loaded.hash = fingerprint(canonical_text(scene));
+  if (scene.dimension == 2)
+    load_prepared<2>(scene, threads, loaded);
+  else
+    load_prepared<3>(scene, threads, loaded);
+  loaded.title = std::visit([](const auto& prepared) { return prepared.title; }, loaded.prepared);
+  loaded.stated = std::make_shared<const Scene>(std::move(scene));
+  return loaded;
+}
+
+}  // namespace
+
+LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides, int threads) {
+  Scene scene = read_scene(path, overrides);
+  require_stages(scene);
+  return load(std::move(scene), threads);
+}
+
+LoadedScene load_blocks(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  return load(read_scene(path, overrides), 1);
+}
+
+void tell_remarks(const Scene& scene) {
+  for (const std::string& remark : scene.remarks)
+    tell("voussoir: warning: {}\n", remark);
+}
+
+Results simulate_scene(const LoadedScene& scene, const ProgressHook& progress) {
+  return std::visit([&](const auto& prepared) { return simulate_prepared(prepared, progress); }, scene.prepared);
+}
+
+SceneRun run_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides, int threads,
+                   const ProgressHook& progress) {
+  LoadedScene scene = load_scene(path, overrides, threads);
+  Results results = simulate_scene(scene, progress);
+  return {std::move(scene), std::move(results)};
+}
+
+std::vector<std::pair<std::string, bool>> features() {
+#ifdef VOUSSOIR_HAS_GLPK
+  const bool glpk = true;
+#else
+  const bool glpk = false;
+#endif
+#ifdef VOUSSOIR_HAS_IPOPT
+  const bool ipopt = true;
+#else
+  const bool ipopt = false;
+#endif
+  return {{"glpk", glpk}, {"ipopt", ipopt}, {"fast_arithmetic", fast_arithmetic()}};
+}
+
+}  // namespace voussoir

@@ -1,0 +1,13 @@
+// A unit of length and how long it is.
+#pragma once
+
+#include <string_view>
+
+namespace voussoir {
+
+struct LengthUnit {
+  std::string_view name;
+  double metres = 1;
+};
+
+}  // namespace voussoir

@@ -1,0 +1,173 @@
+// Laboratory tests of a scene's joints: normal compression, direct shear, cycles.
+#include "app/joint_test/joint_test_command.hpp"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "app/base/bad_input.hpp"
+#include "app/base/message.hpp"
+#include "app/run_folder/claimed_folder.hpp"
+#include "core/joint_laws/joint_path.hpp"
+#include "core/output/atomic_file.hpp"
+#include "core/scene/scene.hpp"
+#include "text/csv_table.hpp"
+
+namespace voussoir {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double usual_stresses[] = {0.1e6, 0.5e6, 1e6, 2e6, 5e6};
+
+// one curve of the table and of the figure
+struct JointTest {
+  std::string name;
+  double stress;  // Pa
+  std::vector<JointPathPoint> points;
+};
+
+JointPath path_of(const JointTestArguments& arguments, double stress) {
+  JointPath path;
+  path.normal_stress = stress;
+  path.steps = arguments.steps;
+  path.bonded = arguments.bonded;
+  if (arguments.path == "normal") {
+    path.unload = true;
+    return path;
+  }
+  path.slip = arguments.slip;
+  if (arguments.path == "cyclic") path.cycles = arguments.cycles;
+  if (arguments.path == "stiffness") {
+    path.surroundings = arguments.surroundings;
+    path.dilation = arguments.dilation;
+  }
+  return path;
+}
+
+std::vector<JointProperties> chosen(const Scene& scene, const std::vector<std::string>& names) {
+  std::vector<JointProperties> all, some;
+  std::string known;
+  for (const PropertiesSpec& spec : scene.properties) {
+    all.push_back(spec.properties);
+    known += (known.empty() ? "" : ", ") + spec.properties.name;
+  }
+  if (all.empty()) throw BadInput(scene.file + ": there is no joint to test; add [[joint_properties]]");
+  for (const std::string& name : names) {
+    const auto at = std::find_if(all.begin(), all.end(), [&](const JointProperties& p) { return p.name == name; });
+    if (at == all.end())
+      throw BadInput(
+          fmt::format("--joint {}: {} has no joint_properties of this name; there are: {}", name, scene.file, known));
+    some.push_back(*at);
+  }
+  for (const JointProperties& p : names.empty() ? all : some)
+    if (p.constant_stiffness)
+      throw BadInput(
+          fmt::format("joint_properties.{}: its stiffness is in N/m and knows no stress; test joints whose "
+                      "stiffness is per area, with --joint",
+                      p.name));
+  return names.empty() ? all : some;
+}
+
+std::string table(const std::vector<JointTest>& tests) {
+  std::string text =
+      "joint,test_stress_Pa,overlap_m,slip_m,normal_stress_Pa,shear_stress_Pa,normal_stiffness_Pa_per_m,"
+      "shear_stiffness_Pa_per_m,plastic_slip_m,friction_coefficient,elastic_J_per_m2,dissipated_J_per_m2,"
+      "stiffening_J_per_m2,bonded,snap_back\n";
+  for (const JointTest& test : tests)
+    for (const JointPathPoint& p : test.points)
+      text +=
+          fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(test.name), test.stress, p.overlap,
+                      p.slip, p.normal_stress, p.shear_stress, p.normal_stiffness, p.shear_stiffness, p.plastic_slip,
+                      p.friction, p.elastic, p.dissipated, p.stiffening, p.bonded ? 1 : 0, p.snap_back ? 1 : 0);
+  return text;
+}
+
+// A text of a gnuplot script. Between apostrophes it could not begin with one; between double quotes these characters
+// mean something else.
+std::string gnuplot_text(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char character : text)
+    quoted += std::string_view("\"\\`@").find(character) == std::string_view::npos
+                  ? std::string(1, character)
+                  : fmt::format("\\{:03o}", static_cast<int>(character));
+  return quoted + "\"";
+}
+
+// Columns that gnuplot finds in the first cell of a row: it takes the second quote for the end of the text, and a comma
+// behind it for the end of a column.
+std::ptrdiff_t columns_of(const std::string& cell) {
+  if (!cell.starts_with('"')) return 1;
+  return 1 + std::count(cell.begin() + static_cast<std::ptrdiff_t>(cell.find('"', 1)), cell.end(), ',');
+}
+
+std::string figure(const std::vector<JointTest>& tests, bool normal) {
+  std::string text =
+      "# gnuplot joint_test.gp\nset terminal svg size 760,460 background rgb 'white' font 'sans,13'\n"
+      "set output 'joint_test.svg'\nset datafile separator comma\nset key outside right noenhanced\nset grid\n";
+  text += normal ? "set xlabel 'closure (µm)'\nset ylabel 'normal stress (MPa)'\nplot "
+                 : "set xlabel 'slip (mm)'\nset ylabel 'shear stress (MPa)'\nplot ";
+  std::size_t row = 1;  // behind the header
+  for (const JointTest& test : tests) {
+    const std::ptrdiff_t first = columns_of(csv_cell(test.name));
+    text += fmt::format("{}'joint_test.csv' every ::{}::{} using (${} * {}):(${} * 1e-6) with lines lw 2 title {}",
+                        &test == tests.data() ? "" : ", \\\n     ", row, row + test.points.size() - 1,
+                        first + (normal ? 2 : 3), normal ? "1e6" : "1e3", first + (normal ? 4 : 5),
+                        gnuplot_text(fmt::format("{}, {:g} MPa", test.name, test.stress * 1e-6)));
+    row += test.points.size();
+  }
+  return text + "\n";
+}
+
+// the figure is a help, the table is the result: without gnuplot one line says how to draw it
+void draw(const fs::path& folder) {
+  const std::string place = fs::absolute(folder).string();
+  const bool quotable = place.find('\'') == std::string::npos;
+  const bool drawn =
+      quotable && std::system(("cd '" + place + "' && gnuplot joint_test.gp >/dev/null 2>&1").c_str()) == 0;
+  if (!drawn) tell("voussoir: gnuplot did not draw; the figure's script is {}\n", (folder / "joint_test.gp").string());
+}
+
+}  // namespace
+
+ExitCode joint_test_command(const JointTestArguments& arguments) {
+  const Scene scene = read_scene(arguments.scene.scene, arguments.scene.overrides);
+  std::vector<double> stresses = arguments.stresses;
+  if (stresses.empty()) stresses.assign(std::begin(usual_stresses), std::end(usual_stresses));
+  std::vector<JointTest> tests;
+  for (const JointProperties& p : chosen(scene, arguments.properties))
+    for (const double stress : stresses)
+      tests.push_back({p.name, stress, follow(p, path_of(arguments, stress))});
+
+  const fs::path folder = !arguments.out.empty()
+                              ? arguments.out
+                              : fs::path("results") / (arguments.scene.scene.stem().string() + "_joint_test");
+  const ClaimedFolder claim(folder, {"joint-test", {"joint_test.csv", "joint_test.gp", "joint_test.svg"}}, scene.files,
+                            arguments.overwrite);
+  write_file(folder / "joint_test.csv", table(tests));
+  write_file(folder / "joint_test.gp", figure(tests, arguments.path == "normal"));
+  draw(folder);
+
+  fmt::print("{:<16} {:>12} {:>14} {:>14} {:>14} {:>14}\n", "joint", "test MPa", "closure µm", "normal MPa",
+             "peak shear MPa", "last shear MPa");
+  long long snapped = 0;
+  for (const JointTest& test : tests) {
+    double peak = 0;
+    for (const JointPathPoint& p : test.points) {
+      peak = std::max(peak, p.shear_stress);
+      snapped += p.snap_back ? 1 : 0;
+    }
+    const JointPathPoint& last = test.points.back();
+    fmt::print("{:<16} {:>12.4g} {:>14.4g} {:>14.4g} {:>14.4g} {:>14.4g}\n", test.name, test.stress * 1e-6,
+               last.overlap * 1e6, last.normal_stress * 1e-6, peak * 1e-6, last.shear_stress * 1e-6);
+  }
+  if (snapped > 0)
+    tell(
+        "voussoir: warning: {} steps snap back: friction falls faster than the shear spring unloads, so that a stiffer "
+        "spring or a longer softening_slip_m is needed for a curve that a test could follow",
+        snapped);
+  fmt::print("table and figure: {}\n", folder.string());
+  return ExitCode::done;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,26 @@
+// What a scene's joints are in its domain: sets that were drawn, held against what was stated, and those that the scene
+// lists, by their set; a table, joints.csv and figures.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/model/model.hpp"
+#include "core/scene/scene.hpp"
+
+namespace voussoir {
+
+// what slicing left, for the distribution of block sizes
+struct BlockSizes {
+  std::vector<double> volumes;  // m³ (2-D: m²), ascending
+};
+
+template <int Dim>
+BlockSizes block_sizes(const Model<Dim>& model);
+
+// Draws the sets of a scene and writes joints.csv, report.md and figures to the folder; returns report.md's text.
+// Throws SceneError, OutputError.
+std::string write_slice_report(const Scene& scene, const BlockSizes& blocks, const std::filesystem::path& folder);
+
+}  // namespace voussoir

@@ -1,0 +1,24 @@
+// What the grids and samples of a study found: grid_1.csv and its maps, sample_1.csv, sample_1.json and its histogram.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/study/sweep.hpp"
+#include "app/study/table.hpp"
+
+namespace voussoir {
+
+// the files' names, of the first grid and the first sample from 1
+std::vector<std::string> finding_names(const StudyPlan& plan);
+
+struct Findings {
+  std::vector<std::pair<std::string, std::string>> files;  // name and content, in the order of their names
+  std::vector<std::string> lines;                          // for people, one for each grid and sample
+};
+
+// `rows` as table_of gives them
+Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& rows);
+
+}  // namespace voussoir

@@ -1,0 +1,33 @@
+// What a study's runs found, from one folder or from several copies of it.
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/base/exit_codes.hpp"
+#include "app/study/folder.hpp"
+#include "app/study/origins.hpp"
+#include "app/study/table.hpp"
+#include "app/study/warnings.hpp"
+
+namespace voussoir {
+
+struct Gathered {
+  std::vector<StudyRow> rows;
+  std::set<int> missing;                 // neither results nor a failure
+  std::vector<std::string> differences;  // two results of a row that are not the same, a line each
+  std::vector<std::string> damaged;      // results that cannot be read, a line each: their rows are missing
+  std::vector<RowOrigins> origins;       // of the rows that have results
+  std::vector<RowWarning> warnings;      // of these
+};
+
+// The first folder's results come first; all hold the same plan. Results that a run did not write
+// (app/run_folder/results_hash.hpp) are a BadInput with the row's name.
+Gathered gather(const StudyFolder& study, const std::vector<std::filesystem::path>& folders);
+
+// Writes study.csv and says what it holds; `remark` is a line behind the first, or empty.
+ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, const std::string& remark);
+
+}  // namespace voussoir

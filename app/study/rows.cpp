@@ -1,0 +1,86 @@
+#include "app/study/rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "app/base/bad_input.hpp"
+#include "app/base/digest.hpp"
+#include "app/base/run_scene.hpp"
+#include "app/check/plausibility.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/shared_stages.hpp"
+
+namespace voussoir {
+namespace {
+
+namespace fs = std::filesystem;
+
+// what a run shares with all that are the same up to the end of a stage, what they record included
+std::string shared_text(const StudyPlan& plan, const Sweep& sweep, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const StageSpec& stage : scene.stages)
+    names.push_back(stage.plan.name);
+  const auto found = std::find(names.begin(), names.end(), plan.begin);
+  if (found == names.end())
+    throw BadInput(fmt::format("begin = \"{}\": no stage of '{}' has this name; {}", one_line(plan.begin, 60),
+                               sweep.scene.string(), suggestion(plan.begin, names)));
+  std::string text = canonical_text(shared_part(scene, static_cast<int>(found - names.begin()) + 1));
+  for (const char* key : {"monitors", "output"})
+    if (const Node* part = scene.tree->find(key)) text += canonical_text(*part);
+  return text;
+}
+
+double expected_cost(const LoadedScene& scene, bool limit) {
+  if (limit)
+    return std::visit([](const auto& prepared) { return static_cast<double>(prepared.model.bodies.size()); },
+                      scene.prepared);
+  const Plausibility forecast = assess(scene);
+  double steps = 0;
+  for (const StageForecast& stage : forecast.stages)
+    steps += stage.steps;
+  return steps * forecast.candidates;
+}
+
+PlannedRow row_at(const StudyPlan& plan, const Sweep& sweep, std::size_t place, const std::string& program) {
+  PlannedRow row{.run = {sweep.scene, overrides_of(sweep, place), sweep.limit, {}, ""}};
+  const LoadedScene scene = load_scene(row.run.scene, row.run.overrides);
+  row.run.files = scene.files;
+  row.cost = expected_cost(scene, sweep.limit.has_value());
+  std::string what = canonical_text(*scene.stated) + program;
+  for (const std::string& option : sweep.limit.value_or(std::vector<std::string>()))
+    what += " " + option;
+  if (sweep.limit) what += " limit";
+  row.run.name = digest(what);
+  if (!plan.begin.empty() && !sweep.limit)
+    row.run.begin = digest("until " + shared_text(plan, sweep, *scene.stated) + program);
+  return row;
+}
+
+}  // namespace
+
+std::vector<PlannedRow> rows_of_plan(const StudyPlan& plan, const std::string& program_digest) {
+  std::vector<PlannedRow> rows;
+  for (const Sweep& sweep : plan.sweeps)
+    for (std::size_t k = 0; k < sweep.values.size(); ++k) {
+      rows.push_back(row_at(plan, sweep, k, program_digest));
+      rows.back().row = static_cast<int>(rows.size());
+    }
+  return rows;
+}
+
+std::vector<StudyRun> generations_of(const std::vector<PlannedRow>& rows, const std::string& until) {
+  std::vector<const PlannedRow*> ordered;
+  for (const PlannedRow& row : rows)
+    ordered.push_back(&row);
+  std::sort(ordered.begin(), ordered.end(), [](const PlannedRow* a, const PlannedRow* b) { return a->row < b->row; });
+  std::vector<StudyRun> generations;
+  std::set<fs::path> listed;
+  for (const PlannedRow* row : ordered)
+    if (!row->run.begin.empty() && listed.insert(row->run.begin).second)
+      generations.push_back({row->run.scene, row->run.overrides, {}, row->run.files, row->run.begin.string(), until});
+  return generations;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,90 @@
+#include "app/view/view_command.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "app/base/bad_input.hpp"
+#include "app/run_folder/claimed_folder.hpp"
+#include "app/run_folder/run_folder.hpp"
+#include "app/view/page.hpp"
+#include "core/output/atomic_file.hpp"
+#include "core/output/view.hpp"
+#include "text/read_file.hpp"
+
+namespace voussoir {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path target_of(const ViewArguments& arguments) {
+  return arguments.out.empty() ? arguments.folder / page_file : arguments.out;
+}
+
+void refuse_target(const fs::path& file, const ViewArguments& arguments, const std::vector<fs::path>& inputs) {
+  std::error_code error;
+  for (const fs::path& input : inputs)
+    if (fs::equivalent(file, input, error))
+      throw BadInput(fmt::format("'{}' is read and would be replaced: choose another file with --out", file.string()));
+  const fs::file_status there = fs::symlink_status(file, error);
+  if (there.type() == fs::file_type::directory)
+    throw BadInput(fmt::format("'{}' is a folder: name a file with --out", file.string()));
+  const bool ours = arguments.out.empty() && made_here(arguments.folder, page_file);
+  if (there.type() != fs::file_type::not_found && !arguments.overwrite && !ours)
+    throw BadInput(fmt::format("'{}' is there and would be replaced: choose another with --out, or add --overwrite",
+                               file.string()));
+}
+
+// what the run has kept, or why there is nothing to see
+fs::path data_of(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    throw BadInput(fmt::format("'{}' is not a folder: name the folder of a run", folder.string()));
+  const fs::path data = folder / view_file;
+  if (fs::exists(data, error)) return data;
+  if (holds_results(folder) || holds_unfinished_run(folder))
+    throw BadInput(fmt::format(
+        "'{}' has no {}: its run was not asked to keep it; run the scene again with 'voussoir run … --view'",
+        folder.string(), view_file));
+  throw BadInput(fmt::format("'{}' holds no run: 'voussoir run … --view' makes one to be viewed", folder.string()));
+}
+
+std::string poster_of(const ViewArguments& arguments) {
+  constexpr std::uintmax_t most = 16U << 20;
+  if (arguments.poster.empty()) return {};
+  try {
+    std::string picture = read_file(arguments.poster, most);
+    if (picture_type(picture).empty())
+      throw BadInput(
+          fmt::format("'{}' is neither PNG nor WebP: viewer/poster.mjs makes one", arguments.poster.string()));
+    return picture;
+  } catch (const ReadFault& fault) {
+    throw BadInput(fmt::format("'{}': {}", arguments.poster.string(), fault.what()));
+  }
+}
+
+ExitCode write_script(const ViewArguments& arguments) {
+  if (!arguments.folder.empty()) throw BadInput("--script is the same for every run: leave the folder out");
+  if (arguments.out.empty()) throw BadInput("--script needs --out, the file to write");
+  refuse_target(arguments.out, arguments, {});
+  write_file(arguments.out, viewer_script());
+  return ExitCode::done;
+}
+
+}  // namespace
+
+ExitCode view_command(const ViewArguments& arguments) {
+  require_viewer();
+  if (arguments.script) return write_script(arguments);
+  if (arguments.folder.empty()) throw BadInput("name the folder of a run that was asked for --view");
+  if (arguments.fragment && arguments.out.empty()) throw BadInput("--fragment needs --out, the file to write");
+  const fs::path data = data_of(arguments.folder), target = target_of(arguments);
+  std::vector<fs::path> inputs{data};
+  if (!arguments.poster.empty()) inputs.push_back(arguments.poster);
+  refuse_target(target, arguments, inputs);
+  write_file(target, arguments.fragment ? view_fragment(data, poster_of(arguments), arguments.look) : view_page(data));
+  fmt::print("{}\n", target.string());
+  return ExitCode::done;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,238 @@
+#include "core/contact/integrated_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/contact/face_integral.hpp"
+#include "core/contact/pair_geometry.hpp"
+#include "core/contact/region_integral.hpp"
+
+namespace voussoir {
+namespace {
+
+// Where the largest overlap is less than this fraction of the contact polygon's width, both energies agree within
+// all_face and the polygon's is the answer (a test draws pairs of faces).
+constexpr double flat_overlap = 0.02;
+
+// Cosine of 25 degrees. Faces farther from parallel do not lie on each other: at an angle t they meet in a wedge, whose
+// energies differ by t/2 over the sine of its far end, which is more than all_region.
+constexpr double nearly_parallel = 0.90630778703664996;
+
+// Where the energies' ratio is so far from 1, all is the face's, or all the region's. Of two faces that meet at a blunt
+// edge the one that lies nearer to the other part's counts, until both lie alike: there the ratio is 3/4 or less.
+constexpr double all_face = 0.07, all_region = 0.2;
+
+// How much of a face presses, m: of a polygon twice the area over the perimeter, at most half its least width.
+double width_of(const FaceIntegral<2>& face, const PressedPolygon&) {
+  return face.area;
+}
+double width_of(const FaceIntegral<3>& face, const PressedPolygon& polygon) {
+  double perimeter = 0;
+  const auto& c = polygon.corners;
+  for (std::size_t k = 0; k < c.size(); ++k)
+    perimeter += (c[(k + 1) % c.size()] - c[k]).norm();
+  return 2 * face.area / perimeter;
+}
+
+// the largest overlap on it, m
+double deepest(const FaceIntegral<2>& face, const PressedPolygon&) {
+  // linear along a segment: mean and mean square tell both ends
+  const double mean = face.volume / face.area;
+  return mean + std::sqrt(std::max(3 * (face.square / face.area - mean * mean), 0.0));
+}
+double deepest(const FaceIntegral<3>&, const PressedPolygon& polygon) {
+  double most = 0;
+  for (const Vector<2>& y : polygon.corners)
+    most = std::max(most, polygon.overlap + polygon.gradient.dot(y));
+  return most;
+}
+
+// Square of the sine of 25 degrees. A side plane that leans less on the polygon is a face that may lie on the other
+// part as well: then the region tells.
+constexpr double no_blunt_edge = 0.17860619515673035;
+
+// of both parts' size: distances from planes are known at least so well
+constexpr double surely_inside = 1e-13;
+
+// g and its derivative; `flat`: not all is the region's
+struct Blend {
+  double value, slope;
+  bool flat;
+};
+Blend blend(double ratio) {
+  const double off = std::abs(ratio - 1);
+  if (off >= all_region) return {ratio, 1, false};
+  if (off <= all_face) return {1, 0, true};
+  constexpr double span = all_region - all_face;
+  const double s = (all_region - off) / span, h = s * s * (3 - 2 * s);
+  const double h_slope = 6 * s * (1 - s) / span * (ratio > 1 ? -1 : 1);
+  return {ratio + h * (1 - ratio), 1 - h + h_slope * (1 - ratio), true};
+}
+
+// the polygon's axes in the world, laid normal to the force
+void turn_axes(const Matrix<2>&, const Vector<2>&, const Vector<2>&, PressedPolygon&) {}
+void turn_axes(const Matrix<3>& axes, const Vector<3>& mean_normal, const Vector<3>& normal, PressedPolygon& polygon) {
+  // by the turn that takes one normal to the other, which are less than half a right angle apart
+  const Vector<3> turn = mean_normal.cross(normal);
+  const double half = 1 / (1 + mean_normal.dot(normal));
+  const Vector<3> first = axes * polygon.axes.col(0), across = turn.cross(first);
+  polygon.axes.col(0) = first + across + half * turn.cross(across);
+  polygon.axes.col(1) = normal.cross(polygon.axes.col(0));
+}
+Spin<2> turned_moment(const Matrix<2>&, const Spin<2>& moment) {
+  return moment;
+}
+Spin<3> turned_moment(const Matrix<3>& axes, const Spin<3>& moment) {
+  return axes * moment;
+}
+
+template <int Dim>
+double reach_of(const Pair<Dim>& pair) {
+  return 4 * std::min(pair.a->radius, pair.b->radius);
+}
+
+template <int Dim>
+bool lie_on_each_other(const HalfSpaces<Dim>& planes, int faces_a, double reach, const ContactGeometry<Dim>& geometry,
+                       FaceIntegral<Dim>& f, PressedPolygon& polygon) {
+  const int face_a = geometry.face_a, face_b = faces_a + geometry.face_b;
+  return -planes[face_a].normal.dot(planes[face_b].normal) > nearly_parallel &&
+         integrate_face<Dim>(planes, faces_a, face_a, face_b, reach, f, polygon);
+}
+
+template <int Dim>
+bool surely_flat(const FaceIntegral<Dim>& f, const PressedPolygon& polygon) {
+  return f.least_sine2 > no_blunt_edge && deepest(f, polygon) < flat_overlap * width_of(f, polygon);
+}
+
+template <int Dim>
+void without_pressure(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Dim>& contact,
+                      IntegratedContact<Dim>& face) {
+  ContactGeometry<Dim>& g = contact.geometry;
+  g.area = g.overlap = 0;
+  face.flat = false;
+  g.normal = pair.axes * planes[g.face_a].normal;
+  g.point = pair.axes * contact.proof.point;
+  face.normal = g.normal;
+  face.centre = g.point;
+  face.force.setZero();
+  face.couple.setZero();
+  face.square = face.polar = face.gyration2 = 0;
+  face.polygon.corners.clear();
+}
+
+// What presses, from the integrals over the faces and over the region as far as either has a share; places as seen from
+// contact.proof.point.
+template <int Dim>
+void answer(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, const FaceIntegral<Dim>& f,
+            const RegionIntegral<Dim>& r, const Blend& share, Contact<Dim>& contact, IntegratedContact<Dim>& face) {
+  face.flat = share.flat;
+  Vector<Dim> force = Vector<Dim>::Zero(), point = r.pressure;
+  Spin<Dim> about = Spin<Dim>::Zero();
+  face.square = r.square;
+  double area = r.area;
+  face.gyration2 = r.spread;
+  face.polar = 0;
+  if (face.flat) {
+    const double part = share.slope == 0 ? 1 : share.value - r.square / f.square * share.slope;
+    force = part * f.force;
+    about = part * f.moment;
+    face.square = share.value * f.square;
+    point = f.pressure;
+    area = f.area;
+    face.gyration2 = f.polar / f.area + (f.centre - f.pressure).squaredNorm();
+    if constexpr (Dim == 3) face.polar = f.polar;
+  }
+  if (share.slope != 0) {
+    force += share.slope * r.force;
+    about += share.slope * r.moment;
+  }
+  const double size = force.norm();
+  if (!(size > 0)) return without_pressure<Dim>(pair, planes, contact, face);  // deep in the other, on all sides alike
+  ContactGeometry<Dim>& g = contact.geometry;
+  g.point = pair.axes * (contact.proof.point + point);
+  face.force = pair.axes * force;
+  g.normal = face.force / size;
+  g.overlap = size / area;
+  g.area = area;
+  g.stiffness_factor = 1;
+  face.couple = turned_moment(pair.axes, Spin<Dim>(about - moment(point, force)));
+  face.normal = g.normal;
+  face.centre = face.flat ? Vector<Dim>(pair.axes * (contact.proof.point + f.centre)) : g.point;
+  if (face.flat)
+    turn_axes(pair.axes, pair.axes * f.normal, g.normal, face.polygon);
+  else
+    face.polygon.corners.clear();
+}
+
+}  // namespace
+
+template <int Dim>
+void find_nearest_faces(const Pair<Dim>& pair, Contact<Dim>& contact, HalfSpaces<Dim>& planes) {
+  assemble<Dim>(pair, contact.proof.point, planes);
+  const int faces_a = static_cast<int>(pair.a->faces.size());
+  const auto nearest = [&](int first, int last) {
+    int face = first;
+    for (int i = first + 1; i < last; ++i)
+      if (planes[i].offset < planes[face].offset) face = i;
+    return face - first;
+  };
+  contact.geometry.face_a = nearest(0, faces_a);
+  contact.geometry.face_b = nearest(faces_a, static_cast<int>(planes.size()));
+}
+
+template <int Dim>
+bool integrate_contact(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Dim>& contact,
+                       IntegratedContact<Dim>& face) {
+  const int faces_a = static_cast<int>(pair.a->faces.size());
+  const double reach = reach_of(pair);
+  FaceIntegral<Dim> f;
+  const bool faces = lie_on_each_other<Dim>(planes, faces_a, reach, contact.geometry, f, face.polygon);
+  if (faces && surely_flat(f, face.polygon)) {
+    answer<Dim>(pair, planes, f, {}, {1, 0, true}, contact, face);
+    return true;
+  }
+  RegionIntegral<Dim> r;
+  const RegionStatus status = integrate_region<Dim>(planes, faces_a, reach, r);
+  if (status == RegionStatus::ok)
+    answer<Dim>(pair, planes, f, r, faces ? blend(r.square / f.square) : Blend{0, 1, false}, contact, face);
+  else if (status == RegionStatus::empty && faces)
+    answer<Dim>(pair, planes, f, r, {1, 0, true}, contact, face);
+  else
+    without_pressure<Dim>(pair, planes, contact, face);
+  return status != RegionStatus::too_many_planes;
+}
+
+template <int Dim>
+bool integrate_as_before(const Pair<Dim>& pair, Contact<Dim>& contact, IntegratedContact<Dim>& face) {
+  const ContactGeometry<Dim>& g = contact.geometry;
+  if (contact.proof.kind != ProofKind::interior_point || g.face_a < 0) return false;
+  // of most corners and edges this is soon seen
+  if (!(g.overlap < flat_overlap * (Dim == 2 ? g.area : std::sqrt(g.area)))) return false;
+  const Vector<Dim>&normal_a = pair.a->faces[g.face_a].normal, &normal_b = pair.b->faces[g.face_b].normal;
+  if (!(-normal_a.dot(pair.rotation * normal_b) > nearly_parallel)) return false;
+  static thread_local HalfSpaces<Dim> planes;
+  assemble<Dim>(pair, contact.proof.point, planes);
+  FaceIntegral<Dim> f;
+  if (!lie_on_each_other<Dim>(planes, static_cast<int>(pair.a->faces.size()), reach_of(pair), contact.geometry, f,
+                              face.polygon) ||
+      !surely_flat(f, face.polygon))
+    return false;
+  double margin = std::numeric_limits<double>::infinity();
+  for (const HalfSpace<Dim>& p : planes)
+    margin = std::min(margin, -signed_distance<Dim>(p, f.centre));
+  if (!(margin > surely_inside * (pair.a->radius + pair.b->radius + pair.offset.norm()))) return false;
+  answer<Dim>(pair, planes, f, {}, {1, 0, true}, contact, face);
+  contact.proof.point += f.centre;
+  contact.proof.margin = margin;
+  return true;
+}
+
+template bool integrate_as_before<2>(const Pair<2>&, Contact<2>&, IntegratedContact<2>&);
+template bool integrate_as_before<3>(const Pair<3>&, Contact<3>&, IntegratedContact<3>&);
+template void find_nearest_faces<2>(const Pair<2>&, Contact<2>&, HalfSpaces<2>&);
+template void find_nearest_faces<3>(const Pair<3>&, Contact<3>&, HalfSpaces<3>&);
+template bool integrate_contact<2>(const Pair<2>&, const HalfSpaces<2>&, Contact<2>&, IntegratedContact<2>&);
+template bool integrate_contact<3>(const Pair<3>&, const HalfSpaces<3>&, Contact<3>&, IntegratedContact<3>&);
+
+}  // namespace voussoir

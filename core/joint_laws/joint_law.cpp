@@ -1,0 +1,167 @@
+#include "core/joint_laws/joint_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voussoir {
+namespace {
+
+// ∫(e^x - 1) dx from 0: by its series where the difference would cancel
+double integral_of_expm1(double x) {
+  constexpr double small = 0.05;  // the first term left out is 2e-16 of the sum
+  if (std::abs(x) > small) return std::expm1(x) - x;
+  double sum = 0;
+  for (int n = 9; n >= 3; --n)
+    sum = (sum + 1) * x / n;
+  return 0.5 * x * x * (1 + sum);
+}
+
+// the offset of the overlap at which there is no stress, m
+double offset(const JointProperties& p) {
+  return p.laws.bond ? p.tension / p.normal_stiffness : 0;
+}
+
+}  // namespace
+
+NormalAnswer normal_answer(const JointProperties& p, double overlap, bool bonded) {
+  const double u = overlap - offset(p), k = p.normal_stiffness;
+  if (u <= 0 && !bonded) return {0, p.laws.normal == StiffnessLaw::power ? 0 : k, 0};
+  if (u <= 0) return {k * u, k, 0.5 * k * u * u};  // a bond in tension is linear
+  if (p.laws.normal == StiffnessLaw::linear) {
+    const double c = p.normal_growth, stress = k / c * std::expm1(c * u);
+    return {stress, k + c * stress, k / (c * c) * integral_of_expm1(c * u)};
+  }
+  if (p.laws.normal == StiffnessLaw::power) {
+    const double rest = 1 - p.normal_exponent, stress = std::pow(rest * k * u, 1 / rest);
+    return {stress, k * std::pow(stress, p.normal_exponent), stress * u * rest / (1 + rest)};
+  }
+  return {k * u, k, 0.5 * k * u * u};
+}
+
+double overlap_at(const JointProperties& p, double stress) {
+  const double k = p.normal_stiffness;
+  if (p.laws.normal == StiffnessLaw::linear)
+    return offset(p) + std::log1p(p.normal_growth * stress / k) / p.normal_growth;
+  if (p.laws.normal == StiffnessLaw::power)
+    return std::pow(stress, 1 - p.normal_exponent) / ((1 - p.normal_exponent) * k);
+  return offset(p) + stress / k;
+}
+
+double shear_stiffness_at(const JointProperties& p, double stress) {
+  const double pressure = std::max(stress, 0.0);
+  if (p.laws.shear == StiffnessLaw::linear) return p.shear_stiffness + p.shear_growth * pressure;
+  if (p.laws.shear == StiffnessLaw::power) return p.shear_stiffness * std::pow(pressure, p.shear_exponent);
+  return p.shear_stiffness;
+}
+
+FrictionAnswer friction_answer(const JointProperties& p, double friction, double slip, double stress,
+                               double strength_factor) {
+  const double last = std::tan(friction);
+  if (p.laws.friction == FrictionLaw::hardening) {
+    const double scale = p.hardening_slip * std::pow(std::max(stress, 0.0), p.hardening_exponent);
+    if (scale > 0) return {-last * std::expm1(-slip / scale), last / scale * std::exp(-slip / scale)};
+    return {slip > 0 ? last : 0, 0};
+  }
+  if (p.laws.friction == FrictionLaw::softening) {
+    const double drop = p.softening_drop / strength_factor;
+    const double lost = -drop * std::expm1(-slip / p.softening_slip);
+    if (lost >= last) return {0, 0};
+    return {last - lost, -drop / p.softening_slip * std::exp(-slip / p.softening_slip)};
+  }
+  return {last, 0};
+}
+
+// Eqs F.1-F.8 in one number: elastic trial, force and plastic slip have one direction.
+SlipReturn return_to_cone(const JointProperties& p, double friction, double plastic_slip, double trial,
+                          double stiffness, double normal_force, double stress, double strength_factor) {
+  SlipReturn result;
+  result.snap_back =
+      stiffness < -normal_force * friction_answer(p, friction, plastic_slip, stress, strength_factor).slope;
+  if (p.laws.friction == FrictionLaw::constant) {
+    result.slip = (trial - std::tan(friction) * normal_force) / stiffness;
+    return result;
+  }
+  double low = 0, high = trial / stiffness;
+  double slip = p.laws.friction == FrictionLaw::hardening ? low : high;
+  // Newton's steps shorten quadratically; halving, which rounding may ask for, needs as many as a double has digits
+  constexpr int limit = 2 * std::numeric_limits<double>::digits;
+  for (int i = 0; i < limit; ++i) {
+    const FrictionAnswer at = friction_answer(p, friction, plastic_slip + slip, stress, strength_factor);
+    const double excess = trial - stiffness * slip - at.coefficient * normal_force;
+    (excess > 0 ? low : high) = slip;
+    double next = slip + excess / (stiffness + at.slope * normal_force);
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    const bool done = std::abs(next - slip) <= std::numeric_limits<double>::epsilon() * next;
+    slip = next;
+    if (done) break;
+  }
+  result.slip = slip;
+  return result;
+}
+
+template <int Dim>
+JointForce<Dim> joint_law(const JointProperties& p, double friction, double dashpot,
+                          const JointKinematics<Dim>& kinematics, JointState<Dim>& history, double strength_factor) {
+  Vector<Dim>& shear = history.shear_force;
+  const double area = kinematics.area;
+  JointForce<Dim> result;
+
+  // the normal force; a bond breaks where it is pulled beyond its strength
+  NormalAnswer normal = normal_answer(p, kinematics.overlap, history.bonded);
+  const double damping = dashpot * kinematics.closing_speed;
+  if (history.bonded && normal.stress * area + damping < -p.tension * area) {
+    history.bonded = false;
+    normal = normal_answer(p, kinematics.overlap, false);
+  }
+  const auto normal_force = [&] {
+    const double force = normal.stress * area + damping;
+    return history.bonded ? force : std::max(force, 0.0);
+  };
+
+  // the spring's energy at the shear force that stands changes with its stiffness
+  const double per_area = shear_stiffness_at(p, normal.stress), stiffness = per_area * area;
+  if (history.shear_stiffness > 0 && per_area > 0 && per_area != history.shear_stiffness)
+    result.stiffening = 0.5 * shear.squaredNorm() / area * (1 / history.shear_stiffness - 1 / per_area);
+  history.shear_stiffness = per_area;
+
+  // elastic trial; slip breaks a bond, and what is left is friction
+  const Vector<Dim> old_shear = shear;
+  shear -= stiffness * kinematics.slip;
+  const double trial = length_of<Dim>(shear);
+  const auto strength = [&] {
+    const double coefficient =
+        friction_answer(p, friction, history.plastic_slip, normal.stress, strength_factor).coefficient;
+    return std::max((history.bonded ? p.cohesion / strength_factor * area : 0) + coefficient * normal_force(), 0.0);
+  };
+  if (trial > strength()) {
+    if (history.bonded) {
+      history.bonded = false;
+      normal = normal_answer(p, kinematics.overlap, false);
+    }
+    double limit = strength();  // of the bond's loss; a little slip hardens, so that there may be none left to find
+    if (stiffness > 0 && trial > limit) {
+      const SlipReturn back = return_to_cone(p, friction, history.plastic_slip, trial, stiffness, normal_force(),
+                                             normal.stress, strength_factor);
+      result.plastic_slip = back.slip;
+      result.snap_back = back.snap_back;
+      history.plastic_slip += back.slip;
+      limit = std::min(strength(), trial);
+    }
+    const Vector<Dim> excess = shear * (1 - limit / trial);
+    shear *= limit / trial;
+    if (stiffness > 0) result.friction = std::max(0.5 * (old_shear + shear).dot(excess) / stiffness, 0.0);
+  }
+  result.force = normal_force() * kinematics.normal + shear;
+  result.dashpot = normal_force() - normal.stress * area;
+  result.elastic = normal.energy * area + 0.5 * normal.stiffness * area * kinematics.overlap_variance;
+  if (stiffness > 0) result.elastic += 0.5 * shear.squaredNorm() / stiffness;
+  return result;
+}
+
+template JointForce<2> joint_law<2>(const JointProperties&, double, double, const JointKinematics<2>&, JointState<2>&,
+                                    double);
+template JointForce<3> joint_law<3>(const JointProperties&, double, double, const JointKinematics<3>&, JointState<3>&,
+                                    double);
+
+}  // namespace voussoir

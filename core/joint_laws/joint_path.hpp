@@ -1,0 +1,38 @@
+// One joint of unit area on the paths of laboratory tests: what a law answers, apart from any block.
+#pragma once
+
+#include <vector>
+
+#include "core/joint_laws/joint_law.hpp"
+
+namespace voussoir {
+
+// One path: first the normal stress is raised from none to `normal_stress` and, where `unload` says so, taken back as
+// far as it goes; then the joint is sheared to `slip`, or `cycles` times to slip, -slip and back to nothing.
+//   Constant normal load: `surroundings` is 0. Constant normal stiffness: what presses the joint is a spring of
+// `surroundings`, which a joint that rises by `dilation` times the slip from nothing compresses.
+struct JointPath {
+  double normal_stress = 0;  // Pa, where shear begins; the largest of a path without shear
+  bool unload = false;
+  double slip = 0;          // m
+  int cycles = 0;           // 0: one way only
+  double surroundings = 0;  // Pa/m
+  double dilation = 0;      // rise over slip
+  bool bonded = false;      // once the normal stress is reached
+  int steps = 200;          // along each leg
+};
+
+struct JointPathPoint {
+  double overlap = 0, slip = 0;                        // m
+  double normal_stress = 0, shear_stress = 0;          // Pa; shear along the slip
+  double normal_stiffness = 0, shear_stiffness = 0;    // Pa/m, tangents of the elastic springs
+  double plastic_slip = 0;                             // m, accumulated
+  double friction = 0;                                 // coefficient available
+  double elastic = 0, dissipated = 0, stiffening = 0;  // J/m², the last two since the start
+  bool bonded = false, snap_back = false;
+};
+
+// from the unloaded joint on; the first point is there
+std::vector<JointPathPoint> follow(const JointProperties& properties, const JointPath& path);
+
+}  // namespace voussoir

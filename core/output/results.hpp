@@ -1,0 +1,145 @@
+// What a simulation yields, free of files: values with units, the history of the monitors, counters, why it ended.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/model/state.hpp"
+
+namespace voussoir {
+
+// done: every stage reached its goal; incomplete: a goal was not reached (no equilibrium, no bracket);
+// failed: a numerical failure (a contact without an answer, a non-finite force)
+enum class Outcome { done, incomplete, failed };
+
+// by how much a value moved as one thing was varied, in its unit
+struct BudgetLine {
+  std::string varied, change;  // "stiffness", "4 times"
+  double shift = 0;            // the value then, minus the value
+  double left = 0;             // what that says is left open: extrapolated, where an order is known
+  bool sensitivity = false;    // the scene calls it measured: told, but no error
+};
+
+struct Value {
+  double value = 0;
+  std::string unit;                     // "deg", "m", "1" …
+  std::optional<double> error_bar;      // same unit: half width of what is left open by what it `covers`
+  std::string rule;                     // how it was found; may be empty
+  std::string covers = "bracket";       // or "budget": the search's bracket alone, or all that the budget varied
+  std::optional<double> bracket = {};   // with a budget: what the search alone leaves open
+  std::vector<BudgetLine> budget = {};  // by size
+  std::string divides = {};             // of a factor of safety: whose strength it divides, and what it leaves
+};
+
+// What a factor of safety divides, as a sentence: tan φ and, where it is counted, cohesion of joint properties by name;
+// none: of all.
+std::string divided_by_factor(const std::vector<std::string>& properties, bool cohesion = true);
+
+struct StageResult {
+  std::string name, kind;  // kind: settle, run, reduce
+  std::string ended;       // why it stopped, e.g. "equilibrium", "end time", "bracket closed"
+  bool relaxed = false;    // ended by relaxation: its time and velocities are fictitious (ends_relaxed)
+  long long steps = 0;
+  double time = 0;       // s simulated within the stage
+  double time_step = 0;  // s at its end
+  // the equilibrium measure of the state at its end, which after a search is the last stable one; infinite where no
+  // contact carries a force against what is unbalanced, negative where rest was not sought
+  double unbalanced = 0;
+};
+
+// Bonds of a joint, or of a set of joints.
+struct BondsOfJoint {
+  std::string joint;              // its name or its set's; empty: of faces that no joint made
+  long long whole = 0, made = 0;  // without those that were removed with their blocks
+  double area_share = 0;          // area of those that are whole over that of all
+};
+
+struct WholeBonds {
+  long long whole = 0, made = 0;
+  std::vector<BondsOfJoint> by_joint{};
+};
+
+// What carried the blocks where a stage last was in equilibrium: at the end of a stage that settles, or in a search's
+// last stable trial. Each row is empty where the scene has nothing of the kind.
+struct StableState {
+  std::string stage, kind;
+  std::optional<double> level;  // of a search, in its unit
+  std::string unit;
+  std::optional<WholeBonds> bonds{};
+};
+
+// a body that a stage has moved by more than its own size while settling (core/run/settled.hpp)
+struct MovedBody {
+  std::string stage;
+  int body = 0;
+  std::string name;             // of the body; may be empty
+  double distance = 0;          // m
+  double inscribed_radius = 0;  // m
+  int against = -1;             // the nearest of the bodies that it lay against and that stayed; -1: none did
+  std::vector<double> place{};  // m, world coordinates: its centroid at the end
+  bool left_all = false;        // it touches none of those any more that it touched, and hangs on no bolt
+};
+
+// column names carry their unit: time_s, wedge_displacement_x_m, friction_rock_deg …
+struct History {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+};
+
+// a spring of a bolt at the end of a stage, or the plate of a grouted one (core/output/bolts_csv.hpp)
+struct BoltRow {
+  int stage = 1;
+  std::string bolts;
+  int bolt = 1, joint = 1;
+  double x = 0, y = 0, z = 0;  // m, world coordinates
+  int body_a = 0, body_b = 0;
+  double force = 0, shear = 0;        // N, of one bolt
+  double extension = 0, plastic = 0;  // m
+  std::optional<double> use;          // of yield
+  bool broken = false;
+  std::optional<double> slip{};  // m, of a grouted bolt's bond
+};
+
+// a node of a lining at the end of a stage (core/output/lining_csv.hpp)
+struct LiningRow {
+  int stage = 1;
+  std::string lining;
+  int node = 1;
+  double x = 0, y = 0;                    // m, world coordinates, where it is
+  double ux = 0, uy = 0;                  // m, since it was installed
+  SectionForces forces;                   // means of its beams'
+  std::optional<double> smoothed_moment;  // N m
+  double pressure = 0, shear = 0;         // Pa, of the rock on the outline that it stands for
+  int rock = -1;                          // the block opposite; -1: none
+  std::optional<double> use;              // of its strength
+};
+
+struct Results {
+  Outcome outcome = Outcome::done;
+  std::string message;                                // one line: why it is incomplete or failed
+  std::vector<std::pair<std::string, Value>> values;  // in the order found; names unique
+  std::vector<StageResult> stages;
+  std::vector<StableState> at_last_stable_state;  // by stage, those of which something is to be told
+  History history;
+  std::vector<BoltRow> bolts;      // by stage, then by bolt
+  std::vector<LiningRow> linings;  // by stage, then by lining and node
+  Counters counters;
+  std::optional<BondCount> bonds;  // where a stage makes some
+  std::vector<MovedBody> moved;    // by stage, the farthest first
+  double relief_left = 0;          // share of the forces of excavated rock that still acts at the end, the largest
+  EnergyLedger energy;
+  std::string state_hash;             // of the last state (core/model/state_hash.hpp)
+  std::vector<std::string> warnings;  // one line each: what the run itself showed to be doubtful
+  double seconds = 0;                 // wall clock
+  long long budget_evaluations = 0;   // contact evaluations of the budget's runs
+
+  const Value* find(const std::string& name) const {
+    for (const auto& [key, value] : values)
+      if (key == name) return &value;
+    return nullptr;
+  }
+};
+
+}  // namespace voussoir

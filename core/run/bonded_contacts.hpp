@@ -1,0 +1,44 @@
+// The most bonds that each contact has had: beside them shows what of the bonded area is left.
+#pragma once
+
+#include <vector>
+
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
+#include "core/stage/excavation.hpp"
+
+namespace voussoir {
+
+struct BondedContact {
+  int part_a = 0, part_b = 0;
+  int joint = 0;  // of Model::joints, or no_joint
+  long long bonds = 0;
+  double area = 0;  // m², of these bonds when all were last seen whole; of a constant stiffness, whose area is never
+                    // computed, 1
+};
+
+// by (part a, part b)
+struct BondedContacts {
+  std::vector<BondedContact> contacts;
+  long long made = 0;  // BondTally::made when they were last looked at
+};
+
+// Looks at all contacts: bonds that are new are remembered, areas renewed.
+template <int Dim>
+void remember_bonds(const Model<Dim>& model, const State<Dim>& state, BondedContacts& bonded);
+
+// the contacts' new parts after an excavation; those that it took out are forgotten
+template <int Dim>
+void carry(const Excavated<Dim>& moved, BondedContacts& bonded);
+
+struct JointBonds {
+  int joint = 0;  // of Model::joints, or no_joint
+  long long whole = 0, made = 0;
+  double whole_area = 0, made_area = 0;  // as in BondedContact
+};
+
+// by joint, ascending, of bodies that are there; `bonded` remembers the bonds of this state
+template <int Dim>
+std::vector<JointBonds> bonds_by_joint(const Model<Dim>& model, const State<Dim>& state, const BondedContacts& bonded);
+
+}  // namespace voussoir

@@ -1,0 +1,51 @@
+// A checkpoint: the progress of a simulation as one block of bytes that is taken whole or refused.
+//
+//   "VOUSSOIR checkpoint\n", order mark 0x01020304, format version
+//   dimension, step, scene hash, build, size of the payload
+//   payload: every member of Progress
+//   fingerprint (FNV-1a, 64 bits) of all bytes before it: no change of one byte leaves it as it was
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "core/run/progress.hpp"
+
+namespace voussoir {
+
+// grows with every change of what Progress holds
+inline constexpr int checkpoint_format = 15;
+
+// says what is wrong with the bytes, e.g. "is damaged: …"; the caller adds the file's name
+struct CheckpointError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct CheckpointRecord {
+  std::string scene_hash;  // of the scene that was run (LoadedScene::hash)
+  std::string build;       // the program that wrote it
+  int dimension = 3;
+  long long step = 0;
+};
+
+template <int Dim>
+std::string checkpoint_bytes(const Progress<Dim>& progress, const std::string& scene_hash);
+
+// The record alone. Throws CheckpointError for bytes that are no checkpoint, of another format or byte order, cut short
+// or damaged.
+CheckpointRecord checkpoint_record(std::string_view bytes);
+
+// The size that a checkpoint must have of which these are the first bytes, at least 4096 of a longer one: what is
+// larger or smaller need not be read. Throws CheckpointError as checkpoint_record does.
+std::uintmax_t checkpoint_size(std::string_view head);
+
+// as checkpoint_record, and refuses another scene's or dimension's progress
+template <int Dim>
+Progress<Dim> read_checkpoint(std::string_view bytes, const std::string& scene_hash);
+
+// what this program writes as its build: version, commit, compiler
+std::string build_name();
+
+}  // namespace voussoir

@@ -1,0 +1,71 @@
+#include "core/run/doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/accuracy.hpp"
+
+namespace voussoir {
+namespace {
+
+// what the ledger may leave unexplained, as a fraction of the largest energy, before a run is doubted
+constexpr double energy_left_open = 0.05;
+
+// the fraction of that energy from which local damping shapes a motion
+constexpr double much_damped = 0.1;
+
+// the first stage of true motion whose step is longer than impacts allow
+const StagePlan* long_step(std::span<const StagePlan> stages, const Settings& scene) {
+  for (const StagePlan& stage : stages) {
+    const Settings in_force = settings_of(stage, scene);
+    const double most = in_force.damping.local > 0 ? TimeSettings::most_damped : TimeSettings::most_undamped;
+    if (std::holds_alternative<RunPlan>(stage.plan) && !in_force.time.step && in_force.time.fraction > most)
+      return &stage;
+  }
+  return nullptr;
+}
+
+std::string open_balance(const EnergyLedger& e, std::span<const StagePlan> stages, const Settings& scene) {
+  if (std::abs(e.motion_error) > std::abs(e.contact_error))
+    return "the motion, which only rounding opens: is the time step unstable (time.step_s)?";
+  std::string causes;
+  if (const StagePlan* stage = long_step(stages, scene))
+    causes += fmt::format("; steps are long for impacts (time.fraction = {:g} in stage {})",
+                          settings_of(*stage, scene).time.fraction, stage->name);
+  if (e.flows[Source::local_damping] > much_damped * e.largest_energy)
+    causes += fmt::format(
+        "; local damping took {:.2g} of that energy and holds the motion up, so that little energy is "
+        "left to compare with (damping.local = 0 shows the true motion)",
+        e.flows[Source::local_damping] / e.largest_energy);
+  if (causes.empty())
+    causes =
+        "; areas and normals of contacts change as blocks rock or slide over edges (contact.face, joint_properties "
+        "sub_contacts, contact.normal), or an impact lasts few steps (time.fraction, time.step_s)";
+  return "the contacts" + causes;
+}
+
+}  // namespace
+
+std::string doubts_of(const EnergyLedger& energy, std::span<const StagePlan> stages, const Settings& scene) {
+  if (!(energy.relative_error() > energy_left_open)) return {};
+  return fmt::format(
+      "the energy ledger does not close: {:.2g} J, {:.2g} of the largest energy of the run, is unexplained, in the "
+      "balance of {}",
+      energy.worst_error, energy.relative_error(), open_balance(energy, stages, scene));
+}
+
+std::vector<std::string> doubts_of_level(std::string_view level, const Results& results) {
+  std::vector<std::string> doubts;
+  if (level.empty()) return doubts;
+  for (const auto& [name, value] : results.values)
+    if (name.ends_with("critical_friction") && value.value < least_promised_angle)
+      doubts.push_back(
+          fmt::format("accuracy.level = \"{}\" promises its accuracy of critical angles from {:g} deg on; {} is {:.3g} "
+                      "± {:.2g} deg: "
+                      "lower tolerance_deg or step_deg of its stage, or take a finer level",
+                      level, least_promised_angle, name, value.value, value.error_bar.value_or(0)));
+  return doubts;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,150 @@
+#include "core/run/excavate.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/stage/excavation.hpp"
+#include "core/stage/install_bolts.hpp"
+#include "core/stage/install_linings.hpp"
+#include "core/step.hpp"
+
+namespace voussoir {
+namespace {
+
+// the motions of bodies that lost parts, at their new centroids
+template <int Dim>
+void carry_motions(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state) {
+  const std::vector<Motion<Dim>> then = state.motions;
+  state.motions.resize(model.bodies.size());
+  state.loads.resize(model.bodies.size());
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const int origin = moved.origin[b];
+    const Body<Dim>&was = before.bodies[origin], &is = model.bodies[b];
+    if (is.parts.size() == was.parts.size()) continue;
+    Motion<Dim> m = then[origin];
+    const Vector<Dim> arm = matrix(m.rotation) * moved.shift[b];
+    const Spin<Dim> spin = angular_velocity(was, m);
+    m.velocity += cross(spin, arm);
+    m.displacement += arm - moved.shift[b];
+    m.angular_momentum = angular_momentum(is, m.rotation, spin);
+    state.motions[b] = m;
+  }
+}
+
+// a contact seen from its other body
+template <int Dim>
+void turn_round(const Model<Dim>& model, Contact<Dim>& c, std::span<SubContact<Dim>> subs) {
+  const auto reverse = [](JointState<Dim>& history) {
+    history.shear_force = -history.shear_force;
+    history.normal = -history.normal;
+  };
+  if (c.divided_face >= 0) {
+    const int faces_a = static_cast<int>(model.polytope(c.part_a).faces.size()),
+              faces_b = static_cast<int>(model.polytope(c.part_b).faces.size());
+    c.divided_face = c.divided_face < faces_a ? faces_b + c.divided_face : c.divided_face - faces_a;
+  }
+  std::swap(c.part_a, c.part_b);
+  std::swap(c.geometry.face_a, c.geometry.face_b);
+  c.geometry.normal = -c.geometry.normal;
+  c.force = -c.force;
+  reverse(c.history);
+  for (SubContact<Dim>& s : subs) {
+    s.force = -s.force;
+    reverse(s.history);
+  }
+}
+
+// the contacts that are left, by their new keys
+template <int Dim>
+void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved,
+                    const std::vector<Motion<Dim>>& then, State<Dim>& state) {
+  const std::size_t stride = state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
+  std::vector<std::tuple<int, int, std::size_t>> order;
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    const auto [a, b] = std::minmax(moved.part[state.contacts[i].part_a], moved.part[state.contacts[i].part_b]);
+    if (a >= 0)
+      order.emplace_back(a, b, i);
+    else
+      state.bonds.removed += whole_bonds(state, i);
+  }
+  std::ranges::sort(order);
+
+  std::vector<Contact<Dim>> contacts;
+  std::vector<SubContact<Dim>> subs(order.size() * stride);
+  for (const auto& [a, b, from] : order) {
+    Contact<Dim> c = state.contacts[from];
+    const std::span<SubContact<Dim>> cells = std::span(subs).subspan(contacts.size() * stride, stride);
+    std::ranges::copy(std::span(state.subs).subspan(from * stride, stride), cells.begin());
+    const int was = before.parts[c.part_a].body, is = model.parts[a].body;
+    const bool turned = moved.part[c.part_a] != a;
+    c.part_a = moved.part[c.part_a];
+    c.part_b = moved.part[c.part_b];
+    if (turned) turn_round(model, c, cells);
+    // points are relative to the first body's centroid
+    const Vector<Dim> shift = (model.bodies[is].reference - before.bodies[was].reference) +
+                              (state.motions[is].displacement - then[was].displacement);
+    c.geometry.point -= shift;
+    c.history.point -= shift;
+    for (SubContact<Dim>& s : cells) {
+      s.point -= shift;
+      s.history.point -= shift;
+    }
+    if (turned || !shift.isZero(0)) c.proof = {};  // it is in that body's frame
+    c.area_rated = -1;
+    contacts.push_back(c);
+  }
+  state.contacts = std::move(contacts);
+  state.subs = std::move(subs);
+}
+
+// what is left of bolts: what is fixed in parts that are left
+template <int Dim>
+void carry_springs(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state) {
+  if (state.bolt_springs.empty()) return;
+  const auto is_left = [&](int& body, Vector<Dim>& place) { return follow(before, model, moved, body, place); };
+  cut_bolts<Dim>(is_left, state);
+}
+
+template <int Dim>
+std::vector<Load<Dim>> loads_now(const Model<Dim>& model, const Settings& settings, State<Dim> state) {
+  find_forces(model, settings, state);
+  return state.loads;
+}
+
+}  // namespace
+
+template <int Dim>
+Excavated<Dim> excavate(const std::vector<std::string>& names, const Settings& settings, bool hold, Model<Dim>& model,
+                        State<Dim>& state) {
+  const Model<Dim> before = model;
+  std::vector<Load<Dim>> then;
+  if (hold) then = loads_now(model, settings, state);
+  const Excavated<Dim> moved = excavate(model, names);
+  const std::vector<Motion<Dim>> motions = state.motions;
+  carry_motions(before, model, moved, state);
+  carry_contacts(before, model, moved, motions, state);
+  carry_springs(before, model, moved, state);
+  carry_linings(before, model, moved, state);
+  forget_lists(state);
+  if (!hold) return moved;
+
+  const std::vector<Load<Dim>> now = loads_now(model, settings, state);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body<Dim>& body = model.bodies[b];
+    if (!body.present || body.immobile()) continue;
+    const int origin = moved.origin[b];
+    const Load<Dim>& whole = then[origin];
+    const double share = body.mass / before.bodies[origin].mass;
+    const Vector<Dim> arm = matrix(motions[origin].rotation) * moved.shift[b];
+    ReliefLoad<Dim> held{.body = static_cast<int>(b), .load = {}};
+    held.load.force = share * whole.force - now[b].force;
+    held.load.moment = share * (whole.moment - moment(arm, whole.force)) - now[b].moment;
+    if (!held.load.force.isZero(0) || !held.load.moment.isZero(0)) state.held.push_back(held);
+  }
+  return moved;
+}
+
+template Excavated<2> excavate<2>(const std::vector<std::string>&, const Settings&, bool, Model<2>&, State<2>&);
+template Excavated<3> excavate<3>(const std::vector<std::string>&, const Settings&, bool, Model<3>&, State<3>&);
+
+}  // namespace voussoir

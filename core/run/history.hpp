@@ -1,0 +1,36 @@
+// What a simulation's history holds: time, stage, trial, what the stages change, then the monitors.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/prepared.hpp"
+#include "core/output/monitor.hpp"
+#include "core/output/results.hpp"
+
+namespace voussoir {
+
+// the joint properties to which a change gives a friction angle: places in Model::properties, ascending
+template <int Dim>
+std::vector<int> properties_changed(const Model<Dim>& model, const Change& change);
+
+// Columns: time_s, stage; trial where some stage searches by trials that are taken back; friction_<name>_deg of all
+// joint properties whose friction some stage changes; water_<name>_level_m of each water that some stage changes
+// (monitor.hpp); strength_factor where some stage searches a factor of safety; those of the monitors.
+template <int Dim>
+std::vector<std::string> history_columns(const Prepared<Dim>& scene);
+
+// Their values; `stage` from 1, trial 0: the path to the answer. `ends`: from which monitors count (monitor.hpp).
+template <int Dim>
+std::vector<double> history_row(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state, int stage,
+                                int trial, const std::vector<StageEnd<Dim>>& ends = {});
+
+// what every spring of a bolt carries at the end of a stage, counted from 1
+template <int Dim>
+std::vector<BoltRow> bolt_rows(const Model<Dim>& model, const State<Dim>& state, int stage);
+
+// what every node of a lining carries at the end of a stage, counted from 1
+template <int Dim>
+std::vector<LiningRow> lining_rows(const Model<Dim>& model, const State<Dim>& state, int stage);
+
+}  // namespace voussoir

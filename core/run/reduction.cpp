@@ -1,0 +1,500 @@
+#include "core/run/reduction.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/step/relaxation.hpp"
+#include "text/angle.hpp"
+
+namespace voussoir {
+namespace {
+
+// without a stated displacement, a body that moved by this fraction of its inscribed radius has failed
+constexpr double default_failure_fraction = 0.1;
+
+// the bias of a constant rate goes with this power of it (cases/incline/README.md)
+constexpr double bias_power = 2.0 / 3;
+
+// two rates: the slower fall starts this many of the faster's lags above where that failed; one would do on a plane
+constexpr double nearer_by_lags = 1.5;
+
+// two rates: the trials after the one at rest
+constexpr int faster_fall = 1, coming_nearer = 2, slower_fall = 3;
+
+// A trial's steps are shared out in rounds, the step limit over these: relaxation has 20,000 steps by default, which is
+// what a column of 1,000 blocks takes to come to rest, then true motion 100,000, then relaxation again. Relaxation is
+// slow where a slope slides far before it rests, for the damping of what flutters as it slides holds up the slide; true
+// motion is slow at the end, for local damping takes nothing from a slide whose forces are nearly in balance. Either
+// begins at rest.
+constexpr long long relaxation_round = 50, motion_round = 10;
+
+// 1.25 times Richardson's estimate covers what the slower rate leaves open (Roache's grid convergence index, order
+// known), so a quarter of it covers what the extrapolation leaves
+constexpr double extrapolation_margin = 0.25;
+
+Trial judge(StopReason reason) {
+  switch (reason) {
+    case StopReason::equilibrium:
+      return Trial::stable;
+    case StopReason::moved_away:
+      return Trial::failed;
+    case StopReason::no_contact_answer:
+    case StopReason::not_finite:
+      return Trial::broken;
+    default:
+      return Trial::undecided;
+  }
+}
+
+// What a trial does: it seeks rest at a level, or the friction falls at constant rate from the last stable angle to
+// this one.
+struct Attempt {
+  int number = 0;          // of the trial, from 0
+  double target = 0;       // level, rad or 1
+  bool from_base = false;  // it begins at the last stable state, not where the trial before ended
+  bool falls = false;
+  double rate = 0;  // rad/s, of a fall
+};
+
+// What is searched, on the way from a stable to a failed level, and how messages name it: a friction angle falls, a
+// factor grows.
+struct Levels {
+  double from, to, tolerance, step;  // rad or 1
+  double direction;                  // of failure
+  double unit;                       // of a level in words
+  const char *symbol, *name;         // of that unit; of the keys
+  const char *start, *end;           // repairs of a search in the wrong place
+  const char *towards, *one;
+
+  // "33.4 deg"
+  std::string text(double level) const { return fmt::format("{:.6g}{}", level / unit, symbol); }
+  // the one of two that is nearer to stability
+  double safer(double a, double b) const { return direction < 0 ? std::max(a, b) : std::min(a, b); }
+};
+
+Levels levels_of(const ReducePlan& plan) {
+  if (plan.searched == Searched::friction)
+    return {plan.from, plan.to, plan.tolerance, plan.step, -1,     degree,
+            " deg",    "deg",   "higher",       "lower",   "down", "angle"};
+  const FactorPlan& f = plan.factor;
+  return {f.from, f.to, f.tolerance, f.step, 1, 1, "", "factor", "lower", "higher", "up", "factor"};
+}
+
+// The ways of searching stand at the end, each in one place. A way goes through its trials by their numbers, so that an
+// interrupted search, called again with its progress, continues in the trial that was under way.
+template <int Dim>
+struct Search {
+  const Model<Dim>& model;
+  const Settings& settings;
+  const ReducePlan& plan;
+  const RunHooks<Dim>& hooks;
+  const TrialHook<Dim>& on_trial;
+  State<Dim>& state;
+  ReductionProgress<Dim>& progress;
+  std::vector<int> properties;
+  double failure_displacement;
+  Levels levels;
+  ReductionReport report;
+
+  // ---- one trial ----------------------------------------------------------------------------------------------------
+
+  // the work done since is not forgotten
+  void go_back_to_base() {
+    const Counters spent = state.counters;
+    state = progress.base;
+    state.counters = spent;
+  }
+
+  void begin(const Attempt& attempt) {
+    if (attempt.from_base) go_back_to_base();
+    progress.trial = attempt.number;
+    progress.true_motion = false;
+    progress.trial_steps = 0;
+    progress.run.begin = attempt.falls ? std::vector<Vector<Dim>>{} : progress.begin;
+    progress.target = attempt.target;
+    state.schedule.started = state.time;
+    if (attempt.falls) {
+      progress.level_from = progress.stable;
+      progress.level_rate = attempt.rate;
+      progress.time_limit = state.time + (progress.stable - attempt.target) / attempt.rate;
+      return;
+    }
+    // strength falls gently to the trial's level: dropped at once, it would set the model in motion, and slip that
+    // inertia causes wipes out the shear that settlement has locked in
+    progress.level_from = level_in_force();
+    progress.level_rate = 0;
+    const double ramp = static_cast<double>(plan.ramp_steps) * state.time_step;
+    const double fall = levels.direction * (progress.target - progress.level_from);
+    if (fall > 0 && ramp > 0)
+      progress.level_rate = fall / ramp;
+    else
+      set_strength(model, plan.searched, properties, progress.target, state.schedule);
+  }
+
+  double level_in_force() const {
+    const Schedule& schedule = state.schedule;
+    if (plan.searched == Searched::friction) return schedule.friction[properties.front()];
+    return schedule.strength_factor.empty() ? 1 : schedule.strength_factor[properties.front()];
+  }
+
+  // relaxation and true motion take turns
+  bool relaxes_first(const Attempt& attempt) const { return relaxes(!attempt.falls, settings.damping); }
+  long long round() const {
+    return std::max(1LL, plan.step_limit / (progress.true_motion ? motion_round : relaxation_round));
+  }
+
+  // true: the trial continues by the other of the two
+  bool takes_turn(const Attempt& attempt) {
+    if (report.last.reason != StopReason::interrupted) progress.trial_steps += report.last.steps;
+    if (!relaxes_first(attempt) || report.last.reason != StopReason::step_limit ||
+        progress.trial_steps >= plan.step_limit)
+      return false;
+    progress.true_motion = !progress.true_motion;
+    return true;
+  }
+
+  Trial run_turn(const Attempt& attempt) {
+    RunGoal goal;
+    goal.rest = !attempt.falls;
+    goal.moved_away = failure_displacement;
+    goal.moved_fraction = plan.failure_fraction;
+    goal.step_limit = plan.step_limit - progress.trial_steps;
+    if (relaxes_first(attempt)) goal.step_limit = std::min(*goal.step_limit, round());
+    if (attempt.falls) goal.time_limit = progress.time_limit;
+    const RunSchedule schedule{.searched = plan.searched,
+                               .strength_rate = progress.level_rate,
+                               .strength_from = progress.level_from,
+                               .strength_to = progress.target,
+                               .properties = properties};
+    Settings own = settings;
+    if (progress.true_motion) own.damping.statics = Statics::local;
+    report.last = run(model, own, goal, schedule, state, progress.run, hooks);
+    report.unbalanced = report.last.unbalanced;
+    return judge(report.last.reason);
+  }
+
+  // the level that the trial has come to
+  double level_of(const Attempt& attempt) const { return attempt.falls ? level_in_force() : attempt.target; }
+
+  // nothing: interrupted, or a numerical failure
+  std::optional<Trial> carry_out(const Attempt& attempt) {
+    if (!progress.run.under_way) begin(attempt);
+    Trial outcome = run_turn(attempt);
+    while (takes_turn(attempt))
+      outcome = run_turn(attempt);
+    if (report.last.reason == StopReason::interrupted) return {};
+    if (on_trial) on_trial(state, level_of(attempt), outcome);
+    if (outcome != Trial::broken) return outcome;
+    report.message = report.last.detail;
+    return {};
+  }
+
+  // Stable or failed, and the bracket drawn up to it; nothing: the search is over.
+  std::optional<Trial> decide(const Attempt& attempt) {
+    const std::optional<Trial> outcome = carry_out(attempt);
+    if (!outcome) return {};
+    const double level = level_of(attempt);
+    if (outcome == Trial::undecided) {
+      if (plan.method == ReductionMethod::bisection && attempt.number > 1 && !progress.avoids) {
+        progress.avoids = true;
+        progress.undecided = level;
+        return outcome;
+      }
+      give_up_undecided(attempt, level);
+      return {};
+    }
+    if (outcome == Trial::failed && attempt.number == 0) {
+      report.message = fmt::format("fails already at from_{} = {:.6g}: start {}", levels.name,
+                                   levels.from / levels.unit, levels.start);
+      return {};
+    }
+    if (outcome == Trial::failed) {
+      progress.failed = level;
+      return outcome;
+    }
+    progress.stable = level;
+    progress.unbalanced = report.last.unbalanced;
+    if (plan.method != ReductionMethod::rate) progress.base = state;
+    if (attempt.number == 0 || level != levels.to) return outcome;
+    report.message =
+        fmt::format("still stable at to_{} = {:.6g}: end {}", levels.name, levels.to / levels.unit, levels.end);
+    return {};
+  }
+
+  std::optional<Trial> rest_at(int number, double level, bool from_base = false) {
+    return decide({.number = number, .target = level, .from_base = from_base});
+  }
+  std::optional<Trial> fall(int number, double rate) {
+    return decide({.number = number, .target = plan.to, .falls = true, .rate = rate});
+  }
+
+  // ---- the end of a search ------------------------------------------------------------------------------------------
+
+  void close(double critical, double error_bar) {
+    report.bracketed = true;
+    report.critical = critical;
+    report.error_bar = error_bar;
+  }
+  double bracket() const { return levels.direction * (progress.failed - progress.stable); }
+  void close_bracket() {
+    go_back_to_base();
+    report.unbalanced = progress.unbalanced;
+    close(0.5 * (progress.stable + progress.failed), 0.5 * bracket());
+  }
+
+  // The body that is farthest from where the search began, as a clause: what an undecided trial shows. The trial ended
+  // in true motion, so the velocity is one.
+  std::string farthest_mover() const {
+    int body = -1;
+    double most = 0;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      const double moved = (state.motions[b].displacement - progress.begin[b]).norm();
+      if (model.bodies[b].fixed || moved <= most) continue;
+      most = moved;
+      body = static_cast<int>(b);
+    }
+    if (body < 0) return "no body has moved";
+    const Vector<Dim>& velocity = state.motions[body].velocity;
+    const double away = velocity.dot(state.motions[body].displacement - progress.begin[body]) / most;
+    return fmt::format("{} has moved by {:.3g} m of the {:.3g} m that are failure and {} at {:.2g} m/s",
+                       label_of(model, body), most, failure_displacement,
+                       away > 0.5 * velocity.norm() ? "creeps on" : "swings", velocity.norm());
+  }
+
+  // what a trial that neither came to rest nor failed leaves of the search
+  void give_up_undecided(const Attempt& attempt, double level) {
+    if (attempt.falls) {
+      report.message = fmt::format("no failure {} to {} ({}), stable at {}", levels.towards, levels.text(level),
+                                   describe(report.last.reason), levels.text(progress.stable));
+      return;
+    }
+    report.message =
+        fmt::format("neither rest nor failure at {} within {} steps (unbalanced {:.2g}){}: {}", levels.text(level),
+                    progress.trial_steps, report.last.unbalanced, report.last.unreached, farthest_mover());
+    if (attempt.number == 0) {
+      report.message += fmt::format("; neither a stable nor a failed {} is known", levels.one);
+      return;
+    }
+    report.message += fmt::format("; stable at {}, ", levels.text(progress.stable));
+    // of the ways that continue to seek rest only a bisection knows a failed level, from its second trial on
+    if (plan.method != ReductionMethod::bisection || attempt.number == 1) {
+      report.message += fmt::format("no failed {} is known", levels.one);
+      return;
+    }
+    report.message += fmt::format("failed at {}", levels.text(progress.failed));
+    close_bracket();
+  }
+
+  std::string failed_rule() const {
+    if (plan.failure_fraction == 0) return fmt::format("failed: a body moved more than {:.3g} m", failure_displacement);
+    return fmt::format("failed: bodies of {:g} of the free mass moved more than {:.3g} m", plan.failure_fraction,
+                       failure_displacement);
+  }
+  // what the error bar, a bracket, leaves out
+  std::string newton_rule() const {
+    if (settings.damping.statics != Statics::newton) return "";
+    return fmt::format(
+        "; by Newton's method in {} increment{} a trial: what slip along the chords of increments "
+        "changes is not in the error bar",
+        settings.damping.increments, settings.damping.increments == 1 ? "" : "s");
+  }
+
+  std::string stable_and_failed_rule() const {
+    return fmt::format("stable: unbalanced ratio below {:.0e}; ", settings.equilibrium.unbalanced) + failed_rule() +
+           newton_rule();
+  }
+
+  // ---- bisection: every trial starts from the last stable state -----------------------------------------------------
+
+  void bisect() {
+    if (progress.trial == 0 && !rest_at(0, levels.from)) return;
+    if (progress.trial <= 1 && !rest_at(1, levels.to, true)) return;
+    for (int n = std::max(progress.trial, 2); bracket() > levels.tolerance; ++n)
+      if (!rest_at(n, next_level(), true)) return;
+    close_bracket();
+  }
+  // half way, or where no trial decides the level there, half way from it to the farther end
+  double next_level() {
+    const double below = progress.undecided - progress.stable, above = progress.failed - progress.undecided;
+    progress.avoids = progress.avoids && levels.direction * below > 0 && levels.direction * above > 0;
+    if (!progress.avoids) return 0.5 * (progress.stable + progress.failed);
+    return progress.undecided + 0.5 * (std::abs(below) > std::abs(above) ? -below : above);
+  }
+  std::string bisection_rule() const { return "bisection from the last stable state; " + stable_and_failed_rule(); }
+
+  // ---- steps: from rest to rest until one fails ---------------------------------------------------------------------
+
+  void go_by_steps() {
+    for (int n = progress.trial;; ++n) {
+      const std::optional<Trial> outcome =
+          rest_at(n, levels.safer(levels.from + levels.direction * n * levels.step, levels.to));
+      if (outcome == Trial::failed) close_bracket();
+      if (outcome != Trial::stable) return;
+    }
+  }
+  std::string steps_rule() const {
+    return fmt::format("steps of {:.4g}{}; ", levels.step / levels.unit, levels.symbol) + stable_and_failed_rule();
+  }
+
+  // ---- rate: one fall from rest -------------------------------------------------------------------------------------
+
+  // how far too low an angle a rate can find on a plane, rad; 0 where nothing pulls
+  double largest_lag(double rate) const {
+    const double g = model.gravity.norm() * (1 - settings.damping.local);
+    return g > 0 ? std::cbrt(6 * failure_displacement * rate * rate / g) : 0;
+  }
+
+  void fall_at_rate() {
+    if (progress.trial == 0 && !rest_at(0, plan.from)) return;
+    if (fall(1, plan.rate)) close(progress.failed, largest_lag(plan.rate));
+  }
+  std::string rate_rule() const {
+    return fmt::format("constant rate {:.4g} deg/s, found too low by up to {:.2g} deg; ", plan.rate / degree,
+                       report.error_bar / degree) +
+           failed_rule();
+  }
+
+  // ---- two rates: fall, come to rest nearer to where the first fall began to move, fall from there
+  // -------------------
+
+  void fall_at_two_rates() {
+    if (progress.trial == 0 && !rest_at(0, plan.from)) return;
+    if (progress.trial <= faster_fall) {
+      if (!fall(faster_fall, plan.rate)) return;
+      progress.failed_faster = progress.failed;
+    }
+    if (progress.trial <= coming_nearer && !come_nearer()) return;
+    if (fall(slower_fall, plan.slower_rate)) extrapolate();
+  }
+
+  // where there is no rest, the slower fall begins where the faster did; false: the search is over
+  bool come_nearer() {
+    const double friction = std::min(plan.from, progress.failed_faster + nearer_by_lags * largest_lag(plan.rate));
+    const std::optional<Trial> outcome = carry_out({.number = coming_nearer, .target = friction, .from_base = true});
+    if (!outcome) return false;
+    if (outcome != Trial::stable) go_back_to_base();
+    progress.stable = outcome == Trial::stable ? friction : plan.from;
+    return true;
+  }
+
+  // to the angle at no rate at all
+  void extrapolate() {
+    const double growth = std::pow(plan.rate / plan.slower_rate, bias_power) - 1;
+    const double bias = (progress.failed - progress.failed_faster) / growth;
+    if (bias > 0)
+      close(progress.failed + bias, extrapolation_margin * bias);
+    else
+      report.message = "the slower rate did not find the higher angle: the failure has no lag to extrapolate";
+  }
+  std::string two_rates_rule() const {
+    return fmt::format("{:.6g} deg at {:.4g} deg/s, {:.6g} at {:.4g}, extrapolated by rate^(2/3); ",
+                       progress.failed_faster / degree, plan.rate / degree, progress.failed / degree,
+                       plan.slower_rate / degree) +
+           failed_rule();
+  }
+
+  // -------------------------------------------------------------------------------------------------------------------
+
+  void search() {
+    if (progress.begin.empty())
+      for (const Motion<Dim>& m : state.motions)
+        progress.begin.push_back(m.displacement);
+    switch (plan.method) {
+      case ReductionMethod::bisection:
+        return bisect();
+      case ReductionMethod::steps:
+        return go_by_steps();
+      case ReductionMethod::rate:
+        return fall_at_rate();
+      case ReductionMethod::two_rates:
+        return fall_at_two_rates();
+    }
+  }
+
+  std::string rule() const {
+    switch (plan.method) {
+      case ReductionMethod::bisection:
+        return bisection_rule();
+      case ReductionMethod::steps:
+        return steps_rule();
+      case ReductionMethod::rate:
+        return rate_rule();
+      case ReductionMethod::two_rates:
+        return two_rates_rule();
+    }
+    return {};
+  }
+};
+
+bool of_rates(ReductionMethod method) {
+  return method == ReductionMethod::rate || method == ReductionMethod::two_rates;
+}
+
+}  // namespace
+
+bool is_detour(ReductionMethod method, int trial, Trial outcome) {
+  switch (method) {
+    case ReductionMethod::bisection:
+    case ReductionMethod::steps:
+      return outcome != Trial::stable;
+    case ReductionMethod::rate:
+      return false;
+    case ReductionMethod::two_rates:
+      return trial == faster_fall || (trial == coming_nearer && outcome != Trial::stable);
+  }
+  return false;
+}
+
+template <int Dim>
+double failure_displacement_of(const Model<Dim>& model, const ReducePlan& plan) {
+  if (plan.failure_displacement > 0) return plan.failure_displacement;
+  double smallest = 0;
+  for (const Body<Dim>& b : model.bodies)
+    if (!b.fixed) smallest = smallest == 0 ? b.size : std::min(smallest, b.size);
+  return default_failure_fraction * smallest;
+}
+
+template <int Dim>
+std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& plan) {
+  std::vector<int> chosen;
+  for (std::size_t p = 0; p < model.properties.size(); ++p)
+    if (plan.properties.empty() ||
+        std::find(plan.properties.begin(), plan.properties.end(), model.properties[p].name) != plan.properties.end())
+      chosen.push_back(static_cast<int>(p));
+  return chosen;
+}
+
+template <int Dim>
+ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,
+                       ReductionProgress<Dim>& progress, const RunHooks<Dim>& hooks, const TrialHook<Dim>& on_trial) {
+  Search<Dim> search{model, settings,        plan, hooks, on_trial, state, progress, chosen_properties(model, plan),
+                     0,     levels_of(plan), {}};
+  search.failure_displacement = failure_displacement_of(model, plan);
+  ReductionReport& report = search.report;
+  if (plan.searched == Searched::factor && of_rates(plan.method)) {
+    report.message = "a factor of safety is searched by bisection or in steps: how late a rate finds it is not known";
+    return report;
+  }
+  search.search();
+  if (report.last.reason != StopReason::interrupted) {
+    report.stable = progress.stable;
+    report.failed = progress.failed;
+  }
+  report.rule = search.rule();
+  if (report.bracketed && !report.message.empty()) report.rule += "; the search ended early: " + report.message;
+  return report;
+}
+
+template double failure_displacement_of<2>(const Model<2>&, const ReducePlan&);
+template double failure_displacement_of<3>(const Model<3>&, const ReducePlan&);
+template std::vector<int> chosen_properties<2>(const Model<2>&, const ReducePlan&);
+template std::vector<int> chosen_properties<3>(const Model<3>&, const ReducePlan&);
+template ReductionReport reduce<2>(const Model<2>&, const Settings&, const ReducePlan&, State<2>&,
+                                   ReductionProgress<2>&, const RunHooks<2>&, const TrialHook<2>&);
+template ReductionReport reduce<3>(const Model<3>&, const Settings&, const ReducePlan&, State<3>&,
+                                   ReductionProgress<3>&, const RunHooks<3>&, const TrialHook<3>&);
+
+}  // namespace voussoir

@@ -1,0 +1,346 @@
+#include "core/run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/model/body_title.hpp"
+#include "core/step.hpp"
+#include "core/step/free_fall.hpp"
+#include "core/step/integrate.hpp"
+#include "core/step/prescribed.hpp"
+#include "core/step/relaxation.hpp"
+#include "core/step/static_solver.hpp"
+#include "text/angle.hpp"
+
+namespace voussoir {
+namespace {
+
+// steps between two looks for bodies that fall free; a look costs less than a step
+constexpr long long steps_between_falls = 100;
+
+// Steps of a relaxation until Newton's method on the joints tries its increment, and again after each so many more.
+// What relaxation has not found by then is a motion too soft for it: its steps grow with the root of stiff over soft.
+constexpr long long steps_until_newton = 80'000;
+
+constexpr double never = std::numeric_limits<double>::infinity();  // s
+
+// sets the scheduled values to those of the time of the positions; true while they still change
+template <int Dim>
+bool follow(const Model<Dim>& model, const RunSchedule& plan, State<Dim>& state) {
+  const double began = state.schedule.started, elapsed = state.time - began;
+  bool changing = false;
+  if (plan.gravity.ramp > 0) {
+    // the sum, not the difference, is what a stage that ends with its ramp reaches exactly
+    const double fraction = state.time >= began + plan.gravity.ramp ? 1 : elapsed / plan.gravity.ramp;
+    const double from = plan.gravity.from;
+    state.schedule.gravity_factor = from + (plan.gravity.to.value_or(1) - from) * fraction;
+    changing = fraction < 1;
+  } else if (plan.gravity.to) {
+    state.schedule.gravity_factor = *plan.gravity.to;
+  }
+  if (plan.strength_rate > 0) {
+    const double level = plan.searched == Searched::friction
+                             ? std::max(plan.strength_to, plan.strength_from - plan.strength_rate * elapsed)
+                             : std::min(plan.strength_to, plan.strength_from + plan.strength_rate * elapsed);
+    set_strength(model, plan.searched, plan.properties, level, state.schedule);
+    changing = changing || level != plan.strength_to;
+  }
+  for (const WaterPlan& water : plan.water) {
+    const double fraction = state.time >= began + water.ramp ? 1 : elapsed / water.ramp;
+    std::vector<double>& numbers = state.schedule.water[water.water];
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      numbers[k] = fraction < 1 ? water.from[k] + (water.to[k] - water.from[k]) * fraction : water.to[k];
+    changing = changing || fraction < 1;
+  }
+  if (plan.let_off && !state.held.empty()) {
+    const double fraction = state.time >= began + plan.let_off->duration ? 1 : elapsed / plan.let_off->duration;
+    for (ReliefLoad<Dim>& held : state.held)
+      held.share = held.begun + (std::min(held.begun, plan.let_off->share) - held.begun) * fraction;
+    changing = changing || fraction < 1;
+  }
+  return changing;
+}
+
+// Whether enough has moved away. Where one body is not enough, those that have are left behind.
+template <int Dim>
+bool has_moved_away(const Model<Dim>& model, const RunGoal& goal, const std::vector<Vector<Dim>>& begin,
+                    State<Dim>& state) {
+  const bool trials = state.newton.under_way;  // one that is not yet judged is no motion
+  const std::vector<Vector<Dim>> accepted = trials ? accepted_displacements(model, state) : begin;
+  double moved = 0, free = 0;  // kg
+  if (goal.moved_fraction > 0) state.left_behind.assign(model.bodies.size(), false);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].fixed) continue;
+    free += model.bodies[b].mass;
+    const double way = ((trials ? accepted[b] : state.motions[b].displacement) - begin[b]).norm();
+    if (!(way > *goal.moved_away)) continue;
+    if (goal.moved_fraction == 0) return true;
+    state.left_behind[b] = true;
+    moved += model.bodies[b].mass;
+  }
+  return moved > 0 && moved >= goal.moved_fraction * free;
+}
+
+// s: how long gravity, strength, water and what excavated rock holds still change
+double ramp_of(const RunSchedule& plan) {
+  const double fall = plan.strength_rate > 0 ? std::abs(plan.strength_from - plan.strength_to) / plan.strength_rate : 0;
+  double ramp = std::max(plan.gravity.ramp, fall);
+  for (const WaterPlan& water : plan.water)
+    ramp = std::max(ramp, water.ramp);
+  if (plan.let_off) ramp = std::max(ramp, plan.let_off->duration);
+  return ramp;
+}
+
+// Which ramps a run that ends now has not carried through, and how far each has come; else what of rest is missing.
+template <int Dim>
+std::string unreached(const Model<Dim>& model, const Settings& settings, const RunSchedule& plan,
+                      const RunProgress<Dim>& progress, const State<Dim>& state, double unbalanced) {
+  const double elapsed = state.time - state.schedule.started;
+  std::vector<std::string> ramps;
+  const auto add = [&](const std::string& what, double ramp) {
+    if (elapsed < ramp) ramps.push_back(fmt::format("{} (at {:.3g} % of {:g} s)", what, 100 * elapsed / ramp, ramp));
+  };
+  add("gravity", plan.gravity.ramp);
+  if (plan.strength_rate > 0)
+    add("the fall of strength", std::abs(plan.strength_from - plan.strength_to) / plan.strength_rate);
+  for (const WaterPlan& water : plan.water)
+    add(fmt::format("the water '{}'", model.waters[water.water].name), water.ramp);
+  if (plan.let_off && !state.held.empty()) add("what excavated rock still holds", plan.let_off->duration);
+  if (ramps.empty() && state.newton.under_way) ramps.emplace_back("the increments of Newton's method");
+  if (ramps.empty() && unbalanced <= settings.equilibrium.unbalanced)
+    ramps.push_back(fmt::format("rest in {} steps in a row (equilibrium.window), it lasted for {}",
+                                settings.equilibrium.window, progress.at_rest));
+  return ramps.empty() ? "" : fmt::format("; not reached: {}", fmt::join(ramps, ", "));
+}
+
+// A lining that had rock opposite and touches none any more; -1: none.
+template <int Dim>
+int loose_lining(const State<Dim>& state) {
+  for (const LiningState& lined : state.linings) {
+    const auto touches = [](const LiningContact& c) { return c.rock >= 0 && (c.bonded || c.closure >= 0); };
+    if (!lined.rock.empty() && std::ranges::none_of(lined.contacts, touches)) return lined.lining;
+  }
+  return -1;
+}
+
+// what falls may yet be lifted by a water, or lose its weight
+bool may_return(const RunSchedule& plan, bool changing) {
+  return changing && (!plan.water.empty() || plan.gravity.to == 0);
+}
+
+// the first body whose motion is not a number, or else whose load is, for a wrong motion spoils its neighbours' loads;
+// -1: none
+template <int Dim>
+int first_not_finite(const State<Dim>& state) {
+  for (std::size_t b = 0; b < state.motions.size(); ++b) {
+    const Motion<Dim>& m = state.motions[b];
+    if (!std::isfinite(m.displacement.sum() + m.velocity.sum() + m.angular_momentum.sum())) return static_cast<int>(b);
+  }
+  for (std::size_t b = 0; b < state.loads.size(); ++b)
+    if (!std::isfinite(state.loads[b].force.sum() + state.loads[b].moment.sum())) return static_cast<int>(b);
+  return -1;
+}
+
+// rad; in space at most half a turn
+double turn_of(const Rotation<2>& rotation) {
+  return std::abs(rotation.angle);
+}
+double turn_of(const Rotation<3>& rotation) {
+  return 2 * std::atan2(rotation.quaternion.vec().norm(), std::abs(rotation.quaternion.w()));
+}
+
+// the body to blame that there is no rest, and what of it moves; to be asked while it does
+template <int Dim>
+std::string restless(const Model<Dim>& model, const State<Dim>& state) {
+  const int body = fastest(model, state);
+  if (body < 0) return {};
+  const Motion<Dim>& m = state.motions[body];
+  return fmt::format("{} moves most, {:.3g} m from where it began and turned by {:.3g} degrees", label_of(model, body),
+                     m.displacement.norm(), to_degrees(turn_of(m.rotation)));
+}
+
+template <int Dim>
+std::string moment_of(const State<Dim>& state) {
+  return fmt::format("step {}, t = {:.6g} s", state.counters.steps, state.time);
+}
+
+const char* name(ContactStatus status) {
+  switch (status) {
+    case ContactStatus::apart:
+      return "apart";
+    case ContactStatus::separated:
+      return "separated";
+    case ContactStatus::undecided:
+      return "undecided";
+    case ContactStatus::touching:
+      return "touching";
+    case ContactStatus::lp_not_converged:
+      return "the LP did not converge";
+    case ContactStatus::centre_not_converged:
+      return "the analytic centre, or the least point of potential particles, did not converge";
+    case ContactStatus::no_normal:
+      return "no normal was found";
+    case ContactStatus::no_face:
+      return "a search along the normal met no face";
+  }
+  return "unknown";
+}
+
+template <int Dim>
+std::string first_unanswered(const Model<Dim>& model, const State<Dim>& state) {
+  for (const Contact<Dim>& c : state.contacts)
+    if (c.unanswered())
+      return fmt::format("contact of {} and {} at {}: {}", label_of(model, model.parts[c.part_a].body),
+                         label_of(model, model.parts[c.part_b].body), moment_of(state), name(c.status));
+  return "bar of a grouted bolt at " + moment_of(state) + ": no equilibrium";
+}
+
+// Stops what is not to move. The forces have been found: until then velocities are those that led here, by which the
+// joints slip.
+template <int Dim>
+void stop_bodies(const Model<Dim>& model, bool relaxing, State<Dim>& state) {
+  stop_held(model, state);
+  if (relaxing)
+    begin_relaxation(state);
+  else
+    begin_motion(state);
+}
+
+// Whether Newton's method begins with this step: the first, where it is asked for, or one of a relaxation that lingers.
+template <int Dim>
+bool begins_newton(const Model<Dim>& model, const Settings& settings, const RunProgress<Dim>& progress, bool changing,
+                   const State<Dim>& state) {
+  const bool lingers = progress.steps > 0 && progress.steps % steps_until_newton == 0 && progress.at_rest == 0 &&
+                       !changing && !state.newton.under_way;
+  return (lingers || (progress.steps == 0 && settings.damping.statics == Statics::newton)) && newton_applies(model);
+}
+
+template <int Dim>
+RunProgress<Dim> begin_run(const RunGoal& goal, State<Dim>& state) {
+  state.schedule.ends = goal.end_time.value_or(never);
+  state.left_behind.clear();
+  RunProgress<Dim> progress;
+  progress.under_way = true;
+  progress.unconverged = state.counters.unconverged;
+  if (goal.moved_away)
+    for (const Motion<Dim>& m : state.motions)
+      progress.begin.push_back(m.displacement);
+  return progress;
+}
+
+}  // namespace
+
+std::string describe(StopReason reason) {
+  switch (reason) {
+    case StopReason::equilibrium:
+      return "equilibrium";
+    case StopReason::end_time:
+      return "end time";
+    case StopReason::moved_away:
+      return "failure displacement passed";
+    case StopReason::step_limit:
+      return "step limit";
+    case StopReason::time_limit:
+      return "time limit";
+    case StopReason::no_contact_answer:
+      return "a contact found no answer";
+    case StopReason::not_finite:
+      return "a number is not finite";
+    case StopReason::falls_free:
+      return "a body falls free";
+    case StopReason::lining_loose:
+      return "a lining has left its rock";
+    case StopReason::interrupted:
+      return "interrupted";
+  }
+  return "unknown";
+}
+
+template <int Dim>
+std::string label_of(const Model<Dim>& model, int body) {
+  return fmt::format("body {} ({})", body, title_of(model, body));
+}
+
+template <int Dim>
+RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& goal, const RunSchedule& schedule,
+              State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks) {
+  const bool relaxing = relaxes(goal.rest, settings.damping);
+  if (!progress.under_way) {
+    std::vector<Vector<Dim>> stated = std::move(progress.begin);
+    progress = begin_run(goal, state);
+    if (!stated.empty()) progress.begin = std::move(stated);
+  }
+  RunReport report;
+  const auto stop = [&](StopReason reason, const std::string& detail = {}) {
+    if (goal.rest && (reason == StopReason::step_limit || reason == StopReason::time_limit))
+      report.unreached = unreached(model, settings, schedule, progress, state, report.unbalanced);
+    progress.under_way = reason == StopReason::interrupted;
+    if (relaxing && !progress.under_way) end_relaxation(state);
+    if (!progress.under_way) state.schedule.ends = never;
+    report.reason = reason;
+    report.detail = detail;
+    report.steps = progress.steps;
+    return report;
+  };
+
+  // the forces of a step, and what comes after the run, stand under the schedule at the time of the positions
+  bool changing = follow(model, schedule, state);
+  // made once: no step asks for memory
+  const std::function<void(State<Dim>&)> with_forces = [&](State<Dim>& now) {
+    if (progress.steps == 0) stop_bodies(model, relaxing, now);
+    if (relaxing && begins_newton(model, settings, progress, changing, now))
+      begin_newton(model, settings, progress.steps == 0 ? ramp_of(schedule) : 0, now);
+    if (hooks.with_forces) hooks.with_forces(now);
+  };
+  while (true) {
+    if (hooks.pause && hooks.pause()) return stop(StopReason::interrupted);
+    const bool tried = state.newton.under_way;
+    step<Dim>(model, settings, state, with_forces);
+    const bool changed = std::exchange(changing, follow(model, schedule, state));
+    ++progress.steps;
+    report.unbalanced = goal.rest ? unbalanced_ratio(model, settings.threads, state) : -1;
+    if (hooks.after_step) hooks.after_step(state, report.unbalanced);
+
+    // a wrong force must not be stepped over
+    if (state.counters.unconverged > progress.unconverged)
+      return stop(StopReason::no_contact_answer, first_unanswered(model, state));
+    if (const int body = first_not_finite(state); body >= 0)
+      return stop(StopReason::not_finite, label_of(model, body) + " at " + moment_of(state));
+
+    // rest must last, and cannot come while gravity, friction or water still changes
+    const bool evaluated = tried || state.newton.under_way;  // a trial of Newton's method is not yet rest
+    const bool settled = goal.rest && !changed && !evaluated && report.unbalanced <= settings.equilibrium.unbalanced;
+    progress.at_rest = settled ? progress.at_rest + 1 : 0;
+    if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
+    if (goal.moved_away && has_moved_away(model, goal, progress.begin, state)) return stop(StopReason::moved_away);
+    if (goal.end_time && state.time >= *goal.end_time) return stop(StopReason::end_time);
+    if (const int lining = goal.rest && !evaluated && std::isinf(report.unbalanced) ? loose_lining(state) : -1;
+        lining >= 0)
+      return stop(StopReason::lining_loose,
+                  fmt::format("no node of the lining '{}' touches rock any more, and nothing else exerts a force",
+                              model.linings[lining].properties.name));
+    if (goal.rest && !goal.moved_away && !may_return(schedule, changing) && !state.newton.under_way &&
+        progress.steps % steps_between_falls == 0)
+      if (const int body = falling_free(model, state); body >= 0)
+        return stop(StopReason::falls_free,
+                    fmt::format("{} has left all others behind, {:.3g} m from where it began", label_of(model, body),
+                                state.motions[body].displacement.norm()));
+    if (goal.time_limit && state.time >= *goal.time_limit)
+      return stop(StopReason::time_limit, goal.rest ? restless(model, state) : "");
+    if (goal.step_limit && progress.steps >= *goal.step_limit)
+      return stop(StopReason::step_limit, goal.rest ? restless(model, state) : "");
+  }
+}
+
+template std::string label_of<2>(const Model<2>&, int);
+template std::string label_of<3>(const Model<3>&, int);
+template RunReport run<2>(const Model<2>&, const Settings&, const RunGoal&, const RunSchedule&, State<2>&,
+                          RunProgress<2>&, const RunHooks<2>&);
+template RunReport run<3>(const Model<3>&, const Settings&, const RunGoal&, const RunSchedule&, State<3>&,
+                          RunProgress<3>&, const RunHooks<3>&);
+
+}  // namespace voussoir

@@ -1,0 +1,98 @@
+#include "core/run/stable_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/step/joint_forces.hpp"
+
+namespace voussoir {
+namespace {
+
+// how many joints a line names; results.json has all
+constexpr std::size_t most_named = 4;
+
+template <int Dim>
+std::string name_of_joint(const Prepared<Dim>& scene, const Model<Dim>& model, int joint) {
+  if (joint == no_joint) return "";
+  const int set = scene.joint_sets.set_of(joint);
+  return set >= 0 ? scene.joint_sets.names[set] : model.joints[joint].name;
+}
+
+// joints of a set together
+template <int Dim>
+std::optional<WholeBonds> whole_bonds_of(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state,
+                                         const BondedContacts& bonded) {
+  WholeBonds bonds{.whole = whole_bonds(state), .made = state.bonds.made - state.bonds.removed};
+  if (bonds.made == 0) return std::nullopt;
+  std::map<std::string, JointBonds> by_name;
+  for (const JointBonds& joint : bonds_by_joint(model, state, bonded)) {
+    JointBonds& sum = by_name[name_of_joint(scene, model, joint.joint)];
+    sum.whole += joint.whole;
+    sum.made += joint.made;
+    sum.whole_area += joint.whole_area;
+    sum.made_area += joint.made_area;
+  }
+  for (const auto& [name, joint] : by_name)
+    bonds.by_joint.push_back(
+        {name, joint.whole, joint.made, joint.made_area > 0 ? joint.whole_area / joint.made_area : 0.0});
+  return bonds;
+}
+
+}  // namespace
+
+std::string moment_text(const StableState& at) {
+  if (!at.level) return "at rest";
+  return at.unit == "1" ? fmt::format("at the last stable state, a factor of {:.6g}", *at.level)
+                        : fmt::format("at the last stable state, {:.6g} {}", *at.level, at.unit);
+}
+
+template <int Dim>
+void note_stable_state(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state,
+                       const BondedContacts& bonded, const StableState& at, std::vector<StableState>& noted) {
+  std::erase_if(noted, [&](const StableState& before) { return before.stage == at.stage; });
+  StableState now = at;
+  now.bonds = whole_bonds_of(scene, model, state, bonded);
+  if (now.bonds) noted.push_back(std::move(now));
+}
+
+std::vector<std::string> doubts_about(const std::vector<StableState>& noted, const std::string& stage) {
+  std::vector<std::string> doubts;
+  for (const StableState& at : noted)
+    if (at.stage == stage && at.bonds && at.bonds->whole == 0)
+      doubts.push_back(fmt::format(
+          "stage {}: {}: none of {} bonds is whole, so that cohesion and tensile strength carry nothing there",
+          at.stage, moment_text(at), at.bonds->made));
+  return doubts;
+}
+
+template <int Dim>
+void count_all_bonds(const Prepared<Dim>& scene, const State<Dim>& state, Results& results) {
+  if (std::ranges::none_of(scene.stages, [](const StagePlan& stage) { return stage.change.bond; })) return;
+  results.bonds = count_bonds(state);
+  if (results.bonds->made == 0)
+    results.warnings.push_back("stage.bond has made no bond: no joint with tension or cohesion was closed and pressed");
+}
+
+std::string bonds_text(const WholeBonds& bonds) {
+  std::string joints;
+  for (std::size_t k = 0; k < std::min(bonds.by_joint.size(), most_named); ++k) {
+    const BondsOfJoint& joint = bonds.by_joint[k];
+    joints += fmt::format("{}{}: {} of {}, {:.3g} % of the bonded area", k > 0 ? "; " : "",
+                          joint.joint.empty() ? "faces that no joint made" : joint.joint, joint.whole, joint.made,
+                          100 * joint.area_share);
+  }
+  if (bonds.by_joint.size() > most_named) joints += fmt::format("; {} more", bonds.by_joint.size() - most_named);
+  return fmt::format("{} of {} bonds whole ({})", bonds.whole, bonds.made, joints);
+}
+
+template void note_stable_state<2>(const Prepared<2>&, const Model<2>&, const State<2>&, const BondedContacts&,
+                                   const StableState&, std::vector<StableState>&);
+template void note_stable_state<3>(const Prepared<3>&, const Model<3>&, const State<3>&, const BondedContacts&,
+                                   const StableState&, std::vector<StableState>&);
+
+template void count_all_bonds<2>(const Prepared<2>&, const State<2>&, Results&);
+template void count_all_bonds<3>(const Prepared<3>&, const State<3>&, Results&);
+
+}  // namespace voussoir

@@ -1,0 +1,32 @@
+// Factors of a sparse matrix of blocks, without pivots beyond the diagonal blocks: the preconditioner of solve_blocks.
+// Complete where elimination fills in little, as in chains and where blocks lie in a plane: an approximate minimum
+// degree order (Amestoy, Davis and Duff 1996, by Eigen), the rows of the factors by the elimination tree (Liu 1990).
+// Else in the matrix's own pattern and order, ILU(0) (Meijerink and van der Vorst 1977).
+#pragma once
+
+#include "core/solvers/block_matrix.hpp"
+
+namespace voussoir {
+
+template <int Size>
+class BlockFactors {
+ public:
+  explicit BlockFactors(const BlockMatrix<Size>& matrix);
+
+  // no pivot block is singular
+  bool regular() const { return is_regular; }
+  bool complete() const { return !order.empty(); }
+
+  // of the factors' product; exact but for rounding where they are complete
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+
+ private:
+  // unit lower blocks, upper blocks and inverted diagonal blocks
+  void factorise();
+
+  std::vector<int> order;  // the matrix's row that is the factors' i-th; empty: its own order
+  BlockMatrix<Size> factors;
+  bool is_regular = true;
+};
+
+}  // namespace voussoir

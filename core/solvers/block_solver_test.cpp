@@ -1,0 +1,104 @@
+// Linear systems of blocks: against dense factors, and where the sparse ones are complete.
+#include "core/solvers/block_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/solvers/block_factors.hpp"
+#include "core/testing/dense.hpp"
+
+namespace voussoir {
+namespace {
+
+// blocks in a ring with a few chords, diagonally dominant: against a dense factorisation
+template <int Size>
+void expect_solved() {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  constexpr int count = 40;
+  using Entry = typename BlockMatrix<Size>::Entry;
+  std::vector<std::vector<Entry>> rows(count);
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(Size * count, Size * count);
+  const auto put = [&](int row, int column, double weight) {
+    Entry entry{column, {}};
+    for (int i = 0; i < Size * Size; ++i)
+      entry.block.data()[i] = weight * uniform(random);
+    if (row == column) entry.block.diagonal().array() += 3 * Size;
+    rows[row].push_back(entry);
+    dense.block<Size, Size>(Size * row, Size * column) += entry.block;
+  };
+  for (int i = 0; i < count; ++i) {
+    put(i, (i + 1) % count, 1);
+    put(i, i, 1);
+    put(i, (i + 7) % count, 0.5);
+    put(i, (i + 1) % count, 0.5);  // twice in the same place
+  }
+  BlockMatrix<Size> matrix;
+  matrix.assign(1, rows);
+  Eigen::VectorXd more(Size * count), b(Size * count);
+  for (int i = 0; i < more.size(); ++i) {
+    more[i] = 1 + uniform(random);
+    b[i] = uniform(random);
+  }
+  matrix.add_diagonal(more);
+  dense.diagonal() += more;
+  EXPECT_LT((matrix.times(1, b) - dense * b).norm(), 1e-13 * b.norm() * dense.norm());
+  const LinearAnswer answer = solve_blocks(matrix, b, 1e-12, 100, 1);
+  EXPECT_LE(answer.residual, 1e-12);
+  EXPECT_LT((answer.x - oracle::solution(dense, b)).norm(), 1e-11 * answer.x.norm());
+  EXPECT_LT((dense * answer.x - b).norm(), 1e-11 * b.norm());
+  EXPECT_EQ(solve_blocks(matrix, Eigen::VectorXd(0 * b), 1e-12, 100, 1).x.norm(), 0);
+}
+
+TEST(BlockMatrix, SolvesSmallBlocks) {
+  expect_solved<3>();
+  expect_solved<6>();
+}
+
+// each block on the next along every axis of a box of so many blocks; stiff enough on its diagonal to be definite
+template <int Size>
+BlockMatrix<Size> grid(int dimensions, int side) {
+  int count = 1;
+  for (int d = 0; d < dimensions; ++d)
+    count *= side;
+  std::vector<std::vector<typename BlockMatrix<Size>::Entry>> rows(count);
+  for (int i = 0; i < count; ++i) {
+    rows[i].push_back({i, 2.01 * dimensions * BlockMatrix<Size>::Block::Identity()});
+    for (int d = 0, step = 1; d < dimensions; ++d, step *= side)
+      for (const int way : {-1, 1})
+        if (const int at = i / step % side + way; at >= 0 && at < side)
+          rows[i].push_back({i + way * step, -BlockMatrix<Size>::Block::Identity()});
+  }
+  BlockMatrix<Size> matrix;
+  matrix.assign(1, rows);
+  return matrix;
+}
+
+// Complete factors solve what lies in a chain or in the plane at once, however much; in a box they would fill in too
+// much.
+TEST(BlockFactors, AreCompleteWhereTheyFillInLittle) {
+  const auto iterations = [](const auto& matrix) {
+    const LinearAnswer answer =
+        solve_blocks(matrix, Eigen::VectorXd(Eigen::VectorXd::Ones(matrix.rows() * 6)), 1e-10, 100, 1);
+    EXPECT_LE(answer.residual, 1e-10);
+    return answer.iterations;
+  };
+  for (const auto& matrix : {grid<6>(1, 2000), grid<6>(2, 20)}) {
+    EXPECT_TRUE(BlockFactors<6>(matrix).complete());
+    EXPECT_EQ(iterations(matrix), 1);
+  }
+  EXPECT_TRUE(BlockFactors<3>(grid<3>(2, 100)).complete());
+  const BlockMatrix<6> in_a_box = grid<6>(3, 12);
+  EXPECT_FALSE(BlockFactors<6>(in_a_box).complete());
+  EXPECT_GT(iterations(in_a_box), 1);
+}
+
+TEST(BlockMatrix, SaysThatItIsSingular) {
+  BlockMatrix<3> matrix;
+  matrix.assign(1, {{{0, BlockMatrix<3>::Block::Zero()}}});
+  EXPECT_FALSE(std::isfinite(solve_blocks(matrix, Eigen::VectorXd(Eigen::VectorXd::Ones(3)), 1e-3, 10, 1).residual));
+}
+
+}  // namespace
+}  // namespace voussoir

@@ -1,0 +1,18 @@
+// The exchangeable solvers of the two convex programs.
+#pragma once
+
+#include "core/solvers/analytic_centre.hpp"
+#include "core/solvers/feasibility.hpp"
+
+namespace voussoir {
+
+template <int Dim>
+struct Solvers {
+  FeasibilitySolver<Dim>* feasibility = &solve_feasibility<Dim>;
+  CentreSolverFunction<Dim>* centre = &solve_analytic_centre<Dim>;
+
+  // called when `centre` has failed from a cold start; null: the contact then has no answer
+  CentreSolverFunction<Dim>* fallback = nullptr;
+};
+
+}  // namespace voussoir

@@ -1,0 +1,38 @@
+// Linings put against the rock as it stands.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
+#include "core/stage/excavation.hpp"
+
+namespace voussoir {
+
+// The faces of blocks that a lining would be cast against as they stand.
+std::vector<LiningRock> rock_around(const Model<2>& model, const State<2>& state, const Lining& lining);
+
+// Adds to the state what the linings of these names carry, without force, whose nodes are in the model; gives the names
+// of which no node has rock opposite.
+template <int Dim>
+std::vector<std::string> install_linings(const Model<Dim>& model, const std::vector<std::string>& names,
+                                         State<Dim>& state);
+
+// how many nodes of an installed lining have no rock opposite
+int nodes_without_rock(const LiningState& state);
+
+// Faces of rock whose blocks have gone, or whose parts have: nodes there lose them.
+template <int Dim>
+void release_linings(const Model<Dim>& model, State<Dim>& state);
+template <int Dim>
+void carry_linings(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state);
+
+// Which face of the rock half a node is opposite to, as the poses of now say: the one it was, as long as the node is
+// within its ends, else the nearest, but none farther away than the half is long.
+int rock_opposite(const Lining& lining, const LiningState& lined, int half_node, const State<2>& state);
+
+// a node in a block's frame, against the corner of its side there, m
+Vector<2> seen_from_rock(const LiningRock& rock, int node_body, const State<2>& state);
+
+}  // namespace voussoir

@@ -1,0 +1,262 @@
+#include "core/step/integrate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+#include "core/base/on_threads.hpp"
+
+namespace voussoir {
+namespace {
+
+template <int Dim>
+bool all_free(const std::array<bool, Dim>& freedoms) {
+  return std::all_of(freedoms.begin(), freedoms.end(), [](bool f) { return f; });
+}
+
+template <std::size_t Size>
+bool none_free(const std::array<bool, Size>& freedoms) {
+  return std::none_of(freedoms.begin(), freedoms.end(), [](bool f) { return f; });
+}
+
+// world axes
+template <int Dim>
+Spin<Dim> damped_moment(const Load<Dim>& load, double local_damping, const Spin<Dim>& spin) {
+  Spin<Dim> moment = load.moment;
+  if (local_damping == 0) return moment;
+  for (int k = 0; k < spin_freedoms<Dim>; ++k)
+    moment[k] = damped(load.moment[k], spin[k], local_damping);
+  return moment;
+}
+
+// the velocity before a kick: at the start half a step earlier than the given one
+template <class Velocity>
+Velocity velocity_before(StepTimes times, const Velocity& given, const Velocity& after) {
+  return times.at_start() ? Velocity(2 * given - after) : given;
+}
+
+template <int Dim>
+void note_turn(StepTimes times, const Spin<Dim>& before, const Spin<Dim>& after, Kick<Dim>& kick) {
+  kick.turn_before = 0.5 * times.worked() * before;
+  kick.turn_after = 0.5 * times.worked() * after;
+}
+
+void kick_spin(const Body<2>& body, const Load<2>& load, const KickRule& rule, StepTimes times, Motion<2>& motion,
+               Kick<2>& kick) {
+  const Spin<2> given = angular_velocity(body, motion);
+  const Spin<2> left = damped_moment(load, rule.local_damping, given);
+  motion.angular_momentum = rule.keeps * motion.angular_momentum + rule.gain * times.kick * left;
+  const Spin<2> after = angular_velocity(body, motion), before = velocity_before(times, given, after);
+  kick.damping.moment = left - load.moment;
+  note_turn(times, before, after, kick);
+  kick.kinetic += 0.5 * body.inertia[0] * before[0] * after[0];
+}
+
+void drift_spin(const Body<2>& body, double dt, Motion<2>& motion) {
+  motion.rotation.angle += dt * motion.angular_momentum[0] / body.inertia[0];
+}
+
+// some axes are held: the free components of the spin obey the free block of the inertia tensor
+void kick_partly(const Body<3>& body, const Spin<3>& moment, double keeps, double dt, Motion<3>& motion) {
+  const Matrix<3> axes = matrix(motion.rotation) * body.principal_axes;
+  Matrix<3> inertia = axes * body.inertia.asDiagonal() * axes.transpose();
+  Spin<3> spin = angular_velocity(body, motion), kick = moment;
+  for (int k = 0; k < 3; ++k) {
+    if (body.free_rotation[k]) continue;
+    inertia.row(k).setZero();
+    inertia.col(k).setZero();
+    inertia(k, k) = 1;
+    kick[k] = 0;
+    spin[k] = 0;
+  }
+  spin = keeps * spin + dt * Spin<3>(inertia.inverse() * kick);
+  motion.angular_momentum = angular_momentum(body, motion.rotation, spin);
+}
+
+void kick_spin(const Body<3>& body, const Load<3>& load, const KickRule& rule, StepTimes times, Motion<3>& motion,
+               Kick<3>& kick) {
+  const Spin<3> given = angular_velocity(body, motion), given_momentum = motion.angular_momentum;
+  const Spin<3> left = damped_moment(load, rule.local_damping, given);
+  if (all_free<3>(body.free_rotation)) {
+    const Matrix<3> axes = matrix(motion.rotation) * body.principal_axes;
+    motion.angular_momentum = rule.keeps * motion.angular_momentum + rule.gain * times.kick * (axes.transpose() * left);
+  } else {
+    kick_partly(body, left, rule.keeps, rule.gain * times.kick, motion);
+  }
+  const Spin<3> after = angular_velocity(body, motion), before = velocity_before(times, given, after);
+  kick.damping.moment = left - load.moment;
+  note_turn(times, before, after, kick);
+  const Spin<3> momentum_before = velocity_before(times, given_momentum, motion.angular_momentum);
+  kick.kinetic += 0.5 * momentum_before.dot(motion.angular_momentum.cwiseQuotient(body.inertia));
+}
+
+// turns the body about its principal axis k by the fraction of a step; the momentum seen from the body turns back
+void turn_about(int k, double dt, const Body<3>& body, Motion<3>& motion) {
+  Spin<3>& momentum = motion.angular_momentum;
+  const double half_angle = 0.5 * dt * momentum[k] / body.inertia[k];
+  const double c = std::cos(half_angle), s = std::sin(half_angle);
+  const int i = (k + 1) % 3, j = (k + 2) % 3;
+  const double mi = momentum[i], mj = momentum[j];
+  // as a change: a cosine near one is rounded the same way step after step, and the momentum would drift
+  momentum[i] += 2 * s * (c * mj - s * mi);
+  momentum[j] -= 2 * s * (c * mi + s * mj);
+  const Vector<3> axis = s * body.principal_axes.col(k);
+  motion.rotation.quaternion *= Quaternion(c, axis[0], axis[1], axis[2]);
+}
+
+void drift_spin(const Body<3>& body, double dt, Motion<3>& motion) {
+  if (!all_free<3>(body.free_rotation)) {
+    const Spin<3> spin = angular_velocity(body, motion);
+    motion.rotation = turned(motion.rotation, dt * spin);
+    motion.angular_momentum = angular_momentum(body, motion.rotation, spin);
+    return;
+  }
+  turn_about(0, 0.5 * dt, body, motion);
+  turn_about(1, 0.5 * dt, body, motion);
+  turn_about(2, dt, body, motion);
+  turn_about(1, 0.5 * dt, body, motion);
+  turn_about(0, 0.5 * dt, body, motion);
+  motion.rotation.quaternion.normalize();
+}
+
+// N: what acts on a body and what its momentum still amounts to, the momentum times its highest frequency
+template <int Dim>
+double unbalanced_force(const Model<Dim>& model, const State<Dim>& state, int b) {
+  const Body<Dim>& body = model.bodies[b];
+  if (body.fixed) return 0;
+  double frequency = static_cast<std::size_t>(b) < state.frequency.size() ? state.frequency[b] : 0;
+  // mass times frequency goes with the root of the mass
+  if (frequency > 0 && state.relaxation.under_way) frequency *= std::sqrt(state.relaxation.inertia[b]);
+  double squares = 0, momentum = 0;
+  for (int k = 0; k < Dim; ++k) {
+    if (!body.free_translation[k]) continue;
+    squares += state.loads[b].force[k] * state.loads[b].force[k];
+    momentum += std::pow(body.mass * state.motions[b].velocity[k], 2);
+  }
+  for (int k = 0; k < spin_freedoms<Dim>; ++k) {
+    if (!body.free_rotation[k]) continue;
+    squares += std::pow(state.loads[b].moment[k] / body.radius, 2);
+    momentum += std::pow(state.motions[b].angular_momentum[k] / body.radius, 2);
+  }
+  return std::sqrt(squares) + frequency * std::sqrt(momentum);
+}
+
+// N: of the free bodies that a load acts on, whichever of its sources it comes from
+template <int Dim>
+double mean_load(const Model<Dim>& model, const State<Dim>& state, std::initializer_list<Source> sources) {
+  double forces = 0;
+  int loaded = 0;
+  for (const Source source : sources) {
+    const std::vector<Load<Dim>>& loads = state.loads_of[source];
+    for (std::size_t b = 0; b < loads.size(); ++b) {
+      if (model.bodies[b].fixed || loads[b].force.isZero(0)) continue;
+      forces += loads[b].force.norm();
+      ++loaded;
+    }
+  }
+  return loaded > 0 ? forces / loaded : 0;
+}
+
+struct ForceSum {
+  double forces = 0;  // N
+  long long acting = 0;
+
+  double mean() const { return acting > 0 ? forces / static_cast<double>(acting) : 0; }
+};
+
+// N: what is unbalanced is measured against this. Contacts may carry next to nothing of what acts: what floats touches
+// nothing, and relief loads or the water in a joint may hold all that its contacts held.
+template <int Dim>
+double force_at_rest(const Model<Dim>& model, int threads, const State<Dim>& state) {
+  const auto add_contact = [&](int i, ForceSum& sum) {
+    const ContactLoad<Dim>& c = state.contact_loads[i];
+    if (c.second < 0) return;
+    sum.forces += c.force.norm();
+    ++sum.acting;
+  };
+  ForceSum all, supports;  // contacts and supports; supports alone
+  for (const ForceSum& some : sums_in_groups<ForceSum>(threads, state.contact_loads.size(), add_contact)) {
+    all.forces += some.forces;
+    all.acting += some.acting;
+  }
+  const auto add_support = [&](double force, long long acting) {
+    for (ForceSum* const sum : {&all, &supports}) {
+      sum->forces += force;
+      sum->acting += acting;
+    }
+  };
+  for (const BoltSpring<Dim>& spring : state.bolt_springs)
+    if (!spring.broken) add_support(std::abs(spring.force) + spring.shear.norm(), 1);
+  const InterfaceSum of_linings = interface_sum(state.linings);
+  add_support(of_linings.forces, of_linings.touching);
+  return std::max({all.mean(), supports.mean(), mean_load(model, state, {Source::let_off}),
+                   mean_load(model, state, {Source::applied_forces}),
+                   mean_load(model, state, {Source::water, Source::water_pressure})});
+}
+
+}  // namespace
+
+double damped(double force, double velocity, double local_damping) {
+  if (velocity == 0) return force;
+  return force - local_damping * std::abs(force) * (velocity > 0 ? 1 : -1);
+}
+
+template <int Dim>
+Kick<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, const KickRule& rule, StepTimes times,
+                  Motion<Dim>& motion) {
+  Kick<Dim> kick;
+  for (int k = 0; k < Dim; ++k) {
+    if (!body.free_translation[k]) continue;
+    const double given = motion.velocity[k], left = damped(load.force[k], given, rule.local_damping);
+    motion.velocity[k] = rule.keeps * given + rule.gain * times.kick * left / body.mass;
+    const double before = velocity_before(times, given, motion.velocity[k]);
+    kick.damping.force[k] = left - load.force[k];
+    kick.kinetic += 0.5 * body.mass * before * motion.velocity[k];
+    kick.path_before[k] = 0.5 * times.worked() * before;
+    kick.path_after[k] = 0.5 * times.worked() * motion.velocity[k];
+    motion.displacement[k] += times.drift * motion.velocity[k];
+  }
+  if (!none_free(body.free_rotation)) {
+    kick_spin(body, load, rule, times, motion, kick);
+    drift_spin(body, times.drift, motion);
+  }
+  return kick;
+}
+
+template <int Dim>
+std::vector<Kick<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std::span<const KickRule> rules,
+                                       StepTimes times, State<Dim>& state) {
+  static thread_local std::vector<Kick<Dim>> own;
+  std::vector<Kick<Dim>>& kicks = own;  // this thread's, filled by all
+  kicks.resize(model.bodies.size());
+  each_on_threads(threads, kicks.size(), [&](int b) {
+    kicks[b] = model.bodies[b].fixed ? Kick<Dim>()
+                                     : advance(model.bodies[b], state.loads[b], rules[rules.size() == 1 ? 0 : b], times,
+                                               state.motions[b]);
+  });
+  return kicks;
+}
+
+template <int Dim>
+double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& state) {
+  const auto raise = [&](int b, double& most) {
+    if (!state.left_behind.empty() && state.left_behind[b]) return;
+    most = std::max(most, unbalanced_force(model, state, b));
+  };
+  double largest = 0;
+  for (const double of_some : sums_in_groups<double>(threads, model.bodies.size(), raise))
+    largest = std::max(largest, of_some);
+  if (largest == 0) return 0;
+  const double mean = force_at_rest(model, threads, state);
+  return mean > 0 ? largest / mean : std::numeric_limits<double>::infinity();
+}
+
+template Kick<2> advance<2>(const Body<2>&, const Load<2>&, const KickRule&, StepTimes, Motion<2>&);
+template Kick<3> advance<3>(const Body<3>&, const Load<3>&, const KickRule&, StepTimes, Motion<3>&);
+template std::vector<Kick<2>>& advance_bodies<2>(const Model<2>&, int, std::span<const KickRule>, StepTimes, State<2>&);
+template std::vector<Kick<3>>& advance_bodies<3>(const Model<3>&, int, std::span<const KickRule>, StepTimes, State<3>&);
+template double unbalanced_ratio<2>(const Model<2>&, int, const State<2>&);
+template double unbalanced_ratio<3>(const Model<3>&, int, const State<3>&);
+
+}  // namespace voussoir

@@ -1,0 +1,57 @@
+#include "core/step/prescribed.hpp"
+
+#include <algorithm>
+
+#include "core/load/time_factor.hpp"
+
+namespace voussoir {
+template <int Dim>
+Load<Dim> apply_prescribed_motion(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const Load<Dim>& load,
+                                  double middle, StepTimes times, Motion<Dim>& motion, Kick<Dim>& kick) {
+  Load<Dim> reaction;
+  const double factor = value_at(prescribed.factor, middle);
+  // at the start there is no velocity before: it counts as having moved so already
+  for (int k = 0; k < Dim; ++k) {
+    if (!prescribed.translation[k]) continue;
+    const double after = factor * prescribed.velocity[k], before = times.at_start() ? after : motion.velocity[k];
+    reaction.force[k] = -load.force[k];
+    kick.path_before[k] = 0.5 * times.worked() * before;
+    kick.path_after[k] = 0.5 * times.worked() * after;
+    motion.velocity[k] = after;
+    motion.displacement[k] += times.drift * after;
+  }
+  if (!prescribed.rotation) return reaction;
+  const Spin<Dim> after = factor * prescribed.angular_velocity;
+  const Spin<Dim> before = times.at_start() ? after : angular_velocity(body, motion);
+  reaction.moment = -load.moment;
+  kick.turn_before = 0.5 * times.worked() * before;
+  kick.turn_after = 0.5 * times.worked() * after;
+  motion.rotation = turned(motion.rotation, Spin<Dim>(times.drift * after));
+  motion.angular_momentum = angular_momentum(body, motion.rotation, after);
+  return reaction;
+}
+
+template <int Dim>
+void stop_held(const Model<Dim>& model, State<Dim>& state) {
+  auto prescribed = model.prescribed.begin();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body<Dim>& body = model.bodies[b];
+    const PrescribedMotion<Dim>* forced = body.prescribed ? &*prescribed++ : nullptr;
+    Motion<Dim>& motion = state.motions[b];
+    for (int k = 0; k < Dim; ++k)
+      if ((body.fixed || !body.free_translation[k]) && !(forced && forced->translation[k])) motion.velocity[k] = 0;
+    const bool turns = !body.fixed && std::find(body.free_rotation.begin(), body.free_rotation.end(), true) !=
+                                          body.free_rotation.end();
+    if (!turns && !(forced && forced->rotation)) motion.angular_momentum.setZero();
+  }
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                   \
+  template Load<Dim> apply_prescribed_motion<Dim>(const Body<Dim>&, const PrescribedMotion<Dim>&, const Load<Dim>&, \
+                                                  double, StepTimes, Motion<Dim>&, Kick<Dim>&);                     \
+  template void stop_held<Dim>(const Model<Dim>&, State<Dim>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

@@ -1,0 +1,190 @@
+#include "core/step/relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/on_threads.hpp"
+#include "core/step/integrate.hpp"
+#include "core/step/time_step.hpp"
+#include "core/step/work.hpp"
+
+namespace voussoir {
+namespace {
+
+// The step as a fraction of a body's stability limit: near one, since work goes with its inverse. A body that may turn
+// takes less: its face's contact point moves as it rocks, which makes rocking up to √3 times as fast as the limit knows
+// (in the plane: the centre of a gap of width w and overlap u, turned by θ, moves by θ w²/(4u); moment k w³ θ/4).
+constexpr double fraction_of_limit = 0.9, fraction_turning = 0.5;
+
+// A body at rest is first only nudged, by this fraction of a kick: blocks that just touch have no joint yet, and what
+// they slip before it closes would meet no resistance.
+constexpr double nudge = 1e-3;
+
+// Damping times step, at least. Sliding meets no stiffness, so what slides at constant speed would slide for ever; a
+// thousand steps stop it. Less than the critical damping of a column of 2,000 blocks.
+constexpr double least_damping = 1e-3;
+
+// Steps between two renewals of every body's inertia; what outgrows its rating does not wait for them. Inertia kept
+// from a stiffer state lets a stack swing on its way to rest, and swings wear off shear: with a hundred steps the top
+// block of the case overhang turned by 0.16 % too little, with twenty by 0.04 %, with ten by 0.01 %.
+constexpr int steps_between_renewals = 10;
+
+template <int Dim>
+void stop_bodies(State<Dim>& state) {
+  for (Motion<Dim>& m : state.motions) {
+    m.velocity.setZero();
+    m.angular_momentum.setZero();
+  }
+}
+
+// what relaxation and motion do not share: the time step, and the energy that stopping takes
+template <int Dim>
+void change_ways(State<Dim>& state) {
+  state.frequency.clear();
+  state.step_allowed = 0;
+  if (state.energy.phase == LedgerPhase::running) state.energy.phase = LedgerPhase::model_changed;
+}
+
+template <int Dim>
+double fraction_of_own_limit(const Body<Dim>& body) {
+  return std::any_of(body.free_rotation.begin(), body.free_rotation.end(), [](bool free) { return free; })
+             ? fraction_turning
+             : fraction_of_limit;
+}
+
+// The inertia with which a body's limit 2/ω times its fraction is the common step, stiffness having grown by the area
+// margin. A body keeps its own until one of its contacts outgrows its rating; at every tenth step all are renewed.
+template <int Dim>
+void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  if (state.relaxation.until_renewal-- == 0) state.frequency.clear();
+  if (state.frequency.empty()) state.relaxation.until_renewal = steps_between_renewals;
+  const auto renewed = renew_time_step(model, settings, {.viscous_ratio = 0}, state);
+  if (!renewed) return;
+  if (state.step_allowed == 0)
+    state.step_allowed =
+        settings.time.step.value_or(std::isfinite(renewed->limit) ? fraction_of_limit * renewed->limit : 0);
+  demand_time_step(state);
+  // a body that was not looked at has its frequency still, and so the same inertia to the bit
+  state.relaxation.inertia.assign(model.bodies.size(), 1);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const double to_limit = 0.5 * state.step_allowed * state.frequency[b] / fraction_of_own_limit(model.bodies[b]);
+    if (to_limit > 0) state.relaxation.inertia[b] = area_margin * to_limit * to_limit;
+  }
+}
+
+// Critical damping of the present motion, 1/s, by Rayleigh's quotient: K v is what the forces of contacts and water
+// lost over the last step, but for what water that rises or falls has imposed; what excavated rock still holds is
+// imposed. Sums in the order of the bodies.
+template <int Dim>
+double critical_damping(const Model<Dim>& model, State<Dim>& state) {
+  Relaxation<Dim>& r = state.relaxation;
+  const bool first = r.contact_load.size() != model.bodies.size();
+  r.contact_load.resize(model.bodies.size());
+  double stiffness = 0, inertia = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].fixed) continue;
+    const Motion<Dim>& m = state.motions[b];
+    const Spin<Dim> spin = angular_velocity(model.bodies[b], m);
+    Load<Dim> now{state.loads[b].force - weight(model, state, b), state.loads[b].moment};
+    if (const std::vector<Load<Dim>>& held = state.loads_of[Source::let_off]; !held.empty()) {
+      now.force -= held[b].force;
+      now.moment -= held[b].moment;
+    }
+    const bool counts = state.left_behind.empty() || !state.left_behind[b];  // else what falls would end all damping
+    if (!first && counts) {
+      stiffness -= m.velocity.dot(now.force - r.contact_load[b].force);
+      stiffness -= spin.dot(now.moment - r.contact_load[b].moment);
+      if (!r.imposed.empty()) stiffness += m.velocity.dot(r.imposed[b].force) + spin.dot(r.imposed[b].moment);
+    }
+    if (counts)
+      inertia += r.inertia[b] * (model.bodies[b].mass * m.velocity.squaredNorm() +
+                                 m.angular_momentum.dot(m.angular_momentum.cwiseQuotient(model.bodies[b].inertia)));
+    r.contact_load[b] = now;
+  }
+  const double dt = state.step_allowed, least = least_damping / dt, most = 4 / dt;  // 2 ω at the limit of stability
+  if (!(stiffness > 0 && inertia > 0)) return least;
+  return std::clamp(2 * std::sqrt(stiffness / (inertia * dt)), least, most);
+}
+
+template <int Dim>
+bool at_rest(const Motion<Dim>& m) {
+  return m.velocity.isZero(0) && m.angular_momentum.isZero(0);
+}
+
+bool at_constant_rate(const StagePlan& stage) {
+  const auto* plan = std::get_if<ReducePlan>(&stage.plan);
+  return plan && (plan->method == ReductionMethod::rate || plan->method == ReductionMethod::two_rates);
+}
+
+}  // namespace
+
+bool begins_relaxing(const StagePlan& stage, const DampingSettings& damping) {
+  return relaxes(!std::holds_alternative<RunPlan>(stage.plan), damping);
+}
+
+bool ends_relaxed(const StagePlan& stage, const DampingSettings& damping) {
+  return begins_relaxing(stage, damping) && !at_constant_rate(stage);
+}
+
+template <int Dim>
+void begin_relaxation(State<Dim>& state) {
+  stop_bodies(state);
+  change_ways(state);
+  for (const Source of_motion : {Source::local_damping, Source::prescribed_motion})
+    state.loads_of[of_motion].clear();
+  state.relaxation = {};
+  state.newton = {};
+  state.relaxation.under_way = true;
+}
+
+template <int Dim>
+void end_relaxation(State<Dim>& state) {
+  stop_bodies(state);
+  state.loads_of[Source::relaxation].clear();
+  change_ways(state);
+  state.relaxation = {};
+  state.newton = {};
+  state.relaxation.rested = true;
+}
+
+template <int Dim>
+void begin_motion(State<Dim>& state) {
+  if (!state.relaxation.rested) return;
+  state.relaxation.rested = false;
+  state.time_step = 0;
+}
+
+template <int Dim>
+void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  Relaxation<Dim>& r = state.relaxation;
+  scale_inertia(model, settings, state);
+  const double dt = state.step_allowed, half = 0.5 * dt * critical_damping(model, state);
+
+  // the kick is central: damping acts at the mean of the velocities before and after it
+  static thread_local std::vector<KickRule> rules;
+  rules.clear();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const double fraction = at_rest(state.motions[b]) ? nudge : 1;
+    rules.push_back({.keeps = (1 - half) / (1 + half), .gain = fraction / (r.inertia[b] * (1 + half))});
+  }
+  const auto& kicks = advance_bodies<Dim>(model, settings.threads, rules, {dt, dt}, state);
+  std::vector<Load<Dim>>& taken = state.loads_of[Source::relaxation];  // all that the loads do
+  taken.resize(model.bodies.size());
+  each_on_threads(settings.threads, taken.size(), [&](int b) {
+    taken[b] = {-state.loads[b].force, -state.loads[b].moment};
+  });
+  add_work(model, settings.threads, kicks, state);
+  state.time_step = dt;
+  state.time += dt;
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                   \
+  template void begin_relaxation<Dim>(State<Dim>&); \
+  template void end_relaxation<Dim>(State<Dim>&);   \
+  template void begin_motion<Dim>(State<Dim>&);     \
+  template void relax_bodies<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

@@ -1,0 +1,412 @@
+#include "core/step/static_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/solvers/block_solver.hpp"
+#include "core/step/bolt_forces.hpp"
+#include "core/step/integrate.hpp"
+#include "core/step/lining_forces.hpp"
+#include "core/step/loads.hpp"
+#include "core/step/motion.hpp"
+#include "core/step/pair_stiffness.hpp"
+#include "core/step/relaxation.hpp"
+#include "core/step/static_solver_base.hpp"
+#include "core/step/step_length.hpp"
+#include "core/step/tangent.hpp"
+#include "core/step/water_stiffness.hpp"
+
+namespace voussoir {
+namespace {
+
+constexpr double first_regularisation = 1, least_regularisation = 1e-9;
+
+// Accepted iterations of an increment until it is left to relaxation.
+constexpr int iteration_limit = 150;
+
+// Accepted iterations after which an increment lingers. It then follows a valley: a motion softer than the joints
+// beside it by many powers of ten, such as the sway of an arch on four hinges. Stiff joints resist the square of a step
+// along it, so the residual grows tenfold where the step is right, and regularisation that avoids this leaves next to
+// nothing of the step. Columns, walls and sliced rock of thousands of blocks rest in fewer.
+constexpr int lingering_after = 50;
+
+// An increment that lingers judges a step by the residual's work along it: the step is shortened where less of that
+// work is left than this, the joints driving it back; by no more than the second factor at once.
+constexpr double may_drive_back = -0.5, most_shortening = 0.1;
+
+// Refused steps in a row until one is taken as it comes; accepted ones until the increment so far is kept.
+constexpr int most_tries = 12, most_since_commit = 25;
+
+// Joints that are closed but carry nothing count as stiff for so many iterations; without, a load would reach one more
+// row of blocks with each. And as long as the pairs that touch become by this factor more with an iteration: while
+// lambda falls, a column of n blocks shortens from its ends, and only at n^-2 does its middle press.
+constexpr int closed_iterations = 6;
+constexpr double still_reaching = 1.1;
+
+// Forces in contacts that the base does not know, over all: they have no shear, so the increment so far is kept.
+constexpr double most_in_new_contacts = 0.1;
+
+// A residual counts as no larger within this factor of the largest of the last three; one that drives on the same way
+// may double.
+constexpr double may_rise = 1.05, may_double = 2;
+
+// What a step was just refused without is not given up at once: lambda falls by no more than this factor after.
+constexpr double after_refusal = 0.5;
+
+// Of the residual, for the linear systems; their iterations. What is left in the softest directions moves joints that
+// carry next to nothing: at 1e-3 they open and close in turn, and a wall of 1,000 bricks takes three times the
+// evaluations.
+constexpr double linear_tolerance = 1e-6;
+constexpr int linear_limit = 100;
+
+// Of the residual: a system of which more is left within the iterations is too far from definite. Joints that only just
+// touch make it so; more regularisation mends it.
+constexpr double most_unsolved = 1e-3;
+
+// What is left out of balance drives the softest motion, whose momentum relaxation weighs with the stiffest frequency:
+// rest is left with this fraction of what relaxation must confirm, or, where no more can be had of it, after so many
+// more iterations.
+constexpr double of_unbalanced = 1e-3;
+constexpr int most_polishing = 4;
+
+template <int Dim>
+struct Newton {
+  static constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
+  using Increment = StaticIncrement<Dim>;
+  using Trial = typename Increment::Trial;
+
+  const Model<Dim>& model;
+  const Settings& settings;
+  State<Dim>& state;
+  Increment& n;
+  Unknowns<Dim> unknowns;
+
+  Newton(const Model<Dim>& m, const Settings& s, State<Dim>& now)
+      : model(m), settings(s), state(now), n(now.newton), unknowns(m) {}
+
+  Eigen::VectorXd numbers(const std::vector<double>& list) const {
+    return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
+  }
+  static void keep(const Eigen::VectorXd& x, std::vector<double>& list) { list.assign(x.data(), x.data() + x.size()); }
+
+  void set_trial_at(const Eigen::VectorXd& q, Trial trial) {
+    n.trial = trial;
+    set_trial(model, unknowns, q, state);
+  }
+
+  Eigen::VectorXd residual_now() const {
+    Eigen::VectorXd r(unknowns.free.size());
+    for (std::size_t i = 0; i < unknowns.count(); ++i) {
+      r.segment<Dim>(F * i) = state.loads[unknowns.bodies[i]].force;
+      r.segment<S>(F * i + Dim) = state.loads[unknowns.bodies[i]].moment;
+    }
+    return r.cwiseProduct(unknowns.free);
+  }
+
+  double merit(const Eigen::VectorXd& residual) const {
+    return std::sqrt(residual.dot(residual.cwiseQuotient(unknowns.scale)));
+  }
+
+  // ---- linear system ------------------------------------------------------------------------------------------------
+
+  // what loads other than the contacts add, by body
+  std::vector<typename PairStiffness<Dim>::Block> stiffness_of_loads() const {
+    std::vector<typename PairStiffness<Dim>::Block> blocks = load_stiffness(model, state);
+    if (blocks.empty()) return n.of_water;
+    for (std::size_t b = 0; b < n.of_water.size(); ++b)
+      blocks[b] += n.of_water[b];
+    return blocks;
+  }
+
+  BlockMatrix<F> tangent(double regularisation) const {
+    std::vector<const PairStiffness<Dim>*> pairs;
+    for (const PairStiffness<Dim>& p : n.stiffness)
+      pairs.push_back(&p);
+    for (const PairStiffness<Dim>& p : n.closed)
+      if (!state.contacts[p.contact].touching()) pairs.push_back(&p);
+    const Eigen::VectorXd& free = unknowns.free;
+    BlockMatrix<F> k = tangent_of<Dim>(settings.threads, pairs, stiffness_of_loads(), unknowns.place, free);
+    // what is held goes nowhere
+    k.add_diagonal(regularisation * unknowns.scale.cwiseProduct(free) +
+                   unknowns.scale.cwiseProduct(Eigen::VectorXd::Ones(free.size()) - free));
+    return k;
+  }
+
+  // A step along which the residual drives; where the tangent gives none, more regularisation.
+  Eigen::VectorXd next_step(const Eigen::VectorXd& residual) {
+    for (int tries = 0; tries < most_tries; ++tries) {
+      const LinearAnswer answer =
+          solve_blocks(tangent(n.regularisation), residual, linear_tolerance, linear_limit, settings.threads);
+      state.counters.linear_iterations += answer.iterations;
+      if (answer.residual <= most_unsolved && residual.dot(answer.x) > 0) return answer.x;
+      n.regularisation = std::max(8 * n.regularisation, 1e-6);
+    }
+    return residual.cwiseQuotient(unknowns.scale);
+  }
+
+  // ---- judgement ----------------------------------------------------------------------------------------------------
+
+  // of the residual's work along the last step: 1 before it, 0 where the step ends at its least energy
+  double work_left(const Eigen::VectorXd& residual) const {
+    const Eigen::VectorXd change = numbers(n.change);
+    return residual.dot(change) / numbers(n.residual).dot(change);
+  }
+
+  bool lingers() const { return n.iteration >= lingering_after; }
+
+  bool is_acceptable(const Eigen::VectorXd& residual, double now) {
+    if (lingers()) return is_acceptable_lingering(residual, now);
+    const double largest =
+        *std::max_element(n.merits.end() - std::min<std::ptrdiff_t>(3, std::ssize(n.merits)), n.merits.end());
+    const double left = work_left(residual);
+    if (!std::isfinite(now) || !(now <= may_rise * largest || (left > 0 && now <= may_double * largest))) return false;
+    // the better the residual falls, the less is needed
+    const double last = n.merits.back();
+    n.flat = n.overshoot <= 1 && left <= 0.5 && now > 0.7 * last ? n.flat + 1 : 0;
+    const double fall = n.overshoot > 1 ? 0.5 : left > 0.5 ? 0.1 : std::clamp(now / last, 0.02, 0.5);
+    n.regularisation *= n.tries > 0 ? std::max(fall, after_refusal) : fall;
+    if (n.regularisation < least_regularisation) n.regularisation = 0;
+    // contacts that open and close in turn: a short step breaks the ring
+    if (n.flat > 0) {
+      n.regularisation = std::max(0.1, 4 * n.regularisation);
+      n.flat = 0;
+    }
+    return true;
+  }
+
+  bool is_acceptable_lingering(const Eigen::VectorXd& residual, double now) {
+    if (!std::isfinite(now) || !(work_left(residual) >= may_drive_back)) return false;
+    if (n.tries == 0) n.regularisation *= n.overshoot > 1 ? 0.5 : 0.1;
+    if (n.tries > 1) n.regularisation = std::max(8 * n.regularisation, 1e-6);  // a kink: a step that is short pays
+    if (n.regularisation < least_regularisation) n.regularisation = 0;
+    return true;
+  }
+
+  double fraction_in_new_contacts() const {
+    double all = 0, of_new = 0;
+    for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+      if (!state.contacts[i].touching()) continue;
+      const double force = state.contacts[i].force.norm();
+      all += force;
+      if (n.histories[i].history.normal.isZero(0)) of_new += force;
+    }
+    return all > 0 ? of_new / all : 0;
+  }
+
+  // ---- work ---------------------------------------------------------------------------------------------------------
+
+  // Of the loads over the increment so far, by the mean of those at its ends: exact for what is linear. All of it
+  // counts as taken out, as under relaxation.
+  void add_work() {
+    const Eigen::VectorXd q = numbers(n.accepted);
+    for (std::size_t i = 0; i < load_count; ++i) {
+      const std::vector<Load<Dim>>&then = n.loads_begin.values[i], &now = state.loads_of.values[i];
+      double work = 0;
+      for (std::size_t k = 0; k < unknowns.count(); ++k) {
+        const auto along = [&](const Load<Dim>& l) {
+          return l.force.dot(q.segment<Dim>(F * k)) + l.moment.dot(q.segment<S>(F * k + Dim));
+        };
+        const auto b = static_cast<std::size_t>(unknowns.bodies[k]);
+        work += 0.5 * ((b < then.size() ? along(then[b]) : 0) + (b < now.size() ? along(now[b]) : 0));
+      }
+      state.energy.flows.values[i] += source_table[i].motion * work;
+      state.energy.flows[Source::relaxation] += work;
+    }
+    state.energy.kinetic = 0;
+    balance(state.energy);
+  }
+
+  // what the accepted trial, which has just been evaluated, has come to is the new base
+  void commit() {
+    add_work();
+    take_base(model, settings, unknowns, state);
+    n.loads_begin = state.loads_of;
+  }
+
+  // ---- one evaluation -----------------------------------------------------------------------------------------------
+
+  bool rests() {
+    const double ratio = unbalanced_ratio(model, settings.threads, state) / settings.equilibrium.unbalanced;
+    return ratio <= of_unbalanced || (ratio <= 0.5 && ++n.polished > most_polishing);
+  }
+
+  void start_increment() {
+    n.iteration = n.tries = n.flat = n.polished = 0;
+    n.regularisation = first_regularisation;
+    n.merits.clear();
+    n.closed.clear();
+    find_closed_joints(model, settings, state);
+    // origins of the ledger's balances, where they are new
+    const EnergyFlows before = n.energy.flows;
+    state.energy.kinetic = 0;
+    balance(state.energy);
+    n.energy = state.energy;
+    n.energy.flows = before;
+    n.loads_begin = state.loads_of;
+  }
+
+  void end_increment() {
+    commit();
+    if (n.increments_left == 0) return leave();
+    --n.increments_left;
+    state.time = n.increments_left == 0 ? n.ends : state.time + n.increment_time;
+    set_trial_at(numbers(n.accepted), Trial::start);
+  }
+
+  // relaxation continues from the base
+  void leave() { begin_relaxation(state); }
+
+  void give_up() {
+    ++state.counters.static_fallbacks;
+    commit();
+    leave();
+  }
+
+  // A broken bond lets go at once of what it carried: how, is relaxation's to find.
+  bool breaks_bonds() const {
+    const long long expected = n.whole_bonds + state.bonds.made - n.bonds.made;
+    return expected > 0 && whole_bonds(state) < expected;
+  }
+
+  // Back on the step to where a line through its work at both ends says that none is left.
+  void shorten_lingering(const Eigen::VectorXd& residual) {
+    const double left = work_left(residual), factor = std::isfinite(left) ? 1 / (1 - left) : 0;
+    keep(std::clamp(factor, most_shortening, 0.5) * numbers(n.change), n.change);
+    set_trial_at(numbers(n.accepted) + numbers(n.change), n.tries >= most_tries ? Trial::forced : Trial::step);
+  }
+
+  void reject(const Eigen::VectorXd& residual, bool breaks) {
+    ++state.counters.static_rejections;
+    ++n.tries;
+    if (lingers() && !breaks) return shorten_lingering(residual);
+    n.regularisation = std::max(8 * n.regularisation, 1e-6);
+    const bool forced = n.tries >= most_tries;
+    if (forced && breaks) return set_trial_at(numbers(n.accepted), Trial::last);
+    if (forced) n.regularisation = first_regularisation;
+    step_from_accepted(forced ? Trial::forced : Trial::step);
+  }
+
+  void step_from_accepted(Trial trial) {
+    Eigen::VectorXd dq = next_step(numbers(n.residual));
+    n.overshoot = shorten(model, unknowns, state, dq);
+    keep(dq, n.change);
+    set_trial_at(numbers(n.accepted) + dq, trial);
+  }
+
+  void accept(const Eigen::VectorXd& residual, double now, bool forced) {
+    if (n.trial != Trial::start) {
+      keep(numbers(n.accepted) + numbers(n.change), n.accepted);
+      ++n.iteration;
+      ++state.counters.static_iterations;
+    }
+    keep(residual, n.residual);
+    n.merits.push_back(now);
+    n.tries = 0;
+    if (rests()) return end_increment();
+    if (n.iteration >= iteration_limit) return give_up();
+    if (forced || ++n.since_commit >= most_since_commit || fraction_in_new_contacts() > most_in_new_contacts) commit();
+    const double reached = static_cast<double>(n.stiffness.size());
+    find_pair_stiffness(model, settings, state);
+    add_bolt_pairs(model, state, n.stiffness);
+    add_lining_pairs(model, settings, state, n.stiffness);
+    const bool reached_all = static_cast<double>(n.stiffness.size()) < still_reaching * reached;
+    if (n.iteration >= closed_iterations && reached_all) n.closed.clear();
+    find_water_stiffness(model, settings, state);
+    step_from_accepted(Trial::step);
+  }
+
+  void iterate() {
+    follow_list(state);
+    if (n.trial == Trial::waiting) {
+      state.time += n.increment_time;
+      return set_trial_at(numbers(n.accepted), Trial::start);
+    }
+    const EnergyFlows before = state.energy.flows;
+    add_ramps(model, settings, state);
+    for (const Source ramp : {Source::gravity_ramp, Source::water_change})
+      n.energy.flows[ramp] += state.energy.flows[ramp] - before[ramp];
+    const Trial trial = n.trial;
+    if (trial == Trial::start) start_increment();
+    const bool breaks = breaks_bonds();
+    if (trial == Trial::last || (trial == Trial::start && breaks)) return give_up();
+    const Eigen::VectorXd residual = residual_now();
+    const double now = merit(residual);
+    if (breaks || (trial == Trial::step && !is_acceptable(residual, now))) return reject(residual, breaks);
+    accept(residual, now, trial == Trial::forced);
+  }
+};
+
+}  // namespace
+
+bool newton_follows(const JointProperties& joint) {
+  return joint.laws.friction != FrictionLaw::softening;
+}
+
+template <int Dim>
+bool newton_applies(const Model<Dim>& model) {
+  return model.prescribed.empty() && std::all_of(model.properties.begin(), model.properties.end(), newton_follows);
+}
+
+template <int Dim>
+void begin_newton(const Model<Dim>& model, const Settings& settings, double ramp, State<Dim>& state) {
+  state.newton = {};
+  StaticIncrement<Dim>& n = state.newton;
+  n.under_way = true;
+  take_base(model, settings, Unknowns<Dim>(model), state);
+  if (!(ramp > 0)) return;
+  n.trial = StaticIncrement<Dim>::Trial::waiting;
+  n.increments_left = settings.damping.increments - 1;
+  n.increment_time = ramp / settings.damping.increments;
+  n.ends = state.time + ramp;
+}
+
+template <int Dim>
+void iterate(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  Newton<Dim>(model, settings, state).iterate();
+}
+
+template <int Dim>
+std::string progress_of_newton(const State<Dim>& state) {
+  const StaticIncrement<Dim>& n = state.newton;
+  if (!n.under_way || n.merits.empty()) return {};
+  return fmt::format("Newton iteration {}, residual {:.1e} of the first, lambda {:.1e}", n.iteration,
+                     n.merits.front() > 0 ? n.merits.back() / n.merits.front() : 0, n.regularisation);
+}
+
+template <int Dim>
+double memory_of_newton(const State<Dim>& state) {
+  // of the linear system, its lists and factors, which in the plane are complete: measured with 20,000 blocks
+  constexpr double blocks_of_a_pair = Dim == 2 ? 60 : 10;
+  using Pair = PairStiffness<Dim>;
+  return static_cast<double>(state.contacts.size()) *
+             (sizeof(BaseHistory<Dim>) + sizeof(Pair) + blocks_of_a_pair * sizeof(typename Pair::Block)) +
+         static_cast<double>(state.subs.size() * sizeof(JointState<Dim>));
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> accepted_displacements(const Model<Dim>& model, const State<Dim>& state) {
+  std::vector<Vector<Dim>> displacements;
+  const double* q = state.newton.accepted.data();  // of the free bodies, in their order
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    displacements.push_back(state.newton.base[b].displacement);
+    if (model.bodies[b].fixed || !model.bodies[b].present) continue;
+    displacements.back() += Eigen::Map<const Vector<Dim>>(q);
+    q += freedoms<Dim>;
+  }
+  return displacements;
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                           \
+  template bool newton_applies<Dim>(const Model<Dim>&);                                     \
+  template void begin_newton<Dim>(const Model<Dim>&, const Settings&, double, State<Dim>&); \
+  template void iterate<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);              \
+  template std::string progress_of_newton<Dim>(const State<Dim>&);                          \
+  template double memory_of_newton<Dim>(const State<Dim>&);                                 \
+  template std::vector<Vector<Dim>> accepted_displacements<Dim>(const Model<Dim>&, const State<Dim>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

@@ -1,0 +1,38 @@
+// The base that Newton's method on the joints starts from, and the trials that it sets beside it.
+#pragma once
+
+#include <vector>
+
+#include "core/base/settings.hpp"
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
+
+namespace voussoir {
+
+// The unknowns: all freedoms of the bodies that are free, in their order.
+template <int Dim>
+struct Unknowns {
+  static constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
+  std::vector<int> bodies, place;  // the free ones; by body: among them, or -1
+  Eigen::VectorXd scale, free;     // by freedom: D, N/m and N m; 1, or 0 where it is held
+
+  // D: the stiffest joint times the body's largest face
+  explicit Unknowns(const Model<Dim>& model);
+
+  std::size_t count() const { return bodies.size(); }
+};
+
+// The state as it stands, its histories included, becomes the base; nothing has moved from it yet.
+template <int Dim>
+void take_base(const Model<Dim>& model, const Settings& settings, const Unknowns<Dim>& unknowns, State<Dim>& state);
+
+// Puts the base's histories in the order of the contacts, where they have been listed again since.
+template <int Dim>
+void follow_list(State<Dim>& state);
+
+// Sets bodies at base + q and histories as the base's, ready to be evaluated: the velocities are q per time step of
+// one.
+template <int Dim>
+void set_trial(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const Eigen::VectorXd& q, State<Dim>& state);
+
+}  // namespace voussoir

@@ -1,0 +1,17 @@
+// The work of every load over a step, and with it the energy ledger.
+#pragma once
+
+#include <vector>
+
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
+#include "core/step/integrate.hpp"
+
+namespace voussoir {
+
+// Adds to the ledger what each source in State::loads_of did along the kicks: force times path plus moment times turn.
+// The balance is checked between the halves, at the time of the positions.
+template <int Dim>
+void add_work(const Model<Dim>& model, int threads, const std::vector<Kick<Dim>>& kicks, State<Dim>& state);
+
+}  // namespace voussoir
