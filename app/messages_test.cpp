@@ -245,14 +245,14 @@ TEST(BoltLines, GoFromCollarToToe) {
     scene += settle + "install = [\"b\"]\n";
     const Prepared<2> prepared = prepare<2>(parse_scene(scene, "scene.toml", {}));
     State<2> state = prepared.state;
-    install(prepared.model, {"b"}, state);
-    if (state.bolt_springs.empty()) continue;
+    install_bolts(prepared.model, {"b"}, state);
+    if (state.supports.bolt_springs.empty()) continue;
     const auto moved = [&](const Vector<2>& point, int body) {
-      const Motion<2>& m = state.motions[body];
+      const Motion<2>& m = state.bodies.motions[body];
       const Vector<2> centroid = prepared.model.origin + prepared.model.bodies[body].reference;
       return Vector<2>(centroid + m.displacement + matrix(m.rotation) * (point - centroid));
     };
-    const int first = state.bolt_springs.front().body_a, last = state.bolt_springs.back().body_b;
+    const int first = state.supports.bolt_springs.front().body_a, last = state.supports.bolt_springs.back().body_b;
     for (int step = 0; step < 2; ++step) {
       const PolyData lines = bolt_lines(prepared.model, state, 0);
       const auto end = [&](std::size_t cell, int which) {
@@ -273,7 +273,7 @@ TEST(BoltLines, GoFromCollarToToe) {
         EXPECT_NEAR(length, (toe - collar).norm(), 1e-9) << scene;
       }
       ++drawn;
-      for (Motion<2>& m : state.motions) {
+      for (Motion<2>& m : state.bodies.motions) {
         m.displacement += Vector<2>(share(random), share(random));
         m.rotation.angle += 0.1 * share(random);
       }

@@ -70,12 +70,12 @@ void slabs(benchmark::State& state) {
   number_bodies(model);
   State<3> now = initial_state(model);
   for (auto _ : state) {
-    now.built.clear();
+    now.bodies.listed_at.clear();
     find_neighbours(model, {}, now);
   }
   state.counters["ns_per_slab"] = benchmark::Counter(static_cast<double>(state.iterations()) * count * 1e-9,
                                                      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-  state.counters["pairs_per_slab"] = static_cast<double>(now.contacts.size()) / count;
+  state.counters["pairs_per_slab"] = static_cast<double>(now.contacts.list.size()) / count;
 }
 
 BENCHMARK(slabs)->ArgsProduct({{1000, 10'000}, {0, 30, 45, 89}})->Unit(benchmark::kMillisecond);

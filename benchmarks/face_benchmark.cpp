@@ -41,9 +41,9 @@ Scene scene_of(bool corner, bool slides, ContactFace face) {
   s.model = shapes::model_of<3>(bodies, (slides ? 1 : 80) * degree);
   s.settings.contact.face = face;
   s.state = initial_state(s.model);
-  s.state.time_step = 1e-4;
+  s.state.time_step.length = 1e-4;
   for (std::size_t b = 1; b < s.model.bodies.size(); ++b)
-    s.state.motions[b].velocity = slides ? Vector<3>(speed, 0.3 * speed, 0) : Vector<3>(1e-9, 0, 0);
+    s.state.bodies.motions[b].velocity = slides ? Vector<3>(speed, 0.3 * speed, 0) : Vector<3>(1e-9, 0, 0);
   find_neighbours(s.model, s.settings, s.state);
   for (int i = 0; i < 50; ++i)
     find_joint_forces(s.model, s.settings, s.state);
@@ -66,7 +66,7 @@ void run(Scene (*make)(), benchmark::State& bench) {
   for (auto _ : bench)
     find_joint_forces(s.model, s.settings, s.state);
   int touching = 0;
-  for (const Contact<3>& c : s.state.contacts)
+  for (const Contact<3>& c : s.state.contacts.list)
     touching += c.touching();
   bench.counters["contacts"] = touching;
   bench.counters["ns_per_contact"] =

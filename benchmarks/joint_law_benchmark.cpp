@@ -77,13 +77,13 @@ std::map<std::string, JointProperties> ways() {
 // Plain Coulomb and nothing else, one point a contact: the same sums as core/step/joint_forces.cpp for this case, with
 // the same ledger.
 void by_hand(const Model<3>& model, State<3>& state) {
-  state.energy.elastic = 0;
-  const double dt = state.time_step;
-  for (Contact<3>& c : state.contacts) {
+  state.ledger.energy.elastic = 0;
+  const double dt = state.time_step.length;
+  for (Contact<3>& c : state.contacts.list) {
     if (!c.touching()) continue;
     const JointProperties& p = model.properties[c.properties];
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
-    const CachedPose<3>&at_a = state.poses[a], &at_b = state.poses[b];
+    const CachedPose<3>&at_a = state.bodies.poses[a], &at_b = state.bodies.poses[b];
     const Vector<3>& n = c.geometry.normal;
     const Vector<3> apart = between(at_a, at_b), drift = at_b.velocity - at_a.velocity;
     const Vector<3> velocity = drift + at_b.spin.cross(c.geometry.point - apart) - at_a.spin.cross(c.geometry.point);
@@ -102,15 +102,15 @@ void by_hand(const Model<3>& model, State<3>& state) {
       if (k.area < c.history.area) {
         const double left = k.area / c.history.area, stiffness = p.shear_stiffness * c.history.area;
         if (stiffness > 0)
-          state.energy.flows[Source::lost_area] += 0.5 * c.history.shear_force.squaredNorm() / stiffness * (1 - left);
+          state.ledger.energy.flows[Source::lost_area] += 0.5 * c.history.shear_force.squaredNorm() / stiffness * (1 - left);
         c.history.shear_force *= left;
       }
       c.history.shear_force = carried(c.history.shear_force, c.history.normal, n, k.turn);
     }
     const JointForce<3> answer =
         elastic_coulomb<3>(p, std::tan(state.schedule.friction[c.properties]), 0, k, c.history.shear_force);
-    state.energy.elastic += answer.elastic;
-    state.energy.flows[Source::friction] += answer.friction;
+    state.ledger.energy.elastic += answer.elastic;
+    state.ledger.energy.flows[Source::friction] += answer.friction;
     c.history.plastic_slip += answer.plastic_slip;
     c.history.normal = n;
     c.history.point = c.geometry.point;
@@ -125,7 +125,7 @@ void run(const std::string& way, benchmark::State& bench) {
   for (auto _ : bench)
     hand ? by_hand(scene.model, scene.state) : apply_joint_laws(scene.model, scene.settings, scene.state);
   int touching = 0;
-  for (const Contact<3>& c : scene.state.contacts)
+  for (const Contact<3>& c : scene.state.contacts.list)
     touching += c.touching();
   bench.counters["contacts"] = touching;
   bench.counters["ns_per_contact"] =

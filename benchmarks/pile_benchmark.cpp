@@ -56,7 +56,7 @@ Pile settled_pile(int kind) {
   plan.blocks = pile_blocks;
   Prepared<3> scene = prepare<3>(parse_scene(shapes::fall_scene(plan, "pile"), "pile"));
   Pile pile{std::move(scene.model), std::move(scene.state), scene.settings};
-  while (pile.state.time < settling_time)
+  while (pile.state.schedule.time < settling_time)
     step(pile.model, pile.settings, pile.state);
   return pile;
 }
@@ -75,12 +75,12 @@ Pile side_by_side(const Pile& one, int copies) {
     for (std::size_t b = 0; b < one.model.bodies.size(); ++b) {
       many.model.bodies.push_back(one.model.bodies[b]);
       many.model.bodies.back().reference += shift;
-      motions.push_back(one.state.motions[b]);
+      motions.push_back(one.state.bodies.motions[b]);
     }
   }
   list_parts(many.model);
   many.state = initial_state(many.model);
-  many.state.motions = std::move(motions);
+  many.state.bodies.motions = std::move(motions);
   for (int i = 0; i < warm_up_steps; ++i)
     step(many.model, many.settings, many.state);
   return many;
@@ -108,7 +108,7 @@ double median(std::vector<double> values) {
 
 int touching(const State<3>& state) {
   return static_cast<int>(
-      std::count_if(state.contacts.begin(), state.contacts.end(), [](const Contact<3>& c) { return c.touching(); }));
+      std::count_if(state.contacts.list.begin(), state.contacts.list.end(), [](const Contact<3>& c) { return c.touching(); }));
 }
 
 // times of each stage per step, for one and for two threads, each from the same state

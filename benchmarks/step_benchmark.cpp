@@ -62,7 +62,7 @@ void tiny_forces(benchmark::State& state) {
   for (auto _ : state)
     step(model, settings, now);
   double force = 0;
-  for (const Contact<3>& c : now.contacts)
+  for (const Contact<3>& c : now.contacts.list)
     force = std::max(force, c.force.cwiseAbs().maxCoeff());
   state.counters["denormal"] = force > 0 && force < std::numeric_limits<double>::min();
 }

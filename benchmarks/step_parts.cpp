@@ -58,7 +58,7 @@ Subject rock_mass(const char* file) {
 Subject falling_polyhedra(double time) {
   Prepared<3> scene = prepare<3>(parse_scene(shapes::fall_scene({}, "fall"), "fall"));
   Subject s{std::move(scene.model), std::move(scene.state), scene.settings};
-  while (s.state.time < time)
+  while (s.state.schedule.time < time)
     step(s.model, s.settings, s.state);
   return s;
 }
@@ -72,7 +72,7 @@ struct KernelAlone {
   explicit KernelAlone(const Subject& s) {
     const bool wide = std::ranges::any_of(s.model.properties, [](const auto& p) { return !p.constant_stiffness; });
     std::vector<const Contact<3>*> touching;
-    for (const Contact<3>& c : s.state.contacts)
+    for (const Contact<3>& c : s.state.contacts.list)
       if (c.touching()) touching.push_back(&c);
     const std::size_t count = std::min<std::size_t>(64, touching.size());
     for (std::size_t i = 0; i < count; ++i) {
@@ -133,7 +133,7 @@ void time_parts(const char* name, Subject s) {
     estimate_time_step(s.model, s.settings, s.settings.damping, copy);
     estimates.push_back(processor_ns() - begin);
   }
-  const double touching = static_cast<double>(std::count_if(s.state.contacts.begin(), s.state.contacts.end(),
+  const double touching = static_cast<double>(std::count_if(s.state.contacts.list.begin(), s.state.contacts.list.end(),
                                                             [](const Contact<3>& c) { return c.touching(); }));
   for (std::size_t i = 0; i < whole.size(); ++i)
     quotients.push_back(whole[i] / touching / alone[i]);
@@ -141,7 +141,7 @@ void time_parts(const char* name, Subject s) {
     return static_cast<double>(s.state.counters.*counter - before.*counter) / rounds;
   };
   fmt::print("{}: {} bodies, {} candidates, {} touch; a step looks at {:.0f}, {:.1f} of them from nothing\n", name,
-             s.model.bodies.size(), s.state.contacts.size(), touching, per_step(&Counters::contact_evaluations),
+             s.model.bodies.size(), s.state.contacts.list.size(), touching, per_step(&Counters::contact_evaluations),
              per_step(&Counters::cold_starts));
   fmt::print("  {:26} {:8.1f} ns a pair, {:.2f} iterations\n", "kernel, 64 pairs in cache", median(alone),
              per_step(&Counters::newton_iterations) / per_step(&Counters::contact_evaluations));

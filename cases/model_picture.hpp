@@ -38,8 +38,8 @@ inline std::vector<PictureFace> picture(const Model<3>& model, const State<3>& s
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<3>& body = model.bodies[b];
     if (std::find(camera.hidden.begin(), camera.hidden.end(), body.name) != camera.hidden.end()) continue;
-    const Matrix<3> axes = matrix(state.motions[b].rotation);
-    const Vector<3> centroid = model.origin + body.reference + state.motions[b].displacement;
+    const Matrix<3> axes = matrix(state.bodies.motions[b].rotation);
+    const Vector<3> centroid = model.origin + body.reference + state.bodies.motions[b].displacement;
     for (const Polytope<3>& part : body.parts)
       for (std::size_t f = 0; f < part.faces.size(); ++f) {
         const Vector<3> normal = axes * part.faces[f].normal;

@@ -34,7 +34,7 @@ void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
   if (with_forces) with_forces(state);
 
   // where that takes it: velocities, then positions and rotations; or the next trial of a static increment
-  if (state.newton.under_way)
+  if (state.increment.under_way)
     iterate(model, settings, state);
   else
     move_bodies(model, settings, state);

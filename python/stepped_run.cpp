@@ -89,7 +89,7 @@ class SteppedRunOf : public SteppedRun {
 
   bool done() const override { return done_; }
   int dimension() const override { return Dim; }
-  double time() const override { return progress_.state.time; }
+  double time() const override { return progress_.state.schedule.time; }
   long long steps() const override { return progress_.state.counters.steps; }
   std::string state_hash() const override { return voussoir::state_hash(model(), progress_.state); }
 
@@ -102,14 +102,14 @@ class SteppedRunOf : public SteppedRun {
     std::vector<std::string> names;
     for (const Body<Dim>& body : model().bodies)
       names.push_back(body.name);
-    names.resize(progress_.state.motions.size());  // before the first step a stage's bodies are not there yet
+    names.resize(progress_.state.bodies.motions.size());  // before the first step a stage's bodies are not there yet
     return names;
   }
 
   std::shared_ptr<const MotionArrays> motions() const override { return motions_; }
 
   void show_motions() override {
-    const std::vector<Motion<Dim>>& moved = progress_.state.motions;
+    const std::vector<Motion<Dim>>& moved = progress_.state.bodies.motions;
     const std::size_t bodies = moved.size();
     if (!motions_ || motions_->bodies != static_cast<int>(bodies)) {
       motions_ = std::make_shared<MotionArrays>();
@@ -128,18 +128,18 @@ class SteppedRunOf : public SteppedRun {
 
   PolyData contacts() const override {
     const Snapshot<Dim> now = snapshot(prepared_, progress_);
-    return contact_points(now.model, now.state, now.state.time);
+    return contact_points(now.model, now.state, now.state.schedule.time);
   }
 
   PolyData surface() const override {
-    return block_faces(model(), progress_.state, progress_.state.time, prepared_.joint_sets);
+    return block_faces(model(), progress_.state, progress_.state.schedule.time, prepared_.joint_sets);
   }
 
   std::string results() const override {
     if (done_) return results_json(progress_.results, record());
     Results so_far = progress_.results;
     so_far.counters = progress_.state.counters;
-    so_far.energy = progress_.state.energy;
+    so_far.energy = progress_.state.ledger.energy;
     so_far.state_hash = state_hash();
     return results_json(so_far, record());
   }
@@ -157,8 +157,8 @@ class SteppedRunOf : public SteppedRun {
     if (!results.bolts.empty()) write_bolts_csv(folder / "bolts.csv", results.bolts);
     if (!results.linings.empty()) write_lining_csv(folder / "lining.csv", results.linings);
     if (const Snapshot<Dim> now = snapshot(prepared_, progress_);
-        saved_->times.empty() || saved_->times.back() != now.state.time)
-      write_frame(*saved_, now.model, now.state, now.state.time);
+        saved_->times.empty() || saved_->times.back() != now.state.schedule.time)
+      write_frame(*saved_, now.model, now.state, now.state.schedule.time);
     if (done_) write_results_json(folder / "results.json", results, record());
   }
 

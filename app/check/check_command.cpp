@@ -378,7 +378,7 @@ std::string inactive(const Prepared<Dim>& prepared) {
   if (std::none_of(prepared.stages.begin(), prepared.stages.end(),
                    [](const StagePlan& s) { return std::holds_alternative<ReducePlan>(s.plan); }))
     list.push_back("strength reduction");
-  const bool moving = std::any_of(prepared.state.motions.begin(), prepared.state.motions.end(),
+  const bool moving = std::any_of(prepared.state.bodies.motions.begin(), prepared.state.bodies.motions.end(),
                                   [](const auto& m) { return m.velocity.norm() > 0 || m.angular_momentum.norm() > 0; });
   if (!moving) list.push_back("initial velocities");
   return fmt::format("{}", fmt::join(list, ", "));

@@ -209,13 +209,13 @@ template <int Dim>
 void find_crowd(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state, Plausibility& result) {
   constexpr double memory_of_a_block = 10e3;  // bytes, measured over whole runs
   result.memory = memory_of_a_block * static_cast<double>(model.bodies.size()) +
-                  2.0 * static_cast<double>(state.contacts.size() * sizeof(Contact<Dim>) +
-                                            state.subs.size() * sizeof(SubContact<Dim>));
+                  2.0 * static_cast<double>(state.contacts.list.size() * sizeof(Contact<Dim>) +
+                                            state.contacts.subs.size() * sizeof(SubContact<Dim>));
   if (asks_for_newton(prepared.settings.damping, prepared.stages)) result.memory += memory_of_newton(state);
   result.candidates_allowed = static_cast<double>(most_candidates(model.parts.size()));
   std::size_t most = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const std::size_t count = contacts_of(state, static_cast<int>(b)).size();
+    const std::size_t count = contacts_of(state.contacts, static_cast<int>(b)).size();
     if (count <= most) continue;
     most = count;
     result.crowded = name_of(model, static_cast<int>(b));
@@ -236,10 +236,10 @@ void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const 
     if (!moves(body)) continue;
     smallest = std::min(smallest, thickest_part(body));
     largest = std::max(largest, thickest_part(body));
-    const Motion<Dim>& motion = state.motions[b];
+    const Motion<Dim>& motion = state.bodies.motions[b];
     anything_moves |= motion.velocity.norm() > 0 || motion.angular_momentum.norm() > 0;
   }
-  if (!anything_moves && state.contacts.empty())
+  if (!anything_moves && state.contacts.list.empty())
     result.warnings.push_back("no gravity, no velocity, no force and no contact: nothing will move");
   if (largest > wide_size_ratio * smallest)
     result.warnings.push_back(
@@ -254,8 +254,8 @@ void judge_velocities(const Prepared<Dim>& prepared, const Model<Dim>& model, Pl
   if (prepared.stages.empty()) return;
   const StagePlan& first = prepared.stages.front();
   if (!begins_relaxing(first, first.damping.value_or(prepared.settings.damping))) return;
-  for (std::size_t b = 0; b < prepared.state.motions.size(); ++b) {
-    const Motion<Dim>& motion = prepared.state.motions[b];
+  for (std::size_t b = 0; b < prepared.state.bodies.motions.size(); ++b) {
+    const Motion<Dim>& motion = prepared.state.bodies.motions[b];
     if (!moves(model.bodies[b]) || (motion.velocity.isZero(0) && motion.angular_momentum.isZero(0))) continue;
     result.warnings.push_back(
         fmt::format("block {} begins with a velocity (its own, or that of initial_velocity) that is lost: stage.{} "
@@ -428,8 +428,8 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
   find_neighbours(model, prepared.settings, state);
   find_contacts(model, prepared.settings, state);
   sum_loads(model, prepared.settings, state);  // water and forces determine the step, too
-  result.candidates = static_cast<int>(state.contacts.size());
-  result.touching = static_cast<int>(std::count_if(state.contacts.begin(), state.contacts.end(),
+  result.candidates = static_cast<int>(state.contacts.list.size());
+  result.touching = static_cast<int>(std::count_if(state.contacts.list.begin(), state.contacts.list.end(),
                                                    [](const Contact<Dim>& contact) { return contact.touching(); }));
 
   if (std::any_of(prepared.stages.begin(), prepared.stages.end(), [](const StagePlan& s) { return s.change.bond; })) {

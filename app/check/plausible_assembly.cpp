@@ -64,7 +64,7 @@ class Groups {
 template <int Dim>
 bool is_wet(const State<Dim>& state, int body) {
   const auto acts = [&](Source source) {
-    const std::vector<Load<Dim>>& loads = state.loads_of[source];
+    const std::vector<Load<Dim>>& loads = state.loads.by_source[source];
     return !loads.empty() && !loads[static_cast<std::size_t>(body)].force.isZero(0);
   };
   return acts(Source::water) || acts(Source::water_pressure);
@@ -74,7 +74,7 @@ template <int Dim>
 void judge_ties(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings) {
   if (model.gravity.norm() == 0) return;
   Groups groups(model.bodies.size());
-  for (const Contact<Dim>& contact : state.contacts)
+  for (const Contact<Dim>& contact : state.contacts.list)
     groups.join(model.parts[contact.part_a].body, model.parts[contact.part_b].body);
   const int count = static_cast<int>(model.bodies.size());
   std::set<int> tied;
@@ -120,7 +120,7 @@ bool holds_middle(const Model<Dim>& model, int outer, int inner, double depth) {
 
 template <int Dim>
 void judge_places(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings) {
-  for (const Contact<Dim>& contact : state.contacts) {
+  for (const Contact<Dim>& contact : state.contacts.list) {
     const int a = contact.part_a, b = contact.part_b;
     const double depth = deep_inside * std::min(model.polytope(a).inscribed_radius, model.polytope(b).inscribed_radius);
     if (!holds_middle(model, a, b, depth) && !holds_middle(model, b, a, depth)) continue;
@@ -146,7 +146,7 @@ void judge_points(const Model<Dim>& model, const ContactSettings& settings, cons
                   std::vector<std::string>& warnings) {
   if (model.gravity.norm() == 0) return;
   std::set<int> blocks, properties;
-  for (const Contact<Dim>& contact : state.contacts) {
+  for (const Contact<Dim>& contact : state.contacts.list) {
     const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
     if (!may_turn(model.bodies[a]) || !may_turn(model.bodies[b])) continue;
     const std::optional<int> between = properties_between(model, contact);
@@ -314,7 +314,7 @@ std::string name_of(const Model<Dim>& model, int body) {
 template <int Dim>
 void judge_first_contacts(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
                           std::vector<std::string>& warnings) {
-  for (const Contact<Dim>& contact : state.contacts) {
+  for (const Contact<Dim>& contact : state.contacts.list) {
     if (!contact.touching()) continue;
     const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
     const double size = std::min(model.bodies[a].size, model.bodies[b].size);

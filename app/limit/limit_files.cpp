@@ -144,10 +144,10 @@ State<2> moved_along(const LimitAnalysis& analysis, double distance) {
   State<2> state = initial_state<2>(analysis.model);
   for (std::size_t b = 0; b < analysis.state.velocities.size(); ++b) {
     const BodyVelocity& v = analysis.state.velocities[b];
-    state.motions[b].displacement = distance * v.velocity;
-    state.motions[b].rotation.angle = distance * v.spin;
-    state.motions[b].velocity = v.velocity;
-    state.motions[b].angular_momentum = angular_momentum<2>(analysis.model.bodies[b], {}, Spin<2>(v.spin));
+    state.bodies.motions[b].displacement = distance * v.velocity;
+    state.bodies.motions[b].rotation.angle = distance * v.spin;
+    state.bodies.motions[b].velocity = v.velocity;
+    state.bodies.motions[b].angular_momentum = angular_momentum<2>(analysis.model.bodies[b], {}, Spin<2>(v.spin));
   }
   return state;
 }

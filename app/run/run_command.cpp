@@ -182,7 +182,7 @@ bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const R
   watcher.trial_frame = [&](const Model<Dim>& model, const State<Dim>& state, int trial) {
     if (written.trials) write_frame(*written.trials, model, state, trial);
     if (written.view)
-      add_view_frame(*written.view, model, state, {ViewMoment::Kind::trial, state.time, progress.stage, trial});
+      add_view_frame(*written.view, model, state, {ViewMoment::Kind::trial, state.schedule.time, progress.stage, trial});
   };
   watcher.ended = [&](const Progress<Dim>& now) {
     if (job.options.keep) save_end_state(job.folder, now, scene_hash);
@@ -276,7 +276,7 @@ std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const Load
   note_interruptions();
   if (!go_on(prepared, scene.hash, job, progress, written)) {
     tell("voussoir: interrupted after step {} (t = {:.6g} s): continue with 'voussoir resume {}'\n",
-         progress.state.counters.steps, progress.state.time, job.folder.string());
+         progress.state.counters.steps, progress.state.schedule.time, job.folder.string());
     return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + interruption());
   }
 

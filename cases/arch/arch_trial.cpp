@@ -21,7 +21,7 @@ std::vector<std::string> on_joints(double stiffness) {
 
 Trial attempt(const std::string& scene, const std::vector<std::string>& overrides, double drop) {
   RecordedRun<2> run = record<2>(scene, overrides, Demand::no_failure, [&](const Prepared<2>&, const State<2>& state) {
-    return std::any_of(state.motions.begin(), state.motions.end(),
+    return std::any_of(state.bodies.motions.begin(), state.bodies.motions.end(),
                        [&](const Motion<2>& motion) { return motion.displacement[1] < -drop; });
   });
   Trial trial;
@@ -37,7 +37,7 @@ double Trial::drop(const std::string& block, const Vector<2>& point) const {
   const std::vector<Body<2>>& bodies = model().bodies;
   const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const Body<2>& b) { return b.name == block; });
   if (body == bodies.end()) throw std::out_of_range("no block " + block);
-  const Motion<2>& motion = state.motions[body - bodies.begin()];
+  const Motion<2>& motion = state.bodies.motions[body - bodies.begin()];
   const Vector<2> arm = point - model().origin - body->reference;
   return -(motion.displacement + matrix(motion.rotation) * arm - arm)[1];
 }
@@ -46,16 +46,16 @@ std::vector<Joint> joints_of(const Trial& trial, const ArchShape& shape) {
   const Model<2>& model = trial.model();
   const State<2>& state = trial.state;
   std::vector<Joint> joints;
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    const Contact<2>& c = state.contacts[i];
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
+    const Contact<2>& c = state.contacts.list[i];
     if (!c.touching()) continue;
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
     double turning = 0;  // N m about the contact's point
-    for (const SubContact<2>& sub : subs_of(state, i))
+    for (const SubContact<2>& sub : subs_of(state.contacts, i))
       if (sub.area > 0) turning += moment(sub.point - c.geometry.point, sub.force)[0];
     const Vector<2> along = perpendicular(c.geometry.normal);
     const Vector<2> crossing = c.geometry.point + turning / moment(along, c.force)[0] * along;
-    const Motion<2>&of_a = state.motions[a], &of_b = state.motions[b];
+    const Motion<2>&of_a = state.bodies.motions[a], &of_b = state.bodies.motions[b];
 
     // where that point of the first body was: joints stand at multiples of a sector from the springing
     const Vector<2> before = model.origin + model.bodies[a].reference + matrix(of_a.rotation).transpose() * crossing;
@@ -90,7 +90,7 @@ void draw_blocks(const std::string& file, const Trial& trial) {
     const Polytope<2>& part = model.bodies[b].parts.front();
     if (model.bodies[b].fixed) continue;
     for (const int vertex : closed_ring(part)) {
-      const Motion<2>& motion = trial.state.motions[b];
+      const Motion<2>& motion = trial.state.bodies.motions[b];
       const Vector<2> p = model.origin + model.bodies[b].reference + motion.displacement +
                           matrix(motion.rotation) * part.vertices[vertex];
       out << p[0] << ',' << p[1] << '\n';
@@ -103,11 +103,11 @@ void draw_forces(const std::string& file, const Trial& trial) {
   std::vector<std::vector<double>> columns(4);
   const Model<2>& model = trial.model();
   const State<2>& state = trial.state;
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    const int a = model.parts[state.contacts[i].part_a].body;
-    for (const SubContact<2>& sub : subs_of(state, i)) {
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
+    const int a = model.parts[state.contacts.list[i].part_a].body;
+    for (const SubContact<2>& sub : subs_of(state.contacts, i)) {
       if (!(sub.area > 0)) continue;
-      const Vector<2> p = model.origin + model.bodies[a].reference + state.motions[a].displacement + sub.point;
+      const Vector<2> p = model.origin + model.bodies[a].reference + state.bodies.motions[a].displacement + sub.point;
       columns[0].push_back(p[0]);
       columns[1].push_back(p[1]);
       columns[2].push_back(sub.force[0]);

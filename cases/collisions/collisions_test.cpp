@@ -27,7 +27,7 @@ int body_named(const Model<3>& model, const std::string& name) {
 // how many corners of a body are within 2 mm of a height: 1 on a corner, 2 on an edge, 4 on a face
 int corners_down(const Model<3>& model, const State<3>& state, int body, double height) {
   int down = 0;
-  for (const Vector<3>& c : corners(model.bodies[body], state.motions[body]))
+  for (const Vector<3>& c : corners(model.bodies[body], state.bodies.motions[body]))
     down += model.origin[2] + c[2] < height + 0.002;
   return down;
 }
@@ -43,7 +43,7 @@ std::size_t first_with(const RecordedRun<3>& run, int body, double height, int c
 // angle between a cube's nearest face normal and the vertical, rad
 double tilt(const Model<3>& model, const State<3>& state, int body) {
   double least = std::numeric_limits<double>::infinity();
-  const Matrix<3> axes = matrix(state.motions[body].rotation);
+  const Matrix<3> axes = matrix(state.bodies.motions[body].rotation);
   for (const HalfSpace<3>& f : model.bodies[body].parts.front().faces) {
     const Vector<3> n = axes * f.normal;
     if (n[2] > 0) least = std::min(least, std::atan2(std::hypot(n[0], n[1]), n[2]));
@@ -53,7 +53,7 @@ double tilt(const Model<3>& model, const State<3>& state, int body) {
 
 const Contact<3>& only_contact(const State<3>& state) {
   const Contact<3>* found = nullptr;
-  for (const Contact<3>& c : state.contacts)
+  for (const Contact<3>& c : state.contacts.list)
     if (c.touching()) {
       if (found) throw std::runtime_error("more than one contact");
       found = &c;
@@ -146,7 +146,7 @@ void draw(const std::string& name, const RecordedRun<3>& run, const std::vector<
     const State<3>& state = run.frames[frames[i]];
     write_picture("collisions", fmt::format("{}_{}.csv", name, i + 1), run.model(), state, camera);
     panel.push_back(static_cast<double>(i + 1));
-    time.push_back(state.time);
+    time.push_back(state.schedule.time);
   }
   write_csv("collisions", name + "_times.csv", {"panel", "time_s"}, {panel, time});
 }
@@ -184,9 +184,9 @@ TEST(Collisions, ACornerRollsOntoItsFace) {
 
   std::vector<double> time, area;
   for (const State<3>& state : run.frames) {
-    time.push_back(state.time);
+    time.push_back(state.schedule.time);
     area.push_back(0);
-    for (const Contact<3>& c : state.contacts)
+    for (const Contact<3>& c : state.contacts.list)
       if (c.touching()) area.back() = c.geometry.area;
   }
   write_csv("collisions", "area.csv", {"time_s", "area_m2"}, {time, area});
@@ -203,7 +203,7 @@ TEST(Collisions, AnEdgeOnAnEdgeTopples) {
     const int it = body_named(run.model(), other);
     std::size_t i = 0;
     const auto touches = [&](const State<3>& state) {
-      for (const Contact<3>& c : state.contacts)
+      for (const Contact<3>& c : state.contacts.list)
         if (c.touching() && (run.model().parts[c.part_a].body == it || run.model().parts[c.part_b].body == it))
           return true;
       return false;
@@ -245,7 +245,7 @@ TEST(Collisions, AnImpactKeepsMomentum) {
     std::pair<Vector<3>, Vector<3>> sum{Vector<3>::Zero(), Vector<3>::Zero()};
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
       const Body<3>& body = model.bodies[b];
-      const Motion<3>& m = state.motions[b];
+      const Motion<3>& m = state.bodies.motions[b];
       sum.first += body.mass * m.velocity;
       sum.second += (body.reference + m.displacement).cross(body.mass * m.velocity) +
                     matrix(m.rotation) * body.principal_axes * m.angular_momentum;

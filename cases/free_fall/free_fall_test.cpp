@@ -114,7 +114,7 @@ void draw(const Fall& fall) {
   write_picture("free_fall", "rest.csv", model, fall.frames.back(), camera);
   std::vector<double> time, moving;
   for (const State<3>& state : fall.frames) {
-    time.push_back(state.time);
+    time.push_back(state.schedule.time);
     moving.push_back(kinetic_energy(model, state) / -fall.frames.back().energy.potential());
   }
   write_csv("free_fall", "kinetic.csv", {"time_s", "kinetic"}, {time, moving});

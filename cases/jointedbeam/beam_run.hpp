@@ -48,20 +48,20 @@ inline JointedBeam with_cells(JointedBeam beam, int cells, CellClosure closure =
 
 // of one joint: forces per metre of width are summed, the resultant acts at their pressure's centre
 inline BeamJoint joint_of(const Model<2>& model, const State<2>& state, std::size_t place, double width) {
-  const Contact<2>& c = state.contacts[place];
+  const Contact<2>& c = state.contacts.list[place];
   const int a = model.parts[c.part_a].body;
   const Vector<2>& n = c.geometry.normal;
   Vector<2> at = c.geometry.point;
   if (c.cells > 0) {
     at.setZero();
     double pressure = 0;
-    for (const SubContact<2>& s : subs_of(state, place)) {
+    for (const SubContact<2>& s : subs_of(state.contacts, place)) {
       at += s.force.dot(n) * s.point;
       pressure += s.force.dot(n);
     }
     at /= pressure;
   }
-  at += model.origin + model.bodies[a].reference + state.motions[a].displacement;
+  at += model.origin + model.bodies[a].reference + state.bodies.motions[a].displacement;
   BeamJoint joint;
   joint.point = {at[0], at[1]};
   joint.force = {c.force[0] * width, c.force[1] * width};
@@ -79,11 +79,11 @@ inline BeamState describe(const JointedBeam& beam, const Model<2>& model, const 
   BeamState s;
   s.gravity = state.schedule.gravity_factor;
   for (std::size_t b = 1; b + 1 < model.bodies.size(); ++b) {
-    const Motion<2>& m = state.motions[b];
+    const Motion<2>& m = state.bodies.motions[b];
     s.blocks.push_back({{m.displacement[0], m.displacement[1]}, m.rotation.angle});
   }
-  for (std::size_t i = 0; i < state.contacts.size(); ++i)
-    if (state.contacts[i].touching()) s.joints.push_back(joint_of(model, state, i, beam.width));
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i)
+    if (state.contacts.list[i].touching()) s.joints.push_back(joint_of(model, state, i, beam.width));
   if (!s.joints.empty()) s.thrust = s.joints.front().force.x;
   s.deflection = 0.5 * (sunk(s.blocks[2], beam.length, 1) + sunk(s.blocks[3], beam.length, -1));
   return s;

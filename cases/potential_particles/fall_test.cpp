@@ -67,7 +67,7 @@ double deepest_ball(const Model<3>& model, const State<3>& state, double radius,
   double deepest = -INFINITY;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].fixed) continue;
-    const Vector<3> c = model.origin + model.bodies[b].reference + state.motions[b].displacement;
+    const Vector<3> c = model.origin + model.bodies[b].reference + state.bodies.motions[b].displacement;
     deepest = std::max(deepest, radius - std::min({c[0], width - c[0], c[1], width - c[1], c[2]}));
   }
   return deepest;

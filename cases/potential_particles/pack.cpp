@@ -43,7 +43,7 @@ double mean_height(const Model<3>& model, const State<3>& state) {
   int count = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (!model.bodies[b].fixed) {
-      sum += model.origin[2] + model.bodies[b].reference[2] + state.motions[b].displacement[2];
+      sum += model.origin[2] + model.bodies[b].reference[2] + state.bodies.motions[b].displacement[2];
       ++count;
     }
   return sum / count;
@@ -60,8 +60,8 @@ Pack settle_pack() {
   State<3> fallen;
   shapes::fall_until_rest(scene, plan.side * plan.pitch, [&](const State<3>& state) { fallen = state; });
   for (std::size_t b = 0; b < scene.model.bodies.size(); ++b)
-    fallen.motions[b].displacement +=
-        loosened * (scene.model.origin + scene.model.bodies[b].reference + fallen.motions[b].displacement);
+    fallen.bodies.motions[b].displacement +=
+        loosened * (scene.model.origin + scene.model.bodies[b].reference + fallen.bodies.motions[b].displacement);
   const double size = smallest_size(scene.model);
   const RecordedRun<3> rested =
       record<3>(write_scene("study_pack_sharp", resting_scene(scene.model, fallen, {}, least_radius * size, first)));

@@ -46,8 +46,8 @@ std::string blocks_as_particles(const Model<Dim>& model, const State<Dim>& state
   std::string text = "blocks = [\n";
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
-    const Matrix<Dim> turn = matrix(state.motions[b].rotation);
-    const Vector<Dim> place = model.origin + body.reference + state.motions[b].displacement;
+    const Matrix<Dim> turn = matrix(state.bodies.motions[b].rotation);
+    const Vector<Dim> place = model.origin + body.reference + state.bodies.motions[b].displacement;
     if (body.parts.size() != 1) throw std::domain_error("a body of several parts");
     HalfSpaces<Dim> faces;
     for (const HalfSpace<Dim>& f : body.parts.front().faces) {

@@ -68,7 +68,7 @@ template <int Dim>
 Trial attempt(const std::string& scene, const std::vector<std::string>& overrides) {
   constexpr double tipped = 0.2;  // rad: beyond any tilt of equilibrium, short of the ground
   const auto tilt = [](const Prepared<Dim>& prepared, const State<Dim>& state) {
-    return rotation_vector(state.motions[prepared.model.bodies[0].fixed ? 1 : 0].rotation).norm();
+    return rotation_vector(state.bodies.motions[prepared.model.bodies[0].fixed ? 1 : 0].rotation).norm();
   };
   RecordedRun<Dim> run = record<Dim>(
       scene, overrides, Demand::goals,

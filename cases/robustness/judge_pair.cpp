@@ -73,14 +73,14 @@ Decision decide(const Meeting& meeting, const FeasibilityResult<3>& lp, const Sc
   list_parts(model);
   model.properties = {{"joint", 1e9, 5e8, 0.5, false}};
   State<3> state = initial_state(model);
-  state.motions[1].displacement = meeting.displacement_b;
-  state.motions[1].rotation = meeting.turn;
+  state.bodies.motions[1].displacement = meeting.displacement_b;
+  state.bodies.motions[1].rotation = meeting.turn;
   Contact<3> candidate;
   candidate.part_a = 0;
   candidate.part_b = 1;
-  state.contacts = {candidate};
+  state.contacts.list = {candidate};
   find_contacts(model, Settings{}, state);
-  Decision decision{{}, state.contacts[0], state.counters};
+  Decision decision{{}, state.contacts.list[0], state.counters};
 
   // the same bodies exactly
   exact::Point offset;

@@ -157,24 +157,24 @@ std::vector<Held> turned_slowly(const std::string& carried) {
   const int of_block = model.bodies[0].fixed ? 1 : 0;
   std::vector<Held> held;
   for (const State<2>& state : run.frames) {
-    const Motion<2>& motion = state.motions[of_block];
+    const Motion<2>& motion = state.bodies.motions[of_block];
     const double lean = -motion.rotation.angle;
     if (!(lean > 0)) continue;
     const Vector<2> along = matrix(motion.rotation) * Vector<2>(1, 0);
     const Vector<2> middle = model.bodies[of_block].reference + motion.displacement +
                              matrix(motion.rotation) * Vector<2>(0, -0.5 * block.height);
     double turning = 0, pressed = 0;
-    for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-      const Contact<2>& c = state.contacts[i];
+    for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
+      const Contact<2>& c = state.contacts.list[i];
       if (!c.touching()) continue;
       const int a = model.parts[c.part_a].body;
-      const Vector<2> first = model.bodies[a].reference + state.motions[a].displacement;
+      const Vector<2> first = model.bodies[a].reference + state.bodies.motions[a].displacement;
       const auto add = [&](const Vector<2>& point, const Vector<2>& force) {
         turning += (first + point - middle).dot(along) * force.dot(c.geometry.normal);
         pressed += force.dot(c.geometry.normal);
       };
       if (c.cells == 0) add(c.geometry.point, c.force);
-      for (const SubContact<2>& sub : subs_of(state, i))
+      for (const SubContact<2>& sub : subs_of(state.contacts, i))
         if (sub.area > 0) add(sub.point, sub.force);
     }
     held.push_back({lean, turning / pressed});

@@ -24,7 +24,7 @@ struct Contacts {
 Contacts contacts(const Model<3>& model, const State<3>& state) {
   Contacts sum;
   int count = 0;
-  for (const Contact<3>& c : state.contacts) {
+  for (const Contact<3>& c : state.contacts.list) {
     if (!c.touching()) continue;
     const Body<3>&a = model.bodies[model.parts[c.part_a].body], &b = model.bodies[model.parts[c.part_b].body];
     if (a.fixed) sum.on_fixed -= c.force;
@@ -40,7 +40,7 @@ Contacts contacts(const Model<3>& model, const State<3>& state) {
 double kinetic(const Model<3>& model, const State<3>& state) {
   double sum = 0;  // J
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Motion<3>& m = state.motions[b];
+    const Motion<3>& m = state.bodies.motions[b];
     if (model.bodies[b].fixed) continue;
     sum += 0.5 * model.bodies[b].mass * m.velocity.squaredNorm();
     sum += 0.5 * m.angular_momentum.cwiseAbs2().cwiseQuotient(model.bodies[b].inertia).sum();
@@ -65,12 +65,12 @@ void check(CaseReport& report, const std::string& which, const RecordedRun<3>& s
     if (model.bodies[b].fixed) continue;
     ++blocks;
     weight -= model.bodies[b].mass * model.gravity[2];
-    farthest = std::max(farthest, state.motions[b].displacement.norm());
+    farthest = std::max(farthest, state.bodies.motions[b].displacement.norm());
   }
   record("contacts without an answer", "1", Kind::exact, "promise: a contact without an answer fails the run", 0,
          {0.5, 0}, "a count", static_cast<double>(results.counters.unconverged));
 
-  const double released = -state.energy.potential();
+  const double released = -state.ledger.energy.potential();
   record(
       "kinetic energy at rest", "1", Kind::limit, "equilibrium: rest, as a fraction of what gravity did", 0,
       {1e-6, 0, Bound::at_most},
@@ -79,10 +79,10 @@ void check(CaseReport& report, const std::string& which, const RecordedRun<3>& s
       kinetic(model, state) / released);
   record("energy that the motion does not account for", "1", Kind::exact,
          "conservation of energy: work of all forces against kinetic energy", 0, {1e-10, 0},
-         "leapfrog closes to the rounding of some ten thousand steps", std::abs(state.energy.motion_error) / released);
+         "leapfrog closes to the rounding of some ten thousand steps", std::abs(state.ledger.energy.motion_error) / released);
   record("energy that is not accounted for", "1", Kind::limit, "demanded: the drift beyond which a run is doubted", 0,
          {0.05, 0, Bound::at_most}, "core/run/simulate.cpp: areas and normals of contacts change while blocks settle",
-         state.energy.relative_error());
+         state.ledger.energy.relative_error());
 
   const Contacts now = contacts(model, state);
   const double out_of_balance = blocks * settled.scene().settings.equilibrium.unbalanced * now.mean_force;
@@ -113,9 +113,9 @@ struct Exposure {
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
       const Body<3>& other = model.bodies[b];
       if (other.fixed) continue;
-      const Vector<3> there = x - model.origin - other.reference - state.motions[b].displacement;
+      const Vector<3> there = x - model.origin - other.reference - state.bodies.motions[b].displacement;
       if (there.norm() > other.radius) continue;
-      const Vector<3> local = matrix(state.motions[b].rotation).transpose() * there;
+      const Vector<3> local = matrix(state.bodies.motions[b].rotation).transpose() * there;
       for (const Polytope<3>& part : other.parts)
         if (std::all_of(part.faces.begin(), part.faces.end(),
                         [&](const HalfSpace<3>& f) { return signed_distance(f, local) <= 0; }))
@@ -144,7 +144,7 @@ void draw(const RecordedRun<3>& settled) {
   const Camera camera{-55,
                       32,
                       {"floor", "west", "east", "south", "north"},
-                      [&](std::size_t body) { return colour(state.motions[body].displacement.norm()); },
+                      [&](std::size_t body) { return colour(state.bodies.motions[body].displacement.norm()); },
                       Exposure{settled.model(), state}};
   write_objects("slicing", "settled.gp", picture(settled.model(), state, camera));
 }
@@ -169,7 +169,7 @@ TEST(SlicingSettling, ThreeHundredBlocksRestByRelaxation) {
 void check_cost(CaseReport& report, const std::string& which, const RecordedRun<3>& settled, double most) {
   const State<3>& state = settled.last();
   const auto touching =
-      std::count_if(state.contacts.begin(), state.contacts.end(), [](const Contact<3>& c) { return c.touching(); });
+      std::count_if(state.contacts.list.begin(), state.contacts.list.end(), [](const Contact<3>& c) { return c.touching(); });
   const Counters& counters = settled.run.results.counters;
   report.record({"settling: evaluations a touching pair" + which,
                  "1",

@@ -60,7 +60,7 @@ Assembly measured(const Prepared<3>& scene) {
   State<3> state = scene.state;
   for (int i = 0; i < measured_steps; ++i)
     step(scene.model, scene.settings, state);
-  made.step = state.time_step;
+  made.step = state.time_step.length;
   made.evaluations = static_cast<double>(state.counters.contact_evaluations) / measured_steps;
   return made;
 }

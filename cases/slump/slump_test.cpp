@@ -205,7 +205,7 @@ void draw_collapse(const Collapse<2>& collapse, const std::vector<CollapsedBlock
     before.add(model, body, {0, 0}, 0);
     after.add(model, body,
               magnified * (collapse.failed.motions[block.body].displacement -
-                           collapse.settled.motions[block.body].displacement),
+                           collapse.settled.bodies.motions[block.body].displacement),
               magnified * block.turn);
   }
 }

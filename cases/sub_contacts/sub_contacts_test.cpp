@@ -55,7 +55,7 @@ struct Pressed {
     settings = prepared.settings;
     state = prepared.state;
     block = select(model, {.names = {"block"}, .above = {}, .below = {}, .inside = {}}).front();
-    state.motions[block].displacement[Dim - 1] = -depth;
+    state.bodies.motions[block].displacement[Dim - 1] = -depth;
     answer();
   }
 
@@ -64,14 +64,14 @@ struct Pressed {
     find_contacts(model, settings, state);
     apply_joint_laws(model, settings, state);
     sum_loads(model, settings, state);
-    const Load<Dim>& load = state.loads[block];
-    const Vector<Dim> from_face = matrix(state.motions[block].rotation) * (arm * Vector<Dim>::Unit(Dim - 1));
+    const Load<Dim>& load = state.loads.total[block];
+    const Vector<Dim> from_face = matrix(state.bodies.motions[block].rotation) * (arm * Vector<Dim>::Unit(Dim - 1));
     return {load.force, load.moment + moment(from_face, load.force)};
   }
 
   // the face's middle goes by `way` while the block turns by `turn` about it, within a second
   Answer<Dim> go(const Vector<Dim>& way, const Spin<Dim>& turn) {
-    Motion<Dim>& motion = state.motions[block];
+    Motion<Dim>& motion = state.bodies.motions[block];
     const Rotation<Dim> turned_to = turned(motion.rotation, turn);
     const Vector<Dim> lift = arm * Vector<Dim>::Unit(Dim - 1);
     const Vector<Dim> path = way + matrix(turned_to) * lift - matrix(motion.rotation) * lift;
@@ -79,7 +79,7 @@ struct Pressed {
     motion.displacement += path;
     motion.velocity = path;
     motion.angular_momentum = angular_momentum(model.bodies[block], motion.rotation, turn);
-    state.time_step = 1;
+    state.time_step.length = 1;
     return answer();
   }
 };

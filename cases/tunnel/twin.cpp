@@ -48,9 +48,9 @@ Freedoms motion_between(const Motion<2>& from, const Motion<2>& to) {
 // What a stage lets off is taken away: the load that held the block falls.
 void let_off_held(const StageEnd& before, const StageEnd& after, const std::vector<int>& number,
                   std::vector<Block>& blocks) {
-  for (std::size_t i = 0; i < after.state.held.size(); ++i) {
-    const ReliefLoad<2>& held = after.state.held[i];
-    const double change = held.share - before.state.held[i].share;
+  for (std::size_t i = 0; i < after.state.loads.relief.size(); ++i) {
+    const ReliefLoad<2>& held = after.state.loads.relief[i];
+    const double change = held.share - before.state.loads.relief[i].share;
     Freedoms& load = blocks[number[held.body]].load;
     load[0] += change * held.load.force[0];
     load[1] += change * held.load.force[1];
@@ -64,7 +64,7 @@ void add_bolts(const StageEnd& after, const std::vector<Face>& joints, const std
   auto& bolts = both.network.bolts;
   int last = -1;
   std::size_t next = 0;  // of the network's along this bolt, not yet met
-  for (const BoltSpring<2>& spring : after.state.bolt_springs) {
+  for (const BoltSpring<2>& spring : after.state.supports.bolt_springs) {
     if (spring.bolt != last) {
       last = spring.bolt;
       next = bolts.size();
@@ -153,18 +153,18 @@ Twins twins(const SupportedRun& run, int cells) {
   const Polygon outline = outline_of(model.excavations.front().region);
   const std::vector<Face> around = wall(network.blocks, outline, same_line);
   add_bolts(after, joints, number, both);
-  for (const LiningState& lined : after.state.linings)
+  for (const LiningState& lined : after.state.supports.linings)
     add_lining(model, model.linings[lined.lining], around, network);
 
   const Solution solution = solve(network);
   Solution moved = solution;  // of the program: what its blocks do
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (number[b] >= 0) moved.blocks[number[b]] = motion_between(before.state.motions[b], after.state.motions[b]);
+    if (number[b] >= 0) moved.blocks[number[b]] = motion_between(before.state.bodies.motions[b], after.state.bodies.motions[b]);
   find_convergence(network, solution, around, middle_of(outline), both.linear);
   find_convergence(network, moved, around, middle_of(outline), both.program);
   for (const BoltForce& bolt : solution.bolts)
     both.linear.bolts.push_back(bolt.axial);
-  for (const BoltSpring<2>& spring : after.state.bolt_springs)
+  for (const BoltSpring<2>& spring : after.state.supports.bolt_springs)
     both.program.bolts.push_back(spring.force);
   const std::size_t beams = solution.beams.size();
   for (std::size_t i = 0; i < beams; ++i) {

@@ -31,7 +31,7 @@ double mean_way(const Model<2>& model, const State<2>& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<2>& body = model.bodies[b];
     if (body.fixed || !body.present) continue;
-    sum += body.mass * state.motions[b].displacement.norm();
+    sum += body.mass * state.bodies.motions[b].displacement.norm();
     mass += body.mass;
   }
   return sum / mass;
@@ -40,7 +40,7 @@ double mean_way(const Model<2>& model, const State<2>& state) {
 // the rock joints that touch, by their parts: their lengths, m
 std::map<std::pair<int, int>, double> closed_joints(const Model<2>& model, const State<2>& state) {
   std::map<std::pair<int, int>, double> lengths;
-  for (const Contact<2>& c : state.contacts)
+  for (const Contact<2>& c : state.contacts.list)
     if (c.touching() && c.properties == properties(model, "rock")) lengths[{c.part_a, c.part_b}] = c.geometry.area;
   return lengths;
 }
@@ -61,10 +61,10 @@ Mechanism mechanism(const Model<2>& model, const State<2>& first, const State<2>
     all += length;
   Mechanism found;
   int count = 0;
-  for (std::size_t place = 0; place < now.contacts.size(); ++place) {
-    const Contact<2>& c = now.contacts[place];
+  for (std::size_t place = 0; place < now.contacts.list.size(); ++place) {
+    const Contact<2>& c = now.contacts.list[place];
     if (!c.touching()) continue;
-    found.bonds += whole_bonds(now, place);
+    found.bonds += whole_bonds(now.contacts, place);
     found.largest = std::max(found.largest, c.force.norm());
     found.mean += c.force.norm();
     ++count;
@@ -98,8 +98,8 @@ void write_blocks(const Model<2>& model, const State<2>& state, const std::strin
     if (!body.present || body.fixed != fixed) continue;
     for (const Polytope<2>& part : body.parts) {
       for (const int corner : closed_ring(part)) {
-        const Vector<2> at = model.origin + body.reference + state.motions[b].displacement +
-                             matrix(state.motions[b].rotation) * part.vertices[corner];
+        const Vector<2> at = model.origin + body.reference + state.bodies.motions[b].displacement +
+                             matrix(state.bodies.motions[b].rotation) * part.vertices[corner];
         out << at[0] << ',' << at[1] << '\n';
       }
       out << '\n';
@@ -112,11 +112,11 @@ void write_blocks(const Model<2>& model, const State<2>& state, const std::strin
 void write_forces(const Model<2>& model, const State<2>& state, const std::string& file) {
   constexpr double metres_per_newton = 60 / 2e8;
   std::vector<std::vector<double>> bars(4);
-  for (const Contact<2>& c : state.contacts) {
+  for (const Contact<2>& c : state.contacts.list) {
     if (!c.touching()) continue;
     const int first = model.parts[c.part_a].body;
     const Vector<2> at =
-        model.origin + model.bodies[first].reference + state.motions[first].displacement + c.geometry.point;
+        model.origin + model.bodies[first].reference + state.bodies.motions[first].displacement + c.geometry.point;
     const Vector<2> bar = metres_per_newton * c.force, from = at - bar / 2;
     for (const auto& [k, number] : {std::pair(0, from[0]), {1, from[1]}, {2, bar[0]}, {3, bar[1]}})
       bars[k].push_back(number);

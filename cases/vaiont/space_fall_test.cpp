@@ -122,8 +122,8 @@ std::vector<PictureFace> section(const Model<3>& model, const State<3>& state, d
     for (const Polytope<3>& part : model.bodies[b].parts) {
       std::vector<std::array<double, 2>> points;
       const auto corner = [&](int v) -> Vector<3> {
-        return model.origin + model.bodies[b].reference + state.motions[b].displacement +
-               matrix(state.motions[b].rotation) * part.vertices[v];
+        return model.origin + model.bodies[b].reference + state.bodies.motions[b].displacement +
+               matrix(state.bodies.motions[b].rotation) * part.vertices[v];
       };
       for (const std::vector<int>& loop : part.loops)
         for (std::size_t k = 0; k < loop.size(); ++k) {

@@ -104,7 +104,7 @@ bool stands(double water, double tipped) {
       record<2>("slender_dam.toml", {fmt::format("stage.critical.water.lake.table=[[0, {}], [4, 0]]", water)},
                 Demand::goals, [&](const Prepared<2>& prepared, const State<2>& state) {
                   const int dam = prepared.model.bodies[0].fixed ? 1 : 0;
-                  return std::abs(rotation_vector(state.motions[dam].rotation)[0]) > tipped;
+                  return std::abs(rotation_vector(state.bodies.motions[dam].rotation)[0]) > tipped;
                 });
   return recorded.ended;
 }

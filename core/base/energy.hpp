@@ -14,7 +14,7 @@
 
 namespace voussoir {
 
-// What gives energy or takes it. The first ones are loads: forces and moments on bodies (State::loads_of), which work
+// What gives energy or takes it. The first ones are loads: forces and moments on bodies (State::loads.by_source), which work
 // along the bodies' paths; the others are counted where they arise.
 enum class Source {
   contacts,

@@ -25,7 +25,7 @@ template <int Dim>
 EnergyLedger ledger_after(const Model<Dim>& model, const Settings& settings, int steps, State<Dim>& state) {
   for (int i = 0; i < steps; ++i)
     step(model, settings, state);
-  return state.energy;
+  return state.ledger.energy;
 }
 
 // a linear spring: leapfrog keeps ½ m v₋·v₊ + ½ k x² to rounding at any step
@@ -38,7 +38,7 @@ void expect_exact_oscillation() {
   settings.damping.local = 0;
   State<Dim> state = initial_state(model);
   const double deep = 3 * model.bodies[index_of(model, "block")].mass * gravity / 1e9;  // never lifts off
-  state.motions[index_of(model, "block")].displacement[Dim - 1] = -0.5 * deep;
+  state.bodies.motions[index_of(model, "block")].displacement[Dim - 1] = -0.5 * deep;
   const EnergyLedger e = ledger_after(model, settings, 2000, state);
   EXPECT_GT(e.largest_energy, 0);
   EXPECT_LT(std::abs(e.motion_error), rounding * e.largest_energy);
@@ -63,11 +63,11 @@ void expect_sliding_balance() {
   Vector<Dim> up = Vector<Dim>::Zero();
   up[0] = -std::sin(slope);
   up[Dim - 1] = std::cos(slope);
-  state.motions[block].displacement = -density * 0.5 * gravity * std::cos(slope) / 1e9 * up;
+  state.bodies.motions[block].displacement = -density * 0.5 * gravity * std::cos(slope) / 1e9 * up;
   Settings settings;
   settings.damping.local = 0;
   const EnergyLedger e = ledger_after(model, settings, 4000, state);
-  const double slid = state.motions[block].displacement.norm();
+  const double slid = state.bodies.motions[block].displacement.norm();
   const double resistance = std::tan(friction) * model.bodies[block].mass * gravity * std::cos(slope);
   EXPECT_NEAR(e.flows[Source::friction], resistance * slid,
               0.02 * resistance * slid);  // but for the elastic slip at first
@@ -103,7 +103,7 @@ TEST(Energy, GravityThatGrowsIsExternalWork) {
   State<2> state = initial_state(model);
   state.schedule.gravity_factor = 0.5;
   ledger_after<2>(model, {}, 3000, state);
-  const double sunk = -state.motions[index_of(model, "block")].displacement[1];
+  const double sunk = -state.bodies.motions[index_of(model, "block")].displacement[1];
   state.schedule.gravity_factor = 1;
   const EnergyLedger e = ledger_after<2>(model, {}, 3000, state);
   EXPECT_NEAR(e.external(), -0.5 * density * 0.5 * gravity * sunk, 1e-9 * e.largest_energy);
@@ -121,8 +121,8 @@ TEST(Energy, AChangeOfTheModelIsExternalWork) {
   State<2> state = initial_state(model);
   const EnergyLedger before = ledger_after(model, settings, 500, state);
   EXPECT_GT(before.kinetic, 0);
-  state.motions[block].velocity.setZero();
-  state.energy.phase = LedgerPhase::model_changed;
+  state.bodies.motions[block].velocity.setZero();
+  state.ledger.energy.phase = LedgerPhase::model_changed;
   const EnergyLedger after = ledger_after(model, settings, 1, state);
   EXPECT_NEAR(after.external(), -before.kinetic, 0.01 * before.kinetic);
   EXPECT_LT(after.relative_error(), rounding);

@@ -74,7 +74,7 @@ struct Contact {
   int part_a = 0, part_b = 0;  // the key: Model::parts, a < b
   int joint = -1;              // Model::joints, or -1 between faces that no joint made
   int properties = 0;          // Model::properties in force while touching
-  int cells = 0;               // sub-contacts that carry it, in State::subs; 0: it carries itself
+  int cells = 0;               // sub-contacts that carry it, in State::contacts.subs; 0: it carries itself
   int divided_face = -1;       // theirs: of the first part, or, counted on behind its faces, of the second
   ContactStatus status = ContactStatus::apart;
   bool bond_due = false;  // its joint is closed, and is bonded where it first presses (make_bonds)

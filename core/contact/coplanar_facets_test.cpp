@@ -108,7 +108,7 @@ Rest settle(const Model<Dim>& model, const Settings& settings) {
   State<Dim> state = initial_state(model);
   const RunReport report = run<Dim>(model, settings, {.rest = true, .step_limit = 200'000}, {}, state);
   EXPECT_EQ(report.reason, StopReason::equilibrium) << describe(report.reason) << ": " << report.detail;
-  const Motion<Dim>& motion = state.motions[shapes::index_of(model, "block")];
+  const Motion<Dim>& motion = state.bodies.motions[shapes::index_of(model, "block")];
   return {rotation_vector(motion.rotation).norm(), -motion.displacement[Dim - 1]};
 }
 

@@ -108,11 +108,11 @@ void expect_pressed_joint() {
   Vector<Dim> expected = model.bodies[block].mass * model.gravity;
   expected -= stress.col(Dim - 1);  // what the faces but the base leave: the base's own fraction, area 1
   Vector<Dim> carried = Vector<Dim>::Zero();
-  for (const Contact<Dim>& c : state.contacts)
+  for (const Contact<Dim>& c : state.contacts.list)
     carried += (model.parts[c.part_a].body == block ? 1.0 : -1.0) * c.force;
   EXPECT_LT((carried - expected).norm(), 1e-5 * expected.norm());
-  EXPECT_LT(state.energy.relative_error(), 1e-3) << "of linear springs whose area stays";
-  EXPECT_GT(state.energy.flows[Source::boundary_stress], 0);
+  EXPECT_LT(state.ledger.energy.relative_error(), 1e-3) << "of linear springs whose area stays";
+  EXPECT_GT(state.ledger.energy.flows[Source::boundary_stress], 0);
 }
 
 TEST(BoundaryStress, IsBorneByTheJoint) {
@@ -273,8 +273,8 @@ TEST(BoundaryStress, WorkOnATurningBlockIsItsKineticEnergy) {
   settings.time.step = 1e-4;
   State<3> state = initial_state(model);
   run(model, settings, {.end_time = 0.2}, {.properties = {}}, state);
-  const EnergyLedger& e = state.energy;
-  EXPECT_GT(rotation_vector(state.motions[0].rotation).norm(), 1e-3);
+  const EnergyLedger& e = state.ledger.energy;
+  EXPECT_GT(rotation_vector(state.bodies.motions[0].rotation).norm(), 1e-3);
   EXPECT_NEAR(e.kinetic, e.external(), 1e-3 * e.kinetic) << "the flow is half of 2,000 steps' last ahead";
   EXPECT_LT(std::abs(e.flows[Source::contacts]), 1e-12 * e.largest_energy);
   EXPECT_LT(e.relative_error(), 1e-12);

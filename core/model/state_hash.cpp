@@ -35,10 +35,10 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (!model.bodies[b].present) continue;
     bytes.add(static_cast<int>(b));
-    bytes.add(state.motions[b].displacement);
-    bytes.add(state.motions[b].rotation);
-    bytes.add(state.motions[b].velocity);
-    bytes.add(state.motions[b].angular_momentum);
+    bytes.add(state.bodies.motions[b].displacement);
+    bytes.add(state.bodies.motions[b].rotation);
+    bytes.add(state.bodies.motions[b].velocity);
+    bytes.add(state.bodies.motions[b].angular_momentum);
   }
   const auto remember = [&](const JointState<Dim>& history) {
     bytes.add(history.shear_force);
@@ -49,8 +49,8 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
     bytes.add(history.shear_stiffness);
     bytes.add(static_cast<int>(history.bonded));
   };
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    const Contact<Dim>& c = state.contacts[i];
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
+    const Contact<Dim>& c = state.contacts.list[i];
     if (c.bond_due) {
       bytes.add(c.part_a);
       bytes.add(c.part_b);
@@ -59,13 +59,13 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
     for (const int key : {c.part_a, c.part_b, c.cells})
       bytes.add(key);
     remember(c.history);
-    for (const SubContact<Dim>& s : subs_of(state, i))
+    for (const SubContact<Dim>& s : subs_of(state.contacts, i))
       remember(s.history);
   }
   for (const std::vector<double>& water : state.schedule.water)
     for (const double number : water)
       bytes.add(number);
-  for (const BoltSpring<Dim>& s : state.bolt_springs) {
+  for (const BoltSpring<Dim>& s : state.supports.bolt_springs) {
     bytes.add(s.bolt);
     bytes.add(s.number);
     bytes.add(s.body_a);
@@ -81,7 +81,7 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
     bytes.add(s.force);
     bytes.add(s.shear);
   }
-  for (const GroutedBolt<Dim>& g : state.grouted) {
+  for (const GroutedBolt<Dim>& g : state.supports.grouted) {
     bytes.add(g.bolt);
     bytes.add(g.first_spring);
     for (const int body : g.body)
@@ -97,7 +97,7 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
     bytes.add(s.plate_force);
     bytes.add(s.plate_closure);
   }
-  for (const LiningState& lined : state.linings) {
+  for (const LiningState& lined : state.supports.linings) {
     bytes.add(lined.lining);
     for (const LiningContact& c : lined.contacts) {
       bytes.add(c.rock);
@@ -106,7 +106,7 @@ std::string state_hash(const Model<Dim>& model, const State<Dim>& state) {
       bytes.add(static_cast<int>(c.bonded));
     }
   }
-  for (const ReliefLoad<Dim>& held : state.held) {
+  for (const ReliefLoad<Dim>& held : state.loads.relief) {
     bytes.add(held.body);
     bytes.add(held.load.force);
     bytes.add(held.load.moment);

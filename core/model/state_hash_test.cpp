@@ -24,10 +24,11 @@ struct Sliding {
     for (int i = 0; i < 1000 && !slides(); ++i)
       step(model, {}, state);
     EXPECT_TRUE(slides());
-    state.contacts.emplace_back();
+    state.contacts.list.emplace_back();
   }
   bool slides() const {
-    return !state.contacts.empty() && state.contacts[0].touching() && state.contacts[0].history.plastic_slip > 0;
+    return !state.contacts.list.empty() && state.contacts.list[0].touching() &&
+           state.contacts.list[0].history.plastic_slip > 0;
   }
   std::string hash() const { return state_hash(model, state); }
 };
@@ -47,20 +48,20 @@ template <int Dim>
 void expect_that_one_ulp_shows() {
   const Sliding<Dim> original;
   const std::function<void(Sliding<Dim>&)> changes[] = {
-      [](Sliding<Dim>& s) { one_ulp(s.state.motions[1].displacement[0]); },
-      [](Sliding<Dim>& s) { one_ulp(s.state.motions[1].rotation); },
-      [](Sliding<Dim>& s) { one_ulp(s.state.motions[1].velocity[Dim - 1]); },
-      [](Sliding<Dim>& s) { one_ulp(s.state.motions[1].angular_momentum[0]); },
-      [](Sliding<Dim>& s) { ++s.state.contacts[0].part_a; },
-      [](Sliding<Dim>& s) { ++s.state.contacts[0].part_b; },
-      [](Sliding<Dim>& s) { ++s.state.contacts[0].cells; },
-      [](Sliding<Dim>& s) { one_ulp(s.state.contacts[0].history.shear_force[0]); },
-      [](Sliding<Dim>& s) { one_ulp(s.state.contacts[0].history.normal[Dim - 1]); },
-      [](Sliding<Dim>& s) { one_ulp(s.state.contacts[0].history.plastic_slip); },
-      [](Sliding<Dim>& s) { s.state.contacts[0].status = ContactStatus::separated; },
-      [](Sliding<Dim>& s) { s.state.contacts[1].status = ContactStatus::touching; },
+      [](Sliding<Dim>& s) { one_ulp(s.state.bodies.motions[1].displacement[0]); },
+      [](Sliding<Dim>& s) { one_ulp(s.state.bodies.motions[1].rotation); },
+      [](Sliding<Dim>& s) { one_ulp(s.state.bodies.motions[1].velocity[Dim - 1]); },
+      [](Sliding<Dim>& s) { one_ulp(s.state.bodies.motions[1].angular_momentum[0]); },
+      [](Sliding<Dim>& s) { ++s.state.contacts.list[0].part_a; },
+      [](Sliding<Dim>& s) { ++s.state.contacts.list[0].part_b; },
+      [](Sliding<Dim>& s) { ++s.state.contacts.list[0].cells; },
+      [](Sliding<Dim>& s) { one_ulp(s.state.contacts.list[0].history.shear_force[0]); },
+      [](Sliding<Dim>& s) { one_ulp(s.state.contacts.list[0].history.normal[Dim - 1]); },
+      [](Sliding<Dim>& s) { one_ulp(s.state.contacts.list[0].history.plastic_slip); },
+      [](Sliding<Dim>& s) { s.state.contacts.list[0].status = ContactStatus::separated; },
+      [](Sliding<Dim>& s) { s.state.contacts.list[1].status = ContactStatus::touching; },
       [](Sliding<Dim>& s) { s.model.bodies[1].present = false; },
-      [](Sliding<Dim>& s) { std::swap(s.state.motions[0], s.state.motions[1]); }};
+      [](Sliding<Dim>& s) { std::swap(s.state.bodies.motions[0], s.state.bodies.motions[1]); }};
   for (std::size_t i = 0; i < std::size(changes); ++i) {
     Sliding<Dim> changed = original;
     changes[i](changed);
@@ -78,12 +79,12 @@ void expect_that_bookkeeping_does_not_show() {
   const Sliding<Dim> original;
   Sliding<Dim> changed = original;
   changed.model.bodies[1].name = "renamed";
-  changed.state.contacts.pop_back();
-  changed.state.contacts[0].joint = 7;
-  changed.state.contacts[0].properties = 3;
-  changed.state.contacts[0].proof = {};
-  changed.state.contacts[0].area_rated = 1;
-  changed.state.built.clear();
+  changed.state.contacts.list.pop_back();
+  changed.state.contacts.list[0].joint = 7;
+  changed.state.contacts.list[0].properties = 3;
+  changed.state.contacts.list[0].proof = {};
+  changed.state.contacts.list[0].area_rated = 1;
+  changed.state.bodies.listed_at.clear();
   changed.state.counters = {};
   EXPECT_EQ(changed.hash(), original.hash());
   EXPECT_EQ(original.hash().size(), std::string("fnv1a64:").size() + 16);

@@ -27,7 +27,7 @@ Vector<Dim> load_of(std::string_view word, int body, const State<Dim>& state) {
   Vector<Dim> sum = Vector<Dim>::Zero();
   bool first = true;  // a sum of one is that one, to the sign of its zeros
   for (const SourceRow& row : std::span(source_table).first(load_count)) {
-    const std::vector<Load<Dim>>& loads = state.loads_of[row.source];
+    const std::vector<Load<Dim>>& loads = state.loads.by_source[row.source];
     if (row.monitored != word || loads.empty()) continue;
     sum = first ? loads[body].force : Vector<Dim>(sum + loads[body].force);
     first = false;
@@ -39,7 +39,7 @@ Vector<Dim> load_of(std::string_view word, int body, const State<Dim>& state) {
 template <int Dim>
 void append_joint(std::vector<double>& values, int joint, const Model<Dim>& model, const State<Dim>& state) {
   double normal = 0, shear = 0, area = 0, count = 0, mobilised = 0, tilt = 0, most = 0;
-  for (const Contact<Dim>& c : state.contacts) {
+  for (const Contact<Dim>& c : state.contacts.list) {
     if (!c.touching() || c.joint != joint) continue;
     const double n = c.force.dot(c.geometry.normal), s = c.history.shear_force.norm();
     normal += n;
@@ -59,8 +59,8 @@ void append_joint(std::vector<double>& values, int joint, const Model<Dim>& mode
 template <int Dim>
 long long whole_bonds_of(int joint, const State<Dim>& state) {
   long long whole = 0;
-  for (std::size_t i = 0; i < state.contacts.size(); ++i)
-    if (state.contacts[i].joint == joint) whole += whole_bonds(state, i);
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i)
+    if (state.contacts.list[i].joint == joint) whole += whole_bonds(state.contacts, i);
   return whole;
 }
 
@@ -80,7 +80,7 @@ Rotation<3> after(const Rotation<3>& second, const Rotation<3>& first) {
 // where the body stood when its motion began to count; a body that is put in later counts from its own start
 template <int Dim>
 Placement<Dim> counted_from(int since, int body, const State<Dim>& state, const std::vector<StageEnd<Dim>>& ends) {
-  const Motion<Dim>& now = state.motions[body];
+  const Motion<Dim>& now = state.bodies.motions[body];
   const Placement<Dim> start{Vector<Dim>::Zero(), {}};
   if (since < 0) return start;
   const auto end = std::ranges::find(ends, since, &StageEnd<Dim>::stage);
@@ -96,7 +96,7 @@ template <int Dim>
 Components value_of(const Monitor& monitor, int body, const Model<Dim>& model, const State<Dim>& state,
                     const std::vector<StageEnd<Dim>>& ends) {
   const Monitored& followed = monitor.followed;
-  const Motion<Dim>& motion = state.motions[body];
+  const Motion<Dim>& motion = state.bodies.motions[body];
   switch (followed.quantity) {
     case Quantity::displacement:
       if (monitor.since < 0) return motion.displacement;
@@ -144,7 +144,7 @@ double convergence(const WallPoint& wall, int since, const Model<Dim>& model, co
   if (b < 0) return std::numeric_limits<double>::quiet_NaN();
   const Vector<Dim> place = vector(wall.point) - model.bodies[b].reference;
   const Placement<Dim> then = counted_from(since, b, state, ends);
-  const Motion<Dim>& now = state.motions[b];
+  const Motion<Dim>& now = state.bodies.motions[b];
   const Vector<Dim> moved =
       (now.displacement - then.displacement) + (matrix(now.rotation) - matrix(then.rotation)) * place;
   return moved.dot(vector(wall.inwards));
@@ -179,7 +179,7 @@ template <int Dim>
 void append_bolts(std::vector<double>& values, int properties, const Model<Dim>& model, const State<Dim>& state) {
   const BoltProperties& p = model.bolt_properties[properties];
   double largest = 0, sum = 0, count = 0, yielded = 0, broken = 0;
-  for (const BoltSpring<Dim>& s : state.bolt_springs) {
+  for (const BoltSpring<Dim>& s : state.supports.bolt_springs) {
     if (model.bolts[s.bolt].properties != properties) continue;
     if (std::abs(s.force) > std::abs(largest)) largest = s.force;
     sum += s.force;
@@ -197,9 +197,9 @@ void append_lining(std::vector<double>& values, const Monitor& monitor, const Mo
   SectionForces found;
   double use = 0;
   if constexpr (Dim == 2)
-    if (std::ranges::count(state.linings, monitor.subject, &LiningState::lining) > 0) {
+    if (std::ranges::count(state.supports.linings, monitor.subject, &LiningState::lining) > 0) {
       const Lining& lining = model.linings[monitor.subject];
-      const std::vector<SectionForces> at_nodes = forces_at_nodes(lining, forces_of_beams(lining, state));
+      const std::vector<SectionForces> at_nodes = forces_at_nodes(lining, forces_of_beams(lining, state.bodies));
       if (monitor.node >= 0) found = at_nodes[monitor.node];
       for (const SectionForces& at : at_nodes) {
         use = std::max(use, use_of(lining.properties, at).value_or(0));
@@ -217,7 +217,7 @@ void append_lining(std::vector<double>& values, const Monitor& monitor, const Mo
 template <int Dim>
 StageEnd<Dim> stage_end(int stage, const State<Dim>& state) {
   StageEnd<Dim> end{stage, {}};
-  for (const Motion<Dim>& m : state.motions)
+  for (const Motion<Dim>& m : state.bodies.motions)
     end.bodies.push_back({m.displacement, m.rotation});
   return end;
 }

@@ -63,8 +63,8 @@ int body_at(const Model<2>& model, double x, double y) {
 void move(const Model<2>& model, State<2>& state, int body, double angle, const Vector<2>& about, const Vector<2>& by) {
   const Vector<2> arm = model.origin + model.bodies[body].reference - about;
   const double c = std::cos(angle), s = std::sin(angle);
-  state.motions[body].rotation.angle = angle;
-  state.motions[body].displacement = Vector<2>(c * arm[0] - s * arm[1], s * arm[0] + c * arm[1]) - arm + by;
+  state.bodies.motions[body].rotation.angle = angle;
+  state.bodies.motions[body].displacement = Vector<2>(c * arm[0] - s * arm[1], s * arm[0] + c * arm[1]) - arm + by;
 }
 
 constexpr double rounding = 1e-14;  // m: coordinates are some metres, and a few are added up
@@ -132,7 +132,7 @@ angles_deg = [0, 90]
   excavate({"tunnel"}, scene.settings, false, model, state);
   const int body = body_around<3>(model, Vector<3>(0, 2, 3) - model.origin);
   ASSERT_GE(body, 0);
-  state.motions[body].displacement = {-0.02, 0.5, -0.03};
+  state.bodies.motions[body].displacement = {-0.02, 0.5, -0.03};
   const std::vector<double> values = monitor_values<3>(scene.monitors, model, state);
   EXPECT_NEAR(values[0], 0.02, rounding);
   EXPECT_NEAR(values[1], 0.03, rounding);
@@ -211,16 +211,16 @@ TEST(Since, InSpaceTurnsAreThoseSinceThen) {
   Monitor monitor{.name = "b", .followed = {"rotation", Quantity::rotation}};
   monitor.since = 0;
   State<3> state;
-  state.motions.resize(1);
+  state.bodies.motions.resize(1);
   Model<3> model;
   model.bodies.resize(1);
   const auto about = [](double angle, const Vector<3>& axis) {
     return Rotation<3>{Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis))};
   };
   const Rotation<3> then = about(1, Vector<3>::UnitX());
-  state.motions[0].rotation = then;
+  state.bodies.motions[0].rotation = then;
   const std::vector<StageEnd<3>> ends{stage_end<3>(0, state)};
-  state.motions[0].rotation.quaternion = about(0.2, Vector<3>::UnitZ()).quaternion * then.quaternion;
+  state.bodies.motions[0].rotation.quaternion = about(0.2, Vector<3>::UnitZ()).quaternion * then.quaternion;
   const std::vector<double> values = monitor_values<3>({monitor}, model, state, ends);
   EXPECT_NEAR(values[0], 0, 1e-13);
   EXPECT_NEAR(values[1], 0, 1e-13);
@@ -244,7 +244,7 @@ TEST(Since, ASimulationTakesItsCountThroughAnExcavation) {
   EXPECT_NEAR((*first)[2], 0, rounding);
   EXPECT_NEAR((*first)[3], 0, rounding);
   const int block = body_at(scene.model, 8, 5);
-  EXPECT_GT(std::abs(whole.state.motions[block].rotation.angle), 1e-6) << "else there was nothing to carry";
+  EXPECT_GT(std::abs(whole.state.bodies.motions[block].rotation.angle), 1e-6) << "else there was nothing to carry";
 }
 
 // a monitor of the block beside the opening, which counts from the start of a stage

@@ -74,17 +74,17 @@ Spin<3> quarter_turn(const Model<3>&) {
 template <int Dim>
 State<Dim> moved_state(const Model<Dim>& model) {
   State<Dim> state = initial_state(model);
-  state.motions[1].displacement = 0.25 * Vector<Dim>::Unit(1);
-  state.motions[1].rotation = turned(state.motions[1].rotation, quarter_turn(model));
-  state.motions[1].velocity = 2 * Vector<Dim>::Unit(0);
+  state.bodies.motions[1].displacement = 0.25 * Vector<Dim>::Unit(1);
+  state.bodies.motions[1].rotation = turned(state.bodies.motions[1].rotation, quarter_turn(model));
+  state.bodies.motions[1].velocity = 2 * Vector<Dim>::Unit(0);
   Contact<Dim> contact;
   contact.part_a = 0, contact.part_b = 1;
   contact.geometry.point = 0.5 * Vector<Dim>::Unit(0);
   contact.geometry.normal = Vector<Dim>::Unit(0);
   contact.geometry.overlap = 1e-4;
   contact.force = 3 * Vector<Dim>::Unit(0);
-  state.contacts = {contact, contact};
-  state.contacts[0].status = ContactStatus::touching;  // the second is only a candidate
+  state.contacts.list = {contact, contact};
+  state.contacts.list[0].status = ContactStatus::touching;  // the second is only a candidate
   return state;
 }
 
@@ -326,7 +326,7 @@ template <int Dim>
 void expect_points_to_tell_their_motion(const Spin<Dim>& spin) {
   const Model<Dim> model = row_of_blocks<Dim>(2);
   State<Dim> state = moved_state(model);
-  Motion<Dim>& motion = state.motions[1];
+  Motion<Dim>& motion = state.bodies.motions[1];
   motion.angular_momentum = angular_momentum<Dim>(model.bodies[1], motion.rotation, spin);
   const auto piece_of = [&](const State<Dim>& of) {
     return checked_piece(vtp(block_faces(model, of, 0)), "Polys", "NumberOfPolys");
@@ -376,8 +376,8 @@ TEST(Paraview, LinesJoinBodiesThatTouch) {
   State<3> state = moved_state(model);
   const auto piece_of = [&] { return checked_piece(vtp(force_lines(model, state, 0)), "Lines", "NumberOfLines"); };
   EXPECT_EQ(piece_of().child("CellData").named("normal_N").numbers(), std::vector<double>{3});
-  state.contacts[1].status = ContactStatus::touching;
-  state.contacts[1].force = {1, 4, 0};
+  state.contacts.list[1].status = ContactStatus::touching;
+  state.contacts.list[1].force = {1, 4, 0};
   const Element piece = piece_of(), cells = piece.child("CellData");
   EXPECT_EQ(piece.child("Points").named("Points").numbers(),
             (std::vector<double>{1000, 1000, 1000, 1001, 1000.25, 1000}));
@@ -435,9 +435,9 @@ TEST(Paraview, ExcavatedBodiesAreGone) {
 TEST(Paraview, AFailedStateStillOpens) {
   const Model<2> model = row_of_blocks<2>(2);
   State<2> state = moved_state(model);
-  state.motions[1].displacement[0] = std::nan("");
+  state.bodies.motions[1].displacement[0] = std::nan("");
   checked_piece(vtp(block_faces(model, state, 0)), "Polys", "NumberOfPolys");
-  state.contacts.clear();
+  state.contacts.list.clear();
   checked_piece(vtp(contact_points(model, state, 0)), "Verts", "NumberOfVerts");
 }
 

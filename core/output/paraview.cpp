@@ -49,7 +49,7 @@ template <int Dim>
 void append_part(PolyData& data, BlockArrays& arrays, const Model<Dim>& model, const State<Dim>& state, PartId id) {
   const Body<Dim>& body = model.bodies[id.body];
   const Polytope<Dim>& part = body.parts[id.part];
-  const Motion<Dim>& motion = state.motions[id.body];
+  const Motion<Dim>& motion = state.bodies.motions[id.body];
 
   // where the vertices are now; parts share no points, they may separate
   const int first_point = static_cast<int>(data.points.size());
@@ -171,7 +171,7 @@ PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double ti
 
   // what acts on each block from outside, by source; N
   for (const SourceRow& row : std::span(source_table).first(load_count)) {
-    const std::vector<Load<Dim>>& loads = state.loads_of[row.source];
+    const std::vector<Load<Dim>>& loads = state.loads.by_source[row.source];
     if ((row.external == 0 && row.source != Source::water) || loads.empty()) continue;
     DataArray array{fmt::format("{}_N", row.name), 3, false, {}};
     for (const double body : arrays.body.values)
@@ -208,13 +208,13 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
       properties{"properties", 1, true, {}}, normal{"normal", 3, false, {}}, force{"force", 3, false, {}},
       overlap{"overlap", 1, false, {}}, area{"area", 1, false, {}}, slip{"plastic_slip", 1, false, {}},
       bond{"bonded", 1, true, {}}, mobilised{"mobilised_friction_deg", 1, false, {}};
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    const Contact<Dim>& contact = state.contacts[i];
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
+    const Contact<Dim>& contact = state.contacts.list[i];
     if (!contact.touching()) continue;
     const int a = model.parts[contact.part_a].body, b = model.parts[contact.part_b].body;
 
     // the contact's geometry is relative to the centroid of its first body
-    const Vector<Dim> centroid = model.bodies[a].reference + state.motions[a].displacement;
+    const Vector<Dim> centroid = model.bodies[a].reference + state.bodies.motions[a].displacement;
     const auto add = [&](const Vector<Dim>& point, const Vector<Dim>& carried, double closed, double wide,
                          const JointState<Dim>& history) {
       data.cells.push_back({static_cast<int>(data.points.size())});
@@ -233,7 +233,7 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
     };
     if (contact.cells == 0)
       add(contact.geometry.point, contact.force, contact.geometry.overlap, contact.geometry.area, contact.history);
-    for (const SubContact<Dim>& s : subs_of(state, i))
+    for (const SubContact<Dim>& s : subs_of(state.contacts, i))
       if (s.area > 0) add(s.point, s.force, s.overlap, s.area, s.history);
   }
   data.point_data = {body_a, body_b, joint, properties, normal, force, overlap, area, slip, bond, mobilised};
@@ -249,7 +249,7 @@ PolyData force_lines(const Model<Dim>& model, const State<Dim>& state, double ti
     int contacts = 0;
   };
   std::map<std::pair<int, int>, Carried> pairs;
-  for (const Contact<Dim>& contact : state.contacts) {
+  for (const Contact<Dim>& contact : state.contacts.list) {
     if (!contact.touching()) continue;
     Carried& carried = pairs[{model.parts[contact.part_a].body, model.parts[contact.part_b].body}];
     const double normal = contact.force.dot(contact.geometry.normal);
@@ -271,7 +271,7 @@ PolyData force_lines(const Model<Dim>& model, const State<Dim>& state, double ti
     // points of its own for each line: a tube's radius is that of its points
     for (const int body : {bodies.first, bodies.second}) {
       data.points.push_back(
-          in_space(Vector<Dim>(model.origin + (model.bodies[body].reference + state.motions[body].displacement))));
+          in_space(Vector<Dim>(model.origin + (model.bodies[body].reference + state.bodies.motions[body].displacement))));
       magnitude.values.push_back(carried.force.norm());
     }
     body_a.values.push_back(bodies.first);
@@ -290,7 +290,7 @@ namespace {
 
 template <int Dim>
 Vector<Dim> place_of(const Model<Dim>& model, const State<Dim>& state, int body, const Vector<Dim>& place) {
-  const Motion<Dim>& m = state.motions[body];
+  const Motion<Dim>& m = state.bodies.motions[body];
   return model.origin + model.bodies[body].reference + m.displacement + matrix(m.rotation) * place;
 }
 
@@ -300,9 +300,9 @@ std::vector<Vector<Dim>> drawn_nodes(const Model<Dim>& model, const State<Dim>& 
   std::vector<Vector<Dim>> nodes;
   for (std::size_t i = 0; i < g.body.size(); ++i)
     nodes.push_back(place_of(model, state, g.body[i], g.place[i]));
-  const BoltSpring<Dim>&first = state.bolt_springs[g.first_spring],
-        &last = state.bolt_springs[g.first_spring + g.joints() - 1];
-  const Vector<Dim> along = matrix(state.motions[first.body_a].rotation) * first.axis;
+  const BoltSpring<Dim>&first = state.supports.bolt_springs[g.first_spring],
+        &last = state.supports.bolt_springs[g.first_spring + g.joints() - 1];
+  const Vector<Dim> along = matrix(state.bodies.motions[first.body_a].rotation) * first.axis;
   const Vector<Dim> collar = place_of(model, state, first.body_a, first.begin),
                     toe = place_of(model, state, last.body_b, last.end);
   if (along.dot(nodes.front() - collar) > 0) nodes.front() = collar;
@@ -321,7 +321,7 @@ PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double tim
       force{"force_N", 1, false, {}}, shear{"shear_N", 1, false, {}}, plastic{"plastic_m", 1, false, {}},
       use{"use", 1, false, {}}, broken{"broken", 1, true, {}};
   const auto anchor = [&](int body, const Vector<Dim>& place) { return place_of(model, state, body, place); };
-  const std::vector<BoltSpring<Dim>>& springs = state.bolt_springs;
+  const std::vector<BoltSpring<Dim>>& springs = state.supports.bolt_springs;
   const auto add = [&](const Vector<Dim>& begin, const Vector<Dim>& end, int of, int at_joint, double f,
                        double plastic_f) {
     const int first = static_cast<int>(data.points.size());
@@ -344,7 +344,7 @@ PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double tim
     shear.values.push_back(p.spacing * s.shear.norm());
     broken.values.push_back(s.broken);
   }
-  for (const GroutedBolt<Dim>& g : state.grouted) {
+  for (const GroutedBolt<Dim>& g : state.supports.grouted) {
     const std::vector<Vector<Dim>> nodes = drawn_nodes(model, state, g);
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
       const int next = std::min(g.stretch[i], g.joints() - 1);
@@ -369,13 +369,13 @@ PolyData lining_lines(const Model<2>& model, const State<2>& state, double time)
   std::vector<std::string> names;
   for (const Lining& lining : model.linings)
     names.push_back(lining.properties.name);
-  for (const LiningState& lined : state.linings) {
+  for (const LiningState& lined : state.supports.linings) {
     const Lining& lining = model.linings[lined.lining];
     const int first = static_cast<int>(data.points.size());
-    const std::vector<SectionForces> forces = forces_at_nodes(lining, forces_of_beams(lining, state));
+    const std::vector<SectionForces> forces = forces_at_nodes(lining, forces_of_beams(lining, state.bodies));
     for (std::size_t i = 0; i < lining.nodes.size(); ++i) {
       const LiningNode& at = lining.nodes[i];
-      const Vector<2>& moved = state.motions[lining.first_body + i].displacement;
+      const Vector<2>& moved = state.bodies.motions[lining.first_body + i].displacement;
       data.points.push_back(in_space(Vector<2>(model.origin + at.place + moved)));
       append<2>(displacement, moved);
       linings.values.push_back(lined.lining);

@@ -221,13 +221,13 @@ double coefficient(const Model<Dim>& model, const State<Dim>& state, const Conta
 
 template <int Dim>
 Carried<Dim> carried_by(const Model<Dim>& model, const State<Dim>& state, std::size_t place) {
-  const Contact<Dim>& c = state.contacts[place];
+  const Contact<Dim>& c = state.contacts.list[place];
   Carried<Dim> all{c.geometry.point, c.force, c.force.dot(c.geometry.normal), c.geometry.overlap, 0};
 
   // where the resultant of sub-contacts acts
   Vector<Dim> moment = Vector<Dim>::Zero();
   double pressed = 0;
-  for (const SubContact<Dim>& s : subs_of(state, place)) {
+  for (const SubContact<Dim>& s : subs_of(state.contacts, place)) {
     const double normal = s.area > 0 ? std::max(0.0, s.force.dot(c.geometry.normal)) : 0;
     moment += normal * s.point;
     pressed += normal;
@@ -251,9 +251,9 @@ template <int Dim>
 void put_contacts(Record& record, ViewSeries& series, const Model<Dim>& model, const State<Dim>& state) {
   std::vector<std::pair<int, std::size_t>> touching;  // number and place
   std::vector<ViewPair> fresh;
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    if (!state.contacts[i].touching()) continue;
-    const ViewPair pair = pair_of(model, state.contacts[i]);
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
+    if (!state.contacts.list[i].touching()) continue;
+    const ViewPair pair = pair_of(model, state.contacts.list[i]);
     const auto [known, is_new] = series.pairs.try_emplace(pair, static_cast<int>(series.pairs.size()));
     if (is_new) fresh.push_back(pair);
     touching.emplace_back(known->second, i);
@@ -335,7 +335,7 @@ void put_bodies(Record& record, const Model<Dim>& model, const State<Dim>& state
   record.put(static_cast<std::uint32_t>(model.bodies.size()));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
-    const Motion<Dim>& motion = state.motions[b];
+    const Motion<Dim>& motion = state.bodies.motions[b];
     flags.push_back(static_cast<char>((body.present ? 1 : 0) | (body.immobile() ? 2 : 0)));
     const Spin<Dim> turn = rotation_vector(motion.rotation);
     for (int k = 0; k < Dim; ++k)

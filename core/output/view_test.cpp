@@ -53,7 +53,7 @@ Prepared<3> cubes() {
   contact.status = ContactStatus::touching;
   contact.geometry.normal = Vector<3>::Unit(0);
   contact.force = 3 * Vector<3>::Unit(0);
-  scene.state.contacts = {contact};
+  scene.state.contacts.list = {contact};
   return scene;
 }
 
@@ -128,8 +128,8 @@ TEST_F(ViewTest, AFailedRunsNumbersAreWrittenAsZero) {
   ViewSeries series = begin_view(file, scene);
   add_view_frame(series, scene.model, scene.state, {});
   const std::string at_rest = bytes();
-  scene.state.motions[1].displacement[0] = std::numeric_limits<double>::quiet_NaN();
-  scene.state.motions[1].displacement[1] = 1e300;
+  scene.state.bodies.motions[1].displacement[0] = std::numeric_limits<double>::quiet_NaN();
+  scene.state.bodies.motions[1].displacement[1] = 1e300;
   ViewSeries second = begin_view(file, cubes());
   add_view_frame(second, scene.model, scene.state, {});
   EXPECT_EQ(bytes(), at_rest);

@@ -46,7 +46,7 @@ void find_bolts(const Model<Dim>& model, int stages, const std::vector<BoltRow>&
   std::vector<const BoltRow*> last;
   for (const BoltRow& row : rows)
     if (row.stage == stages && row.joint > 0) last.push_back(&row);  // not of a grouted bolt's plate
-  if (last.size() != state.bolt_springs.size()) throw BeginError("lists other bolts than it holds");
+  if (last.size() != state.supports.bolt_springs.size()) throw BeginError("lists other bolts than it holds");
   std::map<int, int> now;
   for (std::size_t i = 0; i < last.size(); ++i) {
     const auto is_it = [&](const Bolt<Dim>& b) {
@@ -54,14 +54,16 @@ void find_bolts(const Model<Dim>& model, int stages, const std::vector<BoltRow>&
     };
     const auto found = std::ranges::find_if(model.bolts, is_it);
     if (found == model.bolts.end()) throw BeginError("holds bolts that this scene does not have");
-    now[state.bolt_springs[i].bolt] = static_cast<int>(found - model.bolts.begin());
+    now[state.supports.bolt_springs[i].bolt] = static_cast<int>(found - model.bolts.begin());
   }
-  for (std::vector<BoltSpring<Dim>>* springs : {&state.bolt_springs, &state.newton.springs})
-    for (BoltSpring<Dim>& s : *springs)
-      if (const auto found = now.find(s.bolt); found != now.end()) s.bolt = found->second;
-  for (std::vector<GroutedBolt<Dim>>* bars : {&state.grouted, &state.newton.grouted})
-    for (GroutedBolt<Dim>& g : *bars)
-      if (const auto found = now.find(g.bolt); found != now.end()) g.bolt = found->second;
+  const auto renumber = [&](auto& installed) {
+    for (auto& one : installed)
+      if (const auto found = now.find(one.bolt); found != now.end()) one.bolt = found->second;
+  };
+  for (SupportsState<Dim>* supports : {&state.supports, &state.increment.supports}) {
+    renumber(supports->bolt_springs);
+    renumber(supports->grouted);
+  }
 }
 
 // likewise linings, by name
@@ -70,12 +72,12 @@ void find_linings(const Model<Dim>& model, int stages, const std::vector<LiningR
   std::vector<std::string> names;
   for (const LiningRow& row : rows)
     if (row.stage == stages && !holds(names, row.lining)) names.push_back(row.lining);
-  if (names.size() != state.linings.size()) throw BeginError("lists other linings than it holds");
+  if (names.size() != state.supports.linings.size()) throw BeginError("lists other linings than it holds");
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto found =
         std::ranges::find_if(model.linings, [&](const Lining& l) { return l.properties.name == names[i]; });
     if (found == model.linings.end()) throw BeginError("holds a lining that this scene does not have");
-    state.linings[i].lining = static_cast<int>(found - model.linings.begin());
+    state.supports.linings[i].lining = static_cast<int>(found - model.linings.begin());
   }
 }
 
@@ -160,8 +162,8 @@ std::vector<StageEnd<Dim>> ends_wanted(const Prepared<Dim>& scene, const Progres
 template <int Dim>
 bool fits(const Model<Dim>& model, const State<Dim>& state) {
   const int parts = static_cast<int>(model.parts.size());
-  return state.motions.size() == model.bodies.size() && state.schedule.water.size() == model.waters.size() &&
-         std::ranges::all_of(state.contacts,
+  return state.bodies.motions.size() == model.bodies.size() && state.schedule.water.size() == model.waters.size() &&
+         std::ranges::all_of(state.contacts.list,
                              [&](const Contact<Dim>& c) { return c.part_a < parts && c.part_b < parts; });
 }
 
@@ -180,7 +182,7 @@ Progress<Dim> begin_at_end(const Prepared<Dim>& scene, Progress<Dim> other, cons
   other.trial_frames.clear();
   const double interval = scene.output.frame_interval;
   other.next_frame =
-      scene.output.any_frames() && interval > 0 ? (std::floor(other.state.time / interval) + 1) * interval : 0;
+      scene.output.any_frames() && interval > 0 ? (std::floor(other.state.schedule.time / interval) + 1) * interval : 0;
   return other;
 }
 

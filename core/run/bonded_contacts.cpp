@@ -10,14 +10,14 @@ namespace {
 // of the bonds of a contact that are whole
 template <int Dim>
 double bonded_area(const Model<Dim>& model, const State<Dim>& state, std::size_t place) {
-  const Contact<Dim>& c = state.contacts[place];
+  const Contact<Dim>& c = state.contacts.list[place];
   if (c.cells == 0) {
     if (!c.history.bonded) return 0;
     if (model.properties[c.properties].constant_stiffness) return 1;
     return c.history.area > 0 ? c.history.area : c.geometry.area;  // it has no history before its first force
   }
   double area = 0;
-  for (const SubContact<Dim>& s : subs_of(state, place))
+  for (const SubContact<Dim>& s : subs_of(state.contacts, place))
     if (s.area > 0 && s.history.bonded) area += s.area;
   return area;
 }
@@ -37,11 +37,11 @@ BondedContact& remembered(int part_a, int part_b, std::vector<BondedContact>& al
 
 template <int Dim>
 void remember_bonds(const Model<Dim>& model, const State<Dim>& state, BondedContacts& bonded) {
-  bonded.made = state.bonds.made;
+  bonded.made = state.ledger.bonds.made;
   if (bonded.made == 0) return;
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    const Contact<Dim>& c = state.contacts[i];
-    const long long whole = whole_bonds(state, i);
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
+    const Contact<Dim>& c = state.contacts.list[i];
+    const long long whole = whole_bonds(state.contacts, i);
     if (whole == 0) continue;
     BondedContact& contact = remembered(c.part_a, c.part_b, bonded.contacts);
     if (whole < contact.bonds) continue;
@@ -71,10 +71,10 @@ std::vector<JointBonds> bonds_by_joint(const Model<Dim>& model, const State<Dim>
     bonds.made += contact.bonds;
     bonds.made_area += contact.area;
     const auto pair = [](const Contact<Dim>& c) { return std::pair(c.part_a, c.part_b); };
-    const auto found = std::ranges::lower_bound(state.contacts, std::pair(contact.part_a, contact.part_b), {}, pair);
-    if (found == state.contacts.end() || pair(*found) != std::pair(contact.part_a, contact.part_b)) continue;
-    const auto place = static_cast<std::size_t>(found - state.contacts.begin());
-    bonds.whole += whole_bonds(state, place);
+    const auto found = std::ranges::lower_bound(state.contacts.list, std::pair(contact.part_a, contact.part_b), {}, pair);
+    if (found == state.contacts.list.end() || pair(*found) != std::pair(contact.part_a, contact.part_b)) continue;
+    const auto place = static_cast<std::size_t>(found - state.contacts.list.begin());
+    bonds.whole += whole_bonds(state.contacts, place);
     bonds.whole_area += bonded_area(model, state, place);
   }
   std::vector<JointBonds> all;

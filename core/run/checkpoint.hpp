@@ -16,7 +16,7 @@
 namespace voussoir {
 
 // grows with every change of what Progress holds
-inline constexpr int checkpoint_format = 15;
+inline constexpr int checkpoint_format = 16;
 
 // says what is wrong with the bytes, e.g. "is damaged: …"; the caller adds the file's name
 struct CheckpointError : std::runtime_error {

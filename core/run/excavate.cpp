@@ -14,9 +14,9 @@ namespace {
 // the motions of bodies that lost parts, at their new centroids
 template <int Dim>
 void carry_motions(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state) {
-  const std::vector<Motion<Dim>> then = state.motions;
-  state.motions.resize(model.bodies.size());
-  state.loads.resize(model.bodies.size());
+  const std::vector<Motion<Dim>> then = state.bodies.motions;
+  state.bodies.motions.resize(model.bodies.size());
+  state.loads.total.resize(model.bodies.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const int origin = moved.origin[b];
     const Body<Dim>&was = before.bodies[origin], &is = model.bodies[b];
@@ -27,7 +27,7 @@ void carry_motions(const Model<Dim>& before, const Model<Dim>& model, const Exca
     m.velocity += cross(spin, arm);
     m.displacement += arm - moved.shift[b];
     m.angular_momentum = angular_momentum(is, m.rotation, spin);
-    state.motions[b] = m;
+    state.bodies.motions[b] = m;
   }
 }
 
@@ -58,23 +58,23 @@ void turn_round(const Model<Dim>& model, Contact<Dim>& c, std::span<SubContact<D
 template <int Dim>
 void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved,
                     const std::vector<Motion<Dim>>& then, State<Dim>& state) {
-  const std::size_t stride = state.contacts.empty() ? 0 : state.subs.size() / state.contacts.size();
+  const std::size_t stride = state.contacts.list.empty() ? 0 : state.contacts.subs.size() / state.contacts.list.size();
   std::vector<std::tuple<int, int, std::size_t>> order;
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    const auto [a, b] = std::minmax(moved.part[state.contacts[i].part_a], moved.part[state.contacts[i].part_b]);
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
+    const auto [a, b] = std::minmax(moved.part[state.contacts.list[i].part_a], moved.part[state.contacts.list[i].part_b]);
     if (a >= 0)
       order.emplace_back(a, b, i);
     else
-      state.bonds.removed += whole_bonds(state, i);
+      state.ledger.bonds.removed += whole_bonds(state.contacts, i);
   }
   std::ranges::sort(order);
 
   std::vector<Contact<Dim>> contacts;
   std::vector<SubContact<Dim>> subs(order.size() * stride);
   for (const auto& [a, b, from] : order) {
-    Contact<Dim> c = state.contacts[from];
+    Contact<Dim> c = state.contacts.list[from];
     const std::span<SubContact<Dim>> cells = std::span(subs).subspan(contacts.size() * stride, stride);
-    std::ranges::copy(std::span(state.subs).subspan(from * stride, stride), cells.begin());
+    std::ranges::copy(std::span(state.contacts.subs).subspan(from * stride, stride), cells.begin());
     const int was = before.parts[c.part_a].body, is = model.parts[a].body;
     const bool turned = moved.part[c.part_a] != a;
     c.part_a = moved.part[c.part_a];
@@ -82,7 +82,7 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
     if (turned) turn_round(model, c, cells);
     // points are relative to the first body's centroid
     const Vector<Dim> shift = (model.bodies[is].reference - before.bodies[was].reference) +
-                              (state.motions[is].displacement - then[was].displacement);
+                              (state.bodies.motions[is].displacement - then[was].displacement);
     c.geometry.point -= shift;
     c.history.point -= shift;
     for (SubContact<Dim>& s : cells) {
@@ -93,14 +93,14 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
     c.area_rated = -1;
     contacts.push_back(c);
   }
-  state.contacts = std::move(contacts);
-  state.subs = std::move(subs);
+  state.contacts.list = std::move(contacts);
+  state.contacts.subs = std::move(subs);
 }
 
 // what is left of bolts: what is fixed in parts that are left
 template <int Dim>
 void carry_springs(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state) {
-  if (state.bolt_springs.empty()) return;
+  if (state.supports.bolt_springs.empty()) return;
   const auto is_left = [&](int& body, Vector<Dim>& place) { return follow(before, model, moved, body, place); };
   cut_bolts<Dim>(is_left, state);
 }
@@ -108,7 +108,7 @@ void carry_springs(const Model<Dim>& before, const Model<Dim>& model, const Exca
 template <int Dim>
 std::vector<Load<Dim>> loads_now(const Model<Dim>& model, const Settings& settings, State<Dim> state) {
   find_forces(model, settings, state);
-  return state.loads;
+  return state.loads.total;
 }
 
 }  // namespace
@@ -120,7 +120,7 @@ Excavated<Dim> excavate(const std::vector<std::string>& names, const Settings& s
   std::vector<Load<Dim>> then;
   if (hold) then = loads_now(model, settings, state);
   const Excavated<Dim> moved = excavate(model, names);
-  const std::vector<Motion<Dim>> motions = state.motions;
+  const std::vector<Motion<Dim>> motions = state.bodies.motions;
   carry_motions(before, model, moved, state);
   carry_contacts(before, model, moved, motions, state);
   carry_springs(before, model, moved, state);
@@ -139,7 +139,7 @@ Excavated<Dim> excavate(const std::vector<std::string>& names, const Settings& s
     ReliefLoad<Dim> held{.body = static_cast<int>(b), .load = {}};
     held.load.force = share * whole.force - now[b].force;
     held.load.moment = share * (whole.moment - moment(arm, whole.force)) - now[b].moment;
-    if (!held.load.force.isZero(0) || !held.load.moment.isZero(0)) state.held.push_back(held);
+    if (!held.load.force.isZero(0) || !held.load.moment.isZero(0)) state.loads.relief.push_back(held);
   }
   return moved;
 }

@@ -71,7 +71,7 @@ Progress<2> simulated(const Prepared<2>& scene) {
 }
 
 double sinks(const Progress<2>& progress, int body) {
-  return -progress.state.motions[body].displacement[1];
+  return -progress.state.bodies.motions[body].displacement[1];
 }
 
 // m: under a column of this height
@@ -152,7 +152,7 @@ TEST(TakeOut, AShareOfTheForcesGoesOnActing) {
       const double height = 0.5 + 0.5 * share;
       EXPECT_NEAR(sinks(held, 1), overlap_under(1 + height), 1e-6 * overlap_under(2)) << statics << share;
       EXPECT_NEAR(sinks(held, 2), overlap_under(1 + 2 * height), 1e-6 * overlap_under(2)) << statics << share;
-      EXPECT_EQ(held.state.held.size(), 1u) << "the lower block loses nothing";
+      EXPECT_EQ(held.state.loads.relief.size(), 1u) << "the lower block loses nothing";
       const Progress<2> gone = simulated(scene_of(wall + top + settle + first + later, how));
       EXPECT_NEAR(sinks(gone, 1), overlap_under(1.5), 1e-6 * overlap_under(2)) << statics << share;
       EXPECT_LT(gone.results.energy.relative_error(), 1e-3);
@@ -176,7 +176,7 @@ force = [{ name = "push", above = ["bed"], force = [3e4, 0] }]
     Model<2> model = apply(apply(scene.model, scene.stages[0].change), scene.stages[1].change);
     find_forces(model, scene.settings, state);
     std::vector<Vector<2>> before;  // on the upper block by its contacts, but for that with the middle
-    for (const Contact<2>& c : state.contacts)
+    for (const Contact<2>& c : state.contacts.list)
       if (c.touching() && model.parts[c.part_b].body == 2 && std::abs(model.polytope(c.part_a).mass.centroid[0]) > 0.1)
         before.push_back(c.force);
     ASSERT_EQ(before.size(), 2u);
@@ -190,7 +190,7 @@ force = [{ name = "push", above = ["bed"], force = [3e4, 0] }]
     EXPECT_LT(model.bodies[1].reference[0], model.bodies[3].reference[0]);
     find_forces(model, scene.settings, state);
     int found = 0;
-    for (const Contact<2>& c : state.contacts) {
+    for (const Contact<2>& c : state.contacts.list) {
       if (!c.touching()) continue;
       const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
       if (a == 0) continue;  // the floor
@@ -236,9 +236,9 @@ excavate = ["half"]
   const Vector<2> velocity(1 - 3 * arm[1], 2 + 3 * arm[0]);
   const Vector<2> at_dig = Vector<2>(2, 1) + 0.1 * Vector<2>(1, 2) + arm;
   const Vector<2> expected = at_dig + 0.2 * velocity - Vector<2>(1, 1);
-  EXPECT_LT((end.state.motions[0].displacement - expected).norm(), 1e-2);  // velocities stand half a step behind
-  EXPECT_LT((end.state.motions[0].velocity - velocity).norm(), 1e-2);
-  EXPECT_NEAR(end.state.motions[0].angular_momentum[0], 3 * 2000 * 4 * (4 + 4) / 12., 1e-6);
+  EXPECT_LT((end.state.bodies.motions[0].displacement - expected).norm(), 1e-2);  // velocities stand half a step behind
+  EXPECT_LT((end.state.bodies.motions[0].velocity - velocity).norm(), 1e-2);
+  EXPECT_NEAR(end.state.bodies.motions[0].angular_momentum[0], 3 * 2000 * 4 * (4 + 4) / 12., 1e-6);
 }
 
 // Neither an interruption nor threads show, in any stage.
@@ -248,7 +248,7 @@ TEST(TakeOut, SurvivesAnInterruption) {
                            "[[stage]]\nname = \"rest\"\nkind = \"settle\"\nexcavate = [\"top\"]\n";
   Prepared<2> scene = scene_of(text);
   const Progress<2> whole = simulated(scene);
-  ASSERT_FALSE(whole.state.held.empty());
+  ASSERT_FALSE(whole.state.loads.relief.empty());
   const long long steps = whole.state.counters.steps;
   for (const double fraction : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
     Watcher<2> watcher;
@@ -304,7 +304,7 @@ in_situ = { surface = 4, k0 = 0.5 }
   const Model<2> model = apply(scene.model, scene.stages.front().change);
   EXPECT_EQ(model.boundary.size(), 2u) << "the two upper ones";
   double across = 0, down = 0;  // N/m
-  for (const Contact<2>& c : end.state.contacts) {
+  for (const Contact<2>& c : end.state.contacts.list) {
     const bool on_floor =
         model.bodies[model.parts[c.part_a].body].fixed || model.bodies[model.parts[c.part_b].body].fixed;
     if (c.touching()) (on_floor ? down : across) += std::abs(c.force[on_floor]);

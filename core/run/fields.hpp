@@ -110,8 +110,8 @@ void serialize(Archive& archive, BaseHistory<Dim>& b) {
 
 template <class Archive>
 void serialize(Archive& archive, Schedule& s) {
-  auto& [gravity_factor, last_gravity_factor, friction, strength_factor, water, last_water, started, ends] = s;
-  archive(gravity_factor, last_gravity_factor, friction, strength_factor, water, last_water, started, ends);
+  auto& [time, gravity_factor, last_gravity_factor, friction, strength_factor, water, last_water, started, ends] = s;
+  archive(time, gravity_factor, last_gravity_factor, friction, strength_factor, water, last_water, started, ends);
 }
 
 template <class Archive>
@@ -206,13 +206,45 @@ void serialize(Archive& archive, LiningState& l) {
 }
 
 template <class Archive, int Dim>
+void serialize(Archive& archive, BodiesState<Dim>& b) {
+  // poses are rebuilt before they are read
+  auto& [motions, poses, listed_at, counted_at, path_bounds, left_behind] = b;
+  archive(motions, listed_at, counted_at, path_bounds, left_behind);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, ContactsState<Dim>& c) {
+  // faces, lists by body and loads are found before they are read
+  auto& [list, subs, faces, by_body, loads] = c;
+  archive(list, subs);
+}
+
+template <class Archive, int Dim>
+void serialize(Archive& archive, SupportsState<Dim>& s) {
+  auto& [bolt_springs, grouted, linings] = s;
+  archive(bolt_springs, grouted, linings);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Ledger& l) {
+  auto& [energy, bonds] = l;
+  archive(energy, bonds);
+}
+
+template <class Archive>
+void serialize(Archive& archive, TimeStep& t) {
+  auto& [length, allowed, frequency] = t;
+  archive(length, allowed, frequency);
+}
+
+template <class Archive, int Dim>
 void serialize(Archive& archive, StaticIncrement<Dim>& n) {
   auto& [under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
-         regularisation, overshoot, base, histories, springs, grouted, linings, bonds, whole_bonds, sub_histories,
-         listed, loads_begin, energy, accepted, residual, change, merits, stiffness, closed, of_water] = n;
+         regularisation, overshoot, base, histories, supports, whole_bonds, sub_histories, listed, loads_begin, ledger,
+         accepted, residual, change, merits, stiffness, closed, of_water] = n;
   archive(under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
-          regularisation, overshoot, base, histories, springs, grouted, linings, bonds, whole_bonds, sub_histories,
-          listed, loads_begin.values, energy, accepted, residual, change, merits, stiffness, closed, of_water);
+          regularisation, overshoot, base, histories, supports, whole_bonds, sub_histories, listed, loads_begin.values,
+          ledger, accepted, residual, change, merits, stiffness, closed, of_water);
 }
 
 template <class Archive, int Dim>
@@ -222,13 +254,16 @@ void serialize(Archive& archive, ReliefLoad<Dim>& h) {
 }
 
 template <class Archive, int Dim>
+void serialize(Archive& archive, LoadsState<Dim>& l) {
+  // loads by source and their stiffness are found before they are read
+  auto& [total, by_source, stiffened, relief] = l;
+  archive(total, relief);
+}
+
+template <class Archive, int Dim>
 void serialize(Archive& archive, State<Dim>& s) {
-  // poses, loads by source with their stiffness, lists by body and loads of contacts are rebuilt before they are read
-  auto& [motions, loads, loads_of, stiffened, contacts, subs, faces, built, counted_at, path_bounds, left_behind, poses,
-         by_body, contact_loads, frequency, relaxation, newton, schedule, held, bolt_springs, grouted, linings, bonds,
-         time, time_step, step_allowed, energy, counters] = s;
-  archive(motions, loads, contacts, subs, built, counted_at, path_bounds, left_behind, frequency, relaxation, newton,
-          schedule, held, bolt_springs, grouted, linings, bonds, time, time_step, step_allowed, energy, counters);
+  auto& [bodies, contacts, supports, loads, schedule, ledger, counters, time_step, relaxation, increment] = s;
+  archive(bodies, contacts, supports, loads, schedule, ledger, counters, time_step, relaxation, increment);
 }
 
 template <class Archive, int Dim>

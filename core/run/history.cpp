@@ -94,7 +94,7 @@ std::vector<std::string> history_columns(const Prepared<Dim>& scene) {
 template <int Dim>
 std::vector<double> history_row(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state, int stage,
                                 int trial, const std::vector<StageEnd<Dim>>& ends) {
-  std::vector<double> values{state.time, static_cast<double>(stage)};
+  std::vector<double> values{state.schedule.time, static_cast<double>(stage)};
   if (has_trials(scene)) values.push_back(trial);
   for (const int p : properties_followed(scene))
     values.push_back(to_degrees(state.schedule.friction[p]));
@@ -127,7 +127,7 @@ template <int Dim>
 std::vector<BoltRow> bolt_rows(const Model<Dim>& model, const State<Dim>& state, int stage) {
   std::vector<BoltRow> rows;
   const auto anchor = [&](int body, const Vector<Dim>& place) {
-    const Motion<Dim>& m = state.motions[body];
+    const Motion<Dim>& m = state.bodies.motions[body];
     return Vector<Dim>(model.origin + model.bodies[body].reference + m.displacement + matrix(m.rotation) * place);
   };
   const auto row_at = [&](int of, int joint, const Vector<Dim>& at) {
@@ -142,9 +142,9 @@ std::vector<BoltRow> bolt_rows(const Model<Dim>& model, const State<Dim>& state,
     row.z = Dim == 3 ? at[Dim - 1] : 0;
     return row;
   };
-  auto bar = state.grouted.begin();  // that the spring is a joint of, where it is one
-  for (std::size_t i = 0; i < state.bolt_springs.size(); ++i) {
-    const BoltSpring<Dim>& s = state.bolt_springs[i];
+  auto bar = state.supports.grouted.begin();  // that the spring is a joint of, where it is one
+  for (std::size_t i = 0; i < state.supports.bolt_springs.size(); ++i) {
+    const BoltSpring<Dim>& s = state.supports.bolt_springs[i];
     const BoltProperties& p = model.bolt_properties[model.bolts[s.bolt].properties];
     if (p.kind == BoltKind::grouted) {
       while (bar->first_spring + bar->joints() <= static_cast<int>(i))
@@ -177,14 +177,14 @@ template <int Dim>
 std::vector<LiningRow> lining_rows(const Model<Dim>& model, const State<Dim>& state, int stage) {
   std::vector<LiningRow> rows;
   if constexpr (Dim == 2)
-    for (const LiningState& lined : state.linings) {
+    for (const LiningState& lined : state.supports.linings) {
       const Lining& lining = model.linings[lined.lining];
-      const std::vector<SectionForces> forces = forces_at_nodes(lining, forces_of_beams(lining, state));
+      const std::vector<SectionForces> forces = forces_at_nodes(lining, forces_of_beams(lining, state.bodies));
       const std::vector<double> smoothed = smoothed_moments(lining, forces);
       for (std::size_t i = 0; i < lining.nodes.size(); ++i) {
         const LiningNode& node = lining.nodes[i];
         const LiningContact &before = lined.contacts[2 * i], &after = lined.contacts[2 * i + 1];
-        const Vector<2>& moved = state.motions[lining.first_body + i].displacement;
+        const Vector<2>& moved = state.bodies.motions[lining.first_body + i].displacement;
         const Vector<2> at = model.origin + node.place + moved;
         const double length = node.half_length[0] + node.half_length[1];
         const int rock = before.rock >= 0 ? before.rock : after.rock;

@@ -115,18 +115,18 @@ struct Search {
     progress.trial_steps = 0;
     progress.run.begin = attempt.falls ? std::vector<Vector<Dim>>{} : progress.begin;
     progress.target = attempt.target;
-    state.schedule.started = state.time;
+    state.schedule.started = state.schedule.time;
     if (attempt.falls) {
       progress.level_from = progress.stable;
       progress.level_rate = attempt.rate;
-      progress.time_limit = state.time + (progress.stable - attempt.target) / attempt.rate;
+      progress.time_limit = state.schedule.time + (progress.stable - attempt.target) / attempt.rate;
       return;
     }
     // strength falls gently to the trial's level: dropped at once, it would set the model in motion, and slip that
     // inertia causes wipes out the shear that settlement has locked in
     progress.level_from = level_in_force();
     progress.level_rate = 0;
-    const double ramp = static_cast<double>(plan.ramp_steps) * state.time_step;
+    const double ramp = static_cast<double>(plan.ramp_steps) * state.time_step.length;
     const double fall = levels.direction * (progress.target - progress.level_from);
     if (fall > 0 && ramp > 0)
       progress.level_rate = fall / ramp;
@@ -251,14 +251,14 @@ struct Search {
     int body = -1;
     double most = 0;
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-      const double moved = (state.motions[b].displacement - progress.begin[b]).norm();
+      const double moved = (state.bodies.motions[b].displacement - progress.begin[b]).norm();
       if (model.bodies[b].fixed || moved <= most) continue;
       most = moved;
       body = static_cast<int>(b);
     }
     if (body < 0) return "no body has moved";
-    const Vector<Dim>& velocity = state.motions[body].velocity;
-    const double away = velocity.dot(state.motions[body].displacement - progress.begin[body]) / most;
+    const Vector<Dim>& velocity = state.bodies.motions[body].velocity;
+    const double away = velocity.dot(state.bodies.motions[body].displacement - progress.begin[body]) / most;
     return fmt::format("{} has moved by {:.3g} m of the {:.3g} m that are failure and {} at {:.2g} m/s",
                        label_of(model, body), most, failure_displacement,
                        away > 0.5 * velocity.norm() ? "creeps on" : "swings", velocity.norm());
@@ -400,7 +400,7 @@ struct Search {
 
   void search() {
     if (progress.begin.empty())
-      for (const Motion<Dim>& m : state.motions)
+      for (const Motion<Dim>& m : state.bodies.motions)
         progress.begin.push_back(m.displacement);
     switch (plan.method) {
       case ReductionMethod::bisection:

@@ -31,11 +31,11 @@ constexpr double never = std::numeric_limits<double>::infinity();  // s
 // sets the scheduled values to those of the time of the positions; true while they still change
 template <int Dim>
 bool follow(const Model<Dim>& model, const RunSchedule& plan, State<Dim>& state) {
-  const double began = state.schedule.started, elapsed = state.time - began;
+  const double began = state.schedule.started, elapsed = state.schedule.time - began;
   bool changing = false;
   if (plan.gravity.ramp > 0) {
     // the sum, not the difference, is what a stage that ends with its ramp reaches exactly
-    const double fraction = state.time >= began + plan.gravity.ramp ? 1 : elapsed / plan.gravity.ramp;
+    const double fraction = state.schedule.time >= began + plan.gravity.ramp ? 1 : elapsed / plan.gravity.ramp;
     const double from = plan.gravity.from;
     state.schedule.gravity_factor = from + (plan.gravity.to.value_or(1) - from) * fraction;
     changing = fraction < 1;
@@ -50,15 +50,15 @@ bool follow(const Model<Dim>& model, const RunSchedule& plan, State<Dim>& state)
     changing = changing || level != plan.strength_to;
   }
   for (const WaterPlan& water : plan.water) {
-    const double fraction = state.time >= began + water.ramp ? 1 : elapsed / water.ramp;
+    const double fraction = state.schedule.time >= began + water.ramp ? 1 : elapsed / water.ramp;
     std::vector<double>& numbers = state.schedule.water[water.water];
     for (std::size_t k = 0; k < numbers.size(); ++k)
       numbers[k] = fraction < 1 ? water.from[k] + (water.to[k] - water.from[k]) * fraction : water.to[k];
     changing = changing || fraction < 1;
   }
-  if (plan.let_off && !state.held.empty()) {
-    const double fraction = state.time >= began + plan.let_off->duration ? 1 : elapsed / plan.let_off->duration;
-    for (ReliefLoad<Dim>& held : state.held)
+  if (plan.let_off && !state.loads.relief.empty()) {
+    const double fraction = state.schedule.time >= began + plan.let_off->duration ? 1 : elapsed / plan.let_off->duration;
+    for (ReliefLoad<Dim>& held : state.loads.relief)
       held.share = held.begun + (std::min(held.begun, plan.let_off->share) - held.begun) * fraction;
     changing = changing || fraction < 1;
   }
@@ -69,17 +69,17 @@ bool follow(const Model<Dim>& model, const RunSchedule& plan, State<Dim>& state)
 template <int Dim>
 bool has_moved_away(const Model<Dim>& model, const RunGoal& goal, const std::vector<Vector<Dim>>& begin,
                     State<Dim>& state) {
-  const bool trials = state.newton.under_way;  // one that is not yet judged is no motion
+  const bool trials = state.increment.under_way;  // one that is not yet judged is no motion
   const std::vector<Vector<Dim>> accepted = trials ? accepted_displacements(model, state) : begin;
   double moved = 0, free = 0;  // kg
-  if (goal.moved_fraction > 0) state.left_behind.assign(model.bodies.size(), false);
+  if (goal.moved_fraction > 0) state.bodies.left_behind.assign(model.bodies.size(), false);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].fixed) continue;
     free += model.bodies[b].mass;
-    const double way = ((trials ? accepted[b] : state.motions[b].displacement) - begin[b]).norm();
+    const double way = ((trials ? accepted[b] : state.bodies.motions[b].displacement) - begin[b]).norm();
     if (!(way > *goal.moved_away)) continue;
     if (goal.moved_fraction == 0) return true;
-    state.left_behind[b] = true;
+    state.bodies.left_behind[b] = true;
     moved += model.bodies[b].mass;
   }
   return moved > 0 && moved >= goal.moved_fraction * free;
@@ -99,7 +99,7 @@ double ramp_of(const RunSchedule& plan) {
 template <int Dim>
 std::string unreached(const Model<Dim>& model, const Settings& settings, const RunSchedule& plan,
                       const RunProgress<Dim>& progress, const State<Dim>& state, double unbalanced) {
-  const double elapsed = state.time - state.schedule.started;
+  const double elapsed = state.schedule.time - state.schedule.started;
   std::vector<std::string> ramps;
   const auto add = [&](const std::string& what, double ramp) {
     if (elapsed < ramp) ramps.push_back(fmt::format("{} (at {:.3g} % of {:g} s)", what, 100 * elapsed / ramp, ramp));
@@ -109,8 +109,8 @@ std::string unreached(const Model<Dim>& model, const Settings& settings, const R
     add("the fall of strength", std::abs(plan.strength_from - plan.strength_to) / plan.strength_rate);
   for (const WaterPlan& water : plan.water)
     add(fmt::format("the water '{}'", model.waters[water.water].name), water.ramp);
-  if (plan.let_off && !state.held.empty()) add("what excavated rock still holds", plan.let_off->duration);
-  if (ramps.empty() && state.newton.under_way) ramps.emplace_back("the increments of Newton's method");
+  if (plan.let_off && !state.loads.relief.empty()) add("what excavated rock still holds", plan.let_off->duration);
+  if (ramps.empty() && state.increment.under_way) ramps.emplace_back("the increments of Newton's method");
   if (ramps.empty() && unbalanced <= settings.equilibrium.unbalanced)
     ramps.push_back(fmt::format("rest in {} steps in a row (equilibrium.window), it lasted for {}",
                                 settings.equilibrium.window, progress.at_rest));
@@ -120,7 +120,7 @@ std::string unreached(const Model<Dim>& model, const Settings& settings, const R
 // A lining that had rock opposite and touches none any more; -1: none.
 template <int Dim>
 int loose_lining(const State<Dim>& state) {
-  for (const LiningState& lined : state.linings) {
+  for (const LiningState& lined : state.supports.linings) {
     const auto touches = [](const LiningContact& c) { return c.rock >= 0 && (c.bonded || c.closure >= 0); };
     if (!lined.rock.empty() && std::ranges::none_of(lined.contacts, touches)) return lined.lining;
   }
@@ -136,12 +136,12 @@ bool may_return(const RunSchedule& plan, bool changing) {
 // -1: none
 template <int Dim>
 int first_not_finite(const State<Dim>& state) {
-  for (std::size_t b = 0; b < state.motions.size(); ++b) {
-    const Motion<Dim>& m = state.motions[b];
+  for (std::size_t b = 0; b < state.bodies.motions.size(); ++b) {
+    const Motion<Dim>& m = state.bodies.motions[b];
     if (!std::isfinite(m.displacement.sum() + m.velocity.sum() + m.angular_momentum.sum())) return static_cast<int>(b);
   }
-  for (std::size_t b = 0; b < state.loads.size(); ++b)
-    if (!std::isfinite(state.loads[b].force.sum() + state.loads[b].moment.sum())) return static_cast<int>(b);
+  for (std::size_t b = 0; b < state.loads.total.size(); ++b)
+    if (!std::isfinite(state.loads.total[b].force.sum() + state.loads.total[b].moment.sum())) return static_cast<int>(b);
   return -1;
 }
 
@@ -158,14 +158,14 @@ template <int Dim>
 std::string restless(const Model<Dim>& model, const State<Dim>& state) {
   const int body = fastest(model, state);
   if (body < 0) return {};
-  const Motion<Dim>& m = state.motions[body];
+  const Motion<Dim>& m = state.bodies.motions[body];
   return fmt::format("{} moves most, {:.3g} m from where it began and turned by {:.3g} degrees", label_of(model, body),
                      m.displacement.norm(), to_degrees(turn_of(m.rotation)));
 }
 
 template <int Dim>
 std::string moment_of(const State<Dim>& state) {
-  return fmt::format("step {}, t = {:.6g} s", state.counters.steps, state.time);
+  return fmt::format("step {}, t = {:.6g} s", state.counters.steps, state.schedule.time);
 }
 
 const char* name(ContactStatus status) {
@@ -192,7 +192,7 @@ const char* name(ContactStatus status) {
 
 template <int Dim>
 std::string first_unanswered(const Model<Dim>& model, const State<Dim>& state) {
-  for (const Contact<Dim>& c : state.contacts)
+  for (const Contact<Dim>& c : state.contacts.list)
     if (c.unanswered())
       return fmt::format("contact of {} and {} at {}: {}", label_of(model, model.parts[c.part_a].body),
                          label_of(model, model.parts[c.part_b].body), moment_of(state), name(c.status));
@@ -215,19 +215,19 @@ template <int Dim>
 bool begins_newton(const Model<Dim>& model, const Settings& settings, const RunProgress<Dim>& progress, bool changing,
                    const State<Dim>& state) {
   const bool lingers = progress.steps > 0 && progress.steps % steps_until_newton == 0 && progress.at_rest == 0 &&
-                       !changing && !state.newton.under_way;
+                       !changing && !state.increment.under_way;
   return (lingers || (progress.steps == 0 && settings.damping.statics == Statics::newton)) && newton_applies(model);
 }
 
 template <int Dim>
 RunProgress<Dim> begin_run(const RunGoal& goal, State<Dim>& state) {
   state.schedule.ends = goal.end_time.value_or(never);
-  state.left_behind.clear();
+  state.bodies.left_behind.clear();
   RunProgress<Dim> progress;
   progress.under_way = true;
   progress.unconverged = state.counters.unconverged;
   if (goal.moved_away)
-    for (const Motion<Dim>& m : state.motions)
+    for (const Motion<Dim>& m : state.bodies.motions)
       progress.begin.push_back(m.displacement);
   return progress;
 }
@@ -298,7 +298,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
   };
   while (true) {
     if (hooks.pause && hooks.pause()) return stop(StopReason::interrupted);
-    const bool tried = state.newton.under_way;
+    const bool tried = state.increment.under_way;
     step<Dim>(model, settings, state, with_forces);
     const bool changed = std::exchange(changing, follow(model, schedule, state));
     ++progress.steps;
@@ -312,24 +312,24 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
       return stop(StopReason::not_finite, label_of(model, body) + " at " + moment_of(state));
 
     // rest must last, and cannot come while gravity, friction or water still changes
-    const bool evaluated = tried || state.newton.under_way;  // a trial of Newton's method is not yet rest
+    const bool evaluated = tried || state.increment.under_way;  // a trial of Newton's method is not yet rest
     const bool settled = goal.rest && !changed && !evaluated && report.unbalanced <= settings.equilibrium.unbalanced;
     progress.at_rest = settled ? progress.at_rest + 1 : 0;
     if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
     if (goal.moved_away && has_moved_away(model, goal, progress.begin, state)) return stop(StopReason::moved_away);
-    if (goal.end_time && state.time >= *goal.end_time) return stop(StopReason::end_time);
+    if (goal.end_time && state.schedule.time >= *goal.end_time) return stop(StopReason::end_time);
     if (const int lining = goal.rest && !evaluated && std::isinf(report.unbalanced) ? loose_lining(state) : -1;
         lining >= 0)
       return stop(StopReason::lining_loose,
                   fmt::format("no node of the lining '{}' touches rock any more, and nothing else exerts a force",
                               model.linings[lining].properties.name));
-    if (goal.rest && !goal.moved_away && !may_return(schedule, changing) && !state.newton.under_way &&
+    if (goal.rest && !goal.moved_away && !may_return(schedule, changing) && !state.increment.under_way &&
         progress.steps % steps_between_falls == 0)
       if (const int body = falling_free(model, state); body >= 0)
         return stop(StopReason::falls_free,
                     fmt::format("{} has left all others behind, {:.3g} m from where it began", label_of(model, body),
-                                state.motions[body].displacement.norm()));
-    if (goal.time_limit && state.time >= *goal.time_limit)
+                                state.bodies.motions[body].displacement.norm()));
+    if (goal.time_limit && state.schedule.time >= *goal.time_limit)
       return stop(StopReason::time_limit, goal.rest ? restless(model, state) : "");
     if (goal.step_limit && progress.steps >= *goal.step_limit)
       return stop(StopReason::step_limit, goal.rest ? restless(model, state) : "");

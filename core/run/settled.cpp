@@ -32,7 +32,7 @@ using Closures = std::map<std::pair<int, int>, Vector<Dim>>;
 template <int Dim>
 Closures<Dim> closures_of(const Model<Dim>& model, const State<Dim>& state) {
   Closures<Dim> closures;
-  for (const Contact<Dim>& c : state.contacts) {
+  for (const Contact<Dim>& c : state.contacts.list) {
     if (!c.touching()) continue;
     int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
     Vector<Dim> closure = c.geometry.overlap * c.geometry.normal;
@@ -58,7 +58,7 @@ struct Settling {
   // m: how far a body's centroid has gone as another's frame sees it
   double against(int body, int other) const {
     const Placement<Dim>&was = begin.placed[body], &seat = begin.placed[other];
-    const Motion<Dim>&is = now.motions[body], &frame = now.motions[other];
+    const Motion<Dim>&is = now.bodies.motions[body], &frame = now.bodies.motions[other];
     const Vector<Dim> arm =
         (model.bodies[body].reference - model.bodies[other].reference) + (was.displacement - seat.displacement);
     const Matrix<Dim> turn = matrix(frame.rotation) * matrix(seat.rotation).transpose();
@@ -112,7 +112,7 @@ struct Settling {
 
   // whether it has left all that it touched, if it touched anything, and no bolt holds it
   bool has_left_all(int body) const {
-    for (const BoltSpring<Dim>& spring : now.bolt_springs)
+    for (const BoltSpring<Dim>& spring : now.supports.bolt_springs)
       if (!spring.broken && (spring.body_a == body || spring.body_b == body)) return false;
     bool touched = false;
     for (const NearBodies& pair : begin.near) {
@@ -135,8 +135,8 @@ struct Settling {
         m.against = other;
       }
     // it lay on what has moved, or on nothing
-    if (m.against < 0) m.distance = (now.motions[body].displacement - begin.placed[body].displacement).norm();
-    const Vector<Dim> place = model.origin + model.bodies[body].reference + now.motions[body].displacement;
+    if (m.against < 0) m.distance = (now.bodies.motions[body].displacement - begin.placed[body].displacement).norm();
+    const Vector<Dim> place = model.origin + model.bodies[body].reference + now.bodies.motions[body].displacement;
     m.place.assign(place.data(), place.data() + Dim);
     m.left_all = has_left_all(body);
     return m;
@@ -148,10 +148,10 @@ struct Settling {
 template <int Dim>
 SettleBegin<Dim> settle_begin(const Model<Dim>& model, const State<Dim>& state, bool moving) {
   SettleBegin<Dim> begin;
-  for (const Motion<Dim>& m : state.motions)
+  for (const Motion<Dim>& m : state.bodies.motions)
     begin.placed.push_back({m.displacement, m.rotation});
   std::map<std::pair<int, int>, bool> near;
-  for (const Contact<Dim>& c : state.contacts)
+  for (const Contact<Dim>& c : state.contacts.list)
     if (c.status != ContactStatus::apart)
       near[std::minmax(model.parts[c.part_a].body, model.parts[c.part_b].body)] |= !moving && touches(model, c);
   for (const auto& [pair, touched] : near)

@@ -135,7 +135,7 @@ TEST(Settled, MotionCountsAgainstWhatABodyLayOn) {
     const int base = select(model, {.names = {"base"}, .above = {}, .below = {}, .inside = {}}).front();
     const int block = 1 - base;
     SettleBegin<2> begin{.placed = {}, .near = {{0, 1, true}}};
-    for (const Motion<2>& m : state.motions)
+    for (const Motion<2>& m : state.bodies.motions)
       begin.placed.push_back({m.displacement, m.rotation});
     // the base goes anywhere and turns; the block goes with it and, along or off its face, by `slip` more
     const double turn = between(engine, -1, 1), slip = between(engine, 0, 1);
@@ -144,10 +144,10 @@ TEST(Settled, MotionCountsAgainstWhatABodyLayOn) {
     const Vector<2> more = slip * Vector<2>(std::cos(off), std::sin(off));
     const Vector<2> arm = model.bodies[block].reference - model.bodies[base].reference;
     const Matrix<2> axes = matrix(Rotation<2>{turn});
-    state.motions[base].displacement = way;
-    state.motions[base].rotation.angle = turn;
-    state.motions[block].displacement = way + axes * (arm + more) - arm;
-    state.motions[block].rotation.angle = turn;
+    state.bodies.motions[base].displacement = way;
+    state.bodies.motions[base].rotation.angle = turn;
+    state.bodies.motions[block].displacement = way + axes * (arm + more) - arm;
+    state.bodies.motions[block].rotation.angle = turn;
     const std::vector<MovedBody> moved = moved_bodies(model, begin, state);
     ASSERT_EQ(moved.size(), slip > 0.5 ? 1u : 0u) << slip;
     for (const MovedBody& one : moved)

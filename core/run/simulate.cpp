@@ -83,10 +83,10 @@ struct Simulation {
 
   void frame(const State<Dim>& now) {
     if (!scene.output.any_frames()) return;
-    if (watcher.frame) watcher.frame(model, now, now.time);
-    progress.frames.push_back(now.time);
+    if (watcher.frame) watcher.frame(model, now, now.schedule.time);
+    progress.frames.push_back(now.schedule.time);
     const double interval = scene.output.frame_interval;
-    if (interval > 0) progress.next_frame = (std::floor(now.time / interval) + 1) * interval;
+    if (interval > 0) progress.next_frame = (std::floor(now.schedule.time / interval) + 1) * interval;
   }
 
   // The state with the forces at its positions, which a step leaves at those before: rows and frames are of one time.
@@ -111,7 +111,7 @@ struct Simulation {
     p.stage_count = static_cast<int>(scene.stages.size());
     p.detail = detail;
     p.steps = now.counters.steps;
-    p.time = now.time;
+    p.time = now.schedule.time;
     p.unbalanced = unbalanced;
     p.done = done;
     watcher.progress(p);
@@ -119,7 +119,7 @@ struct Simulation {
 
   // an evaluation of Newton's method costs as much as many steps
   bool reports(const State<Dim>& now) const {
-    return now.newton.under_way || now.counters.steps % steps_between_reports == 0;
+    return now.increment.under_way || now.counters.steps % steps_between_reports == 0;
   }
 
   std::function<bool()> pause() {
@@ -139,15 +139,15 @@ struct Simulation {
     const double begin = progress.stage_began;
     return {.with_forces =
                 [this](const State<Dim>& now) {
-                  if (progress.record.due(now.time)) progress.record.add(row(now));
-                  if (scene.output.frame_interval > 0 && now.time >= progress.next_frame) frame(now);
+                  if (progress.record.due(now.schedule.time)) progress.record.add(row(now));
+                  if (scene.output.frame_interval > 0 && now.schedule.time >= progress.next_frame) frame(now);
                 },
             .after_step =
                 [this, begin, end](const State<Dim>& now, double unbalanced) {
                   look_at_bonds(now);
                   if (reports(now))
                     report_progress(now, progress_of_newton(now), unbalanced,
-                                    end ? (now.time - begin) / (*end - begin) : -1);
+                                    end ? (now.schedule.time - begin) / (*end - begin) : -1);
                 },
             .pause = pause()};
   }
@@ -182,7 +182,7 @@ struct Simulation {
 
   // now and then, and where some are new
   void look_at_bonds(const State<Dim>& now) {
-    if (now.bonds.made != progress.bonded.made || reports(now)) remember_bonds(model, now, progress.bonded);
+    if (now.ledger.bonds.made != progress.bonded.made || reports(now)) remember_bonds(model, now, progress.bonded);
   }
 
   void note_stable(const State<Dim>& now, std::optional<double> level = {}, const char* unit = "") {
@@ -314,7 +314,7 @@ struct Simulation {
 
   void install_bolts() {
     try {
-      for (const std::string& idle : install(model, plan().change.install, state))
+      for (const std::string& idle : voussoir::install_bolts(model, plan().change.install, state))
         results.warnings.push_back(fmt::format(
             "stage {}: the bolts '{}' cross no joint between two blocks and hold nothing; lengthen or move them, or "
             "install them before their blocks are taken out",
@@ -326,7 +326,7 @@ struct Simulation {
 
   void install_linings() {
     release_linings(model, state);
-    for (const std::string& idle : install_linings(model, plan().change.install, state))
+    for (const std::string& idle : voussoir::install_linings(model, plan().change.install, state))
       results.warnings.push_back(fmt::format(
           "stage {}: no block has a face on the outline of the lining '{}', so that nothing holds it; install it after "
           "its excavation is taken out",
@@ -352,16 +352,16 @@ struct Simulation {
     if (plan().change.zero_slip) zero_slip(state);
     if (plan().change.bond) make_bonds(model, settings, state);
     // candidates and time step belong to the stage
-    state.built.clear();
-    state.frequency.clear();
-    state.step_allowed = 0;
-    state.schedule.started = state.time;
-    for (ReliefLoad<Dim>& held : state.held)
+    state.bodies.listed_at.clear();
+    state.time_step.frequency.clear();
+    state.time_step.allowed = 0;
+    state.schedule.started = state.schedule.time;
+    for (ReliefLoad<Dim>& held : state.loads.relief)
       held.begun = held.share;
-    std::erase_if(state.held,
+    std::erase_if(state.loads.relief,
                   [&](const ReliefLoad<Dim>& held) { return held.share == 0 || !model.bodies[held.body].present; });
-    if (state.energy.phase == LedgerPhase::running) state.energy.phase = LedgerPhase::model_changed;
-    progress.stage_began = state.time;
+    if (state.ledger.energy.phase == LedgerPhase::running) state.ledger.energy.phase = LedgerPhase::model_changed;
+    progress.stage_began = state.schedule.time;
     progress.record = {};
     progress.record.interval = scene.output.history_interval;
     progress.run = {};
@@ -394,8 +394,8 @@ struct Simulation {
     r.ended = done.ended;
     r.relaxed = ends_relaxed(plan(), settings.damping);
     r.steps = state.counters.steps - progress.steps_before;
-    r.time = state.time - progress.stage_began;
-    r.time_step = state.time_step;
+    r.time = state.schedule.time - progress.stage_began;
+    r.time_step = state.time_step.length;
     r.unbalanced = done.unbalanced;
     results.stages.push_back(r);
     std::ranges::copy(doubts_about(results.at_last_stable_state, r.name), std::back_inserter(results.warnings));
@@ -403,7 +403,7 @@ struct Simulation {
     if (const int body = falling_free(model, state); body >= 0 && std::holds_alternative<RunPlan>(plan().plan))
       results.warnings.push_back(
           fmt::format("stage {}: {} falls free, {:.3g} m from where it began: nothing lies below", r.name,
-                      label_of(model, body), state.motions[body].displacement.norm()));
+                      label_of(model, body), state.bodies.motions[body].displacement.norm()));
     progress.steps_before = state.counters.steps;
     progress.stage_under_way = false;
     remember_end();
@@ -428,11 +428,11 @@ struct Simulation {
     results.counters = state.counters;
     count_all_bonds(scene, state, results);
     results.state_hash = state_hash(model, state);
-    results.energy = state.energy;
-    for (const ReliefLoad<Dim>& held : state.held)
+    results.energy = state.ledger.energy;
+    for (const ReliefLoad<Dim>& held : state.loads.relief)
       if (model.bodies[held.body].present) results.relief_left = std::max(results.relief_left, held.share);
     const auto begun = std::span(scene.stages).first(std::min<std::size_t>(progress.stage + 1, scene.stages.size()));
-    if (std::string doubts = doubts_of(state.energy, begun, scene.settings); !doubts.empty())
+    if (std::string doubts = doubts_of(state.ledger.energy, begun, scene.settings); !doubts.empty())
       results.warnings.push_back(std::move(doubts));
   }
 

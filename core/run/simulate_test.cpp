@@ -319,7 +319,7 @@ TEST(Bonds, AreNotSpokenOfWhereNoStageMakesAny) {
 // ---- between steps ----------------------------------------------------------------------------------------------
 
 std::string drawn(const Model<2>& model, const State<2>& state) {
-  return vtp(contact_points(model, state, state.time)) + vtp(force_lines(model, state, state.time));
+  return vtp(contact_points(model, state, state.schedule.time)) + vtp(force_lines(model, state, state.schedule.time));
 }
 
 TEST(Snapshot, IsWhatFramesShowWithinStagesAndAtTheirEnds) {
@@ -352,7 +352,7 @@ TEST(Snapshot, IsWhatFramesShowWithinStagesAndAtTheirEnds) {
     EXPECT_GE(compared, 4);
     const Snapshot<2> end = snapshot(scene, progress);
     EXPECT_EQ(drawn(end.model, end.state), frame);
-    EXPECT_EQ(end.state.contacts.empty() || !end.state.contacts.front().touching(), fails);
+    EXPECT_EQ(end.state.contacts.list.empty() || !end.state.contacts.list.front().touching(), fails);
   }
 }
 
@@ -424,19 +424,19 @@ TEST(FreeFall, IsNotSeenWhereSomethingMayCatchTheBlock) {
   Model<2> model = block_on_plate<2>(0, 40 * degree);
   const int block = shapes::index_of(model, "block"), plate = shapes::index_of(model, "plate");
   State<2> state = initial_state(model);
-  state.motions[block].displacement = {0, -50};
+  state.bodies.motions[block].displacement = {0, -50};
   EXPECT_EQ(falling_free(model, state), block);
   EXPECT_EQ(fastest(model, state), -1);
-  state.motions[block].velocity = {0, 1};
+  state.bodies.motions[block].velocity = {0, 1};
   EXPECT_EQ(falling_free(model, state), -1) << "it comes back";
   EXPECT_EQ(fastest(model, state), block);
-  state.motions[block].velocity.setZero();
+  state.bodies.motions[block].velocity.setZero();
   model.bodies[plate].reference[1] -= 100;
   EXPECT_EQ(falling_free(model, state), -1) << "the plate lies below";
   model.bodies[plate].reference[1] += 100;
-  state.motions[block].displacement = {0, -5};
+  state.bodies.motions[block].displacement = {0, -5};
   EXPECT_EQ(falling_free(model, state), -1) << "less far than the model is wide";
-  state.motions[block].displacement = {0, -50};
+  state.bodies.motions[block].displacement = {0, -50};
   state.schedule.gravity_factor = 0;
   EXPECT_EQ(falling_free(model, state), -1) << "nothing pulls";
 }

@@ -24,7 +24,7 @@ std::string name_of_joint(const Prepared<Dim>& scene, const Model<Dim>& model, i
 template <int Dim>
 std::optional<WholeBonds> whole_bonds_of(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state,
                                          const BondedContacts& bonded) {
-  WholeBonds bonds{.whole = whole_bonds(state), .made = state.bonds.made - state.bonds.removed};
+  WholeBonds bonds{.whole = whole_bonds(state.contacts), .made = state.ledger.bonds.made - state.ledger.bonds.removed};
   if (bonds.made == 0) return std::nullopt;
   std::map<std::string, JointBonds> by_name;
   for (const JointBonds& joint : bonds_by_joint(model, state, bonded)) {

@@ -156,7 +156,7 @@ TEST(Prepare, TakesBlocksByVerticesPlanesAndBox) {
   const Vector<3> centroid = named["by planes"].reference + p.model.origin;
   EXPECT_LT((centroid - Vector<3>(10.5, 0, 0.5)).norm(), 1e-9);
   for (std::size_t b = 0; b < p.model.bodies.size(); ++b)
-    EXPECT_EQ(p.state.motions[b].velocity[0], p.model.bodies[b].name == "by planes" ? 1 : 0);
+    EXPECT_EQ(p.state.bodies.motions[b].velocity[0], p.model.bodies[b].name == "by planes" ? 1 : 0);
 }
 
 TEST(Keys, HaveTheDefaultsThatTheyShow) {

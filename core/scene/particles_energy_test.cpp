@@ -75,13 +75,13 @@ class Driven {
   void put_near(const Vector<Dim>& moved, const Spin<Dim>& turn) {
     put(down_ * Vector<Dim>::Unit(Dim - 1) + moved, turn);
   }
-  const Load<Dim>& load() const { return scene_.state.loads[body_]; }
-  double energy() const { return scene_.state.energy.elastic; }
+  const Load<Dim>& load() const { return scene_.state.loads.total[body_]; }
+  double energy() const { return scene_.state.ledger.energy.elastic; }
 
  private:
   void put(const Vector<Dim>& displacement, const Spin<Dim>& turn) {
-    scene_.state.motions[body_].displacement = displacement;
-    scene_.state.motions[body_].rotation = turned(Rotation<Dim>(), turn);
+    scene_.state.bodies.motions[body_].displacement = displacement;
+    scene_.state.bodies.motions[body_].rotation = turned(Rotation<Dim>(), turn);
     find_forces(scene_.model, scene_.settings, scene_.state);
     EXPECT_EQ(scene_.state.counters.unconverged, 0);
   }

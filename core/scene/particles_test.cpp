@@ -50,7 +50,7 @@ template <int Dim>
 Vector<Dim> place(const Ran<Dim>& run, const std::string& name) {
   const int b = body_named(run.scene.model, name);
   const Body<Dim>& body = run.scene.model.bodies[b];
-  const Motion<Dim>& motion = run.progress.state.motions[b];
+  const Motion<Dim>& motion = run.progress.state.bodies.motions[b];
   const Polytope<Dim>& part = body.parts.front();
   return run.scene.model.origin + body.reference + motion.displacement +
          matrix(motion.rotation) * (part.centre + part.particle->shape.centre);
@@ -314,8 +314,8 @@ TEST(Particles, AskForNoMemoryWhileTheirNeighboursStay) {
 // a wider skin lists more neighbours and changes nothing
 TEST(Particles, KeepTheirMotionWhateverTheSkin) {
   const Ran<3> one = whole_run<3>(heap()), other = whole_run<3>(heap(), {"contact.skin=0.7"});
-  for (std::size_t b = 0; b < one.progress.state.motions.size(); ++b)
-    EXPECT_TRUE(one.progress.state.motions[b].displacement == other.progress.state.motions[b].displacement) << b;
+  for (std::size_t b = 0; b < one.progress.state.bodies.motions.size(); ++b)
+    EXPECT_TRUE(one.progress.state.bodies.motions[b].displacement == other.progress.state.bodies.motions[b].displacement) << b;
 }
 
 }  // namespace

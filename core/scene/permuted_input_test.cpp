@@ -84,7 +84,7 @@ Outcome outcome_of(const std::string& text, int steps) {
   for (int i = 0; i < steps; ++i)
     step(prepared.model, prepared.settings, prepared.state);
   outcome.end = state_hash(prepared.model, prepared.state);
-  for (const Contact<Dim>& c : prepared.state.contacts)
+  for (const Contact<Dim>& c : prepared.state.contacts.list)
     outcome.touching += c.touching();
   return outcome;
 }

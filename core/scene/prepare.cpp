@@ -222,10 +222,10 @@ State<Dim> moving_state(const Scene& scene, const Model<Dim>& model) {
   for (const BlockSpec& block : scene.blocks)
     for (std::size_t b = 0; b < model.bodies.size(); ++b)
       if (model.bodies[b].name == block.name)
-        set_motion<Dim>(block.subject, block.motion, model.bodies[b], state.motions[b]);
+        set_motion<Dim>(block.subject, block.motion, model.bodies[b], state.bodies.motions[b]);
   for (const InitialVelocitySpec& spec : scene.initial_velocity)
     for (const int b : chosen_some<Dim>(scene, model, spec.bodies))
-      set_motion<Dim>(spec.bodies.subject, spec.motion, model.bodies[b], state.motions[b]);
+      set_motion<Dim>(spec.bodies.subject, spec.motion, model.bodies[b], state.bodies.motions[b]);
   return state;
 }
 

@@ -69,7 +69,7 @@ TEST(Repeat, ShiftsAndTurnsBlocksInThePlane) {
     EXPECT_NEAR(body(prepared, name).mass, 4000, 1e-9);
     const Body<2>& stands = body(prepared, name);
     const std::size_t b = &stands - prepared.model.bodies.data();
-    EXPECT_EQ(prepared.state.motions[b].velocity, velocities[k]) << "quarter turns are exact";
+    EXPECT_EQ(prepared.state.bodies.motions[b].velocity, velocities[k]) << "quarter turns are exact";
     // upright and level in turn
     double width = 0;
     for (const Vector<2>& v : stands.parts[0].vertices)

@@ -154,7 +154,7 @@ TEST(ReadScene, RefusesARampThatOutlastsItsStage) {
 TEST(Prepare, CutsTheWedgeAndResolvesSelectors) {
   const Prepared<3> p = prepare<3>(parse(wedge));
   ASSERT_EQ(p.model.bodies.size(), 4u);
-  EXPECT_EQ(p.state.motions.size(), 4u);
+  EXPECT_EQ(p.state.bodies.motions.size(), 4u);
   EXPECT_EQ(p.model.gravity, Vector<3>(0, 0, -9.81));
   int free = -1, free_count = 0;
   for (int b = 0; b < 4; ++b)
@@ -234,7 +234,7 @@ duration_s = 1
     const bool top = body.name == "top";
     EXPECT_EQ(body.fixed, body.reference[0] + p.model.origin[0] > 1);
     EXPECT_EQ(body.free_translation[0], !top);
-    EXPECT_NEAR(angular_velocity<2>(body, p.state.motions[b])[0], top ? 2 : 0, 1e-12);
+    EXPECT_NEAR(angular_velocity<2>(body, p.state.bodies.motions[b])[0], top ? 2 : 0, 1e-12);
   }
 }
 

@@ -122,10 +122,10 @@ TEST(WaterOfAScene, IsMetByNewtonsMethod) {
   EXPECT_EQ(newton.state.counters.static_fallbacks, 0);
   EXPECT_EQ(newton.state.schedule.water, relaxed.state.schedule.water);
   double largest = 0;
-  for (const Motion<2>& m : relaxed.state.motions)
+  for (const Motion<2>& m : relaxed.state.bodies.motions)
     largest = std::max(largest, m.displacement.norm());
-  for (std::size_t b = 0; b < relaxed.state.motions.size(); ++b)
-    EXPECT_LT((newton.state.motions[b].displacement - relaxed.state.motions[b].displacement).norm(), 1e-3 * largest);
+  for (std::size_t b = 0; b < relaxed.state.bodies.motions.size(); ++b)
+    EXPECT_LT((newton.state.bodies.motions[b].displacement - relaxed.state.bodies.motions[b].displacement).norm(), 1e-3 * largest);
 }
 
 // a block of 20 kN, 1 m wide and high, on a floor, with a crack at x = 1 between it and a fixed one

@@ -36,7 +36,7 @@ template <int Dim>
 void add_chords(const Model<Dim>& model, const State<Dim>& state, int b, const Line<Dim>& line,
                 std::vector<Chord>& chords) {
   const Body<Dim>& body = model.bodies[b];
-  const Motion<Dim>& motion = state.motions[b];
+  const Motion<Dim>& motion = state.bodies.motions[b];
   const Vector<Dim> from_collar = body.reference + motion.displacement - line.collar;
   const double nearest = std::clamp(from_collar.dot(line.along), 0.0, line.length);
   if ((from_collar - nearest * line.along).norm() > body.radius) return;
@@ -87,8 +87,8 @@ double anchor_of(const BoltProperties& p, const Chord& chord) {
 template <int Dim>
 void find_first_springs(State<Dim>& state) {
   int first = 0;
-  for (GroutedBolt<Dim>& g : state.grouted) {
-    while (state.bolt_springs[first].bolt != g.bolt)
+  for (GroutedBolt<Dim>& g : state.supports.grouted) {
+    while (state.supports.bolt_springs[first].bolt != g.bolt)
       ++first;
     g.first_spring = first;
     first += g.joints();
@@ -97,7 +97,7 @@ void find_first_springs(State<Dim>& state) {
 
 template <int Dim>
 Vector<Dim> in_body(const Model<Dim>& model, const State<Dim>& state, int body, const Vector<Dim>& point) {
-  const Motion<Dim>& motion = state.motions[body];
+  const Motion<Dim>& motion = state.bodies.motions[body];
   return matrix(motion.rotation).transpose() * (point - model.bodies[body].reference - motion.displacement);
 }
 
@@ -181,7 +181,7 @@ std::vector<BoltSpring<Dim>> springs_of(const Model<Dim>& model, const State<Dim
     spring.body_b = body_b;
     spring.place_a = in_body<Dim>(model, state, body_a, line.collar + at_a * line.along);
     spring.place_b = in_body<Dim>(model, state, body_b, line.collar + at_b * line.along);
-    spring.axis = matrix(state.motions[body_a].rotation).transpose() * line.along;
+    spring.axis = matrix(state.bodies.motions[body_a].rotation).transpose() * line.along;
     spring.length = at_b - at_a;
     spring.stiffness = stiffness;
     springs.push_back(spring);
@@ -256,7 +256,7 @@ bool ends_in_rock(const Model<Dim>& model, const State<Dim>& state, int bolt) {
 }
 
 template <int Dim>
-std::vector<std::string> install(const Model<Dim>& model, const std::vector<std::string>& names, State<Dim>& state) {
+std::vector<std::string> install_bolts(const Model<Dim>& model, const std::vector<std::string>& names, State<Dim>& state) {
   std::vector<std::string> idle;
   for (const BoltProperties& p : model.bolt_properties)
     if (std::ranges::find(names, p.name) != names.end()) idle.push_back(p.name);
@@ -265,14 +265,14 @@ std::vector<std::string> install(const Model<Dim>& model, const std::vector<std:
     if (std::ranges::find(names, name) == names.end()) continue;
     const std::vector<BoltSpring<Dim>> springs = springs_of(model, state, static_cast<int>(i));
     if (std::optional<GroutedBolt<Dim>> bar = bar_of(model, state, static_cast<int>(i), springs))
-      state.grouted.push_back(std::move(*bar));
+      state.supports.grouted.push_back(std::move(*bar));
     else if (model.bolt_properties[model.bolts[i].properties].kind == BoltKind::grouted)
       continue;
-    state.bolt_springs.insert(state.bolt_springs.end(), springs.begin(), springs.end());
+    state.supports.bolt_springs.insert(state.supports.bolt_springs.end(), springs.begin(), springs.end());
     if (!springs.empty()) std::erase(idle, name);
   }
-  std::ranges::stable_sort(state.bolt_springs, {}, &BoltSpring<Dim>::bolt);
-  std::ranges::stable_sort(state.grouted, {}, &GroutedBolt<Dim>::bolt);
+  std::ranges::stable_sort(state.supports.bolt_springs, {}, &BoltSpring<Dim>::bolt);
+  std::ranges::stable_sort(state.supports.grouted, {}, &GroutedBolt<Dim>::bolt);
   find_first_springs(state);
   return idle;
 }
@@ -329,9 +329,9 @@ template <int Dim>
 void cut_bolts(const std::function<bool(int& body, Vector<Dim>& place)>& is_left, State<Dim>& state) {
   std::vector<BoltSpring<Dim>> springs;
   std::vector<GroutedBolt<Dim>> bars;
-  auto bar = state.grouted.begin();
-  for (auto s = state.bolt_springs.begin(); s != state.bolt_springs.end();) {
-    if (bar != state.grouted.end() && bar->first_spring == s - state.bolt_springs.begin()) {
+  auto bar = state.supports.grouted.begin();
+  for (auto s = state.supports.bolt_springs.begin(); s != state.supports.bolt_springs.end();) {
+    if (bar != state.supports.grouted.end() && bar->first_spring == s - state.supports.bolt_springs.begin()) {
       const auto end = s + bar->joints();
       cut_bar<Dim>(is_left, *bar, {s, end}, bars, springs);
       s = end;
@@ -341,8 +341,8 @@ void cut_bolts(const std::function<bool(int& body, Vector<Dim>& place)>& is_left
       ++s;
     }
   }
-  state.bolt_springs = std::move(springs);
-  state.grouted = std::move(bars);
+  state.supports.bolt_springs = std::move(springs);
+  state.supports.grouted = std::move(bars);
 }
 
 template <int Dim>
@@ -357,7 +357,7 @@ void remove_springs(const Model<Dim>& model, State<Dim>& state) {
   template void cut_bolts<Dim>(const std::function<bool(int&, Vector<Dim>&)>&, State<Dim>&);                       \
   template bool ends_in_rock<Dim>(const Model<Dim>&, const State<Dim>&, int);                                      \
   template bool shortened<Dim>(const Model<Dim>&, const BoltSpring<Dim>&);                                         \
-  template std::vector<std::string> install<Dim>(const Model<Dim>&, const std::vector<std::string>&, State<Dim>&); \
+  template std::vector<std::string> install_bolts<Dim>(const Model<Dim>&, const std::vector<std::string>&, State<Dim>&); \
   template void remove_springs<Dim>(const Model<Dim>&, State<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -57,7 +57,7 @@ Progress<Dim> simulated(const Prepared<Dim>& scene) {
 template <int Dim>
 std::vector<double> forces(const Progress<Dim>& progress) {
   std::vector<double> all;
-  for (const BoltSpring<Dim>& spring : progress.state.bolt_springs)
+  for (const BoltSpring<Dim>& spring : progress.state.supports.bolt_springs)
     all.push_back(spring.force);
   return all;
 }
@@ -95,8 +95,8 @@ repeat = [{ step = [2, 0, 0], count = 2 }, { step = [0, 1, 0], count = 2 }]
 )" + hang;
   const Progress<3> done = simulated(scene_of<3>(text));
   ASSERT_EQ(done.results.outcome, Outcome::done) << done.results.message;
-  ASSERT_EQ(done.state.bolt_springs.size(), 4u);
-  for (const BoltSpring<3>& spring : done.state.bolt_springs) {
+  ASSERT_EQ(done.state.supports.bolt_springs.size(), 4u);
+  for (const BoltSpring<3>& spring : done.state.supports.bolt_springs) {
     EXPECT_NEAR(spring.force, 2 * weight / 4, 1e-6 * weight);
     EXPECT_NEAR(spring.length, 2, 1e-12) << "from the face to the end: what lies in the open does not count";
     EXPECT_NEAR(spring.extension, spring.force / (1e8 / 2), 1e-9);
@@ -137,7 +137,7 @@ TEST(Bolts, PressTheJointsThatTheyPretension) {
             "]\nto = [0.5, 0]\nstiffness = 2e8\npretension = 1e5\n" + stage("install = [\"roof\"]");
     const Progress<2> done = simulated(scene_of(text));
     ASSERT_EQ(done.results.outcome, Outcome::done) << done.results.message;
-    ASSERT_EQ(done.state.bolt_springs.size(), static_cast<std::size_t>(joints));
+    ASSERT_EQ(done.state.supports.bolt_springs.size(), static_cast<std::size_t>(joints));
     for (const double force : forces(done))
       EXPECT_NEAR(force, F0 * kn * area / (kn * area + K), 1e-4 * F0);
   }
@@ -190,7 +190,7 @@ TEST(Bolts, StayInWhatIsLeftOfTheirBlocks) {
   for (const double force : forces(done))
     EXPECT_NEAR(force, 0.7 * weight / 3, 1e-6 * weight);
   const Progress<2> gone = simulated(scene_of(digging + stage("remove = [{ below = [\"bed\"] }]", "dig")));
-  EXPECT_TRUE(gone.state.bolt_springs.empty());
+  EXPECT_TRUE(gone.state.supports.bolt_springs.empty());
 }
 
 TEST(Bolts, SurviveInterruptionsThreadsAndTheOrderOfTheFile) {
@@ -208,7 +208,7 @@ outline = true
   Prepared<2> scene = scene_of(slab + dug + one + other + stages);
   const Progress<2> whole = simulated(scene);
   ASSERT_EQ(whole.results.outcome, Outcome::done) << whole.results.message;
-  ASSERT_EQ(whole.state.bolt_springs.size(), 4u);
+  ASSERT_EQ(whole.state.supports.bolt_springs.size(), 4u);
   EXPECT_EQ(simulated(scene_of(slab + dug + other + one + stages)).results.state_hash, whole.results.state_hash);
   const double steps = static_cast<double>(whole.state.counters.steps);
   for (const double fraction : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
@@ -252,7 +252,7 @@ TEST(Monitors, SumAndAverageOverBlocks) {
   EXPECT_EQ(value("bolts_sum_bolt_load_y"), 0);
   EXPECT_DOUBLE_EQ(value("weights_sum_gravity_load_y"), -3 * weight);
   double sum = 0;
-  for (const Motion<2>& m : done.state.motions)
+  for (const Motion<2>& m : done.state.bodies.motions)
     sum += m.displacement[1];
   EXPECT_LT(sum, 0);
   EXPECT_DOUBLE_EQ(value("ways_mean_displacement_y"), sum / 2);

@@ -134,7 +134,7 @@ TEST(GroutedBolts, WarnWhereTheyCrossNoJoint) {
       scene_of(slab + bolts("from = [1, 1.5]\nto = [2, 2.5]\n") + stage("step_limit = 10\ninstall = [\"roof\"]")));
   ASSERT_FALSE(done.results.warnings.empty());
   EXPECT_NE(done.results.warnings.front().find("cross no joint"), std::string::npos);
-  EXPECT_TRUE(done.state.grouted.empty());
+  EXPECT_TRUE(done.state.supports.grouted.empty());
 }
 
 // ---- forces and their potential -------------------------------------------------------------------------------------
@@ -165,7 +165,7 @@ struct Bars {
   State<Dim> state = scene.state;
 
   Bars() {
-    install<Dim>(scene.model, {"roof"}, state);
+    install_bolts<Dim>(scene.model, {"roof"}, state);
     evaluate(state);
   }
   void evaluate(State<Dim>& s) const {
@@ -200,8 +200,8 @@ double along(const Load<3>& l, int freedom) {
 template <int Dim>
 void expect_a_potential() {
   const Bars<Dim> bars;
-  ASSERT_EQ(bars.state.grouted.size(), 1u);
-  ASSERT_EQ(bars.state.bolt_springs.size(), 3u);
+  ASSERT_EQ(bars.state.supports.grouted.size(), 1u);
+  ASSERT_EQ(bars.state.supports.bolt_springs.size(), 3u);
   shapes::Random random(7);
   State<Dim> state = bars.state;
   for (int b = 0; b < 4; ++b)
@@ -213,7 +213,7 @@ void expect_a_potential() {
   Load<Dim> all;
   double scale = 0;
   for (int b = 0; b < 4; ++b) {
-    const Vector<Dim> at = bars.scene.model.bodies[b].reference + state.motions[b].displacement;
+    const Vector<Dim> at = bars.scene.model.bodies[b].reference + state.bodies.motions[b].displacement;
     all += {loads[b].force, Spin<Dim>(loads[b].moment + moment(at, loads[b].force))};
     scale = std::max(scale, loads[b].force.norm());
   }
@@ -302,22 +302,22 @@ TEST(GroutedBolts, StayInWhatIsLeftOfTheirBlocks) {
   ASSERT_EQ(whole.results.bolts.size(), 12u) << "a plate and three joints each";
   const Progress<2> half = simulated(scene_of(beds + half_of_it + bolts(through + plate) + hang + dig));
   ASSERT_EQ(half.results.outcome, Outcome::done) << half.results.message;
-  ASSERT_EQ(half.state.grouted.size(), 3u);
+  ASSERT_EQ(half.state.supports.grouted.size(), 3u);
   const Progress<2> dug = simulated(scene_of(beds + lowest + bolts(through + plate) + hang + dig));
   ASSERT_EQ(dug.results.outcome, Outcome::done) << dug.results.message;
-  ASSERT_EQ(dug.state.bolt_springs.size(), 6u);
-  for (const GroutedBolt<2>& g : dug.state.grouted) {
+  ASSERT_EQ(dug.state.supports.bolt_springs.size(), 6u);
+  for (const GroutedBolt<2>& g : dug.state.supports.grouted) {
     EXPECT_EQ(g.joints(), 2);
     EXPECT_EQ(g.bar.plate, Plate::none) << "it went with its rock";
   }
   // joint by joint what hangs below it
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(whole.state.bolt_springs[3 * i].force, weight / 3, 1e-5 * weight);
-    EXPECT_NEAR(half.state.bolt_springs[3 * i].force, 0.5 * weight / 3, 1e-5 * weight);
-    EXPECT_NEAR(half.state.bolt_springs[3 * i + 2].force, 2.5 * weight / 3, 1e-5 * weight);
-    EXPECT_EQ(dug.state.bolt_springs[2 * i].number, 2);
-    EXPECT_NEAR(dug.state.bolt_springs[2 * i].force, weight / 3, 1e-5 * weight);
-    EXPECT_NEAR(dug.state.bolt_springs[2 * i + 1].force, 2 * weight / 3, 1e-5 * weight);
+    EXPECT_NEAR(whole.state.supports.bolt_springs[3 * i].force, weight / 3, 1e-5 * weight);
+    EXPECT_NEAR(half.state.supports.bolt_springs[3 * i].force, 0.5 * weight / 3, 1e-5 * weight);
+    EXPECT_NEAR(half.state.supports.bolt_springs[3 * i + 2].force, 2.5 * weight / 3, 1e-5 * weight);
+    EXPECT_EQ(dug.state.supports.bolt_springs[2 * i].number, 2);
+    EXPECT_NEAR(dug.state.supports.bolt_springs[2 * i].force, weight / 3, 1e-5 * weight);
+    EXPECT_NEAR(dug.state.supports.bolt_springs[2 * i + 1].force, 2 * weight / 3, 1e-5 * weight);
   }
 }
 
@@ -339,7 +339,7 @@ TEST(GroutedBolts, AreLetOffWithTheRockThatGoes) {
       EXPECT_NEAR(opened[1][i], opened[0][i], 1e-5 * opened[0][i]);
       EXPECT_LT(opened[2][i], 0.8 * opened[0][i]);
     }
-    EXPECT_NEAR(done.state.bolt_springs[1].force, 2 * weight / 3, 1e-5 * weight);
+    EXPECT_NEAR(done.state.supports.bolt_springs[1].force, 2 * weight / 3, 1e-5 * weight);
   }
 }
 
@@ -348,15 +348,15 @@ TEST(GroutedBolts, AreCutWhereTheirRockGoes) {
   Bars<2> bars;
   State<2> state = bars.state;
   cut_bolts<2>([](int& body, Vector<2>&) { return body != 1; }, state);
-  ASSERT_EQ(state.grouted.size(), 1u) << "the first block alone has no joint left";
-  EXPECT_EQ(state.grouted[0].joints(), 1);
-  ASSERT_EQ(state.bolt_springs.size(), 1u);
-  EXPECT_EQ(state.bolt_springs[0].number, 3);
+  ASSERT_EQ(state.supports.grouted.size(), 1u) << "the first block alone has no joint left";
+  EXPECT_EQ(state.supports.grouted[0].joints(), 1);
+  ASSERT_EQ(state.supports.bolt_springs.size(), 1u);
+  EXPECT_EQ(state.supports.bolt_springs[0].number, 3);
   bars.evaluate(state);
-  EXPECT_NEAR(state.bolt_springs[0].force, 0, 1e-10 * 1e4) << "its pretension went with the plate";
+  EXPECT_NEAR(state.supports.bolt_springs[0].force, 0, 1e-10 * 1e4) << "its pretension went with the plate";
   cut_bolts<2>([](int& body, Vector<2>&) { return body != 3; }, state);
-  EXPECT_TRUE(state.grouted.empty());
-  EXPECT_TRUE(state.bolt_springs.empty());
+  EXPECT_TRUE(state.supports.grouted.empty());
+  EXPECT_TRUE(state.supports.bolt_springs.empty());
 }
 
 void expect_same_bits(const std::string& statics) {
@@ -369,9 +369,9 @@ void expect_same_bits(const std::string& statics) {
   Prepared<2> scene = scene_of(beds + lowest + one + other + springs + stages, {statics});
   const Progress<2> whole = simulated(scene);
   ASSERT_EQ(whole.results.outcome, Outcome::done) << whole.results.message;
-  ASSERT_EQ(whole.state.grouted.size(), 4u);
+  ASSERT_EQ(whole.state.supports.grouted.size(), 4u);
   const auto slipped = [](double slip) { return slip != 0; };
-  EXPECT_TRUE(std::ranges::any_of(whole.state.grouted[1].state.slip, slipped));
+  EXPECT_TRUE(std::ranges::any_of(whole.state.supports.grouted[1].state.slip, slipped));
   // bars on both sides of a bolt of springs have their own slip in their rows
   double most = 0;
   for (const BoltRow& r : whole.results.bolts) {
@@ -383,7 +383,7 @@ void expect_same_bits(const std::string& statics) {
   }
   double of_bars = 0;
   for (std::size_t k = 1; k < 4; ++k)
-    for (const double slip : whole.state.grouted[k].state.slip)
+    for (const double slip : whole.state.supports.grouted[k].state.slip)
       of_bars = std::max(of_bars, std::abs(slip));
   EXPECT_NEAR(most, of_bars, 1e-6 * of_bars) << "rows are of the positions that the last step led to";
   EXPECT_EQ(simulated(scene_of(beds + lowest + springs + other + one + stages, {statics})).results.state_hash,

@@ -54,7 +54,7 @@ LiningState cast(const Model<2>& model, int index, State<2>& state) {
   LiningState lined{.lining = index, .rock = rock_around(model, state, lining), .contacts = {}};
   const bool bonded = model.properties[lining.interface_properties].laws.bond;
   lined.contacts.assign(2 * lining.nodes.size(), LiningContact{.bonded = bonded});
-  cache_poses(model, 1, state);
+  cache_poses(model, 1, state.bodies);
   for (std::size_t i = 0; i < lined.contacts.size(); ++i) {
     LiningContact& contact = lined.contacts[i];
     contact.rock = rock_opposite(lining, lined, static_cast<int>(i), state);
@@ -94,7 +94,7 @@ std::vector<LiningRock> rock_around(const Model<2>& model, const State<2>& state
       for (std::size_t face = 0; face < part.joints.size(); ++face) {
         if (part.joints[face] == no_joint || !model.joints[part.joints[face]].holds) continue;
         for (int k = 0; k < static_cast<int>(lining.sides.size()); ++k) {
-          const LiningRock rock = stretch_of(model, state.motions[b], static_cast<int>(b), part, face, lining, k);
+          const LiningRock rock = stretch_of(model, state.bodies.motions[b], static_cast<int>(b), part, face, lining, k);
           if (rock.to - rock.from > least_face * lining.sides[k].length) found.push_back(rock);
         }
       }
@@ -103,7 +103,7 @@ std::vector<LiningRock> rock_around(const Model<2>& model, const State<2>& state
 }
 
 Vector<2> seen_from_rock(const LiningRock& rock, int node_body, const State<2>& state) {
-  const CachedPose<2>&block = state.poses[rock.body], &node = state.poses[node_body];
+  const CachedPose<2>&block = state.bodies.poses[rock.body], &node = state.bodies.poses[node_body];
   return block.axes.transpose() * between(block, node) - rock.corner;
 }
 
@@ -144,24 +144,24 @@ std::vector<std::string> install_linings(const Model<Dim>& model, const std::vec
     for (std::size_t i = 0; i < model.linings.size(); ++i) {
       const std::string& name = model.linings[i].properties.name;
       if (std::ranges::find(names, name) == names.end()) continue;
-      state.linings.push_back(cast(model, static_cast<int>(i), state));
-      if (state.linings.back().rock.empty()) idle.push_back(name);
+      state.supports.linings.push_back(cast(model, static_cast<int>(i), state));
+      if (state.supports.linings.back().rock.empty()) idle.push_back(name);
     }
-    std::ranges::stable_sort(state.linings, {}, &LiningState::lining);
+    std::ranges::stable_sort(state.supports.linings, {}, &LiningState::lining);
   }
   return idle;
 }
 
 template <int Dim>
 void release_linings(const Model<Dim>& model, State<Dim>& state) {
-  for (LiningState& lined : state.linings)
+  for (LiningState& lined : state.supports.linings)
     keep_rock(lined, [&](const LiningRock& rock) { return model.bodies[rock.body].present; });
 }
 
 template <int Dim>
 void carry_linings(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state) {
   if constexpr (Dim == 2)
-    for (LiningState& lined : state.linings)
+    for (LiningState& lined : state.supports.linings)
       keep_rock(lined, [&](LiningRock& rock) {
         Vector<2> middle = rock.corner + 0.5 * (rock.from + rock.to) * perpendicular(rock.normal);
         if (!follow(before, model, moved, rock.body, middle)) return false;

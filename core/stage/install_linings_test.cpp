@@ -48,7 +48,7 @@ TEST(Linings, HangInTheRockWithTheirWeight) {
   for (const LiningNode& node : lining.nodes)
     weight += 10 * node.mass;
   for (std::size_t i = 0; i < 48; ++i) {
-    const LiningContact &a = done.state.linings[0].contacts[2 * i], &b = done.state.linings[0].contacts[2 * i + 1];
+    const LiningContact &a = done.state.supports.linings[0].contacts[2 * i], &b = done.state.supports.linings[0].contacts[2 * i + 1];
     for (const auto& [c, half] : {std::pair(a, 0), std::pair(b, 1)}) {
       const LiningSide& side = lining.sides[lining.nodes[i].side[half]];
       of_rock += -c.normal * side.normal + c.shear * side.along();
@@ -116,12 +116,12 @@ TEST(Linings, AreInstalledTogetherWithBolts) {
   const Progress<2> before =
       simulated(scene_of(rock + support + dug + stage("bolt", R"(install = ["right", "roof"])") + last(R"("shell")")));
   EXPECT_EQ(reordered.results.state_hash, together.results.state_hash);
-  ASSERT_EQ(together.state.bolt_springs.size(), 2u);
-  ASSERT_EQ(before.state.bolt_springs.size(), 2u);
+  ASSERT_EQ(together.state.supports.bolt_springs.size(), 2u);
+  ASSERT_EQ(before.state.supports.bolt_springs.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
-    const double force = together.state.bolt_springs[i].force;
+    const double force = together.state.supports.bolt_springs[i].force;
     EXPECT_GT(std::abs(force), 100) << i;
-    EXPECT_NEAR(before.state.bolt_springs[i].force, force, 1e-3 * std::abs(force)) << i;
+    EXPECT_NEAR(before.state.supports.bolt_springs[i].force, force, 1e-3 * std::abs(force)) << i;
   }
   EXPECT_EQ(together.results.linings.size(), 48u);
   EXPECT_LT(together.results.energy.relative_error(), 0.01);
@@ -129,9 +129,9 @@ TEST(Linings, AreInstalledTogetherWithBolts) {
 
 TEST(Linings, AreCastWithoutForce) {
   Cast cast;
-  EXPECT_EQ(nodes_without_rock(cast.state.linings.front()), 0);
+  EXPECT_EQ(nodes_without_rock(cast.state.supports.linings.front()), 0);
   find_lining_forces(cast.model, cast.scene.settings, cast.state);
-  for (const LiningContact& contact : cast.state.linings.front().contacts) {
+  for (const LiningContact& contact : cast.state.supports.linings.front().contacts) {
     EXPECT_LT(std::abs(contact.normal), 1e-3) << "rounding of some m at 1e9 N/m";
     EXPECT_EQ(contact.shear, 0);
   }
@@ -142,11 +142,11 @@ TEST(Linings, LetNoPairBeSkippedForAnOldPath) {
   const Progress<2> before = simulated(scene_of(rock + held + stage("weight", "gravity_ramp_s = 1")));
   Cast cast;
   State<2> state = before.state;
-  for (Contact<2>& contact : state.contacts)
+  for (Contact<2>& contact : state.contacts.list)
     contact.near_until = contact.free_until = 5;
   add_bodies(cast.model, state);
-  EXPECT_EQ(state.motions.size(), cast.model.bodies.size());
-  for (const Contact<2>& contact : state.contacts) {
+  EXPECT_EQ(state.bodies.motions.size(), cast.model.bodies.size());
+  for (const Contact<2>& contact : state.contacts.list) {
     EXPECT_EQ(contact.near_until, 0);
     EXPECT_EQ(contact.free_until, 0);
   }
@@ -163,14 +163,14 @@ TEST(Linings, FeelNoFlushJoint) {
     if (node.side[0] != node.side[1]) continue;
     const LiningSide& side = cast.lining().sides[node.side[0]];
     State<2> state = cast.state;
-    LiningContact& contact = state.linings.front().contacts[2 * n];
+    LiningContact& contact = state.supports.linings.front().contacts[2 * n];
     const int rock_before = contact.rock;
     constexpr double depth = 1e-3, step = 1e-4;
     double place = 0;
     bool changed = false;
     for (int k = 0; k < 2500; ++k, place += step) {
-      state.motions[cast.body(n)].displacement = depth * side.normal + place * side.along();
-      cache_poses(cast.model, 1, state);
+      state.bodies.motions[cast.body(n)].displacement = depth * side.normal + place * side.along();
+      cache_poses(cast.model, 1, state.bodies);
       find_lining_forces(cast.model, cast.scene.settings, state);
       if (contact.rock < 0) break;
       changed = changed || contact.rock != rock_before;
@@ -189,21 +189,21 @@ TEST(Linings, HaveTheTangentOfTheirForces) {
   const double size = 1e-4;
   for (std::size_t b = 0; b < cast.model.bodies.size(); ++b) {
     const double x = std::sin(3.7 * static_cast<double>(b + 2)), y = std::cos(2.9 * static_cast<double>(b + 2));
-    cast.state.motions[b].displacement = size * Vector<2>(x, y);
-    cast.state.motions[b].rotation.angle = 0.3 * size * (x - y);
+    cast.state.bodies.motions[b].displacement = size * Vector<2>(x, y);
+    cast.state.bodies.motions[b].rotation.angle = 0.3 * size * (x - y);
   }
-  cast.state.time_step = 1;
+  cast.state.time_step.length = 1;
   cast.state.relaxation.under_way = true;
   const auto loads_at = [&](const State<2>& at) {
     State<2> state = at;
-    cache_poses(cast.model, 1, state);
+    cache_poses(cast.model, 1, state.bodies);
     find_lining_forces(cast.model, cast.scene.settings, state);
     std::vector<Load<2>> loads(cast.model.bodies.size());
     lining_loads(cast.model, 1, state, loads);
     return loads;
   };
   State<2> here = cast.state;
-  here.newton.linings = here.linings;
+  here.increment.supports.linings = here.supports.linings;
   cache_poses(cast.model, 1, here);
   find_lining_forces(cast.model, cast.scene.settings, here);
   std::vector<PairStiffness<2>> pairs;
@@ -222,7 +222,7 @@ TEST(Linings, HaveTheTangentOfTheirForces) {
     const double h = 1e-9;
     const auto moved = [&](double way) {
       State<2> state = cast.state;
-      Motion<2>& m = state.motions[column / 3];
+      Motion<2>& m = state.bodies.motions[column / 3];
       if (column % 3 < 2)
         m.displacement[column % 3] += way;
       else
@@ -278,7 +278,7 @@ TEST(Linings, LoseTheRockThatIsTakenOut) {
       "[[excavations]]\nname = \"cross\"\noutline = true\nbox = { min = [0.5, -1], max = [11, 1] }\n";
   const Progress<2> done =
       simulated(scene_of(rock + more + held + shell + dig + stage("cross", "excavate = [\"cross\"]")));
-  const LiningState& lined = done.state.linings.front();
+  const LiningState& lined = done.state.supports.linings.front();
   const int without = nodes_without_rock(lined);
   EXPECT_GT(without, 2);
   EXPECT_LT(without, 24);

@@ -20,7 +20,7 @@ struct Stretched {
   Vector<Dim> arm_a, arm_b;  // of the second anchor from each centroid
 
   Stretched(const State<Dim>& state, const BoltSpring<Dim>& spring) {
-    const CachedPose<Dim>&a = state.poses[spring.body_a], &b = state.poses[spring.body_b];
+    const CachedPose<Dim>&a = state.bodies.poses[spring.body_a], &b = state.bodies.poses[spring.body_b];
     arm_b = b.axes * spring.place_b;
     arm_a = between(a, b) + arm_b;
     apart = arm_a - a.axes * spring.place_a;
@@ -36,7 +36,7 @@ bool is_grouted(const Model<Dim>& model, const BoltSpring<Dim>& spring) {
 // of the joints of a bar
 template <int Dim>
 std::span<const BoltSpring<Dim>> joints_of(const State<Dim>& state, const GroutedBolt<Dim>& grouted) {
-  return std::span(state.bolt_springs).subspan(grouted.first_spring, grouted.joints());
+  return std::span(state.supports.bolt_springs).subspan(grouted.first_spring, grouted.joints());
 }
 
 // the block of a stretch
@@ -48,7 +48,7 @@ int body_of(std::span<const BoltSpring<Dim>> joints, std::size_t stretch) {
 // in which a spring pulls on its first body, unit, world axes
 template <int Dim>
 Vector<Dim> direction_of(const State<Dim>& state, const BoltSpring<Dim>& spring, const Stretched<Dim>& at) {
-  const Vector<Dim> axis = state.poses[spring.body_a].axes * spring.axis;
+  const Vector<Dim> axis = state.bodies.poses[spring.body_a].axes * spring.axis;
   const double distance = at.apart.norm();
   if (spring.length == 0 || !(distance > 0)) return axis;
   return (axis.dot(at.apart) < 0 ? -1 / distance : 1 / distance) * at.apart;
@@ -64,7 +64,7 @@ void find_bar_force(GroutedBolt<Dim>& grouted, State<Dim>& state) {
   double opened = 0;
   for (std::size_t i = 0; i < nodes; ++i) {
     if (i > 0 && grouted.stretch[i] != grouted.stretch[i - 1]) {
-      BoltSpring<Dim>& joint = state.bolt_springs[grouted.first_spring + grouted.stretch[i - 1]];
+      BoltSpring<Dim>& joint = state.supports.bolt_springs[grouted.first_spring + grouted.stretch[i - 1]];
       const Stretched<Dim> at(state, joint);
       joint.extension = direction_of(state, joint, at).dot(at.apart) - joint.length;
       opened += joint.extension;
@@ -73,11 +73,11 @@ void find_bar_force(GroutedBolt<Dim>& grouted, State<Dim>& state) {
   }
   const GroutStep step = move_rock(grouted.bar, rock, grouted.state, workspace);
   if (!step.converged) ++state.counters.unconverged;
-  state.energy.elastic += step.stored;
-  state.energy.flows[Source::bolt_yield] += step.dissipated;
+  state.ledger.energy.elastic += step.stored;
+  state.ledger.energy.flows[Source::bolt_yield] += step.dissipated;
   for (std::size_t i = 1; i < nodes; ++i) {
     if (grouted.stretch[i] == grouted.stretch[i - 1]) continue;
-    BoltSpring<Dim>& joint = state.bolt_springs[grouted.first_spring + grouted.stretch[i - 1]];
+    BoltSpring<Dim>& joint = state.supports.bolt_springs[grouted.first_spring + grouted.stretch[i - 1]];
     joint.force = grouted.state.bar_force[i - 1];
     joint.plastic = grouted.state.plastic_stretch[i - 1];
   }
@@ -87,28 +87,28 @@ void find_bar_force(GroutedBolt<Dim>& grouted, State<Dim>& state) {
 template <int Dim>
 Vector<Dim> force_of(const State<Dim>& state, const BoltSpring<Dim>& spring, const Stretched<Dim>& at) {
   if (spring.broken) return Vector<Dim>::Zero();
-  return -(spring.force * direction_of(state, spring, at) + state.poses[spring.body_a].axes * spring.shear);
+  return -(spring.force * direction_of(state, spring, at) + state.bodies.poses[spring.body_a].axes * spring.shear);
 }
 
 }  // namespace
 
 template <int Dim>
 void find_bolt_forces(const Model<Dim>& model, State<Dim>& state) {
-  for (BoltSpring<Dim>& spring : state.bolt_springs) {
+  for (BoltSpring<Dim>& spring : state.supports.bolt_springs) {
     if (is_grouted(model, spring)) continue;
     const Stretched<Dim> at(state, spring);
-    const Vector<Dim> apart = state.poses[spring.body_a].axes.transpose() * at.apart;
+    const Vector<Dim> apart = state.bodies.poses[spring.body_a].axes.transpose() * at.apart;
     const BoltAnswer<Dim> answer = bolt_answer<Dim>(properties_of(model, spring), apart, spring);
-    state.energy.elastic += answer.elastic;
-    state.energy.flows[Source::bolt_yield] += answer.lost;
+    state.ledger.energy.elastic += answer.elastic;
+    state.ledger.energy.flows[Source::bolt_yield] += answer.lost;
   }
-  for (GroutedBolt<Dim>& grouted : state.grouted)
+  for (GroutedBolt<Dim>& grouted : state.supports.grouted)
     find_bar_force(grouted, state);
 }
 
 template <int Dim>
 void bolt_loads(const Model<Dim>&, int, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
-  for (const BoltSpring<Dim>& spring : state.bolt_springs) {
+  for (const BoltSpring<Dim>& spring : state.supports.bolt_springs) {
     const Stretched<Dim> at(state, spring);
     const Vector<Dim> force = force_of(state, spring, at);
     loads[spring.body_b] += {force, moment(at.arm_b, force)};
@@ -118,7 +118,7 @@ void bolt_loads(const Model<Dim>&, int, const State<Dim>& state, std::vector<Loa
 
 template <int Dim>
 void add_bolt_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
-  for (const BoltSpring<Dim>& spring : state.bolt_springs) {
+  for (const BoltSpring<Dim>& spring : state.supports.bolt_springs) {
     if (is_grouted(model, spring)) continue;
     const Stretched<Dim> at(state, spring);
     const bool one_is_fixed = model.bodies[spring.body_a].fixed || model.bodies[spring.body_b].fixed;
@@ -128,7 +128,7 @@ void add_bolt_stiffness(const Model<Dim>& model, const State<Dim>& state, std::v
     stiffness[spring.body_b].translation += k;
     stiffness[spring.body_b].rotation += k * at.arm_b.squaredNorm();
   }
-  for (const GroutedBolt<Dim>& grouted : state.grouted) {
+  for (const GroutedBolt<Dim>& grouted : state.supports.grouted) {
     const auto joints = joints_of(state, grouted);
     std::size_t free = 0;
     for (std::size_t s = 0; s <= joints.size(); ++s)
@@ -162,7 +162,7 @@ PairStiffness<Dim> pair_of(const State<Dim>& state, int body_a, int body_b, cons
   pair.contact = -1;
   pair.body_a = body_a;
   pair.body_b = body_b;
-  pair.apart = between(state.poses[body_a], state.poses[body_b]);
+  pair.apart = between(state.bodies.poses[body_a], state.bodies.poses[body_b]);
   pair.wrench.template head<Dim>() = force;
   pair.wrench.template tail<S>() = moment(arm_b, force);
   for (int f = 0; f < freedoms<Dim>; ++f) {
@@ -208,17 +208,17 @@ void add_bar_pairs(const Model<Dim>& model, const State<Dim>& state, const Grout
 
 template <int Dim>
 void add_bolt_pairs(const Model<Dim>& model, const State<Dim>& state, std::vector<PairStiffness<Dim>>& pairs) {
-  for (const BoltSpring<Dim>& spring : state.bolt_springs) {
+  for (const BoltSpring<Dim>& spring : state.supports.bolt_springs) {
     if (is_grouted(model, spring)) continue;
     if (spring.broken || (model.bodies[spring.body_a].fixed && model.bodies[spring.body_b].fixed)) continue;
     const Stretched<Dim> at(state, spring);
-    const CachedPose<Dim>& a = state.poses[spring.body_a];
+    const CachedPose<Dim>& a = state.bodies.poses[spring.body_a];
     const Matrix<Dim> own =
         bolt_stiffness<Dim>(properties_of(model, spring), Vector<Dim>(a.axes.transpose() * at.apart), spring);
     const Matrix<Dim> k = a.axes * own * a.axes.transpose();
     pairs.push_back(pair_of<Dim>(state, spring.body_a, spring.body_b, at.arm_b, k, force_of(state, spring, at)));
   }
-  for (const GroutedBolt<Dim>& grouted : state.grouted)
+  for (const GroutedBolt<Dim>& grouted : state.supports.grouted)
     add_bar_pairs(model, state, grouted, pairs);
 }
 

@@ -85,7 +85,7 @@ struct Waiting {
     set_pair(model, state, c.part_a, c.part_b, level, pair);
     all[looked_at++] = &c;
     if (c.touching() && is_integrated(settings.contact, model.properties[c.properties])) [[unlikely]] {
-      if (integrate_as_before<Dim>(pair, c, state.faces[&c - state.contacts.data()])) {
+      if (integrate_as_before<Dim>(pair, c, state.contacts.faces[&c - state.contacts.list.data()])) {
         ++counters.evaluations;
         return;
       }
@@ -102,27 +102,27 @@ void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
              const Waiting<Dim>& waiting, Tally& tally) {
   const std::span contacts = std::span(waiting.contacts).first(waiting.count);
   resolve_pairs<Dim>(model, settings.contact, std::span(waiting.pairs).first(waiting.count), contacts, tally.kernel);
-  const std::size_t stride = sub_stride(state);
+  const std::size_t stride = sub_stride(state.contacts);
   static thread_local HalfSpaces<Dim> planes;
   for (int i = 0; i < waiting.count; ++i) {
     Contact<Dim>* const c = contacts[i];
-    const std::size_t place = c - state.contacts.data();
-    const long long bonds = c->bond_due ? whole_bonds(state, place) : 0;
+    const std::size_t place = c - state.contacts.list.data();
+    const long long bonds = c->bond_due ? whole_bonds(state.contacts, place) : 0;
     if (c->touching()) {
       const bool whole = choose_joint(model, settings.contact, waiting.pairs[i], *c, planes);
       const int along = model.properties[c->properties].sub_contacts;
       if (whole) [[unlikely]] {
         c->cells = 0;
-        if (!integrate_contact<Dim>(waiting.pairs[i], planes, *c, state.faces[place])) {
+        if (!integrate_contact<Dim>(waiting.pairs[i], planes, *c, state.contacts.faces[place])) {
           c->status = ContactStatus::no_face;
           ++tally.unconverged;
         }
       } else if (const int cells = sub_contact_count<Dim>(along); cells > 0) {
-        divide<Dim>(waiting.pairs[i], along, *c, std::span(state.subs).subspan(place * stride, cells));
+        divide<Dim>(waiting.pairs[i], along, *c, std::span(state.contacts.subs).subspan(place * stride, cells));
       } else {
         c->cells = 0;
       }
-      if (bonds > 0 && whole_bonds(state, place) < bonds) c->bond_due = false;
+      if (bonds > 0 && whole_bonds(state.contacts, place) < bonds) c->bond_due = false;
       continue;
     }
     if (c->unanswered()) ++tally.unconverged;
@@ -150,12 +150,12 @@ void find_contacts_of(const Model<Dim>& model, const Settings& settings, State<D
     if (found) found(group, std::span(waiting.all).first(waiting.looked_at));
     waiting.count = waiting.looked_at = 0;
   };
-  const std::size_t first = group * summed_together, last = std::min(first + summed_together, state.contacts.size());
+  const std::size_t first = group * summed_together, last = std::min(first + summed_together, state.contacts.list.size());
   for (std::size_t i = first; i < last; ++i) {
-    Contact<Dim>& c = state.contacts[i];
-    state.contact_loads[i].second = -1;
+    Contact<Dim>& c = state.contacts.list[i];
+    state.contacts.loads[i].second = -1;
     if (!is_near(model, state, gap, c)) {
-      if (c.bond_due && whole_bonds(state, i) > 0) c.bond_due = false;  // lost, not to be made again
+      if (c.bond_due && whole_bonds(state.contacts, i) > 0) c.bond_due = false;  // lost, not to be made again
       set_apart(c);
       continue;
     }
@@ -193,15 +193,15 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>
                    const FoundContacts<Dim>& found) {
   const QueryLevel level = level_of(model, settings.contact);
   const double gap = closed_gap(model);
-  cache_poses(model, settings.threads, state);
+  cache_poses(model, settings.threads, state.bodies);
   count_travels(model, settings, state);
-  state.contact_loads.resize(state.contacts.size());
+  state.contacts.loads.resize(state.contacts.list.size());
   if (std::ranges::any_of(model.properties,
                           [&](const JointProperties& p) { return is_integrated(settings.contact, p); })) {
-    const std::size_t before = state.faces.size();
-    if (before < state.contacts.size()) state.faces.resize(state.contacts.size());
-    for (std::size_t i = before; i < state.faces.size(); ++i)
-      state.faces[i].polygon.corners.reserve(expected_corners);
+    const std::size_t before = state.contacts.faces.size();
+    if (before < state.contacts.list.size()) state.contacts.faces.resize(state.contacts.list.size());
+    for (std::size_t i = before; i < state.contacts.faces.size(); ++i)
+      state.contacts.faces[i].polygon.corners.reserve(expected_corners);
   }
   static thread_local std::vector<Tally> own;
   std::vector<Tally>& tallies = own;  // this thread's, filled by all

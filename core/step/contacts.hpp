@@ -19,7 +19,7 @@ using FoundContacts = std::function<void(int group, std::span<Contact<Dim>* cons
 // in each group as many as are summed together
 template <int Dim>
 std::size_t groups_of_contacts(const State<Dim>& state) {
-  return groups_of(state.contacts.size());
+  return groups_of(state.contacts.list.size());
 }
 
 // Point, normal, overlap and area of each candidate, each in its own slot; one that separated forgets its history.

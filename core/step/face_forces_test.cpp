@@ -36,9 +36,9 @@ struct Pressed : pressed::Block<Dim> {
   // as if the step that led here had moved the block so, about the middle of its base
   void answer_after(const Vector<Dim>& way, const Spin<Dim>& turn) {
     constexpr double dt = 1e-3;
-    state.time_step = dt;
+    state.time_step.length = dt;
     const Body<Dim>& body = model.bodies[block];
-    Motion<Dim>& motion = state.motions[block];
+    Motion<Dim>& motion = state.bodies.motions[block];
     const Spin<Dim> spin = turn / dt;
     motion.velocity = way / dt + cross(spin, Vector<Dim>(height * Vector<Dim>::Unit(Dim - 1)));
     motion.angular_momentum = angular_momentum(body, motion.rotation, spin);
@@ -91,9 +91,9 @@ TEST(WholeFaces, HoldAndLoseTheirFrictionInTwist) {
   EXPECT_NEAR(-p.moment()[2], limit, 1e-6 * limit);
   // from nothing to the limit: half of it on the way, over the turn that slipped
   const double slipped = turn - limit / stiffness;
-  EXPECT_NEAR(p.state.energy.flows[Source::friction], 0.5 * limit * slipped, 1e-6 * limit * slipped);
+  EXPECT_NEAR(p.state.ledger.energy.flows[Source::friction], 0.5 * limit * slipped, 1e-6 * limit * slipped);
   p.answer_after(Vector<3>::Zero(), {0, 0, turn});
-  EXPECT_NEAR(p.state.energy.flows[Source::friction], 0.5 * limit * slipped + limit * turn, 1e-6 * limit * turn);
+  EXPECT_NEAR(p.state.ledger.energy.flows[Source::friction], 0.5 * limit * slipped + limit * turn, 1e-6 * limit * turn);
 }
 
 template <int Dim>
@@ -105,13 +105,13 @@ void expect_slide() {
   const Vector<Dim> along = Vector<Dim>::Unit(0);
   p.answer_after(0.5 * limit / stiffness * along, Spin<Dim>::Zero());
   EXPECT_NEAR(-p.force()[0], 0.5 * limit, exact * limit);
-  EXPECT_EQ(p.state.energy.flows[Source::friction], 0);
+  EXPECT_EQ(p.state.ledger.energy.flows[Source::friction], 0);
   p.answer_after(2 * limit / stiffness * along, Spin<Dim>::Zero());
   EXPECT_NEAR(-p.force()[0], limit, exact * limit);
   // 1.5 limits of the way slipped, from half the limit to all of it
-  EXPECT_NEAR(p.state.energy.flows[Source::friction], 0.75 * limit * 1.5 * limit / stiffness,
+  EXPECT_NEAR(p.state.ledger.energy.flows[Source::friction], 0.75 * limit * 1.5 * limit / stiffness,
               exact * limit * limit / stiffness);
-  EXPECT_NEAR(p.state.energy.elastic,
+  EXPECT_NEAR(p.state.ledger.energy.elastic,
               0.5 * p.properties().normal_stiffness * depth * depth + 0.5 * limit * limit / stiffness,
               exact * limit * depth);
 }
@@ -131,16 +131,16 @@ void expect_lost_area() {
   const double stiffness = p.properties().shear_stiffness;
   const double held = 0.5 * stiffness * shear * shear;
   Pressed<Dim> tilted(depth, tilt);  // pressed where depth + tilt x > 0: three quarters
-  p.state.motions = tilted.state.motions;
-  p.state.time_step = 0;
+  p.state.bodies.motions = tilted.state.bodies.motions;
+  p.state.time_step.length = 0;
   p.answer();
   const double left = 0.5 + depth / tilt;
   // the normal force's own part along x is half the tilt of it
-  const JointState<Dim>& h = p.state.contacts[0].history;
+  const JointState<Dim>& h = p.state.contacts.list[0].history;
   EXPECT_NEAR(h.shear_force.norm(), left * stiffness * shear, 1e-3 * stiffness * shear);
   EXPECT_NEAR(h.area, left, 1e-3);
-  EXPECT_NEAR(p.state.energy.flows[Source::lost_area], (1 - left) * held, 1e-3 * held);
-  EXPECT_EQ(p.state.energy.flows[Source::friction], 0);
+  EXPECT_NEAR(p.state.ledger.energy.flows[Source::lost_area], (1 - left) * held, 1e-3 * held);
+  EXPECT_EQ(p.state.ledger.energy.flows[Source::friction], 0);
 }
 
 TEST(WholeFaces, GiveUpTheShearOfTheAreaTheyLose) {
@@ -194,14 +194,14 @@ template <int Dim>
 double closure_of_rocking(const Spin<Dim>& spin, double fraction) {
   Pressed<Dim> p(1e-4);
   p.settings.time.fraction = fraction;
-  Motion<Dim>& motion = p.state.motions[p.block];
+  Motion<Dim>& motion = p.state.bodies.motions[p.block];
   const Body<Dim>& body = p.model.bodies[p.block];
   motion.angular_momentum = angular_momentum(body, motion.rotation, spin);
   p.model.gravity[Dim - 1] = -p.force()[Dim - 1] / body.mass;
   for (int i = 0; i < 2000; ++i)
     step(p.model, p.settings, p.state);
   EXPECT_EQ(p.state.counters.unconverged, 0);
-  return p.state.energy.relative_error();
+  return p.state.ledger.energy.relative_error();
 }
 
 TEST(WholeFaces, KeepTheirEnergyAsTheyRockAndTwist) {
@@ -215,12 +215,12 @@ TEST(WholeFaces, EndATurnAboutTheirNormal) {
   Pressed<3> p(1e-4);
   const Body<3>& body = p.model.bodies[p.block];
   p.model.gravity[2] = -p.force()[2] / body.mass;
-  p.state.motions[p.block].angular_momentum =
-      angular_momentum(body, p.state.motions[p.block].rotation, Spin<3>(0, 0, 5));
+  p.state.bodies.motions[p.block].angular_momentum =
+      angular_momentum(body, p.state.bodies.motions[p.block].rotation, Spin<3>(0, 0, 5));
   p.settings.damping.local = 0.3;
   for (int i = 0; i < 4000; ++i)
     step(p.model, p.settings, p.state);
-  EXPECT_LT(p.state.motions[p.block].angular_momentum.norm(), 1e-6 * 5 * body.mass);
+  EXPECT_LT(p.state.bodies.motions[p.block].angular_momentum.norm(), 1e-6 * 5 * body.mass);
 }
 
 State<3> pile(int threads, double skin, int steps, bool interrupted) {
@@ -231,7 +231,7 @@ State<3> pile(int threads, double skin, int steps, bool interrupted) {
   settings.threads = threads;
   State<3> state = initial_state(model);
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].fixed) state.motions[b].velocity = {2, 1.0 * static_cast<double>(b % 3), 3};
+    if (!model.bodies[b].fixed) state.bodies.motions[b].velocity = {2, 1.0 * static_cast<double>(b % 3), 3};
   for (int i = 0; i < steps; ++i) {
     step(model, settings, state);
     if (interrupted && i % 37 == 5) {
@@ -269,17 +269,17 @@ TEST(WholeFaces, AreThoseOfTheirJointBesideOthers) {
   settings.contact.face = ContactFace::integrated;
   State<3> state = initial_state(model);
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].fixed) state.motions[b].velocity = {2, 1.0 * static_cast<double>(b % 3), 3};
+    if (!model.bodies[b].fixed) state.bodies.motions[b].velocity = {2, 1.0 * static_cast<double>(b % 3), 3};
   int whole = 0, tied = 0;
   for (int i = 0; i < 400; ++i) {
     step(model, settings, state);
-    for (std::size_t k = 0; k < state.contacts.size(); ++k) {
-      const Contact<3>& c = state.contacts[k];
+    for (std::size_t k = 0; k < state.contacts.list.size(); ++k) {
+      const Contact<3>& c = state.contacts.list[k];
       if (!c.touching()) continue;
       (c.properties == 0 ? whole : tied) += 1;
       EXPECT_EQ(c.properties, c.joint == no_joint ? 0 : model.joints[c.joint].properties);
       if (c.properties == 0) {
-        EXPECT_NEAR(state.faces[k].force.norm(), c.geometry.overlap * c.geometry.area, 1e-9 * c.geometry.area) << i;
+        EXPECT_NEAR(state.contacts.faces[k].force.norm(), c.geometry.overlap * c.geometry.area, 1e-9 * c.geometry.area) << i;
       }
     }
   }
@@ -294,7 +294,7 @@ TEST(WholeFaces, AskForNoMemory) {
   settings.contact.skin = 3;
   State<3> state = initial_state(model);
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].fixed) state.motions[b].velocity = {2, 1.0 * static_cast<double>(b % 3), 3};
+    if (!model.bodies[b].fixed) state.bodies.motions[b].velocity = {2, 1.0 * static_cast<double>(b % 3), 3};
   for (int i = 0; i < 100; ++i)
     step(model, settings, state);
   const long long made = allocations;

@@ -42,17 +42,17 @@ std::vector<Vector<Dim>> pulls(const Model<Dim>& model, const State<Dim>& state)
   std::vector<Vector<Dim>> pull;
   std::vector<bool> alone;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    pull.push_back(weight(model, state, b));
+    pull.push_back(weight(model, state.schedule, b));
     alone.push_back(all_directions_free(model.bodies[b]));
   }
-  for (std::size_t i = 0; i < state.contact_loads.size(); ++i) {
-    const ContactLoad<Dim>& contact = state.contact_loads[i];
+  for (std::size_t i = 0; i < state.contacts.loads.size(); ++i) {
+    const ContactLoad<Dim>& contact = state.contacts.loads[i];
     if (contact.second < 0 || contact.force.isZero(0)) continue;
-    alone[contact.second] = alone[model.parts[state.contacts[i].part_a].body] = false;
+    alone[contact.second] = alone[model.parts[state.contacts.list[i].part_a].body] = false;
   }
   for (const SourceRow& row : std::span(source_table).first(load_count)) {
     if (row.motion < 0 || row.source == Source::gravity) continue;
-    const std::vector<Load<Dim>>& loads = state.loads_of[row.source];
+    const std::vector<Load<Dim>>& loads = state.loads.by_source[row.source];
     for (std::size_t b = 0; b < loads.size(); ++b) {
       if (follows_body(row.source))
         pull[b] += loads[b].force;
@@ -83,14 +83,14 @@ class Chains {
 template <int Dim>
 Chains chains_of(const Model<Dim>& model, const State<Dim>& state) {
   Chains chains(model.bodies.size());
-  for (const Contact<Dim>& contact : state.contacts)
+  for (const Contact<Dim>& contact : state.contacts.list)
     chains.join(model.parts[contact.part_a].body, model.parts[contact.part_b].body);
-  for (const BoltSpring<Dim>& spring : state.bolt_springs)
+  for (const BoltSpring<Dim>& spring : state.supports.bolt_springs)
     if (!spring.broken) chains.join(spring.body_a, spring.body_b);
-  for (const GroutedBolt<Dim>& grouted : state.grouted)
+  for (const GroutedBolt<Dim>& grouted : state.supports.grouted)
     for (const int body : grouted.body)
       chains.join(grouted.body.front(), body);
-  for (const LiningState& lined : state.linings) {
+  for (const LiningState& lined : state.supports.linings) {
     const Lining& lining = model.linings[lined.lining];
     for (int node = 0; node < static_cast<int>(lining.nodes.size()); ++node)
       chains.join(lining.first_body, lining.first_body + node);
@@ -105,7 +105,7 @@ template <int Dim>
 bool lies_below(const Model<Dim>& model, const State<Dim>& state, const Vector<Dim>& ahead, int falling, int other) {
   const Body<Dim>&first = model.bodies[falling], &second = model.bodies[other];
   const Vector<Dim> way =
-      (second.reference - first.reference) + (state.motions[other].displacement - state.motions[falling].displacement);
+      (second.reference - first.reference) + (state.bodies.motions[other].displacement - state.bodies.motions[falling].displacement);
   const double along = way.dot(ahead);
   return along + second.radius > -first.radius && (way - along * ahead).norm() < 2 * first.radius + second.radius;
 }
@@ -120,7 +120,7 @@ int falling_free(const Model<Dim>& model, const State<Dim>& state) {
   const int count = static_cast<int>(model.bodies.size());
   std::vector<bool> away;
   for (int b = 0; b < count; ++b)
-    away.push_back(!pull[b].isZero(0) && state.motions[b].displacement.norm() > width);
+    away.push_back(!pull[b].isZero(0) && state.bodies.motions[b].displacement.norm() > width);
   const auto may_be_caught = [&](int b) {
     const Vector<Dim> ahead = pull[b].normalized();
     for (int other = 0; other < count; ++other)
@@ -129,7 +129,7 @@ int falling_free(const Model<Dim>& model, const State<Dim>& state) {
   };
   for (int b = 0; b < count; ++b) {
     if (!away[b]) continue;
-    const Motion<Dim>& motion = state.motions[b];
+    const Motion<Dim>& motion = state.bodies.motions[b];
     if (motion.displacement.norm() > lost * width) return b;
     if (motion.velocity.dot(motion.displacement) >= 0 && !may_be_caught(b)) return b;
   }
@@ -144,11 +144,11 @@ int tied_to_nothing(const Model<Dim>& model, const State<Dim>& state) {
   const auto other_load = [&](int b) {
     return std::ranges::any_of(source_table, [&](const SourceRow& row) {
       const bool may_hold = follows_body(row.source) && row.source != Source::gravity;
-      return may_hold && !state.loads_of[row.source].empty() && !state.loads_of[row.source][b].force.isZero(0);
+      return may_hold && !state.loads.by_source[row.source].empty() && !state.loads.by_source[row.source][b].force.isZero(0);
     });
   };
   const auto moves = [&](int b) {
-    return !state.motions[b].velocity.isZero(0) || !state.motions[b].angular_momentum.isZero(0);
+    return !state.bodies.motions[b].velocity.isZero(0) || !state.bodies.motions[b].angular_momentum.isZero(0);
   };
   std::vector<bool> falls(count, true);  // by chain
   for (int b = 0; b < count; ++b)
@@ -182,7 +182,7 @@ int fastest(const Model<Dim>& model, const State<Dim>& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
     if (!body.present || body.fixed) continue;
-    const Motion<Dim>& motion = state.motions[b];
+    const Motion<Dim>& motion = state.bodies.motions[b];
     const double speed = motion.velocity.norm() + body.radius * angular_velocity(body, motion).norm();
     if (!(speed > most)) continue;
     most = speed;

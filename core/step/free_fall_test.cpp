@@ -190,16 +190,16 @@ TEST(FreeFall, IsSeenWhereverABodyHasGone) {
   const int block = shapes::index_of(model, "block");
   for (int k = 0; k < 50; ++k) {
     State<3> state = initial_state(model);
-    state.motions[block].displacement = 1.6e12 * random_axes<3>(engine).col(0);
-    state.motions[block].velocity = random_axes<3>(engine).col(0);
+    state.bodies.motions[block].displacement = 1.6e12 * random_axes<3>(engine).col(0);
+    state.bodies.motions[block].velocity = random_axes<3>(engine).col(0);
     EXPECT_EQ(falling_free(model, state), block);
-    state.contacts.resize(1);
-    state.contacts[0].part_b = 1;
-    state.contacts[0].status = ContactStatus::touching;
-    state.contact_loads.resize(1);
-    state.contact_loads[0].second = 1;
+    state.contacts.list.resize(1);
+    state.contacts.list[0].part_b = 1;
+    state.contacts.list[0].status = ContactStatus::touching;
+    state.contacts.loads.resize(1);
+    state.contacts.loads[0].second = 1;
     EXPECT_EQ(falling_free(model, state), block);
-    state.contact_loads[0].force = {0, 0, 1};
+    state.contacts.loads[0].force = {0, 0, 1};
     EXPECT_EQ(falling_free(model, state), -1) << "a force acts between them";
   }
 }

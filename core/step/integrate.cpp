@@ -125,19 +125,19 @@ template <int Dim>
 double unbalanced_force(const Model<Dim>& model, const State<Dim>& state, int b) {
   const Body<Dim>& body = model.bodies[b];
   if (body.fixed) return 0;
-  double frequency = static_cast<std::size_t>(b) < state.frequency.size() ? state.frequency[b] : 0;
+  double frequency = static_cast<std::size_t>(b) < state.time_step.frequency.size() ? state.time_step.frequency[b] : 0;
   // mass times frequency goes with the root of the mass
   if (frequency > 0 && state.relaxation.under_way) frequency *= std::sqrt(state.relaxation.inertia[b]);
   double squares = 0, momentum = 0;
   for (int k = 0; k < Dim; ++k) {
     if (!body.free_translation[k]) continue;
-    squares += state.loads[b].force[k] * state.loads[b].force[k];
-    momentum += std::pow(body.mass * state.motions[b].velocity[k], 2);
+    squares += state.loads.total[b].force[k] * state.loads.total[b].force[k];
+    momentum += std::pow(body.mass * state.bodies.motions[b].velocity[k], 2);
   }
   for (int k = 0; k < spin_freedoms<Dim>; ++k) {
     if (!body.free_rotation[k]) continue;
-    squares += std::pow(state.loads[b].moment[k] / body.radius, 2);
-    momentum += std::pow(state.motions[b].angular_momentum[k] / body.radius, 2);
+    squares += std::pow(state.loads.total[b].moment[k] / body.radius, 2);
+    momentum += std::pow(state.bodies.motions[b].angular_momentum[k] / body.radius, 2);
   }
   return std::sqrt(squares) + frequency * std::sqrt(momentum);
 }
@@ -148,7 +148,7 @@ double mean_load(const Model<Dim>& model, const State<Dim>& state, std::initiali
   double forces = 0;
   int loaded = 0;
   for (const Source source : sources) {
-    const std::vector<Load<Dim>>& loads = state.loads_of[source];
+    const std::vector<Load<Dim>>& loads = state.loads.by_source[source];
     for (std::size_t b = 0; b < loads.size(); ++b) {
       if (model.bodies[b].fixed || loads[b].force.isZero(0)) continue;
       forces += loads[b].force.norm();
@@ -170,13 +170,13 @@ struct ForceSum {
 template <int Dim>
 double force_at_rest(const Model<Dim>& model, int threads, const State<Dim>& state) {
   const auto add_contact = [&](int i, ForceSum& sum) {
-    const ContactLoad<Dim>& c = state.contact_loads[i];
+    const ContactLoad<Dim>& c = state.contacts.loads[i];
     if (c.second < 0) return;
     sum.forces += c.force.norm();
     ++sum.acting;
   };
   ForceSum all, supports;  // contacts and supports; supports alone
-  for (const ForceSum& some : sums_in_groups<ForceSum>(threads, state.contact_loads.size(), add_contact)) {
+  for (const ForceSum& some : sums_in_groups<ForceSum>(threads, state.contacts.loads.size(), add_contact)) {
     all.forces += some.forces;
     all.acting += some.acting;
   }
@@ -186,9 +186,9 @@ double force_at_rest(const Model<Dim>& model, int threads, const State<Dim>& sta
       sum->acting += acting;
     }
   };
-  for (const BoltSpring<Dim>& spring : state.bolt_springs)
+  for (const BoltSpring<Dim>& spring : state.supports.bolt_springs)
     if (!spring.broken) add_support(std::abs(spring.force) + spring.shear.norm(), 1);
-  const InterfaceSum of_linings = interface_sum(state.linings);
+  const InterfaceSum of_linings = interface_sum(state.supports.linings);
   add_support(of_linings.forces, of_linings.touching);
   return std::max({all.mean(), supports.mean(), mean_load(model, state, {Source::let_off}),
                    mean_load(model, state, {Source::applied_forces}),
@@ -232,8 +232,8 @@ std::vector<Kick<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std
   kicks.resize(model.bodies.size());
   each_on_threads(threads, kicks.size(), [&](int b) {
     kicks[b] = model.bodies[b].fixed ? Kick<Dim>()
-                                     : advance(model.bodies[b], state.loads[b], rules[rules.size() == 1 ? 0 : b], times,
-                                               state.motions[b]);
+                                     : advance(model.bodies[b], state.loads.total[b], rules[rules.size() == 1 ? 0 : b], times,
+                                               state.bodies.motions[b]);
   });
   return kicks;
 }
@@ -241,7 +241,7 @@ std::vector<Kick<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std
 template <int Dim>
 double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& state) {
   const auto raise = [&](int b, double& most) {
-    if (!state.left_behind.empty() && state.left_behind[b]) return;
+    if (!state.bodies.left_behind.empty() && state.bodies.left_behind[b]) return;
     most = std::max(most, unbalanced_force(model, state, b));
   };
   double largest = 0;

@@ -24,7 +24,7 @@ double spin_about(const Vector<2>&, const Spin<2>&, const Spin<2>&) {
 
 template <int Dim>
 PairMotion<Dim> motion_of(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
-  const CachedPose<Dim>&a = state.poses[model.parts[c.part_a].body], &b = state.poses[model.parts[c.part_b].body];
+  const CachedPose<Dim>&a = state.bodies.poses[model.parts[c.part_a].body], &b = state.bodies.poses[model.parts[c.part_b].body];
   return {between(a, b), b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
 }
 
@@ -107,7 +107,7 @@ template <int Dim>
                                                       const Bearing<Dim>& at, const Friction& friction,
                                                       JointState<Dim>& history, JointSums& sums) {
   // the slip is the one of the step that led here
-  const double dt = state.time_step;
+  const double dt = state.time_step.length;
   const Vector<Dim>& n = at.normal;
   const Vector<Dim> velocity = motion.velocity_at(at.point);
 
@@ -168,13 +168,13 @@ template <int Dim>
                                                   const IntegratedContact<Dim>& face, double friction,
                                                   JointState<Dim>& history) {
   const double dashpot = dashpot_of(settings, state, motion, geometry.area) * std::sqrt(properties.normal_stiffness);
-  return face_force<Dim>(properties, friction, dashpot, state.time_step, motion, geometry, face, history);
+  return face_force<Dim>(properties, friction, dashpot, state.time_step.length, motion, geometry, face, history);
 }
 
 // Bonds what presses of a contact whose bond is due.
 template <int Dim>
 void bond_what_presses(const JointProperties& properties, std::size_t place, State<Dim>& state, long long& made) {
-  Contact<Dim>& c = state.contacts[place];
+  Contact<Dim>& c = state.contacts.list[place];
   const auto bond = [&](double overlap, JointState<Dim>& history) {
     if (history.bonded || !(normal_answer(properties, overlap, false).stress > 0)) return;
     history.bonded = true;
@@ -186,7 +186,7 @@ void bond_what_presses(const JointProperties& properties, std::size_t place, Sta
     bond(c.geometry.overlap, c.history);
     c.bond_due = !c.history.bonded;
   } else {
-    for (SubContact<Dim>& s : subs_of(state, place))
+    for (SubContact<Dim>& s : subs_of(state.contacts, place))
       if (s.area > 0) bond(s.overlap, s.history);
   }
 }
@@ -210,7 +210,7 @@ template <int Dim>
 [[gnu::always_inline]] inline void answer(const Model<Dim>& model, const Settings& settings,
                                           const std::vector<Friction>& frictions, std::size_t place, State<Dim>& state,
                                           JointSums& sums) {
-  Contact<Dim>& c = state.contacts[place];
+  Contact<Dim>& c = state.contacts.list[place];
   if (!c.touching()) return;
   const JointProperties& properties = model.properties[c.properties];
   if (c.bond_due) [[unlikely]]
@@ -218,10 +218,10 @@ template <int Dim>
   const Friction& friction = frictions[c.properties];
   const PairMotion<Dim> motion = motion_of(model, state, c);
   if (is_integrated(settings.contact, properties)) [[unlikely]] {
-    const FaceForce<Dim> f = whole_face_force<Dim>(properties, settings, state, motion, c.geometry, state.faces[place],
+    const FaceForce<Dim> f = whole_face_force<Dim>(properties, settings, state, motion, c.geometry, state.contacts.faces[place],
                                                    friction.coefficient, c.history);
     c.force = f.force;
-    state.contact_loads[place] = {model.parts[c.part_b].body, f.force, f.about,
+    state.contacts.loads[place] = {model.parts[c.part_b].body, f.force, f.about,
                                   f.about - moment(motion.between, f.force)};
     sums.elastic += f.elastic;
     sums.friction += f.friction;
@@ -236,12 +236,12 @@ template <int Dim>
       at.stiffness_factor = c.geometry.stiffness_factor;
     }
     c.force = joint_force<Dim>(properties, settings, state, motion, at, friction, c.history, sums);
-    note_load<Dim>(c, {}, model.parts[c.part_b].body, motion.between, state.contact_loads[place]);
+    note_load<Dim>(c, {}, model.parts[c.part_b].body, motion.between, state.contacts.loads[place]);
     return;
   }
   // each cell answers for itself; the contact keeps what they are together
   double whole = 0;
-  for (const SubContact<Dim>& s : subs_of(state, place))
+  for (const SubContact<Dim>& s : subs_of(state.contacts, place))
     whole += s.area;
   c.force.setZero();
   c.history = {};
@@ -249,7 +249,7 @@ template <int Dim>
   c.history.point = c.geometry.point;
   c.history.area = properties.constant_stiffness ? 1 : whole;
   c.history.bonded = whole > 0;
-  for (SubContact<Dim>& s : subs_of(state, place)) {
+  for (SubContact<Dim>& s : subs_of(state.contacts, place)) {
     if (!(s.area > 0)) continue;
     const double area = properties.constant_stiffness ? s.area / whole : s.area;
     const bool bonded = s.history.bonded;
@@ -264,21 +264,21 @@ template <int Dim>
     if (bonded && !s.history.bonded) c.bond_due = false;  // where one breaks, none is made any more
   }
   note_load<Dim>(c, subs_of(std::as_const(state), place), model.parts[c.part_b].body, motion.between,
-                 state.contact_loads[place]);
+                 state.contacts.loads[place]);
 }
 
 // the sums of all groups of contacts, in their order
 template <int Dim>
 void add(const std::vector<JointSums>& sums, State<Dim>& state) {
-  state.energy.elastic = 0;
+  state.ledger.energy.elastic = 0;
   for (const JointSums& b : sums) {
-    state.energy.elastic += b.elastic;
-    state.energy.flows[Source::friction] += b.friction;
-    state.energy.flows[Source::lost_area] += b.lost_area;
-    state.energy.flows[Source::dashpots] += b.dashpots;
-    state.energy.flows[Source::stiffening] += b.stiffening;
+    state.ledger.energy.elastic += b.elastic;
+    state.ledger.energy.flows[Source::friction] += b.friction;
+    state.ledger.energy.flows[Source::lost_area] += b.lost_area;
+    state.ledger.energy.flows[Source::dashpots] += b.dashpots;
+    state.ledger.energy.flows[Source::stiffening] += b.stiffening;
     state.counters.snap_backs += b.snap_backs;
-    state.bonds.made += b.bonds_made;
+    state.ledger.bonds.made += b.bonds_made;
   }
 }
 
@@ -336,7 +336,7 @@ void find_joint_forces(const Model<Dim>& model, const Settings& settings, State<
   const std::vector<Friction>& frictions = frictions_of(state.schedule);
   const auto answer_found = [&](int group, std::span<Contact<Dim>* const> found) {
     for (const Contact<Dim>* c : found)
-      answer(model, settings, frictions, static_cast<std::size_t>(c - state.contacts.data()), state, sums[group]);
+      answer(model, settings, frictions, static_cast<std::size_t>(c - state.contacts.list.data()), state, sums[group]);
   };
   find_contacts<Dim>(model, settings, state, std::ref(answer_found));
   add(sums, state);
@@ -344,12 +344,12 @@ void find_joint_forces(const Model<Dim>& model, const Settings& settings, State<
 
 template <int Dim>
 void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  state.contact_loads.resize(state.contacts.size());
+  state.contacts.loads.resize(state.contacts.list.size());
   const std::vector<Friction>& frictions = frictions_of(state.schedule);
   const auto work = [&](int i, JointSums& sum) {
     answer(model, settings, frictions, static_cast<std::size_t>(i), state, sum);
   };
-  add(sums_in_groups<JointSums>(settings.threads, state.contacts.size(), work), state);
+  add(sums_in_groups<JointSums>(settings.threads, state.contacts.list.size(), work), state);
 }
 
 template <int Dim>
@@ -357,41 +357,41 @@ void make_bonds(const Model<Dim>& model, const Settings& settings, State<Dim>& s
   if (std::ranges::none_of(model.properties, [](const JointProperties& p) { return p.laws.bond; })) return;
   // which of the pairs that are near are closed shows as each is looked at
   find_neighbours(model, settings, state);
-  for (Contact<Dim>& c : state.contacts)
+  for (Contact<Dim>& c : state.contacts.list)
     c.bond_due = true;
   find_contacts(model, settings, state);
-  for (std::size_t i = 0; i < state.contacts.size(); ++i)
-    if (const Contact<Dim>& c = state.contacts[i]; c.bond_due && c.touching())
-      bond_what_presses(model.properties[c.properties], i, state, state.bonds.made);
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i)
+    if (const Contact<Dim>& c = state.contacts.list[i]; c.bond_due && c.touching())
+      bond_what_presses(model.properties[c.properties], i, state, state.ledger.bonds.made);
 }
 
 template <int Dim>
 void remove_bonds(const Model<Dim>& model, State<Dim>& state) {
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    Contact<Dim>& c = state.contacts[i];
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
+    Contact<Dim>& c = state.contacts.list[i];
     if (model.bodies[model.parts[c.part_a].body].present && model.bodies[model.parts[c.part_b].body].present) continue;
-    state.bonds.removed += whole_bonds(state, i);
+    state.ledger.bonds.removed += whole_bonds(state.contacts, i);
     c.history.bonded = false;
-    for (SubContact<Dim>& s : subs_of(state, i))
+    for (SubContact<Dim>& s : subs_of(state.contacts, i))
       s.history.bonded = false;
   }
 }
 
 template <int Dim>
 void zero_slip(State<Dim>& state) {
-  for (Contact<Dim>& c : state.contacts)
+  for (Contact<Dim>& c : state.contacts.list)
     c.history.plastic_slip = 0;
-  for (SubContact<Dim>& s : state.subs)
+  for (SubContact<Dim>& s : state.contacts.subs)
     s.history.plastic_slip = 0;
 }
 
 template <int Dim>
 BondCount count_bonds(const State<Dim>& state) {
-  BondCount count{.made = state.bonds.made, .removed = state.bonds.removed};
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    const long long whole = whole_bonds(state, i);
+  BondCount count{.made = state.ledger.bonds.made, .removed = state.ledger.bonds.removed};
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
+    const long long whole = whole_bonds(state.contacts, i);
     count.whole += whole;
-    count.due += state.contacts[i].bond_due && whole == 0;
+    count.due += state.contacts.list[i].bond_due && whole == 0;
   }
   count.broken = count.made - count.removed - count.whole;
   return count;

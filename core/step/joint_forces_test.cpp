@@ -64,14 +64,14 @@ TEST(SubContacts, SpinStiffnessConvergesWithTheSquareOfTheirNumber) {
     Pressed<3> pressed(along, depth, 0);
     const Body<3>& body = pressed.model.bodies[pressed.block];
     State<3>& state = pressed.state;
-    state.motions[pressed.block].angular_momentum =
-        angular_momentum(body, state.motions[pressed.block].rotation, Spin<3>(0, 0, speed));
-    state.time_step = time_step;
+    state.bodies.motions[pressed.block].angular_momentum =
+        angular_momentum(body, state.bodies.motions[pressed.block].rotation, Spin<3>(0, 0, speed));
+    state.time_step.length = time_step;
     pressed.answer();
     const double polar = width * width * (width * width + width * width) / 12;
     const double stiffness = pressed.model.properties[0].shear_stiffness * polar;
     const double expected = stiffness * (1 - 1.0 / (along * along));
-    EXPECT_NEAR(-state.loads[pressed.block].moment[2] / (speed * time_step), expected, 1e-9 * stiffness) << along;
+    EXPECT_NEAR(-state.loads.total[pressed.block].moment[2] / (speed * time_step), expected, 1e-9 * stiffness) << along;
   }
 }
 
@@ -91,12 +91,12 @@ TEST(NewContacts, CountTheSlipOfTheirFirstStep) {
     change.move = {move};
     model = apply(std::move(model), change);
     State<2> state = initial_state(model);
-    state.motions[block].displacement[1] = gap;
+    state.bodies.motions[block].displacement[1] = gap;
     Settings settings;
     settings.time.step = time_step;
     for (int i = 0; i <= steps; ++i)  // the forces that a step finds are those before it
       step(model, settings, state);
-    return -state.loads[block].force[0] / model.properties[0].shear_stiffness;
+    return -state.loads.total[block].force[0] / model.properties[0].shear_stiffness;
   };
   // on the way of the first step, 20 µm: from the start, after a quarter, just before its end; then the next
   for (const double gap : {0.0, 5e-6, 19e-6})
@@ -115,7 +115,7 @@ double closure_of_rocking(int along) {
   settings.damping.local = 0;
   settings.time.fraction = 0.02;
   State<Dim>& state = pressed.state;
-  Motion<Dim>& motion = state.motions[pressed.block];
+  Motion<Dim>& motion = state.bodies.motions[pressed.block];
   const Body<Dim>& body = pressed.model.bodies[pressed.block];
   Spin<Dim> spin = Spin<Dim>::Zero();
   spin[Dim == 2 ? 0 : 1] = 0.01;
@@ -125,7 +125,7 @@ double closure_of_rocking(int along) {
   for (int i = 0; i < 2000; ++i)
     step(pressed.model, settings, state);
   EXPECT_EQ(state.counters.unconverged, 0);
-  return state.energy.relative_error();
+  return state.ledger.energy.relative_error();
 }
 
 TEST(SubContacts, RockingKeepsItsEnergy) {
@@ -141,7 +141,7 @@ TEST(SubContacts, RockingKeepsItsEnergy) {
 // what a block pressed by `depth` answers through one point or several
 template <int Dim>
 double force_at(Pressed<Dim>& pressed, double depth) {
-  pressed.state.motions[pressed.block].displacement[Dim - 1] = -depth;
+  pressed.state.bodies.motions[pressed.block].displacement[Dim - 1] = -depth;
   pressed.answer();
   return pressed.force();
 }

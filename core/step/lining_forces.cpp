@@ -20,13 +20,13 @@ struct AtRock {
   LiningMotion motion;
 
   AtRock(const LiningRock& rock, int node, const State<2>& state)
-      : normal(state.poses[rock.body].axes * rock.normal),
+      : normal(state.bodies.poses[rock.body].axes * rock.normal),
         along(perpendicular(normal)),
-        from_block(between(state.poses[rock.body], state.poses[node])) {
+        from_block(between(state.bodies.poses[rock.body], state.bodies.poses[node])) {
     const Vector<2> at = seen_from_rock(rock, node, state);
     motion.closure = rock.normal.dot(at);
     motion.place = rock.normal[0] * at[1] - rock.normal[1] * at[0];
-    motion.seconds = state.time_step;
+    motion.seconds = state.time_step.length;
   }
   Vector<2> force(const LiningContact& c) const { return -c.normal * normal + c.shear * along; }  // on the node
 };
@@ -48,14 +48,14 @@ void each_beam(const Lining& lining, const State<2>& state, const Work& work) {
   for (int k = 0; k < lining.beams(); ++k) {
     const int a = lining.first_body + k, b = lining.first_body + lining.next(k);
     const Beam beam = lining.beam(k);
-    work(a, b, beam, beam_strain(beam, moved_node(state, a), moved_node(state, b)));
+    work(a, b, beam, beam_strain(beam, moved_node(state.bodies, a), moved_node(state.bodies, b)));
   }
 }
 
 // calls what(contact, half's length, rock, body of the node) for every half node that has rock opposite
 template <class State, class Work>
 void each_at_rock(const Model<2>& model, State& state, const Work& work) {
-  for (auto& lined : state.linings) {
+  for (auto& lined : state.supports.linings) {
     const Lining& lining = model.linings[lined.lining];
     for (std::size_t i = 0; i < lined.contacts.size(); ++i)
       if (auto& contact = lined.contacts[i]; contact.rock >= 0)
@@ -67,7 +67,7 @@ void each_at_rock(const Model<2>& model, State& state, const Work& work) {
 // Where a node has left its block's face, the next one takes over what the interface remembers; with none opposite,
 // nothing holds it any more.
 void follow_rock(const Model<2>& model, State<2>& state) {
-  for (LiningState& lined : state.linings) {
+  for (LiningState& lined : state.supports.linings) {
     const Lining& lining = model.linings[lined.lining];
     for (std::size_t i = 0; i < lined.contacts.size(); ++i) {
       LiningContact& contact = lined.contacts[i];
@@ -77,7 +77,7 @@ void follow_rock(const Model<2>& model, State<2>& state) {
       const double length = lining.nodes[i / 2].half_length[i % 2];
       if (rock < 0) {
         if (p.shear_stiffness > 0)
-          state.energy.flows[Source::lining_slip] += 0.5 * contact.shear * contact.shear / (p.shear_stiffness * length);
+          state.ledger.energy.flows[Source::lining_slip] += 0.5 * contact.shear * contact.shear / (p.shear_stiffness * length);
         contact = {.closure = contact.closure, .place = contact.place};
         continue;
       }
@@ -103,14 +103,14 @@ void add_pair(int body_a, int body_b, const State<2>& state, const FixedMatrix<3
   pair.contact = -1;
   pair.body_a = body_a;
   pair.body_b = body_b;
-  pair.apart = between(state.poses[body_a], state.poses[body_b]);
+  pair.apart = between(state.bodies.poses[body_a], state.bodies.poses[body_b]);
   pair.stiffness = stiffness;
   pair.wrench = wrench;
   pairs.push_back(pair);
 }
 
 void add_beam_pairs(const Model<2>& model, const State<2>& state, std::vector<PairStiffness<2>>& pairs) {
-  for (const LiningState& lined : state.linings)
+  for (const LiningState& lined : state.supports.linings)
     each_beam(model.linings[lined.lining], state, [&](int a, int b, const Beam& beam, const BeamStrain& strain) {
       const BeamForces forces = beam_forces(beam, strain);
       add_pair(a, b, state, beam_tangent(beam, strain).bottomRightCorner<3, 3>(),
@@ -123,21 +123,21 @@ void add_beam_pairs(const Model<2>& model, const State<2>& state, std::vector<Pa
 template <int Dim>
 void find_lining_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   if constexpr (Dim == 2) {
-    if (state.linings.empty()) return;
+    if (state.supports.linings.empty()) return;
     follow_rock(model, state);
     each_at_rock(model, state,
                  [&](const Lining& lining, LiningContact& contact, double length, const LiningRock& rock, int node) {
                    const AtRock at(rock, node, state);
-                   const double inverse_mass = state.poses[rock.body].inverse_mass + state.poses[node].inverse_mass;
+                   const double inverse_mass = state.bodies.poses[rock.body].inverse_mass + state.bodies.poses[node].inverse_mass;
                    const LiningJoint joint = joint_of(model, settings, state, lining, length, inverse_mass);
                    const LiningAnswer answer = interface_answer(joint, length, at.motion, contact);
-                   state.energy.elastic += answer.elastic;
-                   state.energy.flows[Source::lining_slip] += answer.friction;
-                   state.energy.flows[Source::dashpots] += answer.dashpots;
+                   state.ledger.energy.elastic += answer.elastic;
+                   state.ledger.energy.flows[Source::lining_slip] += answer.friction;
+                   state.ledger.energy.flows[Source::dashpots] += answer.dashpots;
                  });
-    for (const LiningState& lined : state.linings)
+    for (const LiningState& lined : state.supports.linings)
       each_beam(model.linings[lined.lining], state, [&](int, int, const Beam& beam, const BeamStrain& strain) {
-        state.energy.elastic += beam_forces(beam, strain).energy;
+        state.ledger.energy.elastic += beam_forces(beam, strain).energy;
       });
   }
 }
@@ -145,7 +145,7 @@ void find_lining_forces(const Model<Dim>& model, const Settings& settings, State
 template <int Dim>
 void lining_loads(const Model<Dim>& model, int, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
   if constexpr (Dim == 2) {
-    for (const LiningState& lined : state.linings)
+    for (const LiningState& lined : state.supports.linings)
       each_beam(model.linings[lined.lining], state, [&](int a, int b, const Beam& beam, const BeamStrain& strain) {
         const BeamForces forces = beam_forces(beam, strain);
         loads[a] += {forces.force[0], Spin<2>(forces.moment[0])};
@@ -164,7 +164,7 @@ void lining_loads(const Model<Dim>& model, int, const State<Dim>& state, std::ve
 template <int Dim>
 void add_lining_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
   if constexpr (Dim == 2) {
-    for (const LiningState& lined : state.linings) {
+    for (const LiningState& lined : state.supports.linings) {
       const Lining& lining = model.linings[lined.lining];
       for (std::size_t n = 0; n < lining.nodes.size(); ++n)
         stiffness[lining.first_body + n].translation += lining.nodes[n].mass * lining.nodes[n].square_frequency;
@@ -176,7 +176,7 @@ void add_lining_stiffness(const Model<Dim>& model, const State<Dim>& state, std:
               (model.bodies[rock.body].fixed ? 1 : 2) * length * std::max(p.normal_stiffness, p.shear_stiffness);
           stiffness[node].translation += k;
           stiffness[rock.body].translation += k;
-          stiffness[rock.body].rotation += k * between(state.poses[rock.body], state.poses[node]).squaredNorm();
+          stiffness[rock.body].rotation += k * between(state.bodies.poses[rock.body], state.bodies.poses[node]).squaredNorm();
         });
   }
 }
@@ -186,8 +186,8 @@ void add_lining_pairs(const Model<Dim>& model, const Settings& settings, const S
                       std::vector<PairStiffness<Dim>>& pairs) {
   if constexpr (Dim == 2) {
     add_beam_pairs(model, state, pairs);
-    for (std::size_t l = 0; l < state.linings.size(); ++l) {
-      const LiningState &lined = state.linings[l], &base = state.newton.linings[l];
+    for (std::size_t l = 0; l < state.supports.linings.size(); ++l) {
+      const LiningState &lined = state.supports.linings[l], &base = state.increment.linings[l];
       const Lining& lining = model.linings[lined.lining];
       for (std::size_t i = 0; i < lined.contacts.size(); ++i) {
         const LiningContact& contact = lined.contacts[i];

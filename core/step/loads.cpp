@@ -14,8 +14,8 @@ template <int Dim>
 void contact_loads(const Model<Dim>&, int threads, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
   each_on_threads(threads, loads.size(), [&](int b) {
     Load<Dim> load;
-    for (const int place : contacts_of(state, b)) {
-      const ContactLoad<Dim>& c = state.contact_loads[place];
+    for (const int place : contacts_of(state.contacts, b)) {
+      const ContactLoad<Dim>& c = state.contacts.loads[place];
       if (c.second == b) {
         load.force += c.force;
         load.moment += c.about_second;
@@ -30,7 +30,7 @@ void contact_loads(const Model<Dim>&, int threads, const State<Dim>& state, std:
 
 template <int Dim>
 void gravity_loads(const Model<Dim>& model, int threads, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
-  each_on_threads(threads, loads.size(), [&](int b) { loads[b].force = weight(model, state, b); });
+  each_on_threads(threads, loads.size(), [&](int b) { loads[b].force = weight(model, state.schedule, b); });
 }
 
 template <int Dim>
@@ -39,20 +39,20 @@ void boundary_stress_loads(const Model<Dim>& model, int threads, const State<Dim
   each_on_threads(threads, model.boundary.size(), [&](int i) {
     const BoundaryForces<Dim>& loaded = model.boundary[i];
     for (const DeadLoad<Dim>& load : loaded.forces)
-      loads[loaded.body] += load_of(load, state.poses[loaded.body].axes);
+      loads[loaded.body] += load_of(load, state.bodies.poses[loaded.body].axes);
   });
 }
 
 // at the time of the positions, N
 template <int Dim>
 Vector<Dim> force_of(const AppliedForce<Dim>& f, const State<Dim>& state) {
-  return value_at(f.factor, state.time - state.schedule.started) * f.force;
+  return value_at(f.factor, state.schedule.time - state.schedule.started) * f.force;
 }
 
 template <int Dim>
 void applied_loads(const Model<Dim>& model, int, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
   for (const AppliedForce<Dim>& f : model.applied) {
-    const Matrix<Dim>& axes = state.poses[f.body].axes;
+    const Matrix<Dim>& axes = state.bodies.poses[f.body].axes;
     const Vector<Dim> force = force_of(f, state);
     loads[f.body] += load_of<Dim>({f.place, f.turns_with_body ? Vector<Dim>(axes * force) : force}, axes);
   }
@@ -77,14 +77,14 @@ template <int Dim>
 void water_loads(const Model<Dim>& model, int threads, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
   const WaterSurfaces<Dim>& surfaces = surfaces_of(model, state);
   each_on_threads(threads, loads.size(),
-                  [&](int b) { loads[b] = water_load<Dim>(model, surfaces, b, standing(state.poses[b])); });
+                  [&](int b) { loads[b] = water_load<Dim>(model, surfaces, b, standing(state.bodies.poses[b])); });
 }
 
 template <int Dim>
 void add_water_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
   const WaterSurfaces<Dim>& surfaces = surfaces_of(model, state);
   for (std::size_t b = 0; b < stiffness.size(); ++b) {
-    const BodyStiffness more = water_stiffness<Dim>(model, surfaces, static_cast<int>(b), standing(state.poses[b]));
+    const BodyStiffness more = water_stiffness<Dim>(model, surfaces, static_cast<int>(b), standing(state.bodies.poses[b]));
     stiffness[b].translation += more.translation;
     stiffness[b].rotation += more.rotation;
   }
@@ -92,7 +92,7 @@ void add_water_stiffness(const Model<Dim>& model, const State<Dim>& state, std::
 
 template <int Dim>
 void held_loads(const Model<Dim>&, int, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
-  for (const ReliefLoad<Dim>& held : state.held)
+  for (const ReliefLoad<Dim>& held : state.loads.relief)
     loads[held.body] += {held.share * held.load.force, held.share * held.load.moment};
 }
 
@@ -125,13 +125,13 @@ template <int Dim>
 void boundary_stress_tangent(const Model<Dim>& model, const State<Dim>& state, std::vector<Block<Dim>>& stiffness) {
   for (const BoundaryForces<Dim>& loaded : model.boundary)
     for (const DeadLoad<Dim>& load : loaded.forces)
-      add_turning<Dim>(state.poses[loaded.body].axes * load.place, load.force, false, stiffness[loaded.body]);
+      add_turning<Dim>(state.bodies.poses[loaded.body].axes * load.place, load.force, false, stiffness[loaded.body]);
 }
 
 template <int Dim>
 void applied_tangent(const Model<Dim>& model, const State<Dim>& state, std::vector<Block<Dim>>& stiffness) {
   for (const AppliedForce<Dim>& f : model.applied) {
-    const Matrix<Dim>& axes = state.poses[f.body].axes;
+    const Matrix<Dim>& axes = state.bodies.poses[f.body].axes;
     const Vector<Dim> force = force_of(f, state);
     add_turning<Dim>(axes * f.place, f.turns_with_body ? Vector<Dim>(axes * force) : force, f.turns_with_body,
                      stiffness[f.body]);
@@ -172,20 +172,20 @@ constexpr LoadRow<Dim> load_table[] = {
 template <int Dim>
 void sum_loads(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const std::size_t count = model.bodies.size();
-  state.stiffened.clear();
+  state.loads.stiffened.clear();
   for (const LoadRow<Dim>& row : load_table<Dim>) {
-    std::vector<Load<Dim>>& loads = state.loads_of[row.source];
+    std::vector<Load<Dim>>& loads = state.loads.by_source[row.source];
     loads.assign(row.acts(model, state) ? count : 0, {});
     if (loads.empty()) continue;
     row.find(model, settings.threads, state, loads);
     if (!row.stiffen) continue;
-    state.stiffened.resize(count);
-    row.stiffen(model, state, state.stiffened);
+    state.loads.stiffened.resize(count);
+    row.stiffen(model, state, state.loads.stiffened);
   }
   each_on_threads(settings.threads, count, [&](int b) {
-    state.loads[b] = {};
+    state.loads.total[b] = {};
     for (const LoadRow<Dim>& row : load_table<Dim>)
-      if (const std::vector<Load<Dim>>& loads = state.loads_of[row.source]; !loads.empty()) state.loads[b] += loads[b];
+      if (const std::vector<Load<Dim>>& loads = state.loads.by_source[row.source]; !loads.empty()) state.loads.total[b] += loads[b];
   });
 }
 

@@ -61,13 +61,13 @@ Model<Dim> in_space(const HalfSpaces<Dim>& planes) {
 template <int Dim>
 Load<Dim> applied_to(int body, const Model<Dim>& model, const State<Dim>& state) {
   State<Dim> now = state;
-  cache_poses(model, 1, now);
-  list_by_body(model, now);
+  cache_poses(model, 1, now.bodies);
+  list_by_body(model, now.contacts);
   sum_loads(model, Settings(), now);
-  const std::vector<Load<Dim>>& loads = now.loads_of[Source::applied_forces];
+  const std::vector<Load<Dim>>& loads = now.loads.by_source[Source::applied_forces];
   if (loads.empty()) return {};
-  EXPECT_EQ(now.loads[body].force, loads[body].force) << "nothing else acts";
-  EXPECT_EQ(now.loads[body].moment, loads[body].moment);
+  EXPECT_EQ(now.loads.total[body].force, loads[body].force) << "nothing else acts";
+  EXPECT_EQ(now.loads.total[body].moment, loads[body].moment);
   return loads[body];
 }
 
@@ -81,9 +81,9 @@ TEST(AppliedForces, ActAtAPointOfTheirBlock) {
   const Vector<3> place(1, -1, 2), force(3, 5, -7);
   const std::vector<double> point = numbers<3>(model.origin + model.bodies[0].reference + place);
   State<3> state = initial_state(model);
-  state.motions[0].displacement = {4, 5, 6};
-  state.motions[0].rotation = turned(Rotation<3>{}, Spin<3>(0.3, -0.8, 0.5));
-  const Matrix<3> axes = matrix(state.motions[0].rotation);
+  state.bodies.motions[0].displacement = {4, 5, 6};
+  state.bodies.motions[0].rotation = turned(Rotation<3>{}, Spin<3>(0.3, -0.8, 0.5));
+  const Matrix<3> axes = matrix(state.bodies.motions[0].rotation);
   const Vector<3> arm = axes * place;
 
   ForcePlan plan = force_on<3>("block", force, point);
@@ -106,7 +106,7 @@ TEST(AppliedForces, ActAtAPointOfTheirBlock) {
   // in the plane
   const Model<2> flat = in_space<2>(box<2>({-1, -2}, {1, 2}));
   State<2> leaning = initial_state(flat);
-  leaning.motions[0].rotation.angle = 30 * degree;
+  leaning.bodies.motions[0].rotation.angle = 30 * degree;
   const Load<2> up = applied_to(0, apply(flat, with({force_on<2>("block", {0, 8}, {1, 0})})), leaning);
   EXPECT_NEAR(up.moment[0], 8 * std::cos(30 * degree), rounding * 8);
 }
@@ -144,7 +144,7 @@ TEST(AppliedForces, StayAsTheirStageLeftThem) {
   State<2> state = initial_state(model);
   state.schedule.started = 5;
   for (const double since : {0.0, 0.25, 1.0}) {
-    state.time = 5 + since;
+    state.schedule.time = 5 + since;
     EXPECT_DOUBLE_EQ(applied_to(0, model, state).force[0], 4 * since);
   }
   for (int stage = 0; stage < 3; ++stage) {
@@ -188,7 +188,7 @@ struct Pendulum {
     force = model.bodies[0].mass * shapes::gravity;
     model.gravity = {0, -shapes::gravity};
     state = initial_state(model);
-    state.motions[0].rotation.angle = lean;
+    state.bodies.motions[0].rotation.angle = lean;
   }
   ForcePlan hook() const { return force_on<2>("block", {0, force}, {0, arm}); }
   double frequency() const { return std::sqrt(force * arm / model.bodies[0].inertia[0]); }  // rad/s, of small swings
@@ -198,8 +198,8 @@ TEST(AppliedForces, SetTheTimeStepOfABlockThatHangsFromOne) {
   const Pendulum pendulum(0.1);
   Model<2> model = apply(pendulum.model, with({pendulum.hook()}));
   State<2> state = pendulum.state;
-  cache_poses(model, 1, state);
-  list_by_body(model, state);
+  cache_poses(model, 1, state.bodies);
+  list_by_body(model, state.contacts);
   sum_loads(model, Settings(), state);
   Settings settings;
   EXPECT_NEAR(estimate_time_step(model, settings, {.viscous_ratio = 0}, state).limit * pendulum.frequency(), 2,
@@ -236,15 +236,15 @@ TEST(AppliedForces, SwingABlockLikeAPendulum) {
       std::vector<double> time, angle;
       Watcher<2> watcher;
       watcher.pause = [&](const Progress<2>& p) {
-        time.push_back(p.state.time);
-        angle.push_back(p.state.motions[0].rotation.angle);
+        time.push_back(p.state.schedule.time);
+        angle.push_back(p.state.bodies.motions[0].rotation.angle);
         return false;
       };
       Progress<2> progress = initial_progress(scene);
       ASSERT_TRUE(simulate(scene, progress, watcher));
       ASSERT_EQ(progress.results.outcome, Outcome::done) << progress.results.message;
       const double largest = std::abs(*std::ranges::max_element(angle, {}, [](double a) { return std::abs(a); }));
-      const double step = pendulum.frequency() * progress.state.time_step;
+      const double step = pendulum.frequency() * progress.state.time_step.length;
       EXPECT_LE(step, 2 * fraction);
       EXPECT_GE(step, 1.5 * fraction) << "and no shorter than it must be";
       EXPECT_LT(largest, pi) << lean << ", " << fraction;
@@ -256,8 +256,8 @@ TEST(AppliedForces, SwingABlockLikeAPendulum) {
       } else {
         EXPECT_NEAR(found, 1, 0.1 * step * step) << lean << ", " << fraction;
       }
-      EXPECT_LT(progress.state.motions[0].displacement.norm(), rounding) << "its centroid stays";
-      EXPECT_LT(progress.state.energy.relative_error(), rounding);
+      EXPECT_LT(progress.state.bodies.motions[0].displacement.norm(), rounding) << "its centroid stays";
+      EXPECT_LT(progress.state.ledger.energy.relative_error(), rounding);
     }
 }
 
@@ -288,7 +288,7 @@ TEST(AppliedForces, GoOnFromACheckpoint) {
   Progress<3> whole = initial_progress(scene);
   ASSERT_TRUE(simulate(scene, whole, {}));
   ASSERT_EQ(whole.results.outcome, Outcome::done) << whole.results.message;
-  EXPECT_NE(whole.state.energy.flows[Source::applied_forces], 0);
+  EXPECT_NE(whole.state.ledger.energy.flows[Source::applied_forces], 0);
   const long long steps = whole.state.counters.steps;
   ASSERT_GT(steps, 50);
   const std::string expected = end_of(whole);

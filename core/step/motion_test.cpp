@@ -245,16 +245,16 @@ TEST(Unbalanced, ComparesForceAndMomentumWithTheContacts) {
   list_parts(model);
   State<2> state = initial_state(model);
   EXPECT_EQ(unbalanced_ratio(model, 1, state), 0);
-  state.loads[0].force = {1e9, 0};  // on the fixed one: no matter
+  state.loads.total[0].force = {1e9, 0};  // on the fixed one: no matter
   EXPECT_EQ(unbalanced_ratio(model, 1, state), 0);
-  state.loads[1].force = {3, 4};
+  state.loads.total[1].force = {3, 4};
   EXPECT_EQ(unbalanced_ratio(model, 1, state), std::numeric_limits<double>::infinity());
-  state.contact_loads = {{}, {.second = 1, .force = {0, 50}}};
+  state.contacts.loads = {{}, {.second = 1, .force = {0, 50}}};
   EXPECT_NEAR(unbalanced_ratio(model, 1, state), 0.1, rounding);
   // momentum times frequency counts as force
-  state.loads[1].force.setZero();
-  state.motions[1].velocity = {2 / model.bodies[1].mass, 0};
-  state.frequency = {0, 10};
+  state.loads.total[1].force.setZero();
+  state.bodies.motions[1].velocity = {2 / model.bodies[1].mass, 0};
+  state.time_step.frequency = {0, 10};
   EXPECT_NEAR(unbalanced_ratio(model, 1, state), 0.4, rounding);
 }
 
@@ -293,7 +293,7 @@ void expect_close_for_one_free_body(std::uint64_t seed) {
   double mean = 0;
   for (int trial = 0; trial < 50; ++trial) {
     RandomAssembly<Dim> assembly(random, 1, 4, 6);
-    for (Contact<Dim>& c : assembly.state.contacts)
+    for (Contact<Dim>& c : assembly.state.contacts.list)
       c.properties = 0;
     const double limit = 2 / std::sqrt(assembly.largest_eigenvalue());
     const TimeStepEstimate estimate = estimate_time_step(assembly.model, {}, {}, assembly.state);
@@ -302,8 +302,8 @@ void expect_close_for_one_free_body(std::uint64_t seed) {
     mean += estimate.limit / limit / 50;
     EXPECT_NEAR(estimate.step, Settings{}.time.fraction * estimate.limit / std::sqrt(area_margin),
                 1e-15 * estimate.limit);
-    EXPECT_NEAR(assembly.state.frequency[0], 2 / estimate.limit, 1e-9 * assembly.state.frequency[0]);
-    for (const Contact<Dim>& c : assembly.state.contacts)
+    EXPECT_NEAR(assembly.state.time_step.frequency[0], 2 / estimate.limit, 1e-9 * assembly.state.time_step.frequency[0]);
+    for (const Contact<Dim>& c : assembly.state.contacts.list)
       EXPECT_NEAR(c.area_rated, area_margin * c.geometry.area, 1e-15);
   }
   EXPECT_GT(mean, 0.998);
@@ -320,28 +320,28 @@ TEST(TimeStep, OnlyBodiesOfGrownContactsAreLookedAtAnew) {
   const Model<3>& model = assembly.model;
   State<3>& state = assembly.state;
   estimate_time_step(model, {}, {}, state);
-  const std::vector<double> before = state.frequency;
+  const std::vector<double> before = state.time_step.frequency;
   EXPECT_FALSE(renew_time_step(model, {}, {}, state).has_value());
 
   // one contact outgrows its rating; all others grow too, but stay within theirs
   std::vector<double> rated;
-  for (Contact<3>& c : state.contacts) {
+  for (Contact<3>& c : state.contacts.list) {
     rated.push_back(c.area_rated);
-    c.geometry.area *= &c == &state.contacts.front() ? 1.2 : 1.05;
+    c.geometry.area *= &c == &state.contacts.list.front() ? 1.2 : 1.05;
   }
   State<3> whole = state;
   estimate_time_step(model, {}, {}, whole);
   ASSERT_TRUE(renew_time_step(model, {}, {}, state).has_value());
-  const std::set<int> asked{model.parts[state.contacts[0].part_a].body, model.parts[state.contacts[0].part_b].body};
+  const std::set<int> asked{model.parts[state.contacts.list[0].part_a].body, model.parts[state.contacts.list[0].part_b].body};
   int kept = 0;
   for (int b = 0; b < static_cast<int>(before.size()); ++b) {
-    EXPECT_EQ(state.frequency[b], asked.contains(b) ? whole.frequency[b] : before[b]);
+    EXPECT_EQ(state.time_step.frequency[b], asked.contains(b) ? whole.frequency[b] : before[b]);
     kept += !asked.contains(b);
   }
   EXPECT_GE(kept, 5);
   // what a body counts on that was not asked stays rated as it was
   for (std::size_t i = 0; i < rated.size(); ++i) {
-    const Contact<3>& c = state.contacts[i];
+    const Contact<3>& c = state.contacts.list[i];
     const auto counted = [&](int part) {
       const int body = model.parts[part].body;
       return asked.contains(body) || model.bodies[body].fixed;

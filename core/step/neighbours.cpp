@@ -51,7 +51,7 @@ double turned_by(const Rotation<3>& from, const Rotation<3>& to) {
 template <int Dim>
 void note_placements(const State<Dim>& state, std::vector<Placement<Dim>>& placements) {
   placements.clear();
-  for (const Motion<Dim>& m : state.motions)
+  for (const Motion<Dim>& m : state.bodies.motions)
     placements.push_back({m.displacement, m.rotation});
 }
 
@@ -73,7 +73,7 @@ Box<Dim> bounds(const Model<Dim>& model, const State<Dim>& state, int part, doub
   const Body<Dim>& body = model.bodies[id.body];
   Box<Dim> box{Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity), id.body, body.immobile()};
   if (!body.present) return box;
-  const CachedPose<Dim>& at = state.poses[id.body];
+  const CachedPose<Dim>& at = state.bodies.poses[id.body];
   for (const Vector<Dim>& v : body.parts[id.part].vertices) {
     const Vector<Dim> x = at.axes * v;
     box.low = box.low.cwiseMin(x);
@@ -115,7 +115,7 @@ void find_thin_spans(const Model<Dim>& model, const Settings& settings, const St
   const std::size_t parts = model.parts.size(), sampled = std::min(parts, most_sampled);
   for (std::size_t i = 0; i < sampled; ++i) {
     const int part = static_cast<int>(parts * i / sampled);
-    sample.push_back({&model.polytope(part), state.poses[model.parts[part].body].axes});
+    sample.push_back({&model.polytope(part), state.bodies.poses[model.parts[part].body].axes});
   }
   const std::vector<Vector<Dim>> directions = thin_directions<Dim>(sample);
   thin.directions = directions.size();
@@ -123,7 +123,7 @@ void find_thin_spans(const Model<Dim>& model, const Settings& settings, const St
   if (directions.empty()) return;
   each_on_threads(settings.threads, parts, [&](int part) {
     const int body = model.parts[part].body;
-    const CachedPose<Dim>& at = state.poses[body];
+    const CachedPose<Dim>& at = state.bodies.poses[body];
     const Vector<Dim> centroid = at.reference + at.displacement;
     const double reach = margin + coordinate_rounding * (model.bodies[body].radius + centroid.norm());
     for (std::size_t k = 0; k < directions.size(); ++k) {
@@ -149,7 +149,7 @@ Nearness nearness_of(const Model<Dim>& model, const State<Dim>& state, int a, in
   return nearness(pair_of(model, state, a, b, QueryLevel::decision), radius_of(model, a), radius_of(model, b));
 }
 
-// places that State::subs has for each contact
+// places that State::contacts.subs has for each contact
 template <int Dim>
 std::size_t most_cells(const Model<Dim>& model, const ContactSettings& settings) {
   int most = 0;
@@ -161,10 +161,10 @@ std::size_t most_cells(const Model<Dim>& model, const ContactSettings& settings)
 // whether a body may have left its half of the skin
 template <int Dim>
 bool outdated(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, double skin) {
-  if (state.built.size() != model.bodies.size()) return true;
+  if (state.bodies.listed_at.size() != model.bodies.size()) return true;
   std::atomic<bool> left = false;
   each_on_threads(settings.threads, model.bodies.size(), [&](int b) {
-    if (!model.bodies[b].immobile() && moved(model.bodies[b], state.built[b], state.motions[b]) > 0.5 * skin)
+    if (!model.bodies[b].immobile() && moved(model.bodies[b], state.bodies.listed_at[b], state.bodies.motions[b]) > 0.5 * skin)
       left.store(true, std::memory_order_relaxed);
   });
   return left;
@@ -206,17 +206,17 @@ std::size_t most_candidates(std::size_t parts) {
 // adds what each body has moved since the last step; rounded upwards, so that it bounds
 template <int Dim>
 void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  if (state.path_bounds.size() != model.bodies.size()) {
-    note_placements(state, state.counted_at);
-    state.path_bounds.assign(state.motions.size(), 0);
+  if (state.bodies.path_bounds.size() != model.bodies.size()) {
+    note_placements(state, state.bodies.counted_at);
+    state.bodies.path_bounds.assign(state.bodies.motions.size(), 0);
   }
-  each_on_threads(settings.threads, state.path_bounds.size(), [&](int b) {
+  each_on_threads(settings.threads, state.bodies.path_bounds.size(), [&](int b) {
     if (model.bodies[b].immobile()) return;
-    const Motion<Dim>& now = state.motions[b];
-    double& travel = state.path_bounds[b];
-    const double way = moved(model.bodies[b], state.counted_at[b], now);
+    const Motion<Dim>& now = state.bodies.motions[b];
+    double& travel = state.bodies.path_bounds[b];
+    const double way = moved(model.bodies[b], state.bodies.counted_at[b], now);
     if (way > 0) travel = (travel + upwards * way) * upwards;
-    state.counted_at[b] = {now.displacement, now.rotation};
+    state.bodies.counted_at[b] = {now.displacement, now.rotation};
   });
 }
 
@@ -253,7 +253,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   // no less than what a joint may open before it is bonded
   const double skin = std::max(settings.contact.skin * smallest_size(model), closed_gap(model));
   if (!outdated(model, settings, state, skin)) {
-    if (state.by_body.first.empty()) list_by_body(model, state);  // read from a checkpoint
+    if (state.contacts.by_body.first.empty()) list_by_body(model, state.contacts);  // read from a checkpoint
     return;
   }
 
@@ -270,7 +270,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   std::vector<Contact<Dim>>& renewed = own_renewed;
   std::vector<SubContact<Dim>>& renewed_subs = own_subs;
   std::vector<int>& origin = own_origin;  // of each pair: its place in the old list, or -1
-  cache_poses(model, settings.threads, state);
+  cache_poses(model, settings.threads, state.bodies);
   boxes.resize(model.parts.size());
   each_on_threads(settings.threads, boxes.size(),
                   [&](int part) { boxes[part] = bounds(model, state, part, candidate_reach * skin); });
@@ -290,29 +290,29 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   // standing candidates keep their record: both lists are in ascending order
   const std::size_t stride = most_cells(model, settings.contact);
   origin.assign(pairs.size(), -1);
-  auto old = state.contacts.begin();
+  auto old = state.contacts.list.begin();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    while (old != state.contacts.end() && std::pair(old->part_a, old->part_b) < pairs[i])
+    while (old != state.contacts.list.end() && std::pair(old->part_a, old->part_b) < pairs[i])
       ++old;
-    if (old != state.contacts.end() && std::pair(old->part_a, old->part_b) == pairs[i])
-      origin[i] = static_cast<int>(old - state.contacts.begin());
+    if (old != state.contacts.list.end() && std::pair(old->part_a, old->part_b) == pairs[i])
+      origin[i] = static_cast<int>(old - state.contacts.list.begin());
   }
   renewed.resize(pairs.size());
   renewed_subs.assign(pairs.size() * stride, {});
   each_on_threads(settings.threads, pairs.size(), [&](int i) {
     if (origin[i] >= 0) {
-      renewed[i] = state.contacts[origin[i]];
-      std::ranges::copy(subs_of(state, origin[i]), renewed_subs.begin() + i * static_cast<std::ptrdiff_t>(stride));
+      renewed[i] = state.contacts.list[origin[i]];
+      std::ranges::copy(subs_of(state.contacts, origin[i]), renewed_subs.begin() + i * static_cast<std::ptrdiff_t>(stride));
       return;
     }
     renewed[i] = {};
     renewed[i].part_a = pairs[i].first;
     renewed[i].part_b = pairs[i].second;
   });
-  std::swap(state.contacts, renewed);
-  std::swap(state.subs, renewed_subs);
-  list_by_body(model, state);
-  note_placements(state, state.built);
+  std::swap(state.contacts.list, renewed);
+  std::swap(state.contacts.subs, renewed_subs);
+  list_by_body(model, state.contacts);
+  note_placements(state, state.bodies.listed_at);
   ++state.counters.neighbour_builds;
 }
 

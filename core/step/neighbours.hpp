@@ -33,14 +33,14 @@ void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>
 // m, of the bodies of a contact together
 template <int Dim>
 double travelled(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
-  return state.path_bounds[model.parts[c.part_a].body] + state.path_bounds[model.parts[c.part_b].body];
+  return state.bodies.path_bounds[model.parts[c.part_a].body] + state.bodies.path_bounds[model.parts[c.part_b].body];
 }
 
 // two parts as the kernel sees them, where their bodies stand
 template <int Dim>
 void set_pair(const Model<Dim>& model, const State<Dim>& state, int part_a, int part_b, QueryLevel level,
               Pair<Dim>& pair) {
-  const CachedPose<Dim>&at_a = state.poses[model.parts[part_a].body], &at_b = state.poses[model.parts[part_b].body];
+  const CachedPose<Dim>&at_a = state.bodies.poses[model.parts[part_a].body], &at_b = state.bodies.poses[model.parts[part_b].body];
   pair.a = &model.polytope(part_a);
   pair.b = &model.polytope(part_b);
   pair.axes = at_a.axes;

@@ -43,7 +43,7 @@ Model<Dim> slabs(int count, double dip) {
 template <int Dim>
 Pairs pairs_of(const State<Dim>& state) {
   Pairs pairs;
-  for (const Contact<Dim>& c : state.contacts)
+  for (const Contact<Dim>& c : state.contacts.list)
     pairs.push_back({c.part_a, c.part_b});
   return pairs;
 }
@@ -116,7 +116,7 @@ bool may_touch(const Model<Dim>& model, int part_a, int part_b) {
 // of all pairs, by the narrow phase alone
 template <int Dim>
 Pairs touching_pairs(const Model<Dim>& model, State<Dim> state) {
-  cache_poses(model, 1, state);
+  cache_poses(model, 1, state.bodies);
   Pairs touching;
   for (int a = 0; a < static_cast<int>(model.parts.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(model.parts.size()); ++b) {
@@ -136,7 +136,7 @@ Box<Dim> box_around(const Model<Dim>& model, const State<Dim>& state, int part, 
   const int body = model.parts[part].body;
   Box<Dim> box{Vector<Dim>::Constant(1e300), Vector<Dim>::Constant(-1e300), body, false};
   for (const Vector<Dim>& v : model.polytope(part).vertices) {
-    const Vector<Dim> x = model.bodies[body].reference + matrix(state.motions[body].rotation) * v;
+    const Vector<Dim> x = model.bodies[body].reference + matrix(state.bodies.motions[body].rotation) * v;
     box.low = box.low.cwiseMin(Vector<Dim>(x.array() - margin));
     box.high = box.high.cwiseMax(Vector<Dim>(x.array() + margin));
   }
@@ -171,9 +171,9 @@ void expect_none_missed(std::uint64_t seed, bool clumps) {
     Settings settings;
     settings.contact.skin = shapes::power_of_ten(random, -2, 0);
     State<Dim> state = initial_state(model), again = state;
-    for (Motion<Dim>& m : state.motions)
+    for (Motion<Dim>& m : state.bodies.motions)
       m.rotation = shapes::orientation<Dim>(random);
-    again.motions = state.motions;
+    again.motions = state.bodies.motions;
     find_neighbours(model, settings, state);
     const Pairs pairs = pairs_of(state);
     settings.threads = 3;
@@ -185,7 +185,7 @@ void expect_none_missed(std::uint64_t seed, bool clumps) {
       State<Dim> moved = state;
       for (std::size_t b = 0; b < model.bodies.size(); ++b)
         if (!model.bodies[b].fixed)
-          moved.motions[b].displacement = fraction * skin_of(model, settings) * shapes::direction<Dim>(random);
+          moved.bodies.motions[b].displacement = fraction * skin_of(model, settings) * shapes::direction<Dim>(random);
       for (const std::pair<int, int>& pair : touching_pairs(model, moved)) {
         ++touching;
         EXPECT_TRUE(known.contains(pair)) << pair.first << ' ' << pair.second;
@@ -232,10 +232,10 @@ void expect_that_it_lasts(std::uint64_t seed) {
   for (int trial = 0; trial < 4000; ++trial) {
     const Model<Dim> model = pack<Dim>(random, 2, false);
     State<Dim> state = initial_state(model);
-    for (Motion<Dim>& m : state.motions)
+    for (Motion<Dim>& m : state.bodies.motions)
       m.rotation = shapes::orientation<Dim>(random);
     const double radius_a = model.bodies[0].radius, radius_b = model.bodies[1].radius;
-    state.motions[1].displacement =
+    state.bodies.motions[1].displacement =
         shapes::uniform(random, 0, 1) * (radius_a + radius_b) * shapes::direction<Dim>(random);
     const auto seen = [&](State<Dim>& at) {
       cache_poses(model, 1, at);
@@ -274,8 +274,8 @@ TEST(Neighbours, WhatItsVerticesDoNotTellIsNear) {
   for (Body<3>& body : model.bodies)
     body.parts[0].vertex_error = std::numeric_limits<double>::infinity();
   State<3> state = initial_state(model);
-  state.motions[1].displacement = {100, 0, 0};
-  cache_poses(model, 1, state);
+  state.bodies.motions[1].displacement = {100, 0, 0};
+  cache_poses(model, 1, state.bodies);
   const Pair<3> pair = pair_of(model, state, 0, 1, QueryLevel::decision);
   EXPECT_TRUE(nearness(pair, model.bodies[0].radius, model.bodies[1].radius).near);
   EXPECT_TRUE(may_come_near(pair, model.bodies[0].radius, model.bodies[1].radius, 0.1));

@@ -45,8 +45,8 @@ double size_of(const Model<Dim>& model, int a, int b) {
 
 template <int Dim>
 std::span<const JointState<Dim>> sub_histories_of(const State<Dim>& state, int contact) {
-  const std::size_t stride = sub_stride(state);
-  return std::span(state.newton.sub_histories).subspan(contact * stride, stride);
+  const std::size_t stride = sub_stride(state.contacts);
+  return std::span(state.increment.sub_histories).subspan(contact * stride, stride);
 }
 
 void add(Counters& total, const KernelCounters& k) {
@@ -116,7 +116,7 @@ struct MovedContacts {
 
  private:
   void move(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, const PairStiffness<Dim>& p) {
-    const Contact<Dim>& c = state.contacts[p.contact];
+    const Contact<Dim>& c = state.contacts.list[p.contact];
     const double width = Dim == 3 ? std::sqrt(c.geometry.area) : c.geometry.area;
     const double size = size_of(model, p.body_a, p.body_b);
     const double way = std::max(of_overlap * c.geometry.overlap, of_size * size);
@@ -127,7 +127,7 @@ struct MovedContacts {
                              find_sensitivity<Dim>(here, settings.contact, c, sensitivity);
     for (int f = 0; f < freedoms<Dim>; ++f) {
       steps.push_back(f < Dim ? way : way / std::max(width, least_width * size));
-      pairs.push_back(moved(here, state.poses[p.body_b], f, steps.back()));
+      pairs.push_back(moved(here, state.bodies.poses[p.body_b], f, steps.back()));
       contacts.push_back(c);
       if (f >= Dim && !turns(model, p.body_a) && !turns(model, p.body_b)) continue;  // held: what it says is not used
       if (closed_form) {
@@ -151,19 +151,19 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
   static thread_local HalfSpaces<Dim> planes;
   after.find(model, settings, state, batch, counters);
 
-  cells.resize(sub_stride(state));
+  cells.resize(sub_stride(state.contacts));
   for (std::size_t i = 0; i < batch.size(); ++i) {
     PairStiffness<Dim>& p = batch[i];
-    const Contact<Dim>& c = state.contacts[p.contact];
-    const JointState<Dim>& history = state.newton.histories[p.contact].history;
+    const Contact<Dim>& c = state.contacts.list[p.contact];
+    const JointState<Dim>& history = state.increment.histories[p.contact].history;
     const std::span<const JointState<Dim>> sub_histories = sub_histories_of(state, p.contact);
-    const CachedPose<Dim>&a = state.poses[p.body_a], &b = state.poses[p.body_b];
+    const CachedPose<Dim>&a = state.bodies.poses[p.body_a], &b = state.bodies.poses[p.body_b];
     const bool whole = is_integrated(settings.contact, model.properties[c.properties]);
     const int along = model.properties[c.properties].sub_contacts, count = whole ? 0 : sub_contact_count<Dim>(along);
     p.apart = between(a, b);
     const PairMotion<Dim> now{p.apart, b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
-    p.wrench = joint_wrench<Dim>(model, settings, state, c, subs_of(state, static_cast<std::size_t>(p.contact)),
-                                 whole ? &state.faces[p.contact] : nullptr, now, history, sub_histories);
+    p.wrench = joint_wrench<Dim>(model, settings, state, c, subs_of(state.contacts, static_cast<std::size_t>(p.contact)),
+                                 whole ? &state.contacts.faces[p.contact] : nullptr, now, history, sub_histories);
     for (int f = 0; f < F; ++f) {
       Contact<Dim>& then_contact = after.contacts[i * F + f];
       const double step = after.steps[i * F + f];
@@ -176,8 +176,8 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
       const PairMotion<Dim> then{now.between + way, now.drift + way, a.spin, spin, now.inverse_mass};
       std::span<SubContact<Dim>> subs;
       if (then_contact.touching() && count > 0) {
-        const std::size_t first = p.contact * sub_stride(state);
-        std::copy_n(state.subs.begin() + static_cast<std::ptrdiff_t>(first), count, cells.begin());
+        const std::size_t first = p.contact * sub_stride(state.contacts);
+        std::copy_n(state.contacts.subs.begin() + static_cast<std::ptrdiff_t>(first), count, cells.begin());
         then_contact.divided_face = c.divided_face;
         divide<Dim>(after.pairs[i * F + f], along, then_contact, std::span(cells).first(count));
         subs = std::span(cells).first(then_contact.cells);
@@ -234,10 +234,10 @@ JointState<Dim> unloaded(const Vector<Dim>& normal, const Vector<Dim>& point, do
 
 template <int Dim>
 void find_pair_stiffness(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  std::vector<PairStiffness<Dim>>& list = state.newton.stiffness;
+  std::vector<PairStiffness<Dim>>& list = state.increment.stiffness;
   list.clear();
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    const Contact<Dim>& c = state.contacts[i];
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
+    const Contact<Dim>& c = state.contacts.list[i];
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
     if (!c.touching() || (!is_free(model, a) && !is_free(model, b))) continue;
     PairStiffness<Dim> pair;
@@ -262,13 +262,13 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
   std::vector<Pair<Dim>> pairs;
   std::vector<Contact<Dim>> copies;
   std::vector<int> chosen;
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    const Contact<Dim>& c = state.contacts[i];
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
+    const Contact<Dim>& c = state.contacts.list[i];
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
     if (c.touching() || c.unanswered() || c.status == ContactStatus::apart ||
         (!is_free(model, a) && !is_free(model, b)))
       continue;
-    if (!state.newton.histories[i].history.normal.isZero(0)) continue;
+    if (!state.increment.histories[i].history.normal.isZero(0)) continue;
     const double probe = probe_of_size * size_of(model, a, b);
     if (c.status == ContactStatus::separated && c.proof.margin > probe) continue;
     Pair<Dim> pair = pair_of(model, state, c.part_a, c.part_b, QueryLevel::area);
@@ -289,7 +289,7 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
   resolve_pairs<Dim>(model, settings.contact, pairs, places, counters);
   add(state.counters, counters);
 
-  const std::size_t stride = sub_stride(state);
+  const std::size_t stride = sub_stride(state.contacts);
   std::vector<SubContact<Dim>> cells(stride);
   for (std::size_t j = 0; j < chosen.size(); ++j) {
     Contact<Dim>& c = copies[j];
@@ -301,13 +301,13 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
     closed.contact = chosen[j];
     closed.body_a = model.parts[c.part_a].body;
     closed.body_b = model.parts[c.part_b].body;
-    closed.apart = between(state.poses[closed.body_a], state.poses[closed.body_b]);
+    closed.apart = between(state.bodies.poses[closed.body_a], state.bodies.poses[closed.body_b]);
     const Vector<Dim>& n = c.geometry.normal;
     const auto stand = [&](JointState<Dim>& history, const Vector<Dim>& point, double area) {
       history = unloaded<Dim>(n, point, area);
       add_point<Dim>(properties, n, point - closed.apart, area, closed.stiffness);
     };
-    JointState<Dim>& history = state.newton.histories[closed.contact].history;
+    JointState<Dim>& history = state.increment.histories[closed.contact].history;
     const int count = sub_contact_count<Dim>(properties.sub_contacts);
     if (is_integrated(settings.contact, properties)) {
       IntegratedContact<Dim> face;
@@ -324,13 +324,13 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
       std::fill(cells.begin(), cells.end(), SubContact<Dim>{});
       divide<Dim>(pairs[j], properties.sub_contacts, c, std::span(cells).first(count));
       history = unloaded<Dim>(n, c.geometry.point, c.geometry.area);
-      state.newton.histories[closed.contact].divided_face = c.divided_face;
+      state.increment.histories[closed.contact].divided_face = c.divided_face;
       for (int k = 0; k < count; ++k)
         if (cells[k].area > 0)
-          stand(state.newton.sub_histories[closed.contact * stride + k], cells[k].point,
+          stand(state.increment.sub_histories[closed.contact * stride + k], cells[k].point,
                 properties.constant_stiffness ? cells[k].area / c.geometry.area : cells[k].area);
     }
-    state.newton.closed.push_back(closed);
+    state.increment.closed.push_back(closed);
   }
 }
 

@@ -37,7 +37,7 @@ void stop_held(const Model<Dim>& model, State<Dim>& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
     const PrescribedMotion<Dim>* forced = body.prescribed ? &*prescribed++ : nullptr;
-    Motion<Dim>& motion = state.motions[b];
+    Motion<Dim>& motion = state.bodies.motions[b];
     for (int k = 0; k < Dim; ++k)
       if ((body.fixed || !body.free_translation[k]) && !(forced && forced->translation[k])) motion.velocity[k] = 0;
     const bool turns = !body.fixed && std::find(body.free_rotation.begin(), body.free_rotation.end(), true) !=

@@ -31,7 +31,7 @@ constexpr int steps_between_renewals = 10;
 
 template <int Dim>
 void stop_bodies(State<Dim>& state) {
-  for (Motion<Dim>& m : state.motions) {
+  for (Motion<Dim>& m : state.bodies.motions) {
     m.velocity.setZero();
     m.angular_momentum.setZero();
   }
@@ -40,9 +40,9 @@ void stop_bodies(State<Dim>& state) {
 // what relaxation and motion do not share: the time step, and the energy that stopping takes
 template <int Dim>
 void change_ways(State<Dim>& state) {
-  state.frequency.clear();
-  state.step_allowed = 0;
-  if (state.energy.phase == LedgerPhase::running) state.energy.phase = LedgerPhase::model_changed;
+  state.time_step.frequency.clear();
+  state.time_step.allowed = 0;
+  if (state.ledger.energy.phase == LedgerPhase::running) state.ledger.energy.phase = LedgerPhase::model_changed;
 }
 
 template <int Dim>
@@ -56,18 +56,18 @@ double fraction_of_own_limit(const Body<Dim>& body) {
 // margin. A body keeps its own until one of its contacts outgrows its rating; at every tenth step all are renewed.
 template <int Dim>
 void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  if (state.relaxation.until_renewal-- == 0) state.frequency.clear();
-  if (state.frequency.empty()) state.relaxation.until_renewal = steps_between_renewals;
+  if (state.relaxation.until_renewal-- == 0) state.time_step.frequency.clear();
+  if (state.time_step.frequency.empty()) state.relaxation.until_renewal = steps_between_renewals;
   const auto renewed = renew_time_step(model, settings, {.viscous_ratio = 0}, state);
   if (!renewed) return;
-  if (state.step_allowed == 0)
-    state.step_allowed =
+  if (state.time_step.allowed == 0)
+    state.time_step.allowed =
         settings.time.step.value_or(std::isfinite(renewed->limit) ? fraction_of_limit * renewed->limit : 0);
   demand_time_step(state);
   // a body that was not looked at has its frequency still, and so the same inertia to the bit
   state.relaxation.inertia.assign(model.bodies.size(), 1);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const double to_limit = 0.5 * state.step_allowed * state.frequency[b] / fraction_of_own_limit(model.bodies[b]);
+    const double to_limit = 0.5 * state.time_step.allowed * state.time_step.frequency[b] / fraction_of_own_limit(model.bodies[b]);
     if (to_limit > 0) state.relaxation.inertia[b] = area_margin * to_limit * to_limit;
   }
 }
@@ -83,14 +83,14 @@ double critical_damping(const Model<Dim>& model, State<Dim>& state) {
   double stiffness = 0, inertia = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].fixed) continue;
-    const Motion<Dim>& m = state.motions[b];
+    const Motion<Dim>& m = state.bodies.motions[b];
     const Spin<Dim> spin = angular_velocity(model.bodies[b], m);
-    Load<Dim> now{state.loads[b].force - weight(model, state, b), state.loads[b].moment};
-    if (const std::vector<Load<Dim>>& held = state.loads_of[Source::let_off]; !held.empty()) {
+    Load<Dim> now{state.loads.total[b].force - weight(model, state.schedule, b), state.loads.total[b].moment};
+    if (const std::vector<Load<Dim>>& held = state.loads.by_source[Source::let_off]; !held.empty()) {
       now.force -= held[b].force;
       now.moment -= held[b].moment;
     }
-    const bool counts = state.left_behind.empty() || !state.left_behind[b];  // else what falls would end all damping
+    const bool counts = state.bodies.left_behind.empty() || !state.bodies.left_behind[b];  // else what falls would end all damping
     if (!first && counts) {
       stiffness -= m.velocity.dot(now.force - r.contact_load[b].force);
       stiffness -= spin.dot(now.moment - r.contact_load[b].moment);
@@ -101,7 +101,7 @@ double critical_damping(const Model<Dim>& model, State<Dim>& state) {
                                  m.angular_momentum.dot(m.angular_momentum.cwiseQuotient(model.bodies[b].inertia)));
     r.contact_load[b] = now;
   }
-  const double dt = state.step_allowed, least = least_damping / dt, most = 4 / dt;  // 2 ω at the limit of stability
+  const double dt = state.time_step.allowed, least = least_damping / dt, most = 4 / dt;  // 2 ω at the limit of stability
   if (!(stiffness > 0 && inertia > 0)) return least;
   return std::clamp(2 * std::sqrt(stiffness / (inertia * dt)), least, most);
 }
@@ -131,19 +131,19 @@ void begin_relaxation(State<Dim>& state) {
   stop_bodies(state);
   change_ways(state);
   for (const Source of_motion : {Source::local_damping, Source::prescribed_motion})
-    state.loads_of[of_motion].clear();
+    state.loads.by_source[of_motion].clear();
   state.relaxation = {};
-  state.newton = {};
+  state.increment = {};
   state.relaxation.under_way = true;
 }
 
 template <int Dim>
 void end_relaxation(State<Dim>& state) {
   stop_bodies(state);
-  state.loads_of[Source::relaxation].clear();
+  state.loads.by_source[Source::relaxation].clear();
   change_ways(state);
   state.relaxation = {};
-  state.newton = {};
+  state.increment = {};
   state.relaxation.rested = true;
 }
 
@@ -151,31 +151,31 @@ template <int Dim>
 void begin_motion(State<Dim>& state) {
   if (!state.relaxation.rested) return;
   state.relaxation.rested = false;
-  state.time_step = 0;
+  state.time_step.length = 0;
 }
 
 template <int Dim>
 void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   Relaxation<Dim>& r = state.relaxation;
   scale_inertia(model, settings, state);
-  const double dt = state.step_allowed, half = 0.5 * dt * critical_damping(model, state);
+  const double dt = state.time_step.allowed, half = 0.5 * dt * critical_damping(model, state);
 
   // the kick is central: damping acts at the mean of the velocities before and after it
   static thread_local std::vector<KickRule> rules;
   rules.clear();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const double fraction = at_rest(state.motions[b]) ? nudge : 1;
+    const double fraction = at_rest(state.bodies.motions[b]) ? nudge : 1;
     rules.push_back({.keeps = (1 - half) / (1 + half), .gain = fraction / (r.inertia[b] * (1 + half))});
   }
   const auto& kicks = advance_bodies<Dim>(model, settings.threads, rules, {dt, dt}, state);
-  std::vector<Load<Dim>>& taken = state.loads_of[Source::relaxation];  // all that the loads do
+  std::vector<Load<Dim>>& taken = state.loads.by_source[Source::relaxation];  // all that the loads do
   taken.resize(model.bodies.size());
   each_on_threads(settings.threads, taken.size(), [&](int b) {
-    taken[b] = {-state.loads[b].force, -state.loads[b].moment};
+    taken[b] = {-state.loads.total[b].force, -state.loads.total[b].moment};
   });
   add_work(model, settings.threads, kicks, state);
-  state.time_step = dt;
-  state.time += dt;
+  state.time_step.length = dt;
+  state.schedule.time += dt;
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                   \

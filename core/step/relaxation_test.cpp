@@ -56,7 +56,7 @@ TEST(Relaxation, AColumnSettlesOnItsSprings) {
     weight += model.bodies[b].mass * gravity;
     settled += weight / model.properties[0].normal_stiffness;
   }
-  const double top = rest.state.motions.back().displacement[1];
+  const double top = rest.state.bodies.motions.back().displacement[1];
   EXPECT_NEAR(-top, settled, 10 * 10 * left_by_rest * settled);
 }
 
@@ -79,18 +79,18 @@ TEST(Relaxation, RenewsTheInertiaOfTheBodiesOfAnOutgrownContact) {
   for (int i = 0; i < settling; ++i)
     step(model, settings, state);
   const auto outgrow = [&] {
-    for (Contact<2>& c : state.contacts)
+    for (Contact<2>& c : state.contacts.list)
       if (model.parts[c.part_a].body == 1 && model.parts[c.part_b].body == 2) c.area_rated = 1e-3;
   };
-  const std::vector<double> before = state.frequency, inertia = state.relaxation.inertia;
-  for (double& frequency : state.frequency)
+  const std::vector<double> before = state.time_step.frequency, inertia = state.relaxation.inertia;
+  for (double& frequency : state.time_step.frequency)
     frequency *= 2;  // a mark that an estimate wipes out
   std::vector<int> renewed_after(model.bodies.size(), 0);
   for (int i = 1; i <= 10; ++i) {
     outgrow();
     step(model, settings, state);
     for (std::size_t b = 1; b < model.bodies.size(); ++b)
-      if (renewed_after[b] == 0 && state.frequency[b] < 1.5 * before[b]) renewed_after[b] = i;
+      if (renewed_after[b] == 0 && state.time_step.frequency[b] < 1.5 * before[b]) renewed_after[b] = i;
   }
   const int all = 3;  // renewed at steps 1, 12, 23
   EXPECT_EQ(renewed_after, (std::vector<int>{0, 1, 1, all, all, all, all}));
@@ -108,7 +108,7 @@ TEST(Relaxation, ABlockThatMayTurnComesToTheSameRest) {
     const RunReport report = run<3>(model, settings, {.rest = true, .step_limit = 200'000},
                                     {.gravity = {.ramp = 0.2}, .properties = {}}, state);
     EXPECT_EQ(report.reason, StopReason::equilibrium);
-    return state.motions[index_of(model, "block")].displacement;
+    return state.bodies.motions[index_of(model, "block")].displacement;
   };
   const Vector<3> relaxed = rest(Statics::adaptive), moved = rest(Statics::local);
   // the same path up to what inertia adds to it
@@ -119,14 +119,14 @@ TEST(Relaxation, TimeAndThreadsLeaveNoTrace) {
   const Model<2> model = column(10);
   const Rest one = rest_of(model, Statics::adaptive), three = rest_of(model, Statics::adaptive, 3);
   EXPECT_EQ(state_hash(model, one.state), state_hash(model, three.state));
-  for (const Motion<2>& m : one.state.motions)
+  for (const Motion<2>& m : one.state.bodies.motions)
     EXPECT_TRUE(m.velocity.isZero(0) && m.angular_momentum.isZero(0));
 }
 
 // what weight has given is in the springs or taken out; no kinetic energy is claimed
 TEST(Relaxation, TheLedgerSaysWhatItCan) {
   const Rest rest = rest_of(column(10), Statics::adaptive);
-  const EnergyLedger& e = rest.state.energy;
+  const EnergyLedger& e = rest.state.ledger.energy;
   EXPECT_EQ(e.kinetic, 0);
   EXPECT_EQ(e.flows[Source::local_damping], 0);
   EXPECT_LT(e.flows[Source::friction],
@@ -152,10 +152,10 @@ TEST(Relaxation, MotionAfterwardsStartsFromRest) {
                                    .move = {},
                                    .boundary = {},
                                    .friction = {}});
-  state.built.clear();
-  const double before = state.motions[1].displacement[1];
-  run<2>(model, settings, {.end_time = state.time + 0.1}, {}, state);
-  EXPECT_NEAR(before - state.motions[1].displacement[1], 0.5 * gravity * 0.1 * 0.1, 1e-12);
+  state.bodies.listed_at.clear();
+  const double before = state.bodies.motions[1].displacement[1];
+  run<2>(model, settings, {.end_time = state.schedule.time + 0.1}, {}, state);
+  EXPECT_NEAR(before - state.bodies.motions[1].displacement[1], 0.5 * gravity * 0.1 * 0.1, 1e-12);
 }
 
 }  // namespace

@@ -52,14 +52,14 @@ void expect_largest_mean(Engine& engine) {
   std::vector<double> means;
   for (std::size_t c = 0; c < count && chance(0.7); ++c) {
     const double force = decades(engine);
-    state.contact_loads.push_back({static_cast<int>(c), force * direction<Dim>(engine), {}, {}});
+    state.contacts.loads.push_back({static_cast<int>(c), force * direction<Dim>(engine), {}, {}});
     contacts_and_supports.add(force);
   }
   while (chance(0.5)) {
     BoltSpring<Dim> spring;
     spring.broken = chance(0.2);
     spring.force = decades(engine);
-    state.bolt_springs.push_back(spring);
+    state.supports.bolt_springs.push_back(spring);
     if (spring.broken) continue;
     contacts_and_supports.add(spring.force);
     supports.add(spring.force);
@@ -67,19 +67,19 @@ void expect_largest_mean(Engine& engine) {
   means = {contacts_and_supports.value(), supports.value()};
   for (const Source source : {Source::let_off, Source::applied_forces, Source::water_pressure, Source::gravity}) {
     if (chance(0.5)) continue;
-    state.loads_of[source].resize(count);
+    state.loads.by_source[source].resize(count);
     Mean mean;
     for (std::size_t b = 0; b < count; ++b) {
       if (chance(0.3)) continue;
       const double force = decades(engine);
-      state.loads_of[source][b].force = force * direction<Dim>(engine);
+      state.loads.by_source[source][b].force = force * direction<Dim>(engine);
       if (!model.bodies[b].fixed) mean.add(force);
     }
     if (source != Source::gravity) means.push_back(mean.value());
   }
   const double largest = *std::ranges::max_element(means), off = decades(engine);
-  state.loads.resize(count);
-  state.loads[shapes::index_of(model, "block")].force = off * direction<Dim>(engine);
+  state.loads.total.resize(count);
+  state.loads.total[shapes::index_of(model, "block")].force = off * direction<Dim>(engine);
   const double ratio = unbalanced_ratio(model, 1, state);
   if (largest > 0)
     EXPECT_NEAR(ratio * largest / off, 1, 1e-12);
@@ -207,7 +207,7 @@ TEST(Rest, IsNotAwaitedOfALiningThatHasLeftItsRock) {
   State<2> state = progress.state;
   const Lining& lining = model.linings.front();
   for (std::size_t n = 0; n < lining.nodes.size(); ++n)
-    state.motions[lining.first_body + n].displacement = -0.5 * lining.nodes[n].place;
+    state.bodies.motions[lining.first_body + n].displacement = -0.5 * lining.nodes[n].place;
   for (Body<2>& body : model.bodies)
     if (!body.parts.empty()) body.present = false;
   model.gravity.setZero();

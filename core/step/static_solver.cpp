@@ -84,7 +84,7 @@ struct Newton {
   Unknowns<Dim> unknowns;
 
   Newton(const Model<Dim>& m, const Settings& s, State<Dim>& now)
-      : model(m), settings(s), state(now), n(now.newton), unknowns(m) {}
+      : model(m), settings(s), state(now), n(now.increment), unknowns(m) {}
 
   Eigen::VectorXd numbers(const std::vector<double>& list) const {
     return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
@@ -99,8 +99,8 @@ struct Newton {
   Eigen::VectorXd residual_now() const {
     Eigen::VectorXd r(unknowns.free.size());
     for (std::size_t i = 0; i < unknowns.count(); ++i) {
-      r.segment<Dim>(F * i) = state.loads[unknowns.bodies[i]].force;
-      r.segment<S>(F * i + Dim) = state.loads[unknowns.bodies[i]].moment;
+      r.segment<Dim>(F * i) = state.loads.total[unknowns.bodies[i]].force;
+      r.segment<S>(F * i + Dim) = state.loads.total[unknowns.bodies[i]].moment;
     }
     return r.cwiseProduct(unknowns.free);
   }
@@ -125,7 +125,7 @@ struct Newton {
     for (const PairStiffness<Dim>& p : n.stiffness)
       pairs.push_back(&p);
     for (const PairStiffness<Dim>& p : n.closed)
-      if (!state.contacts[p.contact].touching()) pairs.push_back(&p);
+      if (!state.contacts.list[p.contact].touching()) pairs.push_back(&p);
     const Eigen::VectorXd& free = unknowns.free;
     BlockMatrix<F> k = tangent_of<Dim>(settings.threads, pairs, stiffness_of_loads(), unknowns.place, free);
     // what is held goes nowhere
@@ -186,9 +186,9 @@ struct Newton {
 
   double fraction_in_new_contacts() const {
     double all = 0, of_new = 0;
-    for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-      if (!state.contacts[i].touching()) continue;
-      const double force = state.contacts[i].force.norm();
+    for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
+      if (!state.contacts.list[i].touching()) continue;
+      const double force = state.contacts.list[i].force.norm();
       all += force;
       if (n.histories[i].history.normal.isZero(0)) of_new += force;
     }
@@ -202,7 +202,7 @@ struct Newton {
   void add_work() {
     const Eigen::VectorXd q = numbers(n.accepted);
     for (std::size_t i = 0; i < load_count; ++i) {
-      const std::vector<Load<Dim>>&then = n.loads_begin.values[i], &now = state.loads_of.values[i];
+      const std::vector<Load<Dim>>&then = n.loads_begin.values[i], &now = state.loads.by_source.values[i];
       double work = 0;
       for (std::size_t k = 0; k < unknowns.count(); ++k) {
         const auto along = [&](const Load<Dim>& l) {
@@ -211,18 +211,18 @@ struct Newton {
         const auto b = static_cast<std::size_t>(unknowns.bodies[k]);
         work += 0.5 * ((b < then.size() ? along(then[b]) : 0) + (b < now.size() ? along(now[b]) : 0));
       }
-      state.energy.flows.values[i] += source_table[i].motion * work;
-      state.energy.flows[Source::relaxation] += work;
+      state.ledger.energy.flows.values[i] += source_table[i].motion * work;
+      state.ledger.energy.flows[Source::relaxation] += work;
     }
-    state.energy.kinetic = 0;
-    balance(state.energy);
+    state.ledger.energy.kinetic = 0;
+    balance(state.ledger.energy);
   }
 
   // what the accepted trial, which has just been evaluated, has come to is the new base
   void commit() {
     add_work();
     take_base(model, settings, unknowns, state);
-    n.loads_begin = state.loads_of;
+    n.loads_begin = state.loads.by_source;
   }
 
   // ---- one evaluation -----------------------------------------------------------------------------------------------
@@ -239,19 +239,19 @@ struct Newton {
     n.closed.clear();
     find_closed_joints(model, settings, state);
     // origins of the ledger's balances, where they are new
-    const EnergyFlows before = n.energy.flows;
-    state.energy.kinetic = 0;
-    balance(state.energy);
-    n.energy = state.energy;
-    n.energy.flows = before;
-    n.loads_begin = state.loads_of;
+    const EnergyFlows before = n.ledger.energy.flows;
+    state.ledger.energy.kinetic = 0;
+    balance(state.ledger.energy);
+    n.ledger.energy = state.ledger.energy;
+    n.ledger.energy.flows = before;
+    n.loads_begin = state.loads.by_source;
   }
 
   void end_increment() {
     commit();
     if (n.increments_left == 0) return leave();
     --n.increments_left;
-    state.time = n.increments_left == 0 ? n.ends : state.time + n.increment_time;
+    state.schedule.time = n.increments_left == 0 ? n.ends : state.schedule.time + n.increment_time;
     set_trial_at(numbers(n.accepted), Trial::start);
   }
 
@@ -266,8 +266,8 @@ struct Newton {
 
   // A broken bond lets go at once of what it carried: how, is relaxation's to find.
   bool breaks_bonds() const {
-    const long long expected = n.whole_bonds + state.bonds.made - n.bonds.made;
-    return expected > 0 && whole_bonds(state) < expected;
+    const long long expected = n.whole_bonds + state.ledger.bonds.made - n.ledger.bonds.made;
+    return expected > 0 && whole_bonds(state.contacts) < expected;
   }
 
   // Back on the step to where a line through its work at both ends says that none is left.
@@ -320,13 +320,13 @@ struct Newton {
   void iterate() {
     follow_list(state);
     if (n.trial == Trial::waiting) {
-      state.time += n.increment_time;
+      state.schedule.time += n.increment_time;
       return set_trial_at(numbers(n.accepted), Trial::start);
     }
-    const EnergyFlows before = state.energy.flows;
+    const EnergyFlows before = state.ledger.energy.flows;
     add_ramps(model, settings, state);
     for (const Source ramp : {Source::gravity_ramp, Source::water_change})
-      n.energy.flows[ramp] += state.energy.flows[ramp] - before[ramp];
+      n.ledger.energy.flows[ramp] += state.ledger.energy.flows[ramp] - before[ramp];
     const Trial trial = n.trial;
     if (trial == Trial::start) start_increment();
     const bool breaks = breaks_bonds();
@@ -351,15 +351,15 @@ bool newton_applies(const Model<Dim>& model) {
 
 template <int Dim>
 void begin_newton(const Model<Dim>& model, const Settings& settings, double ramp, State<Dim>& state) {
-  state.newton = {};
-  StaticIncrement<Dim>& n = state.newton;
+  state.increment = {};
+  StaticIncrement<Dim>& n = state.increment;
   n.under_way = true;
   take_base(model, settings, Unknowns<Dim>(model), state);
   if (!(ramp > 0)) return;
   n.trial = StaticIncrement<Dim>::Trial::waiting;
   n.increments_left = settings.damping.increments - 1;
   n.increment_time = ramp / settings.damping.increments;
-  n.ends = state.time + ramp;
+  n.ends = state.schedule.time + ramp;
 }
 
 template <int Dim>
@@ -369,7 +369,7 @@ void iterate(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
 
 template <int Dim>
 std::string progress_of_newton(const State<Dim>& state) {
-  const StaticIncrement<Dim>& n = state.newton;
+  const StaticIncrement<Dim>& n = state.increment;
   if (!n.under_way || n.merits.empty()) return {};
   return fmt::format("Newton iteration {}, residual {:.1e} of the first, lambda {:.1e}", n.iteration,
                      n.merits.front() > 0 ? n.merits.back() / n.merits.front() : 0, n.regularisation);
@@ -380,17 +380,17 @@ double memory_of_newton(const State<Dim>& state) {
   // of the linear system, its lists and factors, which in the plane are complete: measured with 20,000 blocks
   constexpr double blocks_of_a_pair = Dim == 2 ? 60 : 10;
   using Pair = PairStiffness<Dim>;
-  return static_cast<double>(state.contacts.size()) *
+  return static_cast<double>(state.contacts.list.size()) *
              (sizeof(BaseHistory<Dim>) + sizeof(Pair) + blocks_of_a_pair * sizeof(typename Pair::Block)) +
-         static_cast<double>(state.subs.size() * sizeof(JointState<Dim>));
+         static_cast<double>(state.contacts.subs.size() * sizeof(JointState<Dim>));
 }
 
 template <int Dim>
 std::vector<Vector<Dim>> accepted_displacements(const Model<Dim>& model, const State<Dim>& state) {
   std::vector<Vector<Dim>> displacements;
-  const double* q = state.newton.accepted.data();  // of the free bodies, in their order
+  const double* q = state.increment.accepted.data();  // of the free bodies, in their order
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    displacements.push_back(state.newton.base[b].displacement);
+    displacements.push_back(state.increment.base[b].displacement);
     if (model.bodies[b].fixed || !model.bodies[b].present) continue;
     displacements.back() += Eigen::Map<const Vector<Dim>>(q);
     q += freedoms<Dim>;

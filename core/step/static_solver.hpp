@@ -37,7 +37,7 @@ template <int Dim>
 void begin_newton(const Model<Dim>& model, const Settings& settings, double ramp, State<Dim>& state);
 
 // The loads at a trial have been found: judges it and sets the bodies to the next one. Where all increments have come
-// to rest, or one does not within its iterations, State::newton is over and relaxation goes on from there.
+// to rest, or one does not within its iterations, State::increment is over and relaxation goes on from there.
 template <int Dim>
 void iterate(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 

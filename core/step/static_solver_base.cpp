@@ -45,44 +45,41 @@ Unknowns<Dim>::Unknowns(const Model<Dim>& model) : place(model.bodies.size(), -1
 
 template <int Dim>
 void take_base(const Model<Dim>& model, const Settings& settings, const Unknowns<Dim>& unknowns, State<Dim>& state) {
-  for (Motion<Dim>& m : state.motions) {
+  for (Motion<Dim>& m : state.bodies.motions) {
     m.velocity.setZero();
     m.angular_momentum.setZero();
   }
-  StaticIncrement<Dim>& n = state.newton;
-  n.base = state.motions;
-  n.springs = state.bolt_springs;
-  n.grouted = state.grouted;
-  n.linings = state.linings;
-  n.bonds = state.bonds;
-  n.whole_bonds = whole_bonds(state);
+  StaticIncrement<Dim>& n = state.increment;
+  n.base = state.bodies.motions;
+  n.supports = state.supports;
+  n.ledger = state.ledger;
+  n.whole_bonds = whole_bonds(state.contacts);
   n.histories.clear();
-  for (const Contact<Dim>& c : state.contacts)
+  for (const Contact<Dim>& c : state.contacts.list)
     n.histories.push_back({c.part_a, c.part_b, c.divided_face, c.bond_due, c.history});
   n.sub_histories.clear();
-  for (const SubContact<Dim>& s : state.subs)
+  for (const SubContact<Dim>& s : state.contacts.subs)
     n.sub_histories.push_back(s.history);
   n.listed = state.counters.neighbour_builds;
-  n.energy = state.energy;
   n.accepted.assign(static_cast<std::size_t>(unknowns.free.size()), 0);
   n.since_commit = 0;
-  cache_poses(model, settings.threads, state);  // they stand still
+  cache_poses(model, settings.threads, state.bodies);  // they stand still
 }
 
 template <int Dim>
 void follow_list(State<Dim>& state) {
-  StaticIncrement<Dim>& n = state.newton;
+  StaticIncrement<Dim>& n = state.increment;
   if (n.listed == state.counters.neighbour_builds) return;
   n.listed = state.counters.neighbour_builds;
   const std::vector<BaseHistory<Dim>> old = std::move(n.histories);
   const std::vector<JointState<Dim>> old_subs = std::move(n.sub_histories);
-  const std::size_t cells = old.empty() ? 0 : old_subs.size() / old.size(), stride = sub_stride(state);
-  n.histories.assign(state.contacts.size(), {});
-  n.sub_histories.assign(state.subs.size(), {});
+  const std::size_t cells = old.empty() ? 0 : old_subs.size() / old.size(), stride = sub_stride(state.contacts);
+  n.histories.assign(state.contacts.list.size(), {});
+  n.sub_histories.assign(state.contacts.subs.size(), {});
   std::map<int, int> moved;  // places of contacts, old to new
   std::size_t from = 0;
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {  // both lists ascend
-    const std::pair key(state.contacts[i].part_a, state.contacts[i].part_b);
+  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {  // both lists ascend
+    const std::pair key(state.contacts.list[i].part_a, state.contacts.list[i].part_b);
     n.histories[i].part_a = key.first;
     n.histories[i].part_b = key.second;
     while (from < old.size() && std::pair(old[from].part_a, old[from].part_b) < key)
@@ -105,10 +102,10 @@ void follow_list(State<Dim>& state) {
 template <int Dim>
 void set_trial(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const Eigen::VectorXd& q, State<Dim>& state) {
   constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
-  const StaticIncrement<Dim>& n = state.newton;
+  const StaticIncrement<Dim>& n = state.increment;
   for (std::size_t i = 0; i < unknowns.count(); ++i) {
     const int b = unknowns.bodies[i];
-    Motion<Dim>& m = state.motions[b];
+    Motion<Dim>& m = state.bodies.motions[b];
     const Vector<Dim> way = q.segment<Dim>(F * i);
     const Spin<Dim> turn = q.segment<S>(F * i + Dim);
     m.displacement = n.base[b].displacement + way;
@@ -117,18 +114,15 @@ void set_trial(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const Eig
     m.angular_momentum = angular_momentum(model.bodies[b], m.rotation, turn);
   }
   for (std::size_t i = 0; i < n.histories.size(); ++i) {
-    state.contacts[i].history = n.histories[i].history;
-    state.contacts[i].divided_face = n.histories[i].divided_face;
-    state.contacts[i].bond_due = n.histories[i].bond_due;
+    state.contacts.list[i].history = n.histories[i].history;
+    state.contacts.list[i].divided_face = n.histories[i].divided_face;
+    state.contacts.list[i].bond_due = n.histories[i].bond_due;
   }
   for (std::size_t i = 0; i < n.sub_histories.size(); ++i)
-    state.subs[i].history = n.sub_histories[i];
-  state.bolt_springs = n.springs;
-  state.grouted = n.grouted;
-  state.linings = n.linings;
-  state.bonds = n.bonds;
-  state.energy = n.energy;
-  state.time_step = 1;
+    state.contacts.subs[i].history = n.sub_histories[i];
+  state.supports = n.supports;
+  state.ledger = n.ledger;
+  state.time_step.length = 1;
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                      \

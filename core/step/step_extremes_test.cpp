@@ -51,11 +51,11 @@ struct Stack {
     upper = index_of(model, "upper");
     state = initial_state(model);
     // where it will rest
-    state.motions[lower].displacement[Dim - 1] = -(mass(lower) + mass(upper)) * gravity / k_lower;
-    state.motions[upper].displacement[Dim - 1] = height(lower) - mass(upper) * gravity / k_upper;
+    state.bodies.motions[lower].displacement[Dim - 1] = -(mass(lower) + mass(upper)) * gravity / k_lower;
+    state.bodies.motions[upper].displacement[Dim - 1] = height(lower) - mass(upper) * gravity / k_upper;
   }
   double mass(int b) const { return model.bodies[b].mass; }
-  double height(int b) const { return state.motions[b].displacement[Dim - 1]; }
+  double height(int b) const { return state.bodies.motions[b].displacement[Dim - 1]; }
 
   // the two masses' angular frequencies, rad/s: roots of ω⁴ - t ω² + d
   std::pair<double, double> frequencies() const {
@@ -78,13 +78,13 @@ template <int Dim>
 double measured_frequency(Stack<Dim> stack, int body, double speed, int swings) {
   const Settings settings = undamped(0.05);  // (ω dt)²/24 at most 4e-4 of the frequency
   const double start = stack.height(body);
-  stack.state.motions[body].velocity[Dim - 1] = speed;
+  stack.state.bodies.motions[body].velocity[Dim - 1] = speed;
   double first = -1, last = 0, before = 0;
   for (int counted = 0; counted <= swings;) {
     step(stack.model, settings, stack.state);
     const double now = stack.height(body) - start;
     if (before < 0 && now >= 0) {
-      last = stack.state.time - stack.state.time_step * now / (now - before);
+      last = stack.state.schedule.time - stack.state.time_step.length * now / (now - before);
       if (first < 0) first = last;
       ++counted;
     }
@@ -169,8 +169,8 @@ void expect_bounded() {
       const int block = index_of(model, "block");
       const double overlap = shapes::density * 0.5 * gravity / 1e9;  // at rest
       State<Dim> state = initial_state(model);
-      state.motions[block].displacement[Dim - 1] = -overlap;
-      state.motions[block].velocity[Dim - 1] = speed;
+      state.bodies.motions[block].displacement[Dim - 1] = -overlap;
+      state.bodies.motions[block].velocity[Dim - 1] = speed;
       Settings settings;
       settings.damping = {.local = 0, .viscous_ratio = ratio};
       const double mass = model.bodies[block].mass, swing = speed * std::sqrt(mass / 1e9);
@@ -178,9 +178,9 @@ void expect_bounded() {
       int opened = 0;
       for (int i = 0; i < 5'000; ++i) {
         step(model, settings, state);
-        const double height = state.motions[block].displacement[Dim - 1];
+        const double height = state.bodies.motions[block].displacement[Dim - 1];
         bool touching = false;
-        for (const Contact<Dim>& c : state.contacts) {
+        for (const Contact<Dim>& c : state.contacts.list) {
           if (!c.touching()) continue;
           touching = true;
           ASSERT_GE(c.force.dot(c.geometry.normal), 0) << ratio;
@@ -215,17 +215,17 @@ void expect_same_motion_far_away() {
     const Model<Dim> model = moved(block_on_plate<Dim>(0, 20 * degree), shift);
     const int block = index_of(model, "block");
     State<Dim> state = initial_state(model);
-    state.motions[block].velocity[0] = 0.5;
-    state.motions[block].displacement[Dim - 1] = -1e-5;
+    state.bodies.motions[block].velocity[0] = 0.5;
+    state.bodies.motions[block].displacement[Dim - 1] = -1e-5;
     for (int i = 0; i < 2'000; ++i)
       step(model, {}, state);
     if (shift == 0) {
       expected = state;
-      ASSERT_GT(state.motions[block].displacement[0], 1e-2);
+      ASSERT_GT(state.bodies.motions[block].displacement[0], 1e-2);
       continue;
     }
-    EXPECT_EQ(state.motions[block].displacement, expected.motions[block].displacement) << shift;
-    EXPECT_EQ(state.motions[block].angular_momentum, expected.motions[block].angular_momentum) << shift;
+    EXPECT_EQ(state.bodies.motions[block].displacement, expected.bodies.motions[block].displacement) << shift;
+    EXPECT_EQ(state.bodies.motions[block].angular_momentum, expected.bodies.motions[block].angular_momentum) << shift;
   }
 }
 
@@ -248,10 +248,10 @@ void expect_overlap_of_creep() {
   const double increment = 1e-12;
   const int steps = 100'000;
   State<Dim> state = initial_state(model);
-  state.motions[block].velocity[Dim - 1] = -increment / 1e-3;
+  state.bodies.motions[block].velocity[Dim - 1] = -increment / 1e-3;
   for (int i = 0; i <= steps; ++i)
     step(model, settings, state);
-  const ContactGeometry<Dim>& g = state.contacts.front().geometry;
+  const ContactGeometry<Dim>& g = state.contacts.list.front().geometry;
   EXPECT_NEAR(g.overlap, increment * steps, 1e-6 * increment * steps);
 }
 
@@ -275,20 +275,20 @@ void expect_rest(double local_damping, int steps) {
   settings.equilibrium.unbalanced = 1e-9;
   ASSERT_EQ(run<Dim>(model, settings, {.rest = true, .step_limit = 100'000}, ramp, state).reason,
             StopReason::equilibrium);
-  const Motion<Dim> settled = state.motions[block];
-  const double slipped = state.contacts.front().history.plastic_slip;
+  const Motion<Dim> settled = state.bodies.motions[block];
+  const double slipped = state.contacts.list.front().history.plastic_slip;
   settings.damping.local = local_damping;
   double farthest = 0, fastest = 0;
   for (int i = 0; i < steps; ++i) {
     step(model, settings, state);
-    farthest = std::max(farthest, (state.motions[block].displacement - settled.displacement).norm());
-    fastest = std::max(fastest, state.motions[block].velocity.norm());
+    farthest = std::max(farthest, (state.bodies.motions[block].displacement - settled.displacement).norm());
+    fastest = std::max(fastest, state.bodies.motions[block].velocity.norm());
   }
   EXPECT_LT(farthest, 1e-9) << local_damping;
   // what the equilibrium left of the weight, as a swing of the shear spring; ten times that
   const double left = settings.equilibrium.unbalanced * model.bodies[block].mass * gravity;
   EXPECT_LT(model.bodies[block].mass * fastest * fastest, 10 * left * left / 5e8) << local_damping;
-  EXPECT_EQ(state.contacts.front().history.plastic_slip, slipped) << local_damping;
+  EXPECT_EQ(state.contacts.list.front().history.plastic_slip, slipped) << local_damping;
 }
 
 TEST(StepExtremes, ABlockAtRestOnASlopeStays) {
@@ -315,8 +315,8 @@ void expect_stop_at_nan(double height) {
   State<Dim> state = initial_state(model);
   for (int i = 0; i < 100; ++i)
     step(model, {}, state);
-  state.motions[block].displacement[Dim - 1] += height;
-  state.motions[block].velocity[0] = std::numeric_limits<double>::quiet_NaN();
+  state.bodies.motions[block].displacement[Dim - 1] += height;
+  state.bodies.motions[block].velocity[0] = std::numeric_limits<double>::quiet_NaN();
   const RunReport report = run<Dim>(model, {}, {.step_limit = 10}, {}, state);
   EXPECT_EQ(report.reason, StopReason::not_finite);
   EXPECT_EQ(report.steps, 1);

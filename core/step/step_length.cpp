@@ -48,9 +48,9 @@ std::vector<double> excess_by_body(const Model<Dim>& model, const Unknowns<Dim>&
     if (a >= 0) alone[a] = 0;
     if (b >= 0) alone[b] = 0;
   };
-  for (const Contact<Dim>& c : state.contacts)
+  for (const Contact<Dim>& c : state.contacts.list)
     if (c.status != ContactStatus::apart) add_pair(model.parts[c.part_a].body, model.parts[c.part_b].body);
-  for (const LiningState& lined : state.linings)  // a node against its rock
+  for (const LiningState& lined : state.supports.linings)  // a node against its rock
     for (std::size_t i = 0; i < lined.contacts.size(); ++i)
       if (const int rock = lined.contacts[i].rock; rock >= 0)
         add_pair(lined.rock[rock].body, model.linings[lined.lining].first_body + static_cast<int>(i / 2));

@@ -197,7 +197,7 @@ bool outgrown(const Model<Dim>& model, const State<Dim>& state, const Contact<Di
   if (c.area_rated < 0) return true;
   if (model.particles && c.touching() && rocking(c) > c.area_rated) return true;
   return c.touching() && c.geometry.area * stiffening<Dim>(model.properties[c.properties], c,
-                                                           subs_of(state, &c - state.contacts.data())) >
+                                                           subs_of(state.contacts, &c - state.contacts.list.data())) >
                              c.area_rated;
 }
 
@@ -224,7 +224,7 @@ struct BodiesToUpdate {
 template <int Dim>
 void add_contact(const Model<Dim>& model, const ContactSettings& settings, const BodiesToUpdate& updated,
                  State<Dim>& state, int place, int body, Stiffness<Dim>& stiffness, double& impact) {
-  Contact<Dim>& c = state.contacts[place];
+  Contact<Dim>& c = state.contacts.list[place];
   if (c.status == ContactStatus::apart) return;
   const int ia = model.parts[c.part_a].body, ib = model.parts[c.part_b].body;
   const bool fixed_a = model.bodies[ia].fixed, fixed_b = model.bodies[ib].fixed;
@@ -245,7 +245,7 @@ void add_contact(const Model<Dim>& model, const ContactSettings& settings, const
   const JointProperties& p = model.properties[c.properties];
   const auto subs = subs_of(std::as_const(state), static_cast<std::size_t>(place));
   rate(std::max(c.geometry.area * stiffening<Dim>(p, c, subs), rocking(c)));
-  const Vector<Dim> apart = between(state.poses[ia], state.poses[ib]);
+  const Vector<Dim> apart = between(state.bodies.poses[ia], state.bodies.poses[ib]);
   // `gyration2` times the area: what the cell about its own point adds to rocking and spin, at most
   const auto add_cell = [&](const Vector<Dim>& point, double overlap, double area, double gyration2) {
     const Tangent now = tangent(p, overlap);
@@ -255,7 +255,7 @@ void add_contact(const Model<Dim>& model, const ContactSettings& settings, const
       stiffness(i, i) += turning;
   };
   if (is_integrated(settings, p))
-    return add_cell(c.geometry.point, c.geometry.overlap, c.geometry.area, state.faces[place].gyration2);
+    return add_cell(c.geometry.point, c.geometry.overlap, c.geometry.area, state.contacts.faces[place].gyration2);
   if (c.cells == 0)
     return add_cell(c.geometry.point, c.geometry.overlap, p.constant_stiffness ? 1 : c.geometry.area, rocking(c));
   const double unit = p.constant_stiffness ? c.geometry.area : 1;
@@ -267,22 +267,22 @@ void add_contact(const Model<Dim>& model, const ContactSettings& settings, const
 template <int Dim>
 TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
                           const BodiesToUpdate& updated, State<Dim>& state) {
-  state.frequency.resize(model.bodies.size(), 0);
+  state.time_step.frequency.resize(model.bodies.size(), 0);
   each_on_threads(settings.threads, updated.bodies.size(), [&](int i) {
     const int body = updated.bodies[i];
     Stiffness<Dim> stiffness = Stiffness<Dim>::Zero();
     double impact = 0;  // N/m that may act at the radius
-    for (const int place : contacts_of(state, body))
+    for (const int place : contacts_of(state.contacts, body))
       add_contact(model, settings.contact, updated, state, place, body, stiffness, impact);
-    const Motion<Dim>& motion = state.motions[body];
-    const bool rests = motion.velocity.isZero(0) && motion.angular_momentum.isZero(0) && !state.loads.empty();
-    const double force = rests ? state.loads[body].force.norm() : 0;
-    state.frequency[body] =
+    const Motion<Dim>& motion = state.bodies.motions[body];
+    const bool rests = motion.velocity.isZero(0) && motion.angular_momentum.isZero(0) && !state.loads.total.empty();
+    const double force = rests ? state.loads.total[body].force.norm() : 0;
+    state.time_step.frequency[body] =
         std::sqrt(stiffest(model, body, motion.rotation, stiffness, impact,
-                           state.stiffened.empty() ? BodyStiffness() : state.stiffened[body], force));
+                           state.loads.stiffened.empty() ? BodyStiffness() : state.loads.stiffened[body], force));
   });
   double largest = 0;
-  for (const double frequency : state.frequency)
+  for (const double frequency : state.time_step.frequency)
     largest = std::max(largest, frequency);
 
   TimeStepEstimate estimate;
@@ -304,24 +304,24 @@ TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& set
   updated.begin(model.bodies.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     updated.add(model, static_cast<int>(b));
-  state.frequency.clear();
+  state.time_step.frequency.clear();
   return estimate(model, settings, damping, updated, state);
 }
 
 template <int Dim>
 std::optional<TimeStepEstimate> renew_time_step(const Model<Dim>& model, const Settings& settings,
                                                 const DampingSettings& damping, State<Dim>& state) {
-  if (state.frequency.empty()) return estimate_time_step(model, settings, damping, state);
+  if (state.time_step.frequency.empty()) return estimate_time_step(model, settings, damping, state);
   static thread_local std::vector<char> own_grown;
   static thread_local BodiesToUpdate updated;
   std::vector<char>& grown = own_grown;  // by contact: this thread's, filled by all
-  grown.resize(state.contacts.size());
-  each_on_threads(settings.threads, grown.size(), [&](int i) { grown[i] = outgrown(model, state, state.contacts[i]); });
+  grown.resize(state.contacts.list.size());
+  each_on_threads(settings.threads, grown.size(), [&](int i) { grown[i] = outgrown(model, state, state.contacts.list[i]); });
   updated.begin(model.bodies.size());
   for (std::size_t i = 0; i < grown.size(); ++i) {
     if (!grown[i]) continue;
-    updated.add(model, model.parts[state.contacts[i].part_a].body);
-    updated.add(model, model.parts[state.contacts[i].part_b].body);
+    updated.add(model, model.parts[state.contacts.list[i].part_a].body);
+    updated.add(model, model.parts[state.contacts.list[i].part_b].body);
   }
   if (updated.bodies.empty()) return {};
   return estimate(model, settings, damping, updated, state);
@@ -329,7 +329,7 @@ std::optional<TimeStepEstimate> renew_time_step(const Model<Dim>& model, const S
 
 template <int Dim>
 void demand_time_step(const State<Dim>& state) {
-  if (!(state.step_allowed > 0))
+  if (!(state.time_step.allowed > 0))
     throw std::domain_error(
         "no contact and no joint property determines the time step: state time.step_s in the scene");
 }

@@ -17,14 +17,14 @@ template <int Dim>
 Block<Dim> stiffness_of(const Model<Dim>& model, const State<Dim>& state, const WaterSurfaces<Dim>& surfaces, int b) {
   constexpr int S = spin_freedoms<Dim>;
   const double way = difference_step * model.bodies[b].radius;
-  const Standing<Dim> at = standing(state.poses[b]);
+  const Standing<Dim> at = standing(state.bodies.poses[b]);
   const auto moved = [&](int freedom, double sign) {
     Standing<Dim> there = at;
     if (freedom < Dim)
       there.centroid[freedom] += sign * way;
     else
       there.axes =
-          matrix(turned(state.motions[b].rotation, Spin<Dim>(sign * difference_step * Spin<Dim>::Unit(freedom - Dim))));
+          matrix(turned(state.bodies.motions[b].rotation, Spin<Dim>(sign * difference_step * Spin<Dim>::Unit(freedom - Dim))));
     return water_load(model, surfaces, b, there);
   };
   Block<Dim> k = Block<Dim>::Zero();
@@ -41,7 +41,7 @@ Block<Dim> stiffness_of(const Model<Dim>& model, const State<Dim>& state, const 
 
 template <int Dim>
 void find_water_stiffness(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  std::vector<Block<Dim>>& blocks = state.newton.of_water;
+  std::vector<Block<Dim>>& blocks = state.increment.of_water;
   blocks.assign(model.waters.empty() ? 0 : model.bodies.size(), Block<Dim>::Zero());
   if (blocks.empty()) return;
   WaterSurfaces<Dim> surfaces;

@@ -47,7 +47,7 @@ Settings undamped(double step = 0) {
 template <int Dim>
 State<Dim> lifted(const Model<Dim>& model, double by) {
   State<Dim> state = initial_state(model);
-  state.motions[0].displacement[Dim - 1] = by;
+  state.bodies.motions[0].displacement[Dim - 1] = by;
   return state;
 }
 
@@ -57,14 +57,14 @@ void heave() {
   const double period = 2 * std::numbers::pi * std::sqrt(0.6 / gravity);  // 1.553893 s
   State<Dim> state = lifted(model, 0.01);
   run(model, undamped(), {.end_time = period / 4}, {}, state);
-  EXPECT_NEAR(state.motions[0].displacement[Dim - 1], 0, 1e-4);
+  EXPECT_NEAR(state.bodies.motions[0].displacement[Dim - 1], 0, 1e-4);
   state = lifted(model, 0.01);
   run(model, undamped(), {.end_time = period / 2}, {}, state);
-  EXPECT_NEAR(state.motions[0].displacement[Dim - 1], -0.01, 2e-5);
-  EXPECT_LT(state.energy.relative_error(), 1e-10);
-  EXPECT_NE(state.energy.flows[Source::water], 0);
-  EXPECT_EQ(state.energy.flows[Source::water_pressure], 0);
-  EXPECT_EQ(state.energy.flows[Source::water_change], 0);
+  EXPECT_NEAR(state.bodies.motions[0].displacement[Dim - 1], -0.01, 2e-5);
+  EXPECT_LT(state.ledger.energy.relative_error(), 1e-10);
+  EXPECT_NE(state.ledger.energy.flows[Source::water], 0);
+  EXPECT_EQ(state.ledger.energy.flows[Source::water_pressure], 0);
+  EXPECT_EQ(state.ledger.energy.flows[Source::water_change], 0);
 }
 
 // Without a joint or a stated step the water alone chooses the time step.
@@ -97,17 +97,17 @@ TEST(RaftInWater, HasAPotentialThatClosesWithTheSquareOfTheStep) {
   find_surfaces(model, initial_water(model), 1, surfaces);
   const auto open = [&](double step) {
     State<2> state = lifted(model, 0.15);
-    state.motions[0].rotation.angle = 20 * degree;
-    cache_poses(model, 1, state);
-    const double before = water_potential(model, surfaces, 0, standing(state.poses[0]));
+    state.bodies.motions[0].rotation.angle = 20 * degree;
+    cache_poses(model, 1, state.bodies);
+    const double before = water_potential(model, surfaces, 0, standing(state.bodies.poses[0]));
     run(model, undamped(step), {.end_time = 0.4}, {}, state);
     // the ledger's work reaches to half a step before these positions
     find_forces(model, undamped(step), state);
-    const Load<2>& load = state.loads_of[Source::water][0];
-    const Spin<2> spin = angular_velocity(model.bodies[0], state.motions[0]);
-    const double last = 0.5 * state.time_step * (load.force.dot(state.motions[0].velocity) + load.moment.dot(spin));
-    const double after = water_potential(model, surfaces, 0, standing(state.poses[0]));
-    return std::abs(state.energy.flows[Source::water] + last + after - before);
+    const Load<2>& load = state.loads.by_source[Source::water][0];
+    const Spin<2> spin = angular_velocity(model.bodies[0], state.bodies.motions[0]);
+    const double last = 0.5 * state.time_step.length * (load.force.dot(state.bodies.motions[0].velocity) + load.moment.dot(spin));
+    const double after = water_potential(model, surfaces, 0, standing(state.bodies.poses[0]));
+    return std::abs(state.ledger.energy.flows[Source::water] + last + after - before);
   };
   const double coarse = open(4e-3), middle = open(2e-3), fine = open(1e-3);
   EXPECT_NEAR(std::log2(coarse / middle), 2, 0.1);
@@ -118,11 +118,11 @@ TEST(RaftInWater, HasAPotentialThatClosesWithTheSquareOfTheStep) {
 TEST(RaftInWater, ComesToRestByRelaxation) {
   const Model<2> model = raft<2>();
   State<2> state = lifted(model, 0.15);
-  state.motions[0].rotation.angle = 5 * degree;
+  state.bodies.motions[0].rotation.angle = 5 * degree;
   const RunReport report = run(model, Settings(), {.rest = true, .step_limit = 100'000}, {}, state);
   EXPECT_EQ(report.reason, StopReason::equilibrium) << describe(report.reason) << " " << report.steps;
-  EXPECT_NEAR(state.motions[0].displacement[1], 0, 1e-5);
-  EXPECT_NEAR(state.motions[0].rotation.angle, 0, 1e-5);
+  EXPECT_NEAR(state.bodies.motions[0].displacement[1], 0, 1e-5);
+  EXPECT_NEAR(state.bodies.motions[0].rotation.angle, 0, 1e-5);
 }
 
 // A level on all faces is what Archimedes says, face by face too; of two waters there is no potential.
@@ -142,8 +142,8 @@ TEST(WaterOfTheModel, ActsByVolumeOrByFaces) {
   EXPECT_LT(water_loads_at_reference(model).front().force.norm(), 1e-8);
   State<3> state = initial_state(model);
   find_forces(model, undamped(), state);
-  EXPECT_TRUE(state.loads_of[Source::water].empty());
-  EXPECT_FALSE(state.loads_of[Source::water_pressure].empty());
+  EXPECT_TRUE(state.loads.by_source[Source::water].empty());
+  EXPECT_FALSE(state.loads.by_source[Source::water_pressure].empty());
   model.bodies[0].present = false;
   EXPECT_TRUE(water_loads_at_reference(model).front().force.isZero(0));
 }
@@ -153,8 +153,8 @@ TEST(WaterOfTheModel, GrowsWithGravity) {
   State<2> state = initial_state(model);
   state.schedule.gravity_factor = 0.25;
   find_forces(model, undamped(1e-3), state);
-  EXPECT_NEAR(state.loads_of[Source::water][0].force[1], 0.25 * unit_weight * 2 * 0.6, 1e-8);
-  EXPECT_NEAR(state.loads[0].force[1], 0, 1e-8);
+  EXPECT_NEAR(state.loads.by_source[Source::water][0].force[1], 0.25 * unit_weight * 2 * 0.6, 1e-8);
+  EXPECT_NEAR(state.loads.total[0].force[1], 0, 1e-8);
 }
 
 WaterPlan rising(double from, double to, double ramp) {
@@ -172,10 +172,10 @@ TEST(Relaxation, DoesNotTakeARisingLevelForStiffness) {
   const auto path = [&](const Model<2>& model, const RunSchedule& schedule) {
     State<2> state = initial_state(model);
     run(model, Settings(), {.rest = true}, {}, state);
-    state.schedule.started = state.time;
+    state.schedule.started = state.schedule.time;
     std::vector<double> heights;
     RunProgress<2> progress;
-    const auto after = [&](const State<2>& now, double) { heights.push_back(now.motions[b].displacement[1]); };
+    const auto after = [&](const State<2>& now, double) { heights.push_back(now.bodies.motions[b].displacement[1]); };
     run<2>(model, Settings(), {.rest = true}, schedule, state, progress,
            {.with_forces = {}, .after_step = after, .pause = {}});
     return heights;
@@ -196,11 +196,11 @@ TEST(WaterThatRises, PutsInWhatTheLedgerSays) {
   flood(model, 1);
   State<2> state = initial_state(model);
   run(model, Settings(), {.rest = true}, {}, state);
-  state.schedule.started = state.time;
+  state.schedule.started = state.schedule.time;
   run(model, Settings(), {.rest = true}, {.water = {rising(1, 3, 0.02)}}, state);
   EXPECT_EQ(state.schedule.water[0][1], 3);
-  EXPECT_NEAR(state.energy.flows[Source::water_change], unit_weight * 0.5 * 2, 1e-3 * unit_weight);
-  EXPECT_LT(state.energy.relative_error(), 1e-6);
+  EXPECT_NEAR(state.ledger.energy.flows[Source::water_change], unit_weight * 0.5 * 2, 1e-3 * unit_weight);
+  EXPECT_LT(state.ledger.energy.relative_error(), 1e-6);
 }
 
 // Under a ramp of gravity the water has its full weight with the rock, and the ledger counts displacements alone.
@@ -210,9 +210,9 @@ TEST(WaterThatRises, WithGravityPutsInNoMoreThanItMoves) {
   State<2> state = initial_state(model);
   run(model, Settings(), {.rest = true}, {.gravity = {.ramp = 0.02}}, state);
   const int b = index_of(model, "block");
-  const double work = unit_weight * 0.5 * std::abs(state.motions[b].displacement[1]);
-  EXPECT_LT(std::abs(state.energy.flows[Source::water_change]), 2 * work);
-  EXPECT_NEAR(state.motions[b].displacement[1] * -1e9, (density - 1000) * gravity * 0.5, 1e-3 * density * gravity);
+  const double work = unit_weight * 0.5 * std::abs(state.bodies.motions[b].displacement[1]);
+  EXPECT_LT(std::abs(state.ledger.energy.flows[Source::water_change]), 2 * work);
+  EXPECT_NEAR(state.bodies.motions[b].displacement[1] * -1e9, (density - 1000) * gravity * 0.5, 1e-3 * density * gravity);
 }
 
 }  // namespace

@@ -15,13 +15,13 @@ struct Work {
 
 template <int Dim>
 void add_work(const Model<Dim>& model, int threads, const std::vector<Kick<Dim>>& kicks, State<Dim>& state) {
-  EnergyLedger& energy = state.energy;
+  EnergyLedger& energy = state.ledger.energy;
   const auto work = [&](int b, Work& sum) {
     if (model.bodies[b].immobile()) return;
     const Kick<Dim>& kick = kicks[b];
     sum.kinetic += kick.kinetic;
     for (std::size_t i = 0; i < load_count; ++i) {
-      const std::vector<Load<Dim>>& loads = state.loads_of.values[i];
+      const std::vector<Load<Dim>>& loads = state.loads.by_source.values[i];
       if (loads.empty()) continue;
       sum.before[i] += loads[b].force.dot(kick.path_before) + loads[b].moment.dot(kick.turn_before);
       sum.after[i] += loads[b].force.dot(kick.path_after) + loads[b].moment.dot(kick.turn_after);

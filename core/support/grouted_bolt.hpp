@@ -26,7 +26,7 @@ namespace voussoir {
 template <int Dim>
 struct GroutedBolt {
   int bolt = 0;          // Model::bolts
-  int first_spring = 0;  // State::bolt_springs: those of its joints lie there one after the other
+  int first_spring = 0;  // State::supports.bolt_springs: those of its joints lie there one after the other
   GroutedBar bar;        // s from where the bolt enters the rock
   GroutedBarState state;
   std::vector<int> body;           // by node

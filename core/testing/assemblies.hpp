@@ -49,9 +49,9 @@ auto velocity_at(const Vector<Dim>& arm) {
 // as the step would have found them
 template <int Dim>
 void set_contacts(const Model<Dim>& model, const std::vector<Contact<Dim>>& contacts, State<Dim>& state) {
-  state.contacts = contacts;
-  cache_poses(model, 1, state);
-  list_by_body(model, state);
+  state.contacts.list = contacts;
+  cache_poses(model, 1, state.bodies);
+  list_by_body(model, state.contacts);
 }
 
 // random bodies, the last of them fixed, with random contacts between them; every free body has one
@@ -73,7 +73,7 @@ struct RandomAssembly {
       for (JointProperties& p : model.properties)
         p.shear_stiffness = p.normal_stiffness * power_of_ten(random, -spread.stiffness, 0);
     state = initial_state(model);
-    for (Motion<Dim>& m : state.motions) {
+    for (Motion<Dim>& m : state.bodies.motions) {
       m.rotation = orientation<Dim>(random);
       m.displacement = 0.01 * normal_vector<Dim>(random);
     }
@@ -98,13 +98,13 @@ struct RandomAssembly {
   double largest_eigenvalue() const {
     constexpr int size = Dim + spin_freedoms<Dim>;
     Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(free * size, free * size);
-    for (const Contact<Dim>& c : state.contacts) {
+    for (const Contact<Dim>& c : state.contacts.list) {
       const JointProperties& p = model.properties[c.properties];
       const Matrix<Dim> nn = c.geometry.normal * c.geometry.normal.transpose();
       const Matrix<Dim> k = (p.constant_stiffness ? 1 : c.geometry.area) *
                             (p.normal_stiffness * nn + p.shear_stiffness * (Matrix<Dim>::Identity() - nn));
       const auto centroid = [&](int b) -> Vector<Dim> {
-        return model.bodies[b].reference + state.motions[b].displacement;
+        return model.bodies[b].reference + state.bodies.motions[b].displacement;
       };
       Eigen::MatrixXd j = Eigen::MatrixXd::Zero(Dim, free * size);
       j.middleCols<size>(c.part_a * size) = -velocity_at<Dim>(c.geometry.point) * root_of_inverse_mass(c.part_a);
@@ -124,7 +124,7 @@ struct RandomAssembly {
     Eigen::Matrix<double, size, size> root = Eigen::Matrix<double, size, size>::Zero();
     root.template topLeftCorner<Dim, Dim>() = Matrix<Dim>::Identity() / std::sqrt(body.mass);
     if constexpr (Dim == 3) {
-      const Matrix<3> axes = matrix(state.motions[b].rotation) * body.principal_axes;
+      const Matrix<3> axes = matrix(state.bodies.motions[b].rotation) * body.principal_axes;
       root.template bottomRightCorner<3, 3>() =
           axes * body.inertia.cwiseSqrt().cwiseInverse().asDiagonal() * axes.transpose();
     } else {

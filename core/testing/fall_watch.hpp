@@ -15,7 +15,7 @@ inline double kinetic_energy(const Model<3>& model, const State<3>& state) {
   double sum = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].fixed) continue;
-    const Motion<3>& m = state.motions[b];
+    const Motion<3>& m = state.bodies.motions[b];
     sum += 0.5 * model.bodies[b].mass * m.velocity.squaredNorm();
     sum += 0.5 * m.angular_momentum.cwiseAbs2().cwiseQuotient(model.bodies[b].inertia).sum();
   }
@@ -24,7 +24,7 @@ inline double kinetic_energy(const Model<3>& model, const State<3>& state) {
 
 // as a fraction of the energy that the fall has set free
 inline double kinetic_fraction(const Model<3>& model, const State<3>& state) {
-  return kinetic_energy(model, state) / -state.energy.potential();
+  return kinetic_energy(model, state) / -state.ledger.energy.potential();
 }
 
 // how far the farthest corner of any block has gone into the plate or beyond a wall's face, m
@@ -33,8 +33,8 @@ inline double deepest_corner(const Model<3>& model, const State<3>& state, doubl
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<3>& body = model.bodies[b];
     if (body.fixed) continue;
-    const Vector<3> centroid = model.origin + body.reference + state.motions[b].displacement;
-    const Matrix<3> axes = matrix(state.motions[b].rotation);
+    const Vector<3> centroid = model.origin + body.reference + state.bodies.motions[b].displacement;
+    const Matrix<3> axes = matrix(state.bodies.motions[b].rotation);
     for (const Polytope<3>& part : body.parts)
       for (const Vector<3>& v : part.vertices) {
         const Vector<3> x = centroid + axes * v;
@@ -57,8 +57,8 @@ struct EnergyErrors {
   double motion, contacts;
 };
 inline EnergyErrors energy_errors(const State<3>& state) {
-  const double work = -state.energy.potential();
-  return {std::abs(state.energy.motion_error) / work, std::abs(state.energy.contact_error) / work};
+  const double work = -state.ledger.energy.potential();
+  return {std::abs(state.ledger.energy.motion_error) / work, std::abs(state.ledger.energy.contact_error) / work};
 }
 
 // what a fall promises
@@ -106,7 +106,7 @@ inline FallFindings fall_until_rest(const Prepared<3>& scene, double width,
   found.kinetic = kinetic_fraction(scene.model, progress.state);
   look(progress.state);
   found.counters = progress.state.counters;
-  found.time = progress.state.time;
+  found.time = progress.state.schedule.time;
   return found;
 }
 

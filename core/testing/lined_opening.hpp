@@ -71,7 +71,7 @@ struct Cast {
     state = scene.state;
     add_bodies(model, state);
     install_linings(model, scene.stages.front().change.install, state);
-    cache_poses(model, 1, state);
+    cache_poses(model, 1, state.bodies);
   }
   const Lining& lining() const { return model.linings.front(); }
   int body(int node) const { return lining().first_body + node; }

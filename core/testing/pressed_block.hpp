@@ -32,7 +32,7 @@ struct Block {
 
   // by `depth` under the middle of its base, turned about it by `angle`
   void press(double depth, double angle) {
-    Motion<Dim>& motion = state.motions[block];
+    Motion<Dim>& motion = state.bodies.motions[block];
     motion.displacement[0] = (Dim == 2 ? -1 : 1) * height * std::sin(angle);
     motion.displacement[Dim - 1] = -depth + height * (std::cos(angle) - 1);
     if constexpr (Dim == 2)
@@ -49,10 +49,10 @@ struct Block {
     sum_loads(model, settings, state);
   }
 
-  Vector<Dim> load() const { return state.loads[block].force; }
+  Vector<Dim> load() const { return state.loads.total[block].force; }
   Spin<Dim> moment_of_base() const {  // about the middle of the base
-    const Load<Dim>& load = state.loads[block];
-    const Vector<Dim> arm = matrix(state.motions[block].rotation) * (height * Vector<Dim>::Unit(Dim - 1));
+    const Load<Dim>& load = state.loads.total[block];
+    const Vector<Dim> arm = matrix(state.bodies.motions[block].rotation) * (height * Vector<Dim>::Unit(Dim - 1));
     return load.moment + voussoir::moment(arm, load.force);
   }
 };

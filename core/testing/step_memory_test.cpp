@@ -31,15 +31,15 @@ TEST(Step, AMovingPileAsksForNoMemory) {
   settings.contact.skin = 3;  // of the smallest inscribed radius: neighbours stay for as long as this test lasts
   State<3> state = initial_state(model);
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].fixed) state.motions[b].velocity = {2, 1.0 * static_cast<double>(b % 3), 3};  // m/s
+    if (!model.bodies[b].fixed) state.bodies.motions[b].velocity = {2, 1.0 * static_cast<double>(b % 3), 3};  // m/s
   for (int i = 0; i < 100; ++i)
     step(model, settings, state);
 
-  const std::vector<double> frequency = state.frequency;
+  const std::vector<double> frequency = state.time_step.frequency;
   expect_no_memory_asked(model, settings, state);
 
   // something must have happened: the time step was estimated again, as it is when a pair meets or a contact grows
-  EXPECT_NE(state.frequency, frequency);
+  EXPECT_NE(state.time_step.frequency, frequency);
 }
 
 // long enough for the inertia to be chosen again
@@ -81,12 +81,12 @@ install = ["roof"]
 )",
                                                    "scene.toml", {}));
   State<3> state = scene.state;
-  install<3>(scene.model, {"roof"}, state);
+  install_bolts<3>(scene.model, {"roof"}, state);
   for (int i = 0; i < 100; ++i)
     step(scene.model, scene.settings, state);
-  const double slip = state.grouted[0].state.slip.back();
+  const double slip = state.supports.grouted[0].state.slip.back();
   expect_no_memory_asked(scene.model, scene.settings, state);
-  EXPECT_NE(state.grouted[0].state.slip.back(), slip) << "the bond slips";
+  EXPECT_NE(state.supports.grouted[0].state.slip.back(), slip) << "the bond slips";
 }
 
 TEST(Step, ALiningAsksForNoMemory) {

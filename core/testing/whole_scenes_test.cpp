@@ -53,7 +53,7 @@ TEST(RunStage, LetsAStoneFallAtG) {
 TEST(RunStage, IsDampedAsStated) {
   for (const char* stated : {"damping.local=0.3", "stage.fall.damping.local=0.3"}) {
     const Progress<2> run = whole_run(stone, {stated});
-    EXPECT_NEAR(run.state.motions[1].displacement[1] + run.state.motions[0].displacement[1],
+    EXPECT_NEAR(run.state.bodies.motions[1].displacement[1] + run.state.bodies.motions[0].displacement[1],
                 -0.7 * 0.5 * 9.81 * 0.5 * 0.5, 1e-3)
         << stated;
   }

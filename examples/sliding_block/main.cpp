@@ -45,7 +45,7 @@ bool stays(double friction) {
   const RunReport report = run(model, Settings{}, goal, {}, state);
   std::printf("friction %4.1f deg: %s after %lld steps, %.3g m from where it began\n", friction / degree,
               describe(report.reason).c_str(), report.steps,
-              state.motions.at(model.bodies[0].fixed ? 1 : 0).displacement.norm());
+              state.bodies.motions.at(model.bodies[0].fixed ? 1 : 0).displacement.norm());
   if (report.reason != StopReason::equilibrium && report.reason != StopReason::moved_away)
     throw std::runtime_error("no answer");
   return report.reason == StopReason::equilibrium;

@@ -19,7 +19,7 @@ std::string hash_of(const Scene& scene) {
   simulate<Dim>(prepared, progress, {});
   // the library's own vectors in arithmetic of this program's flags
   Vector<Dim> sum = Vector<Dim>::Zero();
-  for (const auto& motion : progress.state.motions)
+  for (const auto& motion : progress.state.bodies.motions)
     sum += 0.1 * motion.displacement + 0.3 * motion.velocity.cwiseAbs();
   const Matrix<Dim> square = sum * sum.transpose() + Matrix<Dim>::Identity();
   if (!(square.inverse().determinant() > 0) || !(sum.normalized().norm() >= 0)) return "no arithmetic";

@@ -24,7 +24,7 @@ void set_in_motion(Scene<Dim>& scene, double speed, shapes::Random& random) {
   for (std::size_t b = 0; b < scene.model.bodies.size(); ++b) {
     const Body<Dim>& body = scene.model.bodies[b];
     if (body.fixed) continue;
-    Motion<Dim>& motion = scene.state.motions[b];
+    Motion<Dim>& motion = scene.state.bodies.motions[b];
     for (int k = 0; k < Dim; ++k)
       motion.velocity[k] = shapes::uniform(random, -speed, speed);
     for (int k = 0; k < spin_freedoms<Dim>; ++k)

@@ -70,8 +70,8 @@ template <int Dim>
 void run(probe::Scene<Dim> scene, const Options& options) {
   scene.settings.threads = options.threads;
   if (options.nudge)
-    for (std::size_t b = 0; b < scene.state.motions.size(); ++b)
-      if (double& speed = scene.state.motions[b].velocity[0]; !scene.model.bodies[b].fixed)
+    for (std::size_t b = 0; b < scene.state.bodies.motions.size(); ++b)
+      if (double& speed = scene.state.bodies.motions[b].velocity[0]; !scene.model.bodies[b].fixed)
         speed = std::nextafter(speed, 1e300);
   for (int i = 1; i <= options.steps; ++i) {
     step(scene.model, scene.settings, scene.state);
@@ -81,15 +81,15 @@ void run(probe::Scene<Dim> scene, const Options& options) {
 
   // that something happened, for the reader
   double farthest = 0, slip = 0;
-  for (const Motion<Dim>& m : scene.state.motions)
+  for (const Motion<Dim>& m : scene.state.bodies.motions)
     farthest = std::max(farthest, m.displacement.norm());
   int touching = 0;
-  for (const Contact<Dim>& c : scene.state.contacts) {
+  for (const Contact<Dim>& c : scene.state.contacts.list) {
     touching += c.touching();
     slip = std::max(slip, c.history.plastic_slip);
   }
   std::printf("%s: %zu bodies, %d contacts, %.3f s, moved %.3f m, slipped %.3f m, %lld unanswered\n", scene.name,
-              scene.model.bodies.size(), touching, scene.state.time, farthest, slip, scene.state.counters.unconverged);
+              scene.model.bodies.size(), touching, scene.state.schedule.time, farthest, slip, scene.state.counters.unconverged);
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+// Where bodies are and how they move. Positions are reference + displacement, so small steps far from the origin
+// survive.
+#pragma once
+
+#include <vector>
+
+#include "core/geometry/types.hpp"
+#include "core/load/water.hpp"
+#include "core/model/model.hpp"
+
+namespace voussoir {
+
+template <int Dim>
+struct Motion {
+  Vector<Dim> displacement = Vector<Dim>::Zero();  // m
+  Rotation<Dim> rotation;                          // of the body's frame
+  Vector<Dim> velocity = Vector<Dim>::Zero();      // m/s, half a step behind the displacement
+  Spin<Dim> angular_momentum = Spin<Dim>::Zero();  // principal axes, kg m²/s, half a step behind
+};
+
+// where a body stands
+template <int Dim>
+struct Placement {
+  Vector<Dim> displacement;  // m
+  Rotation<Dim> rotation;
+};
+
+// where a body is and how it goes, as its contacts ask; rebuilt every step
+template <int Dim>
+struct CachedPose {
+  Vector<Dim> reference, displacement;  // m
+  Matrix<Dim> axes;                     // its frame in world axes
+  Vector<Dim> velocity;                 // m/s
+  Spin<Dim> spin;                       // rad/s, world axes
+  double inverse_mass;                  // 1/kg; 0: fixed
+};
+
+template <int Dim>
+struct BodiesState {
+  std::vector<Motion<Dim>> motions;        // by body
+  std::vector<CachedPose<Dim>> poses;      // by body; rebuilt every step
+  std::vector<Placement<Dim>> listed_at;   // where the bodies stood when the candidates were last listed
+  std::vector<Placement<Dim>> counted_at;  // by body: up to where its travel is counted
+  std::vector<double> path_bounds;         // m, by body: how far any of its points may have gone, all ways added up
+  std::vector<char> left_behind;  // by body: has failed in a search that its failure does not end, and counts no more
+                                  // where rest is judged; empty: none
+};
+
+// The second body's centroid seen from the first's, m: reference positions first, so that small displacements are not
+// lost.
+template <int Dim>
+Vector<Dim> between(const CachedPose<Dim>& a, const CachedPose<Dim>& b);
+
+// where the body stands as loads ask
+template <int Dim>
+Standing<Dim> standing(const CachedPose<Dim>& pose);
+
+// BodiesState::poses from the motions
+template <int Dim>
+void cache_poses(const Model<Dim>& model, int threads, BodiesState<Dim>& bodies);
+
+// angular velocity in world axes, rad/s
+template <int Dim>
+Spin<Dim> angular_velocity(const Body<Dim>& body, const Motion<Dim>& motion);
+
+// angular momentum in principal axes of a body that spins at `velocity` (world axes)
+template <int Dim>
+Spin<Dim> angular_momentum(const Body<Dim>& body, const Rotation<Dim>& rotation, const Spin<Dim>& velocity);
+
+}  // namespace voussoir

@@ -1,0 +1,83 @@
+// Candidate pairs of parts: those that touch carry the history of their joint.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "core/contact/contact.hpp"
+#include "core/contact/integrated_contact.hpp"
+#include "core/geometry/types.hpp"
+#include "core/model/model.hpp"
+
+namespace voussoir {
+
+// The contacts of each body in their order: those of body b lie in `places` from first[b] up to first[b + 1].
+struct ContactsByBody {
+  std::vector<int> first, places;
+};
+
+// What a contact does to its bodies, apart from all else that is known of it: bodies ask for it in another order than
+// contacts lie in.
+template <int Dim>
+struct ContactLoad {
+  int second = -1;                             // the second body; -1: they do not touch
+  Vector<Dim> force = Vector<Dim>::Zero();     // N on the second body
+  Spin<Dim> about_first = Spin<Dim>::Zero();   // N m: this force's moment about the first body's centroid
+  Spin<Dim> about_second = Spin<Dim>::Zero();  // N m: about its own
+};
+
+template <int Dim>
+struct ContactsState {
+  std::vector<Contact<Dim>> list;     // candidate pairs by (part a, part b); those that touch carry history
+  std::vector<SubContact<Dim>> subs;  // as many places for each contact, in their order; none if no joint has any
+  std::vector<IntegratedContact<Dim>>
+      faces;                            // by contact, of the integrated ones; found every step; none if no joint is
+  ContactsByBody by_body;               // places in `list`; rebuilt with it
+  std::vector<ContactLoad<Dim>> loads;  // by contact; found every step
+};
+
+// the places of a contact's sub-contacts among those of all contacts
+template <int Dim>
+std::size_t sub_stride(const ContactsState<Dim>& contacts) {
+  return contacts.list.empty() ? 0 : contacts.subs.size() / contacts.list.size();
+}
+
+// The sub-contacts that carry a contact, none if it carries itself; `place` counts in ContactsState::list.
+template <class AnyContacts>
+auto subs_of(AnyContacts& contacts, std::size_t place) {
+  const std::size_t stride = sub_stride(contacts);
+  return std::span(contacts.subs).subspan(place * stride, std::min<std::size_t>(stride, contacts.list[place].cells));
+}
+
+// how many of a contact's bonds are whole: its own, or those of its sub-contacts
+template <int Dim>
+long long whole_bonds(const ContactsState<Dim>& contacts, std::size_t place) {
+  const Contact<Dim>& c = contacts.list[place];
+  if (c.cells == 0) return c.history.bonded;
+  const auto whole = [](const SubContact<Dim>& s) { return s.area > 0 && s.history.bonded; };
+  return std::ranges::count_if(subs_of(contacts, place), whole);
+}
+
+// of all contacts
+template <int Dim>
+long long whole_bonds(const ContactsState<Dim>& contacts) {
+  long long whole = 0;
+  for (std::size_t i = 0; i < contacts.list.size(); ++i)
+    whole += whole_bonds(contacts, i);
+  return whole;
+}
+
+// the places of a body's contacts in ContactsState::list
+template <int Dim>
+std::span<const int> contacts_of(const ContactsState<Dim>& contacts, int body) {
+  const auto& [first, places] = contacts.by_body;
+  if (first.empty()) return {};  // no candidates have been listed
+  return std::span(places).subspan(first[body], first[body + 1] - first[body]);
+}
+
+// ContactsState::by_body from its list
+template <int Dim>
+void list_by_body(const Model<Dim>& model, ContactsState<Dim>& contacts);
+
+}  // namespace voussoir

@@ -1,0 +1,79 @@
+// The energy balance, the bonds that broke, and what a run has cost.
+#pragma once
+
+#include <iterator>
+
+#include "core/base/energy.hpp"
+
+namespace voussoir {
+
+// Bonds, each contact or sub-contact that carries one counted: what led to this state. Those whole are in the contacts.
+struct BondTally {
+  long long made = 0, removed = 0;  // removed: whole when a block of theirs was
+};
+
+// the tally, and what has become of the bonds
+struct BondCount {
+  long long made = 0, whole = 0, broken = 0, removed = 0;
+  long long due = 0;  // contacts whose joint is to be bonded where it first presses, and has not pressed yet
+};
+
+struct Ledger {
+  EnergyLedger energy;
+  BondTally bonds;
+};
+
+struct Counters {
+  long long steps = 0;
+  long long contact_evaluations = 0;  // pairs that went through the narrow phase
+  long long motion_skips = 0;         // separated pairs whose bodies have not moved enough to meet
+  long long axis_hits = 0;            // pairs still separated by the plane of the step before
+  long long cold_starts = 0;          // pairs resolved from nothing
+  long long lp_solves = 0;
+  long long lp_pivots = 0;
+  long long newton_iterations = 0;
+  long long centre_fallbacks = 0;  // Newton failed, Ipopt answered
+  long long areas = 0;
+  long long undecided = 0;         // pairs nearer to touching than rounding can tell
+  long long unconverged = 0;       // contacts without an answer: the run fails
+  long long normal_fallbacks = 0;  // normals taken from a face or from the LP's multipliers
+  long long deep_overlaps = 0;     // overlaps beyond the potential particle's radius
+  long long snap_backs = 0;        // slips in which friction fell faster than the shear spring could unload
+  long long neighbour_builds = 0;
+  long long static_iterations = 0;  // Newton's method on the joints: steps accepted
+  long long static_rejections = 0;  // and refused
+  long long linear_iterations = 0;  // of its linear systems
+  long long static_fallbacks = 0;   // increments that it left to relaxation
+};
+
+// their names in results
+struct CounterRow {
+  const char* name;
+  long long Counters::*value;
+};
+
+inline constexpr CounterRow counter_table[] = {
+    {"steps", &Counters::steps},
+    {"contact_evaluations", &Counters::contact_evaluations},
+    {"motion_skips", &Counters::motion_skips},
+    {"axis_hits", &Counters::axis_hits},
+    {"cold_starts", &Counters::cold_starts},
+    {"lp_solves", &Counters::lp_solves},
+    {"lp_pivots", &Counters::lp_pivots},
+    {"newton_iterations", &Counters::newton_iterations},
+    {"centre_fallbacks", &Counters::centre_fallbacks},
+    {"areas", &Counters::areas},
+    {"undecided", &Counters::undecided},
+    {"unconverged", &Counters::unconverged},
+    {"normal_fallbacks", &Counters::normal_fallbacks},
+    {"deep_overlaps", &Counters::deep_overlaps},
+    {"snap_backs", &Counters::snap_backs},
+    {"neighbour_builds", &Counters::neighbour_builds},
+    {"static_iterations", &Counters::static_iterations},
+    {"static_rejections", &Counters::static_rejections},
+    {"linear_iterations", &Counters::linear_iterations},
+    {"static_fallbacks", &Counters::static_fallbacks},
+};
+static_assert(std::size(counter_table) * sizeof(long long) == sizeof(Counters), "every counter has a row");
+
+}  // namespace voussoir

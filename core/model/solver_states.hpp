@@ -1,0 +1,83 @@
+// What the solvers keep from step to step, apart from the state of the rock: the time step, relaxation, the static
+// solver.
+#pragma once
+
+#include <vector>
+
+#include "core/contact/contact.hpp"
+#include "core/model/bodies_state.hpp"
+#include "core/model/ledger.hpp"
+#include "core/model/loads_state.hpp"
+#include "core/model/supports_state.hpp"
+
+namespace voussoir {
+
+struct TimeStep {
+  double length = 0;              // s: of the last step; 0 at the start
+  double allowed = 0;             // s: of the next; 0: to be estimated
+  std::vector<double> frequency;  // rad/s, by body: stiffest mode of the last estimate
+};
+
+// Adaptive dynamic relaxation (step/relaxation.hpp): what it keeps from step to step.
+template <int Dim>
+struct Relaxation {
+  bool under_way = false;               // the run seeks rest by it: inertia, velocities and time are fictitious
+  bool rested = false;                  // it has stopped every body, and none has moved since
+  std::vector<double> inertia;          // by body: fictitious over true mass and moments of inertia
+  std::vector<Load<Dim>> contact_load;  // by body: of the step before, without weight
+  std::vector<Load<Dim>> imposed;       // by body: how a change of water has changed its load; none where it stands
+  int until_renewal = 0;                // steps until the inertia is chosen again
+};
+
+// How the force and moment of a contact's second body, about its centroid, change with that body's motion against the
+// first: translations, then turns.
+template <int Dim>
+struct PairStiffness {
+  using Block = FixedMatrix<freedoms<Dim>, freedoms<Dim>>;
+  using Wrench = FixedMatrix<freedoms<Dim>, 1>;
+  int contact = 0;  // place in State::contacts; -1: of a bolt or a lining
+  int body_a = 0, body_b = 0;
+  Block stiffness = Block::Zero();          // minus the derivative, N/m, N and N m
+  Wrench wrench = Wrench::Zero();           // as it is, N and N m
+  Vector<Dim> apart = Vector<Dim>::Zero();  // m, of the second centroid from the first
+};
+
+// What a contact's joint remembers where an increment begins.
+template <int Dim>
+struct BaseHistory {
+  int part_a = 0, part_b = 0;
+  int divided_face = -1;
+  bool bond_due = false;
+  JointState<Dim> history;
+};
+
+// Newton's method on the joints (step/static_solver.hpp): what an increment keeps from one evaluation to the next.
+template <int Dim>
+struct StaticIncrement {
+  // what the next evaluation is; `last`: of what has been accepted, before it is left to relaxation
+  enum class Trial { waiting, start, step, forced, last };
+  bool under_way = false;
+  Trial trial = Trial::start;
+  int increments_left = 0;    // after this one
+  double increment_time = 0;  // s: by how much the schedules go on with each
+  double ends = 0;            // s: where the last one puts them
+  int iteration = 0;          // accepted ones of this increment
+  int since_commit = 0, tries = 0, flat = 0, polished = 0;
+  double regularisation = 1;                   // lambda
+  double overshoot = 0;                        // how many times the largest step the last one wanted to be
+  std::vector<Motion<Dim>> base;               // by body
+  std::vector<BaseHistory<Dim>> histories;     // by contact
+  SupportsState<Dim> supports;                 // as they were at the base
+  long long whole_bonds = 0;                   // there
+  std::vector<JointState<Dim>> sub_histories;  // as many places for each contact
+  long long listed = 0;                        // Counters::neighbour_builds that they belong to
+  LoadsBySource<Dim> loads_begin;              // at the base, under the loads of now
+  Ledger ledger;                               // at the base
+  std::vector<double> accepted, residual,
+      change;                  // by freedom: motion since the base, what was out of balance, last step
+  std::vector<double> merits;  // of the accepted ones
+  std::vector<PairStiffness<Dim>> stiffness, closed;  // of the contacts that touch; of those that touch without force
+  std::vector<typename PairStiffness<Dim>::Block> of_water;  // by body; none without water
+};
+
+}  // namespace voussoir
