@@ -9,6 +9,7 @@
 
 #include "app/base/exit_codes.hpp"
 #include "app/study/study_command.hpp"
+#include "app/study/work.hpp"
 
 namespace voussoir {
 

@@ -1,5 +1,6 @@
 // The arguments of `voussoir study` and its parts.
 #include "app/commands/arguments.hpp"
+#include "app/study/gather.hpp"
 
 namespace voussoir {
 namespace {

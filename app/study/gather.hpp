@@ -1,6 +1,7 @@
 // What a study's runs found, from one folder or from several copies of it.
 #pragma once
 
+#include <filesystem>
 #include <set>
 #include <string>
 #include <utility>
@@ -29,5 +30,11 @@ Gathered gather(const StudyFolder& study, const std::vector<std::filesystem::pat
 
 // Writes study.csv and says what it holds; `remark` is a line behind the first, or empty.
 ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, const std::string& remark);
+
+// study.csv of a planned study, from its folder or copies of it
+ExitCode study_gather_command(const std::vector<std::filesystem::path>& folders);
+
+// prints which rows are done and which are missing
+ExitCode study_status_command(const std::filesystem::path& folder);
 
 }  // namespace voussoir

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "core/base/on_threads.hpp"
@@ -24,7 +25,8 @@ double spin_about(const Vector<2>&, const Spin<2>&, const Spin<2>&) {
 
 template <int Dim>
 PairMotion<Dim> motion_of(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
-  const CachedPose<Dim>&a = state.bodies.poses[model.parts[c.part_a].body], &b = state.bodies.poses[model.parts[c.part_b].body];
+  const CachedPose<Dim>&a = state.bodies.poses[model.parts[c.part_a].body],
+        &b = state.bodies.poses[model.parts[c.part_b].body];
   return {between(a, b), b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
 }
 
@@ -218,11 +220,11 @@ template <int Dim>
   const Friction& friction = frictions[c.properties];
   const PairMotion<Dim> motion = motion_of(model, state, c);
   if (is_integrated(settings.contact, properties)) [[unlikely]] {
-    const FaceForce<Dim> f = whole_face_force<Dim>(properties, settings, state, motion, c.geometry, state.contacts.faces[place],
-                                                   friction.coefficient, c.history);
+    const FaceForce<Dim> f = whole_face_force<Dim>(properties, settings, state, motion, c.geometry,
+                                                   state.contacts.faces[place], friction.coefficient, c.history);
     c.force = f.force;
     state.contacts.loads[place] = {model.parts[c.part_b].body, f.force, f.about,
-                                  f.about - moment(motion.between, f.force)};
+                                   f.about - moment(motion.between, f.force)};
     sums.elastic += f.elastic;
     sums.friction += f.friction;
     sums.lost_area += f.lost_area;
@@ -263,7 +265,7 @@ template <int Dim>
     c.history.bonded = c.history.bonded && s.history.bonded;
     if (bonded && !s.history.bonded) c.bond_due = false;  // where one breaks, none is made any more
   }
-  note_load<Dim>(c, subs_of(std::as_const(state), place), model.parts[c.part_b].body, motion.between,
+  note_load<Dim>(c, subs_of(std::as_const(state.contacts), place), model.parts[c.part_b].body, motion.between,
                  state.contacts.loads[place]);
 }
 

@@ -84,7 +84,8 @@ template <int Dim>
 void add_water_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
   const WaterSurfaces<Dim>& surfaces = surfaces_of(model, state);
   for (std::size_t b = 0; b < stiffness.size(); ++b) {
-    const BodyStiffness more = water_stiffness<Dim>(model, surfaces, static_cast<int>(b), standing(state.bodies.poses[b]));
+    const BodyStiffness more =
+        water_stiffness<Dim>(model, surfaces, static_cast<int>(b), standing(state.bodies.poses[b]));
     stiffness[b].translation += more.translation;
     stiffness[b].rotation += more.rotation;
   }
@@ -160,11 +161,11 @@ constexpr LoadRow<Dim> load_table[] = {
      applied_loads<Dim>, applied_stiffness<Dim>, applied_tangent<Dim>},
     {Source::water, has_water_by_volume<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
     {Source::water_pressure, has_water_by_faces<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
-    {Source::let_off, [](const Model<Dim>&, const State<Dim>& s) { return !s.held.empty(); }, held_loads<Dim>},
-    {Source::bolts, [](const Model<Dim>&, const State<Dim>& s) { return !s.bolt_springs.empty(); }, bolt_loads<Dim>,
-     add_bolt_stiffness<Dim>},
-    {Source::lining, [](const Model<Dim>&, const State<Dim>& s) { return !s.linings.empty(); }, lining_loads<Dim>,
-     add_lining_stiffness<Dim>},
+    {Source::let_off, [](const Model<Dim>&, const State<Dim>& s) { return !s.loads.relief.empty(); }, held_loads<Dim>},
+    {Source::bolts, [](const Model<Dim>&, const State<Dim>& s) { return !s.supports.bolt_springs.empty(); },
+     bolt_loads<Dim>, add_bolt_stiffness<Dim>},
+    {Source::lining, [](const Model<Dim>&, const State<Dim>& s) { return !s.supports.linings.empty(); },
+     lining_loads<Dim>, add_lining_stiffness<Dim>},
 };
 
 }  // namespace
@@ -185,7 +186,8 @@ void sum_loads(const Model<Dim>& model, const Settings& settings, State<Dim>& st
   each_on_threads(settings.threads, count, [&](int b) {
     state.loads.total[b] = {};
     for (const LoadRow<Dim>& row : load_table<Dim>)
-      if (const std::vector<Load<Dim>>& loads = state.loads.by_source[row.source]; !loads.empty()) state.loads.total[b] += loads[b];
+      if (const std::vector<Load<Dim>>& loads = state.loads.by_source[row.source]; !loads.empty())
+        state.loads.total[b] += loads[b];
   });
 }
 

@@ -243,7 +243,7 @@ void add_contact(const Model<Dim>& model, const ContactSettings& settings, const
     return;
   }
   const JointProperties& p = model.properties[c.properties];
-  const auto subs = subs_of(std::as_const(state), static_cast<std::size_t>(place));
+  const auto subs = subs_of(std::as_const(state.contacts), static_cast<std::size_t>(place));
   rate(std::max(c.geometry.area * stiffening<Dim>(p, c, subs), rocking(c)));
   const Vector<Dim> apart = between(state.bodies.poses[ia], state.bodies.poses[ib]);
   // `gyration2` times the area: what the cell about its own point adds to rocking and spin, at most
