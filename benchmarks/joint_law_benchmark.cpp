@@ -102,7 +102,8 @@ void by_hand(const Model<3>& model, State<3>& state) {
       if (k.area < c.history.area) {
         const double left = k.area / c.history.area, stiffness = p.shear_stiffness * c.history.area;
         if (stiffness > 0)
-          state.ledger.energy.flows[Source::lost_area] += 0.5 * c.history.shear_force.squaredNorm() / stiffness * (1 - left);
+          state.ledger.energy.flows[Source::lost_area] +=
+              0.5 * c.history.shear_force.squaredNorm() / stiffness * (1 - left);
         c.history.shear_force *= left;
       }
       c.history.shear_force = carried(c.history.shear_force, c.history.normal, n, k.turn);

@@ -107,8 +107,8 @@ double median(std::vector<double> values) {
 }
 
 int touching(const State<3>& state) {
-  return static_cast<int>(
-      std::count_if(state.contacts.list.begin(), state.contacts.list.end(), [](const Contact<3>& c) { return c.touching(); }));
+  return static_cast<int>(std::count_if(state.contacts.list.begin(), state.contacts.list.end(),
+                                        [](const Contact<3>& c) { return c.touching(); }));
 }
 
 // times of each stage per step, for one and for two threads, each from the same state

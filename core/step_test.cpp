@@ -91,7 +91,8 @@ TEST(Determinism, EveryThreadCountGivesTheSameBitsForManyBlocks) {
       State<3> state = initial_state(model);
       if (relaxing) begin_relaxation(state);
       for (std::size_t b = 0; b < model.bodies.size() && !relaxing; ++b)
-        if (!model.bodies[b].fixed) state.bodies.motions[b].velocity = {0.5, 0.2 * static_cast<double>(b % 5), 0.3};  // m/s
+        if (!model.bodies[b].fixed)
+          state.bodies.motions[b].velocity = {0.5, 0.2 * static_cast<double>(b % 5), 0.3};  // m/s
       steps(model, settings, 25, state);
       if (threads == 1) expected = bytes_of(state);
       EXPECT_GT(state.counters.neighbour_builds, relaxing ? 0 : 1);
@@ -109,7 +110,8 @@ TEST(Determinism, TheSkinChangesTheCostOnly) {
     settings.contact.skin = skin;
     State<3> state = initial_state(model);
     for (std::size_t b = 0; b < model.bodies.size(); ++b)
-      if (!model.bodies[b].fixed) state.bodies.motions[b].velocity = {0.5, 0.2 * static_cast<double>(b % 5), 0.3};  // m/s
+      if (!model.bodies[b].fixed)
+        state.bodies.motions[b].velocity = {0.5, 0.2 * static_cast<double>(b % 5), 0.3};  // m/s
     steps(model, settings, 400, state);
     if (expected.empty()) {
       expected = state_hash(model, state);

@@ -182,7 +182,8 @@ bool go_on(const Prepared<Dim>& prepared, const std::string& scene_hash, const R
   watcher.trial_frame = [&](const Model<Dim>& model, const State<Dim>& state, int trial) {
     if (written.trials) write_frame(*written.trials, model, state, trial);
     if (written.view)
-      add_view_frame(*written.view, model, state, {ViewMoment::Kind::trial, state.schedule.time, progress.stage, trial});
+      add_view_frame(*written.view, model, state,
+                     {ViewMoment::Kind::trial, state.schedule.time, progress.stage, trial});
   };
   watcher.ended = [&](const Progress<Dim>& now) {
     if (job.options.keep) save_end_state(job.folder, now, scene_hash);

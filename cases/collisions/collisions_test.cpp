@@ -91,7 +91,7 @@ void check_rest(CaseReport& report, const std::string& which, const RecordedRun<
                  "the dashpot leaves nothing of the last bounce, but a cube that is left spinning shakes by 1e-7"},
                 contact.geometry.overlap, cost(run.run));
   const double centroid =
-      run.model().origin[2] + run.model().bodies[body].reference[2] + run.last().motions[body].displacement[2];
+      run.model().origin[2] + run.model().bodies[body].reference[2] + run.last().bodies.motions[body].displacement[2];
   report.record({"height of the centroid at rest" + which,
                  "m",
                  Kind::exact,
@@ -102,7 +102,7 @@ void check_rest(CaseReport& report, const std::string& which, const RecordedRun<
                 centroid, cost(run.run));
   const Vector<3> normal = (run.model().parts[contact.part_a].body == body ? -1 : 1) * contact.geometry.normal;
   report.report("spin about the vertical at rest" + which, "rad/s",
-                angular_velocity(run.model().bodies[body], run.last().motions[body]).dot(normal),
+                angular_velocity(run.model().bodies[body], run.last().bodies.motions[body]).dot(normal),
                 "a contact acts at one point: nothing resists twisting about its normal", cost(run.run));
 }
 
@@ -213,7 +213,8 @@ TEST(Collisions, AnEdgeOnAnEdgeTopples) {
     return i;
   };
   const std::size_t upper = first_on("fixed"), ground = first_on("ground");
-  const Vector<3> end = run.model().origin + run.model().bodies[cube].reference + run.last().motions[cube].displacement;
+  const Vector<3> end =
+      run.model().origin + run.model().bodies[cube].reference + run.last().bodies.motions[cube].displacement;
   report.record({"edge on edge: the fixed cube is met before the ground",
                  "1",
                  Kind::exact,

@@ -158,7 +158,7 @@ TEST(FreeFall, TheEnergyBalanceClosesWithTheSquareOfTheStep) {
     overrides.push_back(fmt::format("time.fraction={}", fraction));
     overrides.push_back("stage.rest.time_limit_s=1e-3");
     const RecordedRun<3> fall = record<3>(scene, overrides, Demand::no_failure);
-    const auto& energy = fall.last().energy;
+    const auto& energy = fall.last().ledger.energy;
     const bool at_worst = when == When::worst;
     const double open = at_worst ? energy.worst_error / -energy.potential() : energy_errors(fall.last()).contacts;
     const std::string quantity =

@@ -156,19 +156,19 @@ void draw_stack() {
     if (model.bodies[b].fixed) continue;
     for (const Vector<2>& corner :
          {Vector<2>(-1, -1), Vector<2>(1, -1), Vector<2>(1, 1), Vector<2>(-1, 1), Vector<2>(-1, -1)}) {
-      const Vector<2> p =
-          model.origin + model.bodies[b].reference + last.motions[b].displacement +
-          matrix(last.motions[b].rotation) * Vector<2>(0.5 * corner[0] * stack.length, 0.5 * corner[1] * stack.height);
+      const Vector<2> p = model.origin + model.bodies[b].reference + last.bodies.motions[b].displacement +
+                          matrix(last.bodies.motions[b].rotation) *
+                              Vector<2>(0.5 * corner[0] * stack.length, 0.5 * corner[1] * stack.height);
       out << p[0] << ',' << p[1] << '\n';
     }
     out << '\n';
   }
   std::vector<std::vector<double>> forces(3);
-  for (std::size_t i = 0; i < last.contacts.size(); ++i) {
-    const int a = model.parts[last.contacts[i].part_a].body;
+  for (std::size_t i = 0; i < last.contacts.list.size(); ++i) {
+    const int a = model.parts[last.contacts.list[i].part_a].body;
     for (const SubContact<2>& sub : subs_of(last, i)) {
       if (!(sub.area > 0)) continue;
-      const Vector<2> p = model.origin + model.bodies[a].reference + last.motions[a].displacement + sub.point;
+      const Vector<2> p = model.origin + model.bodies[a].reference + last.bodies.motions[a].displacement + sub.point;
       forces[0].push_back(p[0]);
       forces[1].push_back(p[1]);
       forces[2].push_back(sub.force.norm() / stack.weight);

@@ -79,7 +79,8 @@ void check(CaseReport& report, const std::string& which, const RecordedRun<3>& s
       kinetic(model, state) / released);
   record("energy that the motion does not account for", "1", Kind::exact,
          "conservation of energy: work of all forces against kinetic energy", 0, {1e-10, 0},
-         "leapfrog closes to the rounding of some ten thousand steps", std::abs(state.ledger.energy.motion_error) / released);
+         "leapfrog closes to the rounding of some ten thousand steps",
+         std::abs(state.ledger.energy.motion_error) / released);
   record("energy that is not accounted for", "1", Kind::limit, "demanded: the drift beyond which a run is doubted", 0,
          {0.05, 0, Bound::at_most}, "core/run/simulate.cpp: areas and normals of contacts change while blocks settle",
          state.ledger.energy.relative_error());
@@ -168,8 +169,8 @@ TEST(SlicingSettling, ThreeHundredBlocksRestByRelaxation) {
 // counts of what coming to rest cost, so that it grows with the rock no faster than core/step/README.md says
 void check_cost(CaseReport& report, const std::string& which, const RecordedRun<3>& settled, double most) {
   const State<3>& state = settled.last();
-  const auto touching =
-      std::count_if(state.contacts.list.begin(), state.contacts.list.end(), [](const Contact<3>& c) { return c.touching(); });
+  const auto touching = std::count_if(state.contacts.list.begin(), state.contacts.list.end(),
+                                      [](const Contact<3>& c) { return c.touching(); });
   const Counters& counters = settled.run.results.counters;
   report.record({"settling: evaluations a touching pair" + which,
                  "1",

@@ -40,7 +40,7 @@ std::vector<CollapsedBlock> motions_at_collapse(const Collapse<Dim>& collapse) {
   for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
     const Body<Dim>& body = model.bodies[b];
     if (body.fixed) continue;
-    const Motion<Dim>&before = collapse.settled.bodies.motions[b], &after = collapse.failed.motions[b];
+    const Motion<Dim>&before = collapse.settled.bodies.motions[b], &after = collapse.failed.bodies.motions[b];
     const Matrix<Dim> turned = matrix(after.rotation) - matrix(before.rotation);
     const Matrix<Dim> turn = matrix(after.rotation) * matrix(before.rotation).transpose();
     const Vector<Dim> place = model.origin + body.reference;

@@ -204,7 +204,7 @@ void draw_collapse(const Collapse<2>& collapse, const std::vector<CollapsedBlock
     const Body<2>& body = model.bodies[block.body];
     before.add(model, body, {0, 0}, 0);
     after.add(model, body,
-              magnified * (collapse.failed.motions[block.body].displacement -
+              magnified * (collapse.failed.bodies.motions[block.body].displacement -
                            collapse.settled.bodies.motions[block.body].displacement),
               magnified * block.turn);
   }

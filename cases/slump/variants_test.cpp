@@ -130,9 +130,9 @@ Manner without_dilation(const Variant& v, const Model<2>& model) {
 Manner by_distinct_elements(const Variant& v, const Collapse<2>& collapse) {
   std::vector<BodyVelocity> motions(collapse.model().bodies.size());
   for (const CollapsedBlock& block : motions_at_collapse(collapse))
-    motions[block.body] = {
-        collapse.failed.motions[block.body].displacement - collapse.settled.bodies.motions[block.body].displacement,
-        block.turn};
+    motions[block.body] = {collapse.failed.bodies.motions[block.body].displacement -
+                               collapse.settled.bodies.motions[block.body].displacement,
+                           block.turn};
   return manner_of(v, collapse.model(), value(collapse.run, "critical_friction"), motions);
 }
 

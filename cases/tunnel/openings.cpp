@@ -53,9 +53,9 @@ std::vector<BlockMotion> motions(const Dug& dug) {
     const Vector<2> at = model.origin + body.reference;
     BlockMotion block{at[0], at[1], volume(body)};
     if (body.present && !body.fixed) {
-      const Motion<2>& now = dug.after->motions[b];
+      const Motion<2>& now = dug.after->bodies.motions[b];
       // a piece that the opening parted from its block has settled with it by some millimetres: that is left out
-      const Motion<2> then = b < dug.before->motions.size() ? dug.before->motions[b] : Motion<2>{};
+      const Motion<2> then = b < dug.before->bodies.motions.size() ? dug.before->bodies.motions[b] : Motion<2>{};
       block.dx = now.displacement[0] - then.displacement[0];
       block.dy = now.displacement[1] - then.displacement[1];
       block.turn = now.rotation.angle - then.rotation.angle;
@@ -74,11 +74,11 @@ int set_of(const std::string& joint) {
 std::vector<JointStretch> stretches(const Dug& dug) {
   const Model<2>& model = *dug.before_model;
   std::vector<JointStretch> joints;
-  for (const Contact<2>& c : dug.before->contacts) {
+  for (const Contact<2>& c : dug.before->contacts.list) {
     if (!c.touching()) continue;
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
     const Vector<2> at =
-        model.origin + model.bodies[a].reference + dug.before->motions[a].displacement + c.geometry.point;
+        model.origin + model.bodies[a].reference + dug.before->bodies.motions[a].displacement + c.geometry.point;
     if (at.norm() < inscribed_radius) continue;
     if (!dug.after_model->bodies[a].present || !dug.after_model->bodies[b].present) continue;
     joints.push_back({a, b, c.geometry.normal[0], c.geometry.normal[1], c.geometry.area,
@@ -119,8 +119,8 @@ void draw(const Dug& dug, const std::vector<BlockMotion>& blocks, const std::str
     for (const Polytope<2>& part : body.parts) {
       std::vector<Vector<2>> ring;
       for (const int corner : boundary_ring(part))
-        ring.push_back(model.origin + body.reference + dug.after->motions[b].displacement +
-                       matrix(dug.after->motions[b].rotation) * part.vertices[corner]);
+        ring.push_back(model.origin + body.reference + dug.after->bodies.motions[b].displacement +
+                       matrix(dug.after->bodies.motions[b].rotation) * part.vertices[corner]);
       ring = in_picture(std::move(ring));
       if (ring.empty()) continue;
       for (std::size_t k = 0; k <= ring.size(); ++k)

@@ -159,7 +159,8 @@ Twins twins(const SupportedRun& run, int cells) {
   const Solution solution = solve(network);
   Solution moved = solution;  // of the program: what its blocks do
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (number[b] >= 0) moved.blocks[number[b]] = motion_between(before.state.bodies.motions[b], after.state.bodies.motions[b]);
+    if (number[b] >= 0)
+      moved.blocks[number[b]] = motion_between(before.state.bodies.motions[b], after.state.bodies.motions[b]);
   find_convergence(network, solution, around, middle_of(outline), both.linear);
   find_convergence(network, moved, around, middle_of(outline), both.program);
   for (const BoltForce& bolt : solution.bolts)

@@ -151,11 +151,11 @@ void draw(const RecordedRun<3>& fall) {
   const Model<3>& model = fall.model();
   const State<3>& end = fall.end;
   double most = 0;
-  for (const Motion<3>& motion : end.motions)
+  for (const Motion<3>& motion : end.bodies.motions)
     most = std::max(most, motion.displacement.norm());
   const auto colour = [&](std::size_t b) -> std::uint32_t {
     if (model.bodies[b].fixed) return 0xc8c8c8;
-    const double share = end.motions[b].displacement.norm() / most;
+    const double share = end.bodies.motions[b].displacement.norm() / most;
     return share < 0.1 ? 0xf0e442 : share < 0.3 ? 0xe69f00 : share < 0.6 ? 0xd55e00 : 0xa02020;
   };
   write_objects("vaiont", "space_plan.gp", picture(model, end, {-90, 89, {}, colour}));

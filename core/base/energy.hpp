@@ -14,8 +14,8 @@
 
 namespace voussoir {
 
-// What gives energy or takes it. The first ones are loads: forces and moments on bodies (State::loads.by_source), which work
-// along the bodies' paths; the others are counted where they arise.
+// What gives energy or takes it. The first ones are loads: forces and moments on bodies (State::loads.by_source), which
+// work along the bodies' paths; the others are counted where they arise.
 enum class Source {
   contacts,
   gravity,

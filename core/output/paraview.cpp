@@ -270,8 +270,8 @@ PolyData force_lines(const Model<Dim>& model, const State<Dim>& state, double ti
     data.cells.push_back({first, first + 1});
     // points of its own for each line: a tube's radius is that of its points
     for (const int body : {bodies.first, bodies.second}) {
-      data.points.push_back(
-          in_space(Vector<Dim>(model.origin + (model.bodies[body].reference + state.bodies.motions[body].displacement))));
+      data.points.push_back(in_space(
+          Vector<Dim>(model.origin + (model.bodies[body].reference + state.bodies.motions[body].displacement))));
       magnitude.values.push_back(carried.force.norm());
     }
     body_a.values.push_back(bodies.first);

@@ -71,7 +71,8 @@ std::vector<JointBonds> bonds_by_joint(const Model<Dim>& model, const State<Dim>
     bonds.made += contact.bonds;
     bonds.made_area += contact.area;
     const auto pair = [](const Contact<Dim>& c) { return std::pair(c.part_a, c.part_b); };
-    const auto found = std::ranges::lower_bound(state.contacts.list, std::pair(contact.part_a, contact.part_b), {}, pair);
+    const auto found =
+        std::ranges::lower_bound(state.contacts.list, std::pair(contact.part_a, contact.part_b), {}, pair);
     if (found == state.contacts.list.end() || pair(*found) != std::pair(contact.part_a, contact.part_b)) continue;
     const auto place = static_cast<std::size_t>(found - state.contacts.list.begin());
     bonds.whole += whole_bonds(state.contacts, place);

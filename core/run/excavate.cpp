@@ -61,7 +61,8 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
   const std::size_t stride = state.contacts.list.empty() ? 0 : state.contacts.subs.size() / state.contacts.list.size();
   std::vector<std::tuple<int, int, std::size_t>> order;
   for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
-    const auto [a, b] = std::minmax(moved.part[state.contacts.list[i].part_a], moved.part[state.contacts.list[i].part_b]);
+    const auto [a, b] =
+        std::minmax(moved.part[state.contacts.list[i].part_a], moved.part[state.contacts.list[i].part_b]);
     if (a >= 0)
       order.emplace_back(a, b, i);
     else

@@ -13,7 +13,8 @@ namespace voussoir {
 
 // Takes named regions out of model and state. Bodies that lose parts go on as they moved, and the joints that are left
 // keep forces and histories. With `hold` the forces by which the rock that is gone held the others go on acting as
-// loads, State::loads.relief: every body that is left has the acceleration that it had. Returns what has become of the bodies.
+// loads, State::loads.relief: every body that is left has the acceleration that it had. Returns what has become of the
+// bodies.
 template <int Dim>
 Excavated<Dim> excavate(const std::vector<std::string>& names, const Settings& settings, bool hold, Model<Dim>& model,
                         State<Dim>& state);

@@ -57,7 +57,8 @@ bool follow(const Model<Dim>& model, const RunSchedule& plan, State<Dim>& state)
     changing = changing || fraction < 1;
   }
   if (plan.let_off && !state.loads.relief.empty()) {
-    const double fraction = state.schedule.time >= began + plan.let_off->duration ? 1 : elapsed / plan.let_off->duration;
+    const double fraction =
+        state.schedule.time >= began + plan.let_off->duration ? 1 : elapsed / plan.let_off->duration;
     for (ReliefLoad<Dim>& held : state.loads.relief)
       held.share = held.begun + (std::min(held.begun, plan.let_off->share) - held.begun) * fraction;
     changing = changing || fraction < 1;
@@ -141,7 +142,8 @@ int first_not_finite(const State<Dim>& state) {
     if (!std::isfinite(m.displacement.sum() + m.velocity.sum() + m.angular_momentum.sum())) return static_cast<int>(b);
   }
   for (std::size_t b = 0; b < state.loads.total.size(); ++b)
-    if (!std::isfinite(state.loads.total[b].force.sum() + state.loads.total[b].moment.sum())) return static_cast<int>(b);
+    if (!std::isfinite(state.loads.total[b].force.sum() + state.loads.total[b].moment.sum()))
+      return static_cast<int>(b);
   return -1;
 }
 

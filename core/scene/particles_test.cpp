@@ -315,7 +315,9 @@ TEST(Particles, AskForNoMemoryWhileTheirNeighboursStay) {
 TEST(Particles, KeepTheirMotionWhateverTheSkin) {
   const Ran<3> one = whole_run<3>(heap()), other = whole_run<3>(heap(), {"contact.skin=0.7"});
   for (std::size_t b = 0; b < one.progress.state.bodies.motions.size(); ++b)
-    EXPECT_TRUE(one.progress.state.bodies.motions[b].displacement == other.progress.state.bodies.motions[b].displacement) << b;
+    EXPECT_TRUE(one.progress.state.bodies.motions[b].displacement ==
+                other.progress.state.bodies.motions[b].displacement)
+        << b;
 }
 
 }  // namespace

@@ -125,7 +125,8 @@ TEST(WaterOfAScene, IsMetByNewtonsMethod) {
   for (const Motion<2>& m : relaxed.state.bodies.motions)
     largest = std::max(largest, m.displacement.norm());
   for (std::size_t b = 0; b < relaxed.state.bodies.motions.size(); ++b)
-    EXPECT_LT((newton.state.bodies.motions[b].displacement - relaxed.state.bodies.motions[b].displacement).norm(), 1e-3 * largest);
+    EXPECT_LT((newton.state.bodies.motions[b].displacement - relaxed.state.bodies.motions[b].displacement).norm(),
+              1e-3 * largest);
 }
 
 // a block of 20 kN, 1 m wide and high, on a floor, with a crack at x = 1 between it and a fixed one

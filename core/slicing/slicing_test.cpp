@@ -96,7 +96,7 @@ TEST(MakeBlock, NormalisesAndDropsRedundantPlanes) {
       planes.push_back({shapes::direction<3>(random), 2.2});  // beyond every corner
     for (const Vector<3>& v : expected.vertices) {
       Vector<3> out = Vector<3>::Zero();  // a direction in which this corner is the farthest point
-      for (const HalfSpace<3>& f : expected.contacts.faces)
+      for (const HalfSpace<3>& f : expected.faces)
         if (std::abs(signed_distance<3>(f, v)) < 1e-9) out += f.normal;
       out.normalize();
       planes.push_back({out, out.dot(v) + 1e-6});

@@ -256,7 +256,8 @@ bool ends_in_rock(const Model<Dim>& model, const State<Dim>& state, int bolt) {
 }
 
 template <int Dim>
-std::vector<std::string> install_bolts(const Model<Dim>& model, const std::vector<std::string>& names, State<Dim>& state) {
+std::vector<std::string> install_bolts(const Model<Dim>& model, const std::vector<std::string>& names,
+                                       State<Dim>& state) {
   std::vector<std::string> idle;
   for (const BoltProperties& p : model.bolt_properties)
     if (std::ranges::find(names, p.name) != names.end()) idle.push_back(p.name);
@@ -350,14 +351,15 @@ void remove_springs(const Model<Dim>& model, State<Dim>& state) {
   cut_bolts<Dim>([&](int& body, Vector<Dim>&) { return model.bodies[body].present; }, state);
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                                  \
-  template std::vector<BoltSpring<Dim>> springs_of<Dim>(const Model<Dim>&, const State<Dim>&, int);                \
-  template std::optional<GroutedBolt<Dim>> bar_of<Dim>(const Model<Dim>&, const State<Dim>&, int,                  \
-                                                       const std::vector<BoltSpring<Dim>>&);                       \
-  template void cut_bolts<Dim>(const std::function<bool(int&, Vector<Dim>&)>&, State<Dim>&);                       \
-  template bool ends_in_rock<Dim>(const Model<Dim>&, const State<Dim>&, int);                                      \
-  template bool shortened<Dim>(const Model<Dim>&, const BoltSpring<Dim>&);                                         \
-  template std::vector<std::string> install_bolts<Dim>(const Model<Dim>&, const std::vector<std::string>&, State<Dim>&); \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                          \
+  template std::vector<BoltSpring<Dim>> springs_of<Dim>(const Model<Dim>&, const State<Dim>&, int);        \
+  template std::optional<GroutedBolt<Dim>> bar_of<Dim>(const Model<Dim>&, const State<Dim>&, int,          \
+                                                       const std::vector<BoltSpring<Dim>>&);               \
+  template void cut_bolts<Dim>(const std::function<bool(int&, Vector<Dim>&)>&, State<Dim>&);               \
+  template bool ends_in_rock<Dim>(const Model<Dim>&, const State<Dim>&, int);                              \
+  template bool shortened<Dim>(const Model<Dim>&, const BoltSpring<Dim>&);                                 \
+  template std::vector<std::string> install_bolts<Dim>(const Model<Dim>&, const std::vector<std::string>&, \
+                                                       State<Dim>&);                                       \
   template void remove_springs<Dim>(const Model<Dim>&, State<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

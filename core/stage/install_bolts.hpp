@@ -36,7 +36,8 @@ std::optional<GroutedBolt<Dim>> bar_of(const Model<Dim>& model, const State<Dim>
 
 // Adds the springs and bars of all bolts of these names to the state; gives the names of which none crosses a joint.
 template <int Dim>
-std::vector<std::string> install_bolts(const Model<Dim>& model, const std::vector<std::string>& names, State<Dim>& state);
+std::vector<std::string> install_bolts(const Model<Dim>& model, const std::vector<std::string>& names,
+                                       State<Dim>& state);
 
 // Leaves what is left of all bolts where rock goes. `is_left`: whether a place in a body's frame is, which then takes
 // the body and the place that it is now. A spring stays with both its anchors. A grouted bar is cut where its nodes or

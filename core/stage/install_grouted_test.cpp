@@ -169,18 +169,18 @@ struct Bars {
     evaluate(state);
   }
   void evaluate(State<Dim>& s) const {
-    cache_poses(scene.model, 1, s);
-    s.energy.elastic = 0;
+    cache_poses(scene.model, 1, s.bodies);
+    s.ledger.energy.elastic = 0;
     find_bolt_forces(scene.model, s);
   }
   // along one freedom of a body
   void move(State<Dim>& s, int body, int freedom, double by) const {
     if (freedom < Dim) {
-      s.motions[body].displacement[freedom] += by;
+      s.bodies.motions[body].displacement[freedom] += by;
     } else {
       Spin<Dim> turn = Spin<Dim>::Zero();
       turn[freedom - Dim] = by;
-      s.motions[body].rotation = turned(s.motions[body].rotation, turn);
+      s.bodies.motions[body].rotation = turned(s.bodies.motions[body].rotation, turn);
     }
   }
   std::vector<Load<Dim>> loads(const State<Dim>& s) const {
@@ -228,7 +228,7 @@ void expect_a_potential() {
         State<Dim> there = state;
         bars.move(there, b, f, side == 0 ? -step : step);
         bars.evaluate(there);
-        energy[side] = there.energy.elastic;
+        energy[side] = there.ledger.energy.elastic;
       }
       EXPECT_NEAR(-(energy[1] - energy[0]) / (2 * step), along(loads[b], f), 1e-6 * scale) << b << " " << f;
     }

@@ -94,7 +94,8 @@ std::vector<LiningRock> rock_around(const Model<2>& model, const State<2>& state
       for (std::size_t face = 0; face < part.joints.size(); ++face) {
         if (part.joints[face] == no_joint || !model.joints[part.joints[face]].holds) continue;
         for (int k = 0; k < static_cast<int>(lining.sides.size()); ++k) {
-          const LiningRock rock = stretch_of(model, state.bodies.motions[b], static_cast<int>(b), part, face, lining, k);
+          const LiningRock rock =
+              stretch_of(model, state.bodies.motions[b], static_cast<int>(b), part, face, lining, k);
           if (rock.to - rock.from > least_face * lining.sides[k].length) found.push_back(rock);
         }
       }

@@ -48,7 +48,8 @@ TEST(Linings, HangInTheRockWithTheirWeight) {
   for (const LiningNode& node : lining.nodes)
     weight += 10 * node.mass;
   for (std::size_t i = 0; i < 48; ++i) {
-    const LiningContact &a = done.state.supports.linings[0].contacts[2 * i], &b = done.state.supports.linings[0].contacts[2 * i + 1];
+    const LiningContact &a = done.state.supports.linings[0].contacts[2 * i],
+                        &b = done.state.supports.linings[0].contacts[2 * i + 1];
     for (const auto& [c, half] : {std::pair(a, 0), std::pair(b, 1)}) {
       const LiningSide& side = lining.sides[lining.nodes[i].side[half]];
       of_rock += -c.normal * side.normal + c.shear * side.along();
@@ -204,7 +205,7 @@ TEST(Linings, HaveTheTangentOfTheirForces) {
   };
   State<2> here = cast.state;
   here.increment.supports.linings = here.supports.linings;
-  cache_poses(cast.model, 1, here);
+  cache_poses(cast.model, 1, here.bodies);
   find_lining_forces(cast.model, cast.scene.settings, here);
   std::vector<PairStiffness<2>> pairs;
   add_lining_pairs(cast.model, cast.scene.settings, here, pairs);

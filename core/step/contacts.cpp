@@ -150,7 +150,8 @@ void find_contacts_of(const Model<Dim>& model, const Settings& settings, State<D
     if (found) found(group, std::span(waiting.all).first(waiting.looked_at));
     waiting.count = waiting.looked_at = 0;
   };
-  const std::size_t first = group * summed_together, last = std::min(first + summed_together, state.contacts.list.size());
+  const std::size_t first = group * summed_together,
+                    last = std::min(first + summed_together, state.contacts.list.size());
   for (std::size_t i = first; i < last; ++i) {
     Contact<Dim>& c = state.contacts.list[i];
     state.contacts.loads[i].second = -1;

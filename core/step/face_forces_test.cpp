@@ -279,7 +279,8 @@ TEST(WholeFaces, AreThoseOfTheirJointBesideOthers) {
       (c.properties == 0 ? whole : tied) += 1;
       EXPECT_EQ(c.properties, c.joint == no_joint ? 0 : model.joints[c.joint].properties);
       if (c.properties == 0) {
-        EXPECT_NEAR(state.contacts.faces[k].force.norm(), c.geometry.overlap * c.geometry.area, 1e-9 * c.geometry.area) << i;
+        EXPECT_NEAR(state.contacts.faces[k].force.norm(), c.geometry.overlap * c.geometry.area, 1e-9 * c.geometry.area)
+            << i;
       }
     }
   }

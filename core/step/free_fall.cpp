@@ -104,8 +104,8 @@ Chains chains_of(const Model<Dim>& model, const State<Dim>& state) {
 template <int Dim>
 bool lies_below(const Model<Dim>& model, const State<Dim>& state, const Vector<Dim>& ahead, int falling, int other) {
   const Body<Dim>&first = model.bodies[falling], &second = model.bodies[other];
-  const Vector<Dim> way =
-      (second.reference - first.reference) + (state.bodies.motions[other].displacement - state.bodies.motions[falling].displacement);
+  const Vector<Dim> way = (second.reference - first.reference) +
+                          (state.bodies.motions[other].displacement - state.bodies.motions[falling].displacement);
   const double along = way.dot(ahead);
   return along + second.radius > -first.radius && (way - along * ahead).norm() < 2 * first.radius + second.radius;
 }
@@ -144,7 +144,8 @@ int tied_to_nothing(const Model<Dim>& model, const State<Dim>& state) {
   const auto other_load = [&](int b) {
     return std::ranges::any_of(source_table, [&](const SourceRow& row) {
       const bool may_hold = follows_body(row.source) && row.source != Source::gravity;
-      return may_hold && !state.loads.by_source[row.source].empty() && !state.loads.by_source[row.source][b].force.isZero(0);
+      return may_hold && !state.loads.by_source[row.source].empty() &&
+             !state.loads.by_source[row.source][b].force.isZero(0);
     });
   };
   const auto moves = [&](int b) {

@@ -165,14 +165,14 @@ TEST(FreeFall, BoltsAndOtherLoadsMayHoldWhatNothingTies) {
   BoltSpring<2> spring;
   spring.body_a = roof;
   spring.body_b = hung;
-  bolted.bolt_springs.push_back(spring);
+  bolted.supports.bolt_springs.push_back(spring);
   EXPECT_EQ(tied_to_nothing(model, bolted), -1);
-  bolted.bolt_springs.front().broken = true;
+  bolted.supports.bolt_springs.front().broken = true;
   EXPECT_EQ(tied_to_nothing(model, bolted), hung);
 
   State<2> loaded = state;
-  loaded.loads_of[Source::applied_forces].resize(2);
-  loaded.loads_of[Source::applied_forces][hung].force = {0, 1e4};
+  loaded.loads.by_source[Source::applied_forces].resize(2);
+  loaded.loads.by_source[Source::applied_forces][hung].force = {0, 1e4};
   EXPECT_EQ(tied_to_nothing(model, loaded), -1);
 
   Model<2> restrained = model;

@@ -232,8 +232,8 @@ std::vector<Kick<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std
   kicks.resize(model.bodies.size());
   each_on_threads(threads, kicks.size(), [&](int b) {
     kicks[b] = model.bodies[b].fixed ? Kick<Dim>()
-                                     : advance(model.bodies[b], state.loads.total[b], rules[rules.size() == 1 ? 0 : b], times,
-                                               state.bodies.motions[b]);
+                                     : advance(model.bodies[b], state.loads.total[b], rules[rules.size() == 1 ? 0 : b],
+                                               times, state.bodies.motions[b]);
   });
   return kicks;
 }

@@ -77,7 +77,8 @@ void follow_rock(const Model<2>& model, State<2>& state) {
       const double length = lining.nodes[i / 2].half_length[i % 2];
       if (rock < 0) {
         if (p.shear_stiffness > 0)
-          state.ledger.energy.flows[Source::lining_slip] += 0.5 * contact.shear * contact.shear / (p.shear_stiffness * length);
+          state.ledger.energy.flows[Source::lining_slip] +=
+              0.5 * contact.shear * contact.shear / (p.shear_stiffness * length);
         contact = {.closure = contact.closure, .place = contact.place};
         continue;
       }
@@ -128,7 +129,8 @@ void find_lining_forces(const Model<Dim>& model, const Settings& settings, State
     each_at_rock(model, state,
                  [&](const Lining& lining, LiningContact& contact, double length, const LiningRock& rock, int node) {
                    const AtRock at(rock, node, state);
-                   const double inverse_mass = state.bodies.poses[rock.body].inverse_mass + state.bodies.poses[node].inverse_mass;
+                   const double inverse_mass =
+                       state.bodies.poses[rock.body].inverse_mass + state.bodies.poses[node].inverse_mass;
                    const LiningJoint joint = joint_of(model, settings, state, lining, length, inverse_mass);
                    const LiningAnswer answer = interface_answer(joint, length, at.motion, contact);
                    state.ledger.energy.elastic += answer.elastic;
@@ -176,7 +178,8 @@ void add_lining_stiffness(const Model<Dim>& model, const State<Dim>& state, std:
               (model.bodies[rock.body].fixed ? 1 : 2) * length * std::max(p.normal_stiffness, p.shear_stiffness);
           stiffness[node].translation += k;
           stiffness[rock.body].translation += k;
-          stiffness[rock.body].rotation += k * between(state.bodies.poses[rock.body], state.bodies.poses[node]).squaredNorm();
+          stiffness[rock.body].rotation +=
+              k * between(state.bodies.poses[rock.body], state.bodies.poses[node]).squaredNorm();
         });
   }
 }

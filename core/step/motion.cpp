@@ -65,7 +65,8 @@ void add_water_change(const Model<Dim>& model, int threads, State<Dim>& state) {
     const Standing<Dim> at = standing(state.bodies.poses[b]), reference{.centroid = model.bodies[b].reference};
     state.ledger.energy.flows[Source::water_change] +=
         water_potential<Dim>(model, now, body, at) - water_potential<Dim>(model, before, body, at);
-    if (growth != 0) state.ledger.energy.flows[Source::water_change] -= water_potential<Dim>(model, grown, body, reference);
+    if (growth != 0)
+      state.ledger.energy.flows[Source::water_change] -= water_potential<Dim>(model, grown, body, reference);
   }
 }
 
@@ -86,16 +87,19 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& 
 
   // within a stage the step only shrinks, as soon as a contact is stiffer than it was chosen for
   const double last = state.time_step.length;
-  if (state.counters.steps % steps_between_looks == 0) state.time_step.frequency.clear();  // rest is judged by them, too
+  if (state.counters.steps % steps_between_looks == 0)
+    state.time_step.frequency.clear();  // rest is judged by them, too
   if (const auto renewed = renew_time_step(model, settings, settings.damping, state)) {
-    state.time_step.allowed = state.time_step.allowed > 0 ? std::min(state.time_step.allowed, renewed->step) : renewed->step;
+    state.time_step.allowed =
+        state.time_step.allowed > 0 ? std::min(state.time_step.allowed, renewed->step) : renewed->step;
     demand_time_step(state);
   }
   state.time_step.length = next_step(state);
 
   add_ramps(model, settings, state);
   const StepTimes times{0.5 * (last + state.time_step.length), state.time_step.length};
-  const double elapsed = state.schedule.time + 0.5 * state.time_step.length - state.schedule.started;  // at the middle of the step
+  const double elapsed =
+      state.schedule.time + 0.5 * state.time_step.length - state.schedule.started;  // at the middle of the step
   const KickRule rule{.local_damping = settings.damping.local};
   std::vector<Kick<Dim>>& kicks = advance_bodies<Dim>(model, settings.threads, {&rule, 1}, times, state);
 

@@ -164,7 +164,8 @@ bool outdated(const Model<Dim>& model, const Settings& settings, const State<Dim
   if (state.bodies.listed_at.size() != model.bodies.size()) return true;
   std::atomic<bool> left = false;
   each_on_threads(settings.threads, model.bodies.size(), [&](int b) {
-    if (!model.bodies[b].immobile() && moved(model.bodies[b], state.bodies.listed_at[b], state.bodies.motions[b]) > 0.5 * skin)
+    if (!model.bodies[b].immobile() &&
+        moved(model.bodies[b], state.bodies.listed_at[b], state.bodies.motions[b]) > 0.5 * skin)
       left.store(true, std::memory_order_relaxed);
   });
   return left;
@@ -302,7 +303,8 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   each_on_threads(settings.threads, pairs.size(), [&](int i) {
     if (origin[i] >= 0) {
       renewed[i] = state.contacts.list[origin[i]];
-      std::ranges::copy(subs_of(state.contacts, origin[i]), renewed_subs.begin() + i * static_cast<std::ptrdiff_t>(stride));
+      std::ranges::copy(subs_of(state.contacts, origin[i]),
+                        renewed_subs.begin() + i * static_cast<std::ptrdiff_t>(stride));
       return;
     }
     renewed[i] = {};

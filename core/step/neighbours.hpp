@@ -40,7 +40,8 @@ double travelled(const Model<Dim>& model, const State<Dim>& state, const Contact
 template <int Dim>
 void set_pair(const Model<Dim>& model, const State<Dim>& state, int part_a, int part_b, QueryLevel level,
               Pair<Dim>& pair) {
-  const CachedPose<Dim>&at_a = state.bodies.poses[model.parts[part_a].body], &at_b = state.bodies.poses[model.parts[part_b].body];
+  const CachedPose<Dim>&at_a = state.bodies.poses[model.parts[part_a].body],
+        &at_b = state.bodies.poses[model.parts[part_b].body];
   pair.a = &model.polytope(part_a);
   pair.b = &model.polytope(part_b);
   pair.axes = at_a.axes;

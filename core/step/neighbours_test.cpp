@@ -173,7 +173,7 @@ void expect_none_missed(std::uint64_t seed, bool clumps) {
     State<Dim> state = initial_state(model), again = state;
     for (Motion<Dim>& m : state.bodies.motions)
       m.rotation = shapes::orientation<Dim>(random);
-    again.motions = state.bodies.motions;
+    again.bodies.motions = state.bodies.motions;
     find_neighbours(model, settings, state);
     const Pairs pairs = pairs_of(state);
     settings.threads = 3;
@@ -238,13 +238,13 @@ void expect_that_it_lasts(std::uint64_t seed) {
     state.bodies.motions[1].displacement =
         shapes::uniform(random, 0, 1) * (radius_a + radius_b) * shapes::direction<Dim>(random);
     const auto seen = [&](State<Dim>& at) {
-      cache_poses(model, 1, at);
+      cache_poses(model, 1, at.bodies);
       return pair_of(model, at, 0, 1, QueryLevel::decision);
     };
     const auto moved = [&](double way_a, double way_b) {
       State<Dim> later = state;
-      move_within(random, model.bodies[0], way_a, later.motions[0]);
-      move_within(random, model.bodies[1], way_b, later.motions[1]);
+      move_within(random, model.bodies[0], way_a, later.bodies.motions[0]);
+      move_within(random, model.bodies[1], way_b, later.bodies.motions[1]);
       return nearness(seen(later), radius_a, radius_b).near;
     };
     const Nearness now = nearness(seen(state), radius_a, radius_b);
@@ -302,7 +302,7 @@ TEST(Neighbours, BlocksThatAllMeetInAPointAreListed) {
   const Model<3> model = shapes::model_of<3>(star(8, {0, 0, 0}));
   const std::size_t blocks = model.bodies.size();
   EXPECT_EQ(blocks, 8u * 8u - 8u + 2u);
-  EXPECT_EQ(listed(model).contacts.size(), blocks * (blocks - 1) / 2);
+  EXPECT_EQ(listed(model).contacts.list.size(), blocks * (blocks - 1) / 2);
 }
 
 TEST(Neighbours, TooManyAreRefusedWithTheirPlace) {

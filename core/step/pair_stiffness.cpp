@@ -162,8 +162,9 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
     const int along = model.properties[c.properties].sub_contacts, count = whole ? 0 : sub_contact_count<Dim>(along);
     p.apart = between(a, b);
     const PairMotion<Dim> now{p.apart, b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
-    p.wrench = joint_wrench<Dim>(model, settings, state, c, subs_of(state.contacts, static_cast<std::size_t>(p.contact)),
-                                 whole ? &state.contacts.faces[p.contact] : nullptr, now, history, sub_histories);
+    p.wrench =
+        joint_wrench<Dim>(model, settings, state, c, subs_of(state.contacts, static_cast<std::size_t>(p.contact)),
+                          whole ? &state.contacts.faces[p.contact] : nullptr, now, history, sub_histories);
     for (int f = 0; f < F; ++f) {
       Contact<Dim>& then_contact = after.contacts[i * F + f];
       const double step = after.steps[i * F + f];

@@ -108,7 +108,8 @@ TEST(Prescribed, LeavesTheOtherFreedomsFree) {
   lift.translation = {false, true, false};
   const Progress<2> end = whole_run(scene_of(model, {run_of("lift", 0.2, {lift})}, 1e-3));
   EXPECT_NEAR(end.state.bodies.motions[block].displacement[1], 0.5 * end.state.schedule.time, rounding);
-  EXPECT_NEAR(end.state.bodies.motions[block].displacement[0], 1.5 * end.state.schedule.time * end.state.schedule.time, 1e-12);
+  EXPECT_NEAR(end.state.bodies.motions[block].displacement[0], 1.5 * end.state.schedule.time * end.state.schedule.time,
+              1e-12);
   EXPECT_LT(end.state.ledger.energy.relative_error(), rounding);
 }
 
@@ -127,7 +128,8 @@ void expect_shaken() {
   const Progress<Dim> end = whole_run(scene);
   const double shaken = end.state.schedule.time - end.state.schedule.started;
   const double way = 0.1 / (4 * std::numbers::pi) * (1 - std::cos(4 * std::numbers::pi * shaken));
-  EXPECT_NEAR(end.state.bodies.motions[plate].displacement[0], way, 1e-9);  // the midpoint rule errs by (ω dt)²/24 of 16 mm
+  EXPECT_NEAR(end.state.bodies.motions[plate].displacement[0], way,
+              1e-9);  // the midpoint rule errs by (ω dt)²/24 of 16 mm
   EXPECT_EQ(end.state.bodies.motions[plate].displacement[Dim - 1], 0);
   // the block's acceleration of ω v shears the joint by micrometres
   EXPECT_NEAR(end.state.bodies.motions[block].displacement[0], way, 2e-5);
@@ -168,7 +170,8 @@ TEST(Prescribed, OverlapsAFixedBlockUnderDashpots) {
   const Progress<2> end = whole_run(scene);
   ASSERT_TRUE(end.state.contacts.list.front().touching());
   const ContactGeometry<2>& at = end.state.contacts.list.front().geometry;
-  EXPECT_NEAR(end.state.contacts.list.front().force[1], model.properties[0].normal_stiffness * at.overlap * at.area, 1e-3);
+  EXPECT_NEAR(end.state.contacts.list.front().force[1], model.properties[0].normal_stiffness * at.overlap * at.area,
+              1e-3);
 }
 
 // two squares on their corners, side by side: their boxes meet all the time, so only the way gone tells when to look
@@ -237,8 +240,9 @@ TEST(Prescribed, EndsWithItsStage) {
   const std::vector<MovePlan> both = {move_of<2>("block", 1, 1), move_of<2>("plate", 1, -1)};
   const Prepared<2> scene = scene_of(model, {run_of("part", 0.1, both), run_of("fly", 0.1)}, 1e-3);
   const Progress<2> end = whole_run(scene);
-  EXPECT_NEAR(end.state.bodies.motions[block].displacement[1], end.state.schedule.time, rounding);  // free, it keeps moving
-  EXPECT_EQ(end.state.bodies.motions[plate].velocity[1], 0);                               // fixed, it stands
+  EXPECT_NEAR(end.state.bodies.motions[block].displacement[1], end.state.schedule.time,
+              rounding);                                      // free, it keeps moving
+  EXPECT_EQ(end.state.bodies.motions[plate].velocity[1], 0);  // fixed, it stands
   const Model<2> last = apply(apply(model, scene.stages[0].change), scene.stages[1].change);
   EXPECT_TRUE(last.prescribed.empty());
   EXPECT_FALSE(last.bodies[block].free_translation[0]);

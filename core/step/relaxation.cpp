@@ -67,7 +67,8 @@ void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>
   // a body that was not looked at has its frequency still, and so the same inertia to the bit
   state.relaxation.inertia.assign(model.bodies.size(), 1);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const double to_limit = 0.5 * state.time_step.allowed * state.time_step.frequency[b] / fraction_of_own_limit(model.bodies[b]);
+    const double to_limit =
+        0.5 * state.time_step.allowed * state.time_step.frequency[b] / fraction_of_own_limit(model.bodies[b]);
     if (to_limit > 0) state.relaxation.inertia[b] = area_margin * to_limit * to_limit;
   }
 }
@@ -90,7 +91,8 @@ double critical_damping(const Model<Dim>& model, State<Dim>& state) {
       now.force -= held[b].force;
       now.moment -= held[b].moment;
     }
-    const bool counts = state.bodies.left_behind.empty() || !state.bodies.left_behind[b];  // else what falls would end all damping
+    const bool counts =
+        state.bodies.left_behind.empty() || !state.bodies.left_behind[b];  // else what falls would end all damping
     if (!first && counts) {
       stiffness -= m.velocity.dot(now.force - r.contact_load[b].force);
       stiffness -= spin.dot(now.moment - r.contact_load[b].moment);
@@ -101,7 +103,8 @@ double critical_damping(const Model<Dim>& model, State<Dim>& state) {
                                  m.angular_momentum.dot(m.angular_momentum.cwiseQuotient(model.bodies[b].inertia)));
     r.contact_load[b] = now;
   }
-  const double dt = state.time_step.allowed, least = least_damping / dt, most = 4 / dt;  // 2 ω at the limit of stability
+  const double dt = state.time_step.allowed, least = least_damping / dt,
+               most = 4 / dt;  // 2 ω at the limit of stability
   if (!(stiffness > 0 && inertia > 0)) return least;
   return std::clamp(2 * std::sqrt(stiffness / (inertia * dt)), least, most);
 }

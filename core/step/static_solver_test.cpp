@@ -105,8 +105,8 @@ void expect_walls_take_as_many_evaluations_a_pair(const std::vector<int>& sizes)
   for (const int courses : sizes) {
     const Model<2> model = wall(courses);
     const auto [report, state] = rest_of(model, Statics::newton);
-    const auto touching =
-        std::count_if(state.contacts.list.begin(), state.contacts.list.end(), [](const Contact<2>& c) { return c.touching(); });
+    const auto touching = std::count_if(state.contacts.list.begin(), state.contacts.list.end(),
+                                        [](const Contact<2>& c) { return c.touching(); });
     a_pair.push_back(static_cast<double>(state.counters.contact_evaluations) / static_cast<double>(touching));
     blocks.push_back(static_cast<double>(model.bodies.size() - 1));
     EXPECT_EQ(state.counters.static_fallbacks, 0) << courses;

@@ -316,7 +316,8 @@ std::optional<TimeStepEstimate> renew_time_step(const Model<Dim>& model, const S
   static thread_local BodiesToUpdate updated;
   std::vector<char>& grown = own_grown;  // by contact: this thread's, filled by all
   grown.resize(state.contacts.list.size());
-  each_on_threads(settings.threads, grown.size(), [&](int i) { grown[i] = outgrown(model, state, state.contacts.list[i]); });
+  each_on_threads(settings.threads, grown.size(),
+                  [&](int i) { grown[i] = outgrown(model, state, state.contacts.list[i]); });
   updated.begin(model.bodies.size());
   for (std::size_t i = 0; i < grown.size(); ++i) {
     if (!grown[i]) continue;

@@ -23,8 +23,8 @@ Block<Dim> stiffness_of(const Model<Dim>& model, const State<Dim>& state, const 
     if (freedom < Dim)
       there.centroid[freedom] += sign * way;
     else
-      there.axes =
-          matrix(turned(state.bodies.motions[b].rotation, Spin<Dim>(sign * difference_step * Spin<Dim>::Unit(freedom - Dim))));
+      there.axes = matrix(
+          turned(state.bodies.motions[b].rotation, Spin<Dim>(sign * difference_step * Spin<Dim>::Unit(freedom - Dim))));
     return water_load(model, surfaces, b, there);
   };
   Block<Dim> k = Block<Dim>::Zero();

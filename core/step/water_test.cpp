@@ -105,7 +105,8 @@ TEST(RaftInWater, HasAPotentialThatClosesWithTheSquareOfTheStep) {
     find_forces(model, undamped(step), state);
     const Load<2>& load = state.loads.by_source[Source::water][0];
     const Spin<2> spin = angular_velocity(model.bodies[0], state.bodies.motions[0]);
-    const double last = 0.5 * state.time_step.length * (load.force.dot(state.bodies.motions[0].velocity) + load.moment.dot(spin));
+    const double last =
+        0.5 * state.time_step.length * (load.force.dot(state.bodies.motions[0].velocity) + load.moment.dot(spin));
     const double after = water_potential(model, surfaces, 0, standing(state.bodies.poses[0]));
     return std::abs(state.ledger.energy.flows[Source::water] + last + after - before);
   };
@@ -212,7 +213,8 @@ TEST(WaterThatRises, WithGravityPutsInNoMoreThanItMoves) {
   const int b = index_of(model, "block");
   const double work = unit_weight * 0.5 * std::abs(state.bodies.motions[b].displacement[1]);
   EXPECT_LT(std::abs(state.ledger.energy.flows[Source::water_change]), 2 * work);
-  EXPECT_NEAR(state.bodies.motions[b].displacement[1] * -1e9, (density - 1000) * gravity * 0.5, 1e-3 * density * gravity);
+  EXPECT_NEAR(state.bodies.motions[b].displacement[1] * -1e9, (density - 1000) * gravity * 0.5,
+              1e-3 * density * gravity);
 }
 
 }  // namespace

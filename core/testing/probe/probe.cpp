@@ -89,7 +89,8 @@ void run(probe::Scene<Dim> scene, const Options& options) {
     slip = std::max(slip, c.history.plastic_slip);
   }
   std::printf("%s: %zu bodies, %d contacts, %.3f s, moved %.3f m, slipped %.3f m, %lld unanswered\n", scene.name,
-              scene.model.bodies.size(), touching, scene.state.schedule.time, farthest, slip, scene.state.counters.unconverged);
+              scene.model.bodies.size(), touching, scene.state.schedule.time, farthest, slip,
+              scene.state.counters.unconverged);
 }
 
 }  // namespace
