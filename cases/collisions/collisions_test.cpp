@@ -168,7 +168,7 @@ TEST(Collisions, ACornerRollsOntoItsFace) {
                 corner < side && side < face && face < run.frames.size(), cost(run.run));
   double first_area = 0;
   for (std::size_t i = 0; i < run.frames.size() && first_area == 0; ++i)
-    for (const Contact<3>& c : run.frames[i].contacts)
+    for (const Contact<3>& c : run.frames[i].contacts.list)
       if (c.touching()) first_area = c.geometry.area;
   report.record(
       {"corner on face: area when first seen",
@@ -260,7 +260,7 @@ TEST(Collisions, AnImpactKeepsMomentum) {
     const auto now = momentum(run.frames[i]);
     linear = std::max(linear, (now.first - before.first).norm());
     angular = std::max(angular, (now.second - before.second).norm());
-    for (const Contact<3>& c : run.frames[i].contacts)
+    for (const Contact<3>& c : run.frames[i].contacts.list)
       if (c.touching()) {
         touched = true;
         most = std::max(most, c.force.norm());

@@ -115,7 +115,7 @@ void draw(const Fall& fall) {
   std::vector<double> time, moving;
   for (const State<3>& state : fall.frames) {
     time.push_back(state.schedule.time);
-    moving.push_back(kinetic_energy(model, state) / -fall.frames.back().energy.potential());
+    moving.push_back(kinetic_energy(model, state) / -fall.frames.back().ledger.energy.potential());
   }
   write_csv("free_fall", "kinetic.csv", {"time_s", "kinetic"}, {time, moving});
 }
