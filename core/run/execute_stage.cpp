@@ -1,0 +1,175 @@
+#include "core/run/execute_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "core/run/record.hpp"
+#include "core/step/free_fall.hpp"
+#include "text/angle.hpp"
+
+namespace voussoir {
+namespace {
+
+template <int Dim>
+bool anything_moves(const Model<Dim>& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const Body<Dim>& body) { return body.present && !body.immobile(); });
+}
+
+// what a search yields, and the number that people read for a level
+struct SearchedQuantity {
+  const char *name, *unit, *found;
+  double (*number)(double level);
+};
+
+SearchedQuantity sought_by(const ReducePlan& plan) {
+  if (plan.searched == Searched::factor)
+    return {"factor_of_safety", "1", "factor of safety found", [](double factor) { return factor; }};
+  return {"critical_friction", "deg", "critical friction found", to_degrees};
+}
+
+template <int Dim>
+void judge(const StageInForce<Dim>& stage, const RunReport& report, bool goal_reached, Results& results) {
+  if (report.reason == StopReason::no_contact_answer || report.reason == StopReason::not_finite)
+    fail(stage.plan(), Outcome::failed, describe(report.reason) + "; " + report.detail, results);
+  else if (!goal_reached)
+    fail(stage.plan(), Outcome::incomplete,
+         fmt::format("no equilibrium: {} (unbalanced {:.2g}, wanted {:.2g}){}{}", describe(report.reason),
+                     report.unbalanced, stage.settings.equilibrium.unbalanced, report.unreached,
+                     and_more(report.detail)),
+         results);
+}
+
+// nothing that ties it, and nothing below: before the first step of a stage that would wait for rest
+template <int Dim>
+std::optional<StageOutcome> falls_from_begin(const StageInForce<Dim>& stage, const State<Dim>& state,
+                                             Results& results) {
+  const int body = tied_to_nothing(stage.model, state);
+  if (body < 0) return {};
+  fail(stage.plan(), Outcome::incomplete,
+       fmt::format("no equilibrium: {} falls free: no chain of near blocks, bolts or linings ties it to a block that "
+                   "is held, and nothing lies below it; fix what should hold it",
+                   label_of(stage.model, body)),
+       results);
+  return StageOutcome{describe(StopReason::falls_free), std::numeric_limits<double>::infinity()};
+}
+
+template <int Dim>
+std::optional<StageOutcome> run_to(const StageInForce<Dim>& stage, const RunGoal& goal, const GravityPlan& gravity,
+                                   StopReason wanted, const Watcher<Dim>& watcher, Progress<Dim>& progress) {
+  const StagePlan& plan = stage.plan();
+  const RunSchedule schedule{.gravity = gravity, .properties = {}, .water = plan.water, .let_off = plan.let_off};
+  const RunReport report = run(stage.model, stage.settings, goal, schedule, progress.state, progress.run,
+                               record_run(stage, goal.end_time, watcher, progress));
+  if (report.reason == StopReason::interrupted) return {};
+  judge(stage, report, report.reason == wanted, progress.results);
+  if (report.reason == StopReason::equilibrium) note_stable(stage, progress.state, progress);
+  return StageOutcome{describe(report.reason), report.unbalanced};
+}
+
+template <int Dim>
+std::optional<StageOutcome> execute(const SettlePlan& settle, const StageInForce<Dim>& stage,
+                                    const Watcher<Dim>& watcher, Progress<Dim>& progress) {
+  if (!progress.run.under_way) {
+    const State<Dim> now = with_forces(stage, progress.state, false);
+    const StagePlan* const before = stage.place > 0 ? &stage.plan() - 1 : nullptr;
+    progress.settle = settle_begin(stage.model, now, before && std::holds_alternative<RunPlan>(before->plan));
+    const GravityPlan& gravity = settle.gravity;
+    const bool weighs = gravity.to.value_or(gravity.ramp > 0 ? 1 : now.schedule.gravity_factor) != 0;
+    if (weighs)
+      if (std::optional<StageOutcome> ended = falls_from_begin(stage, now, progress.results)) return ended;
+  }
+  RunGoal goal;
+  goal.rest = true;
+  goal.time_limit = progress.stage_began + settle.time_limit;
+  goal.step_limit = settle.step_limit;
+  return run_to(stage, goal, settle.gravity, StopReason::equilibrium, watcher, progress);
+}
+
+template <int Dim>
+std::optional<StageOutcome> execute(const RunPlan& timed, const StageInForce<Dim>& stage, const Watcher<Dim>& watcher,
+                                    Progress<Dim>& progress) {
+  RunGoal goal;
+  goal.end_time = progress.stage_began + timed.duration;
+  return run_to(stage, goal, timed.gravity, StopReason::end_time, watcher, progress);
+}
+
+// the value that a search has found, if any, and its message
+template <int Dim>
+StageOutcome judge_search(const ReducePlan& reduction, const ReductionReport& report, const StageInForce<Dim>& stage,
+                          Results& results) {
+  judge(stage, report.last, true, results);
+  const SearchedQuantity sought = sought_by(reduction);
+  if (report.bracketed) {
+    const bool unique = !results.find(sought.name);
+    const std::string name = unique ? sought.name : stage.plan().name + "_" + sought.name;
+    Value value{sought.number(report.critical), sought.unit, sought.number(report.error_bar), report.rule};
+    if (reduction.searched == Searched::factor) value.divides = divided_by_factor(reduction.properties);
+    results.values.emplace_back(name, std::move(value));
+  }
+  const bool found = report.message.empty();
+  if (!found && results.outcome != Outcome::failed)
+    fail(stage.plan(), Outcome::incomplete,
+         (report.bracketed ? "the bracket is wider than asked: " : "no bracket: ") + report.message, results);
+  return StageOutcome{found ? sought.found : describe(report.last.reason), report.unbalanced};
+}
+
+// A search has the ends of its trials recorded, the detours with their number; at constant rate, where the trial is
+// the whole stage, all that happens.
+template <int Dim>
+std::optional<StageOutcome> execute(const ReducePlan& reduction, const StageInForce<Dim>& stage,
+                                    const Watcher<Dim>& watcher, Progress<Dim>& progress) {
+  State<Dim>& state = progress.state;
+  Results& results = progress.results;
+  const bool continuous = reduction.method == ReductionMethod::rate;
+  const bool begins = progress.reduction.begin.empty() && reduction.failure_fraction == 0;
+  if (begins && state.schedule.gravity_factor != 0)
+    if (std::optional<StageOutcome> ended = falls_from_begin(stage, with_forces(stage, state, false), results))
+      return ended;
+  const SearchedQuantity sought = sought_by(reduction);
+  const TrialHook<Dim> on_trial = [&](const State<Dim>& moved, double level, Trial outcome) {
+    if (outcome == Trial::stable) note_stable(stage, moved, progress, sought.number(level), sought.unit);
+    if (continuous) return;
+    const State<Dim> now = with_forces(stage, moved, outcome == Trial::broken);
+    const int number = progress.reduction.trial + 1;
+    const bool detour = is_detour(reduction.method, progress.reduction.trial, outcome);
+    results.history.rows.push_back(row_of(stage, now, progress.ends, detour ? number : 0));
+    if (detour) add_trial_frame(stage, now, number, watcher, progress);
+  };
+  const RunHooks<Dim> hooks =
+      continuous ? record_run(stage, {}, watcher, progress) : report_trials(stage, watcher, progress);
+  const ReductionReport report =
+      reduce(stage.model, stage.settings, reduction, state, progress.reduction, hooks, on_trial);
+  if (report.last.reason == StopReason::interrupted) return {};
+  return judge_search(reduction, report, stage, results);
+}
+
+}  // namespace
+
+template <int Dim>
+std::optional<StageOutcome> execute_stage(const StageInForce<Dim>& stage, const Watcher<Dim>& watcher,
+                                          Progress<Dim>& progress) {
+  Results& results = progress.results;
+  if (results.outcome != Outcome::done) return StageOutcome{"bolts that cannot be installed"};
+  if (!anything_moves(stage.model)) {
+    fail(stage.plan(), Outcome::incomplete,
+         "no block is free to move: this stage, or one before it, fixed or removed the last; leave one free, or "
+         "end with the stage before",
+         results);
+    return StageOutcome{"no block is free to move"};
+  }
+  try {
+    return std::visit([&](const auto& plan) { return execute(plan, stage, watcher, progress); }, stage.plan().plan);
+  } catch (const std::logic_error& error) {  // thrown by kernels for input that makes no sense; files fail otherwise
+    fail(stage.plan(), Outcome::failed, error.what(), results);
+    return StageOutcome{error.what()};
+  }
+}
+
+template std::optional<StageOutcome> execute_stage<2>(const StageInForce<2>&, const Watcher<2>&, Progress<2>&);
+template std::optional<StageOutcome> execute_stage<3>(const StageInForce<3>&, const Watcher<3>&, Progress<3>&);
+
+}  // namespace voussoir

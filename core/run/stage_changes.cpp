@@ -1,0 +1,177 @@
+#include "core/run/stage_changes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+
+#include "core/run/doubts.hpp"
+#include "core/run/excavate.hpp"
+#include "core/run/history.hpp"
+#include "core/run/record.hpp"
+#include "core/run/stable_state.hpp"
+#include "core/stage/install_bolts.hpp"
+#include "core/stage/install_linings.hpp"
+#include "core/step/free_fall.hpp"
+#include "core/step/joint_forces.hpp"
+#include "core/step/relaxation.hpp"
+
+namespace voussoir {
+namespace {
+
+template <int Dim>
+void install_supports(const StageInForce<Dim>& stage, State<Dim>& state, Results& results) {
+  const StagePlan& plan = stage.plan();
+  try {
+    for (const std::string& idle : install_bolts(stage.model, plan.change.install, state))
+      results.warnings.push_back(fmt::format(
+          "stage {}: the bolts '{}' cross no joint between two blocks and hold nothing; lengthen or move them, or "
+          "install them before their blocks are taken out",
+          plan.name, idle));
+  } catch (const std::invalid_argument& error) {  // grout that does not hold what they are tightened to
+    fail(plan, Outcome::failed, error.what(), results);
+  }
+  release_linings(stage.model, state);
+  for (const std::string& idle : install_linings(stage.model, plan.change.install, state))
+    results.warnings.push_back(fmt::format(
+        "stage {}: no block has a face on the outline of the lining '{}', so that nothing holds it; install it after "
+        "its excavation is taken out",
+        plan.name, idle));
+}
+
+// candidates, time step and relief loads belong to the stage
+template <int Dim>
+void renew_for_stage(const Model<Dim>& model, State<Dim>& state) {
+  state.bodies.listed_at.clear();
+  state.time_step.frequency.clear();
+  state.time_step.allowed = 0;
+  state.schedule.started = state.schedule.time;
+  std::vector<ReliefLoad<Dim>>& relief = state.loads.relief;
+  for (ReliefLoad<Dim>& load : relief)
+    load.begun = load.share;
+  std::erase_if(relief,
+                [&](const ReliefLoad<Dim>& load) { return load.share == 0 || !model.bodies[load.body].present; });
+  if (state.ledger.energy.phase == LedgerPhase::running) state.ledger.energy.phase = LedgerPhase::model_changed;
+}
+
+// bodies that have come to rest somewhere else: a later search would judge another slope than the scene's
+template <int Dim>
+void judge_moved(const StageInForce<Dim>& stage, const State<Dim>& now, const SettleBegin<Dim>& begin,
+                 Results& results) {
+  std::vector<MovedBody> moved = moved_bodies(stage.model, begin, now);
+  if (moved.empty()) return;
+  const bool left = std::ranges::any_of(moved, &MovedBody::left_all);
+  const bool searched = std::any_of(stage.scene.stages.begin() + stage.place, stage.scene.stages.end(),
+                                    [](const StagePlan& s) { return std::holds_alternative<ReducePlan>(s.plan); });
+  const std::string text = moved_text(stage.model, moved);
+  for (MovedBody& m : moved) {
+    m.stage = stage.plan().name;
+    results.moved.push_back(std::move(m));
+  }
+  results.warnings.push_back(fmt::format("stage {}: {}", stage.plan().name, text));
+  if (left || searched)
+    fail(stage.plan(), Outcome::incomplete,
+         text + (searched ? "; the search that follows needs the blocks where the scene has them" : ""), results);
+}
+
+template <int Dim>
+StageResult result_of(const StageInForce<Dim>& stage, const StageOutcome& done, const Progress<Dim>& progress) {
+  const State<Dim>& state = progress.state;
+  StageResult r;
+  r.name = stage.plan().name;
+  r.kind = kind_of(stage.plan());
+  r.ended = done.ended;
+  r.relaxed = ends_relaxed(stage.plan(), stage.settings.damping);
+  r.steps = state.counters.steps - progress.steps_before;
+  r.time = state.schedule.time - progress.stage_began;
+  r.time_step = state.time_step.length;
+  r.unbalanced = done.unbalanced;
+  return r;
+}
+
+// A stage that lasts for a time is not ended by blocks that have left, but they are hardly what was wanted.
+template <int Dim>
+void warn_of_falling(const StageInForce<Dim>& stage, const State<Dim>& state, Results& results) {
+  if (!std::holds_alternative<RunPlan>(stage.plan().plan)) return;
+  const int body = falling_free(stage.model, state);
+  if (body < 0) return;
+  results.warnings.push_back(fmt::format("stage {}: {} falls free, {:.3g} m from where it began: nothing lies below",
+                                         stage.plan().name, label_of(stage.model, body),
+                                         state.bodies.motions[body].displacement.norm()));
+}
+
+}  // namespace
+
+template <int Dim>
+void enter_stage(const Prepared<Dim>& scene, Model<Dim>& model, Settings& settings, Progress<Dim>& progress) {
+  const StagePlan& plan = scene.stages[progress.stage];
+  settings = settings_of(plan, scene.settings);
+  if (!progress.stage_under_way && !plan.change.excavate.empty()) {
+    const Excavated<Dim> moved =
+        excavate(plan.change.excavate, settings, plan.let_off.has_value(), model, progress.state);
+    for (StageEnd<Dim>& end : progress.ends)
+      carry(moved, end);
+    carry(moved, progress.bonded);
+  }
+  model = apply(std::move(model), plan.change);
+}
+
+template <int Dim>
+void begin_stage(const StageInForce<Dim>& stage, Progress<Dim>& progress) {
+  State<Dim>& state = progress.state;
+  const Change& change = stage.plan().change;
+  for (const int p : properties_changed(stage.model, change)) {
+    state.schedule.friction[p] = stage.model.properties[p].friction;
+    if (!state.schedule.strength_factor.empty()) state.schedule.strength_factor[p] = 1;
+  }
+  add_bodies(stage.model, state);  // bolts ask where all bodies are
+  remove_bonds(stage.model, state);
+  remove_springs(stage.model, state);
+  install_supports(stage, state, progress.results);
+  if (change.zero_slip) zero_slip(state);
+  if (change.bond) make_bonds(stage.model, stage.settings, state);
+  renew_for_stage(stage.model, state);
+  progress.stage_began = state.schedule.time;
+  progress.record = {};
+  progress.record.interval = stage.scene.output.history_interval;
+  progress.run = {};
+  progress.reduction = {};
+  progress.stage_under_way = true;
+}
+
+template <int Dim>
+void end_stage(const StageInForce<Dim>& stage, const StageOutcome& done, const Watcher<Dim>& watcher,
+               Progress<Dim>& progress) {
+  const State<Dim>& state = progress.state;
+  const StagePlan& plan = stage.plan();
+  Results& results = progress.results;
+  results.stages.push_back(result_of(stage, done, progress));
+  std::ranges::copy(doubts_about(results.at_last_stable_state, plan.name), std::back_inserter(results.warnings));
+  warn_of_falling(stage, state, results);
+  progress.steps_before = state.counters.steps;
+  progress.stage_under_way = false;
+  // where all bodies are, for the monitors that count from the end of this stage
+  const auto counts = [&](const Monitor& m) { return m.since == stage.place; };
+  if (std::ranges::any_of(stage.scene.monitors, counts)) progress.ends.push_back(stage_end(stage.place, state));
+  const State<Dim> now = with_forces(stage, state, results.outcome == Outcome::failed);
+  if (std::holds_alternative<SettlePlan>(plan.plan) && results.outcome == Outcome::done)
+    judge_moved(stage, now, progress.settle, results);
+  finish_rows(stage, now, progress);
+  for (BoltRow& bolt : bolt_rows(stage.model, now, stage.place + 1))
+    results.bolts.push_back(std::move(bolt));
+  for (LiningRow& node : lining_rows(stage.model, now, stage.place + 1))
+    results.linings.push_back(std::move(node));
+  add_frame(stage, now, watcher, progress);
+  report_progress(stage, state, done.ended, done.unbalanced, 1, watcher);
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                               \
+  template void enter_stage<Dim>(const Prepared<Dim>&, Model<Dim>&, Settings&, Progress<Dim>&); \
+  template void begin_stage<Dim>(const StageInForce<Dim>&, Progress<Dim>&);                     \
+  template void end_stage<Dim>(const StageInForce<Dim>&, const StageOutcome&, const Watcher<Dim>&, Progress<Dim>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir
