@@ -1,4 +1,4 @@
-// [[joint_properties]]: the parameters of the laws in core/law.
+// [[joint_properties]]: the parameters of the laws in core/joint_laws.
 #include "core/joint_laws/joint_properties.hpp"
 #include "core/scene/keys/tables.hpp"
 
