@@ -31,6 +31,6 @@ drawn joint_laws joint_test.svg joint-test docs/joint_laws.toml --stress 1e6 --s
 poster slab docs/scenes.toml 'frame=9999&forces=arrows'
 poster wedge examples/wedge.toml 'frame=9&magnified=10&colour=displacement&forces=arrows'
 poster column docs/faces.toml 'frame=9999&magnified=300&colour=displacement&forces=arrows'
-poster excavation docs/excavation.toml 'frame=9999&magnified=300&colour=displacement' 500 380
-poster supports docs/supports.toml 'frame=9999&colour=displacement&forces=network&forceSize=0.3' 500 380
+poster excavation docs/excavation.toml 'frame=9999&magnified=300&colour=displacement' 460 300
+poster supports docs/supports.toml 'frame=9999&forces=network&forceSize=0.3' 460 330
 poster wet_slope examples/wet_slope.toml 'frame=9999&colour=displacement&forces=arrows'
