@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# make_pictures.sh PROGRAM: makes the pictures of README.md and of these pages again, docs/pictures/*, from the scenes
+# make_pictures.sh PROGRAM: makes the pictures of README.md, of these pages and of examples again, docs/pictures/*, from the scenes
 # named here. SVG files are what the program draws; PNG files are posters of its viewer (node, chromium).
 set -euo pipefail
 program=$(realpath "$1")
@@ -28,9 +28,13 @@ drawn joint_sets limit.svg limit examples/joint_sets.toml
 drawn stereonet stereonet.svg slice docs/slicing.toml --report
 drawn block_sizes block_sizes.svg slice docs/slicing.toml --report
 drawn joint_laws joint_test.svg joint-test docs/joint_laws.toml --stress 1e6 --stress 2e6 --slip 5e-3 --steps 60
+drawn tutorial_poles stereonet.svg slice examples/tutorial/slope.toml --report
 poster slab docs/scenes.toml 'frame=9999&forces=arrows'
 poster wedge examples/wedge.toml 'frame=9&magnified=10&colour=displacement&forces=arrows'
 poster column docs/faces.toml 'frame=9999&magnified=300&colour=displacement&forces=arrows'
 poster excavation docs/excavation.toml 'frame=9999&magnified=300&colour=displacement' 460 300
 poster supports docs/supports.toml 'frame=9999&forces=network&forceSize=0.3' 460 330
 poster wet_slope examples/wet_slope.toml 'frame=9999&colour=displacement&forces=arrows'
+poster bolted_roof examples/bolted_roof.toml 'frame=9999&forces=arrows' 620 360
+poster shaken_block examples/shaken_block.toml 'frame=9999&colour=displacement' 620 360
+poster tutorial examples/tutorial/slope.toml 'frame=9999&magnified=10&colour=displacement&forces=arrows' 620 380
