@@ -94,6 +94,19 @@ void judge_programs(const Matrix& matrix, const std::string& who, const std::vec
       found.push_back(fmt::format("{}: CTest knows no {}; correct its name", who, program));
 }
 
+// README.md and the pages of docs, by name
+std::string pages_in_one_line(const fs::path& repository) {
+  std::vector<fs::path> pages;
+  if (fs::is_directory(repository / "docs"))
+    for (const auto& entry : fs::directory_iterator(repository / "docs"))
+      if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  std::sort(pages.begin(), pages.end());
+  std::string text = read_text(repository / "README.md");
+  for (const fs::path& page : pages)
+    text += "\n" + read_text(page);
+  return in_one_line(text);
+}
+
 }  // namespace
 
 Matrix read_matrix(const fs::path& repository) {
@@ -103,7 +116,7 @@ Matrix read_matrix(const fs::path& repository) {
           read_promises(reports / "promises.toml"),
           read_grounds(reports / "grounds.toml"),
           read_source_names(repository),
-          in_one_line(read_text(repository / "README.md"))};
+          pages_in_one_line(repository)};
 }
 
 EquationPlaces equation_places(const Matrix& matrix, const Equation& equation) {
@@ -176,7 +189,7 @@ std::vector<std::string> problems(const Matrix& matrix) {
   for (const Promise& promise : matrix.promises) {
     const std::string who = fmt::format("promises.toml: '{}'", promise.readme);
     if (matrix.readme.find(promise.readme) == std::string::npos)
-      found.push_back(who + ": README.md does not say it; take its words from there");
+      found.push_back(who + ": neither README.md nor a page of docs says it; take its words from there");
     judge_tests(matrix, who, promise.tests, found);
     judge_programs(matrix, who, promise.programs, found);
     if (promise.tests.empty() && promise.programs.empty())

@@ -20,7 +20,7 @@ struct Matrix {
   std::vector<Promise> promises;
   std::vector<Ground> grounds;
   SourceNames names;
-  std::string readme;  // README.md, every run of blanks and line ends one blank
+  std::string readme;  // README.md and docs/*.md, every run of blanks and line ends one blank
 };
 
 // The lists of reports/ and the sources of a repository. Throws std::runtime_error for a list that cannot be read.

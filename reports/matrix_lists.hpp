@@ -31,7 +31,7 @@ struct ThesisCase {
 };
 std::vector<ThesisCase> read_thesis_cases(const std::filesystem::path& list);
 
-// What README.md promises, and what guards it.
+// What README.md or a page of docs promises, and what guards it.
 struct Promise {
   std::string readme;  // its words there
   std::string meaning;

@@ -155,8 +155,8 @@ std::string promises_page(const Matrix& matrix) {
                         guards);
   }
   return section("promises", "Promises by tests",
-                 "<p>What the README promises, and the tests that fail when it is broken.</p>\n" +
-                     table("promises", {"in the README's words", "meaning", "guarded by"}, body));
+                 "<p>What the README and the pages of docs promise, and the tests that fail when it is broken.</p>\n" +
+                     table("promises", {"in the pages' words", "meaning", "guarded by"}, body));
 }
 
 std::string grounds_page(const Matrix& matrix, const Verdicts& verdicts) {
