@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -16,6 +17,13 @@ namespace voussoir::cases {
 
 // carries every joint of a scene as a whole that can be: constant stiffness per area, no bond
 inline const std::string whole_faces = "contact.face=integrated";
+
+// a number as --set takes it
+inline std::string text(double number) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%.15g", number);
+  return buffer;
+}
 
 // Runs <case>/<scene> and demands that it reached its goals.
 inline SceneRun run(const std::string& scene, const std::vector<std::string>& overrides = {}, int threads = 1) {

@@ -3,6 +3,7 @@
 #   <build>/reports/figures/<x>.svg from the files that the case's test left in <build>/cases/<name>.
 #   Files are looked for beside the calling CMakeLists.txt, then in its folder <name>.
 #   With LONG, its test suites whose names end in Long are case.<name>.long (label long), which only `ctest -C Long` runs.
+#   Suites whose names end in Figure check nothing: report.<name>.data (label report) has them write data of figures.
 # voussoir_case_not_modelled(<name> …)
 #   a case that is listed in the verdict table as not yet modelled.
 # The lists end in the global properties VOUSSOIR_CASES and VOUSSOIR_CASES_NOT_MODELLED, so that the summary asks for
@@ -39,12 +40,25 @@ function(voussoir_case name)
       ENVIRONMENT "VOUSSOIR_VERDICTS=${PROJECT_BINARY_DIR}/verdicts-long;VOUSSOIR_CASE_OUTPUT=${PROJECT_BINARY_DIR}/cases-long")
   endif()
 
+  foreach(source ${sources})
+    file(STRINGS ${source} found REGEX "^TEST\\([A-Za-z]+Figure,")
+    list(APPEND figure_suites ${found})
+  endforeach()
+  set(drawn_after case_${name})
+  if(figure_suites)
+    add_test(NAME report.${name}.data COMMAND case_${name} --gtest_brief=1 --gtest_filter=*Figure.*
+             WORKING_DIRECTORY ${output})
+    set_tests_properties(report.${name}.data PROPERTIES LABELS report FIXTURES_REQUIRED case_${name}
+      FIXTURES_SETUP figures_${name} ENVIRONMENT VOUSSOIR_CASE_OUTPUT=${PROJECT_BINARY_DIR}/cases)
+    list(APPEND drawn_after figures_${name})
+  endif()
+
   # a figure is drawn only from a run that passed; without gnuplot it is a named skip
   foreach(figure ${figures})
     get_filename_component(stem ${figure} NAME_WE)
     add_test(NAME report.${stem} WORKING_DIRECTORY ${output}
       COMMAND ${PROJECT_SOURCE_DIR}/reports/draw.sh ${figure} ${PROJECT_BINARY_DIR}/reports/figures/${stem}.svg)
-    set_tests_properties(report.${stem} PROPERTIES LABELS report FIXTURES_REQUIRED case_${name} SKIP_RETURN_CODE 77)
+    set_tests_properties(report.${stem} PROPERTIES LABELS report FIXTURES_REQUIRED "${drawn_after}" SKIP_RETURN_CODE 77)
   endforeach()
   set_property(GLOBAL APPEND PROPERTY VOUSSOIR_CASES ${name})
 endfunction()

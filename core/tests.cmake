@@ -7,12 +7,12 @@ target_include_directories(voussoir_oracle_algebra PUBLIC ${PROJECT_SOURCE_DIR})
 target_compile_definitions(voussoir_oracle_algebra PUBLIC EIGEN_DONT_VECTORIZE)
 
 voussoir_test(unit.blocks LABEL unit
-  SOURCES base/floating_point_traps_test.cpp base/on_threads_test.cpp geometry/geometry_test.cpp solvers/solvers_test.cpp slicing/slicing_test.cpp
+  SOURCES base/floating_point_traps_test.cpp base/on_threads_test.cpp geometry/geometry_test.cpp solvers/centre_test.cpp solvers/feasibility_test.cpp slicing/slicing_test.cpp
     slicing/sliver_test.cpp slicing/joints_test.cpp slicing/tiling_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
 voussoir_test(unit.joint_sets LABEL unit
-  SOURCES joint_sets/joint_sets_test.cpp exchange/exchange_test.cpp scene/scene_files_test.cpp
+  SOURCES joint_sets/joint_sets_test.cpp exchange/mesh_test.cpp exchange/tables_test.cpp scene/scene_files_test.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)
 
 voussoir_test(unit.law_and_motion LABEL unit
@@ -42,7 +42,7 @@ voussoir_test(unit.scene LABEL unit
 voussoir_test(unit.monitors LABEL unit SOURCES output/monitor_test.cpp scene/bad_monitors_test.cpp run/begin_test.cpp
   LIBS voussoir_core cereal::cereal)
 
-voussoir_test(unit.output LABEL unit SOURCES output/output_test.cpp output/view_test.cpp
+voussoir_test(unit.output LABEL unit SOURCES output/output_test.cpp output/paraview_test.cpp output/view_test.cpp
   LIBS voussoir_core fmt::fmt nlohmann_json::nlohmann_json)
 
 set(outside_solvers)
@@ -74,7 +74,7 @@ if(TARGET voussoir_limit)
 endif()
 
 # the exact referee: GPL, so a library of its own that only tests link
-add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exact_programs.cpp
+add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exact_centre.cpp testing/exact_programs.cpp
   testing/exact_contacts.cpp)
 target_link_libraries(voussoir_exact_referee PUBLIC voussoir_core voussoir_oracle_algebra gmpxx gmp PRIVATE voussoir_flags cddgmp)
 voussoir_test(unit.exact_referee LABEL unit SOURCES testing/exact_referee_test.cpp slicing/exact_slicing_test.cpp

@@ -1,7 +1,5 @@
 # Error bars against true errors. draw.sh passes: data (bars.csv), cases (names, as words).
-load style
 set terminal svg size 640,520
-set output out
 set logscale xy
 set format xy '10^{%T}'
 set xlabel 'true error (deg)'

@@ -1,13 +1,11 @@
 # All checks, error over tolerance, case by case. draw.sh passes: points (checks.csv), means (checks_cases.csv), verification
 # and validation (the cases of each, as words), verification_spread and validation_spread (bias and scatter of each).
-load style
 upper = words(verification)
 lower = words(validation)
 row = 18.0                                   # of a case, in pixels
 top = 62; between = 74; bottom = 50          # pixels: legend and title; axis and title; axis
 height = top + row * (upper + 0.4) + between + row * (lower + 0.4) + bottom
 set terminal svg size 760,height
-set output out
 set xrange [-1.5:1.5]
 set xtics 0.5
 set grid noytics

@@ -1,7 +1,5 @@
 # All checks, computed against expected. draw.sh passes: points (checks.csv), and what only checks_errors.gp needs.
-load style
 set terminal svg size 760,420
-set output out
 set logscale xy
 set format xy '10^{%T}'
 set xtics 1e4

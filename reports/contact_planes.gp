@@ -1,7 +1,5 @@
 # Boon (2013), Fig. 4.9: time per contact against the number of planes. Lines join the five regular shapes; open marks
 # are joint-cut blocks.
-load style
-set output out
 set datafile missing NaN
 set logscale xy
 set xlabel 'planes of both parts'

@@ -1,6 +1,4 @@
 # Boon (2013), Fig. 4.10: analytic centre against centroid, by number of vertices
-load style
-set output out
 set xlabel 'number of vertices'
 set ylabel 'time (µs)'
 set xrange [0:40]

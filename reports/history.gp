@@ -1,6 +1,5 @@
 # What the versions computed, case by case, against the present. draw.sh passes: data (history.csv), cases (names, '|'
 # between them).
-load style
 count = 1
 do for [i=1:strlen(cases)] { if (cases[i:i] eq '|') { count = count + 1 } }
 array name[count]
@@ -16,7 +15,6 @@ cost = 'contact evaluations of the costliest run'
 stats data using 'place' nooutput name 'place'
 
 set terminal svg size 900,(60 + 126*rows) font 'DejaVu Sans,Helvetica,Arial,sans-serif,10'
-set output out
 set datafile missing NaN
 unset key
 unset title

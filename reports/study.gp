@@ -1,8 +1,6 @@
 # Work and precision of one case's study. draw.sh passes: points (csv), sweeps (names, as words), quantity, cost
 # ('contact evaluations' or 'steps', what the recommendation counts), default ('yes': the scene as it is has a result).
-load style
 set terminal svg size 760,880
-set output out
 set datafile missing NaN
 set logscale xy
 set format x '10^{%T}'

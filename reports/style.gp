@@ -1,4 +1,5 @@
-# The look of every figure: `load style`, then `set output out`, then plot.
+# The look of every figure; draw.sh runs it before the figure's own file, which only plots. A figure of another size says
+#   set terminal svg size 1000,520 @page
 #   plot 'curve.csv' using 'x':'lower':'upper' @band  title 'tolerance', \
 #        'curve.csv' using 'x':'theory'        @theory  title 'theory', \
 #        'run.csv'   using 'x':'computed'      @computed title 'computed'
@@ -6,8 +7,8 @@
 # for colour-blind readers; point shapes differ too, for print without colour.
 reset
 set encoding utf8
-set terminal svg size 760,460 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
+page = "dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' linewidth 1 enhanced"
+set terminal svg size 760,460 @page
 set datafile separator comma
 set key autotitle columnheader
 
@@ -26,10 +27,12 @@ theory   = "with lines lc rgb '#404040' lw 2"
 computed = "with points lc rgb '#d55e00' pt 7 ps 0.6"
 band     = "with filledcurves fc rgb '#0072b2' fs transparent solid 0.15 noborder"
 
-# quiet frame: two axes, light grid behind the data
+# quiet frame: two axes, light grid behind the data; `@picture` for blocks: neither, and one scale for both
 set border 3 lc rgb '#606060' lw 1
 set tics nomirror out scale 0.6 textcolor rgb '#202020'
 set grid back lc rgb '#e2e2e2' lw 1 dt 1
+picture = "unset border; unset tics; unset grid; set size ratio -1"
+stone = "with filledcurves closed fc rgb '#efe6d2' fs solid border lc rgb '#8c7f66'"
 set title font ',15'
 # the legend stands above the frame, so that it never covers data
 set key outside top center horizontal samplen 2.5 spacing 1.1

@@ -1,7 +1,5 @@
 # What accuracy costs, over all cases. draw.sh passes: data (trade.csv), cases (names, as words).
-load style
 set terminal svg size 760,620
-set output out
 set datafile missing NaN
 set logscale xy
 set format x '%g'

@@ -1,16 +1,9 @@
 # The arch half a percent thicker than its limit, with the thrust and the forces of its joints, and half a percent
 # thinner, on its way down.
-load style
-set terminal svg size 760,860 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
-stone = "with filledcurves closed fc rgb '#efe6d2' fs solid border lc rgb '#8c7f66'"
+set terminal svg size 760,860 @page
 needle = 120e3                 # N/m: drawn 1 m long
 set multiplot
-set size ratio -1
-unset border
-unset tics
-unset grid
+@picture
 set lmargin 0
 set rmargin 0
 set tmargin 0

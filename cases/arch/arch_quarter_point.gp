@@ -1,25 +1,19 @@
 # The arch under a point load at the quarter of its span: standing, coming down, load against drop, and the load that
 # brings it down against the stiffness of the joints.
-load style
-set terminal svg size 980,730 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
-stone = "with filledcurves closed fc rgb '#efe6d2' fs solid border lc rgb '#8c7f66'"
+set terminal svg size 980,730 @page
 needle = 100e3                 # N/m: drawn 1 m long
 rigid = real(system("sed -n 2p quarter_rigid.csv"))
 set multiplot
 
 # the two pictures
-set size ratio -1 0.5, 0.42
+@picture
+set size 0.5, 0.42
 set lmargin 0
 set rmargin 0
 set tmargin 0
 set bmargin 0
 set xrange [-6.3:6.3]
 set yrange [-0.8:6.6]
-unset border
-unset tics
-unset grid
 do for [side = -1:1:2] {
   set object 2 + side rectangle from side*4.1, -0.55 to side*6.0, 0 fc rgb '#d9d9d9' fs solid noborder behind
   set arrow 2 + side from side*4.1, 0 to side*6.0, 0 nohead lc rgb '#606060' lw 1.5 back

@@ -1,6 +1,4 @@
 # least thickness of the arch against the stiffness of its joints
-load style
-set output out
 set logscale x
 set format x '10^{%T}'
 set xlabel 'normal stiffness of the joints (GPa/m)'

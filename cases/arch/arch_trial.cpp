@@ -8,12 +8,6 @@
 
 namespace voussoir::cases {
 
-std::string text(double number) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.15g", number);
-  return buffer;
-}
-
 std::vector<std::string> on_joints(double stiffness) {
   return {"joint_properties.dry.normal_stiffness=" + text(stiffness),
           "joint_properties.dry.shear_stiffness=" + text(stiffness)};

@@ -9,9 +9,6 @@
 
 namespace voussoir::cases {
 
-// "%.15g", as --set takes it
-std::string text(double number);
-
 // that gives the joints of a scene this stiffness (Pa/m), along and across
 std::vector<std::string> on_joints(double stiffness);
 

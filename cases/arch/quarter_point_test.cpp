@@ -254,7 +254,7 @@ TEST(QuarterPoint, RestsAsItsJointsArePressed) {
 }
 
 // the reference, for the figure
-TEST(QuarterPoint, DrawsItsReference) {
+TEST(QuarterPointFigure, HasItsReference) {
   for (const double stiffness : {1e10, 1e11, 1e12}) {
     std::vector<double> loads, drops;
     for (const ElasticLoad& state : elastic_load_path(loaded, {stiffness, stiffness}, 0.03)) {

@@ -1,6 +1,4 @@
 # height over time against arcs and impacts of the closed form
-load style
-set output out
 set xlabel 'time (ms)'
 set ylabel 'height of the cube above the base (mm)'
 set xrange [0:350]

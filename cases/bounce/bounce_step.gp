@@ -1,6 +1,4 @@
 # error of the restitution against the time step
-load style
-set output out
 set logscale xy
 set xlabel 'time step times eigenfrequency, ω dt'
 set ylabel 'relative error of the restitution'

@@ -1,6 +1,4 @@
 # overlap of every joint at rest
-load style
-set output out
 set xlabel 'joint, from the ground up'
 set ylabel 'overlap (mm)'
 set xrange [-0.5:7.5]

@@ -1,6 +1,4 @@
 # the top cube in the first mode
-load style
-set output out
 set xlabel 'time (s)'
 set ylabel 'displacement of the top (mm)'
 set xrange [0:0.6]

@@ -1,6 +1,4 @@
 # to rest: error of the top's place, from here on, over the steps taken
-load style
-set output out
 set logscale xy
 set xlabel 'steps'
 set ylabel 'largest error of the settlement from here on, fraction'

@@ -1,13 +1,7 @@
 # the blocks at the start, at impact and at rest; walls are not drawn
-load style
-set terminal svg size 1000,440 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
-unset border
-unset tics
+set terminal svg size 1000,440 @page
+@picture
 unset key
-unset grid
-set size ratio -1
 set style fill solid 1 noborder
 set lmargin 0
 set rmargin 0

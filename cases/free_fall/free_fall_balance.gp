@@ -1,6 +1,4 @@
 # what the contacts leave open of the energy of the drop, against the time step
-load style
-set output out
 set logscale xy
 set xlabel 'time step, fraction of the estimated limit'
 set ylabel 'energy left open, fraction of that of the drop'

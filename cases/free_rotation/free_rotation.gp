@@ -1,6 +1,4 @@
 # angular velocity in the axes of the box
-load style
-set output out
 set xlabel 'time (s)'
 set ylabel 'angular velocity in the axes of the box (rad/s)'
 set xrange [0:45]

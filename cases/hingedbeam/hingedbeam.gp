@@ -1,6 +1,4 @@
 # Boon (2013), Fig. 4.15 (a): weight of a block against its rotation. Lines: closed form and references; points: this run.
-load style
-set output out
 set xlabel 'rotation (rad)'
 set ylabel 'weight of a block (kN)'
 set xrange [0:0.22]

@@ -1,6 +1,4 @@
 # Boon (2013), Fig. 4.15 (b): horizontal thrust against the weight of a block
-load style
-set output out
 set xlabel 'weight of a block (kN)'
 set ylabel 'horizontal thrust (kN)'
 set xrange [0:42]

@@ -1,6 +1,4 @@
 # distance over time once friction is below the dip, and above it
-load style
-set output out
 set xlabel 'time since friction fell (s)'
 set ylabel 'distance down the plane (m)'
 set xrange [0:0.51]

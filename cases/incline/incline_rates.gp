@@ -1,6 +1,4 @@
 # how much too low a constant rate finds the angle
-load style
-set output out
 set logscale xy
 set xlabel 'rate of reduction (deg/s)'
 set ylabel 'critical angle found too low by (deg)'

@@ -138,7 +138,7 @@ inline void record_deflection(CaseReport& report, const std::string& name, const
       found.deflection, cost);
 }
 
-inline std::string text(double gravity) {
+inline std::string in_g(double gravity) {
   return std::to_string(static_cast<int>(gravity)) + " g";
 }
 

@@ -1,6 +1,4 @@
 # Boon (2013), Figs 4.18 and 4.19: build-up of thrust with gravity. Lines: chain; points: this run.
-load style
-set output out
 set terminal svg size 760,640
 set multiplot layout 2,1
 set xlabel 'gravity (g)'

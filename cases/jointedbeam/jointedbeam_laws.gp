@@ -1,7 +1,5 @@
 # Boon (2013), Figs 4.18, 4.21, 4.23 to 4.26 and 4.33 to 4.38 in form: build-up of thrust and deflection profiles under the
 # laws that depend on stress. Lines: chain; points: this run.
-load style
-set output out
 set terminal svg size 900,760
 set multiplot layout 2,2
 array law[3] = ['linear', 'half_stiff', 'yielding']

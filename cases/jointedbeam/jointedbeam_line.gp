@@ -1,6 +1,4 @@
 # Boon (2013), Fig. 4.16: the line of thrust through the contact points; an arrow at each lies along its force.
-load style
-set output out
 set terminal svg size 760,420
 set multiplot
 set size ratio -1

@@ -1,6 +1,4 @@
 # Boon (2013), Figs 4.20 and 4.22: deflection profiles. Lines: chain; points: this run, at both ends of every block.
-load style
-set output out
 set terminal svg size 760,700
 set multiplot layout 2,1
 set xlabel 'position from the left abutment (mm)'

@@ -1,6 +1,4 @@
 # error against the distributed joint by number of sub-contacts
-load style
-set output out
 set logscale xy
 set xlabel 'sub-contacts of a joint'
 set ylabel 'largest error at 10, 20, 30, 40 g (%)'

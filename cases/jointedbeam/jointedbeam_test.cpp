@@ -116,7 +116,7 @@ TEST(JointedBeam, OfFullBlocksIsTheChain) {
                 at_gravity(run.held, 1).thrust, cost(run));
   for (const double gravity : judged) {
     const BeamState &found = at_gravity(run.held, gravity), &expected = at_gravity(chain, gravity);
-    const std::string name = "full block, " + text(gravity);
+    const std::string name = "full block, " + in_g(gravity);
     record_thrust(report, name, expected, found, 0.001, "a chain of 16 cells a joint deviates by 0.01 %", cost(run));
     record_deflection(report, name, expected, found, 0.005,
                       "a chain of 16 cells a joint deviates by 0.01 to 0.25 %: a cell slips as a whole");
@@ -203,7 +203,7 @@ TEST(JointedBeam, DeviatesOnOnePointAsItsChainDoes) {
     ASSERT_EQ(run.lost, 0) << run.results.message;
     for (const double gravity : {10.0, 40.0}) {
       const BeamState &found = at_gravity(run.held, gravity), &expected = at_gravity(chain, gravity);
-      const std::string name = "one point, " + v.name + ", " + text(gravity);
+      const std::string name = "one point, " + v.name + ", " + in_g(gravity);
       const std::string because = "the same joint; what a step of 0.25 g leaves of the chain's history";
       record_thrust(report, name, at_gravity(own_chain, gravity), found, 0.002, because, cost(run));
       record_deflection(report, name, at_gravity(own_chain, gravity), found, 0.005, because);
@@ -222,7 +222,7 @@ TEST(JointedBeam, OfHalfBlocksIsLostAsTheChainIs) {
   const BeamRun run = run_beam(beam, "half.toml");
   const std::vector<BeamState> chain = raise_gravity(beam, from_to(1, 77, 1), half_closure);
   for (const double gravity : {10.0, 30.0, 50.0, 70.0}) {
-    const std::string name = "half block, " + text(gravity);
+    const std::string name = "half block, " + in_g(gravity);
     const BeamState &found = at_gravity(run.held, gravity), &expected = at_gravity(chain, gravity);
     record_thrust(report, name, expected, found, 0.005, "a chain of 16 cells a joint deviates by 0.2 % at 70 g",
                   cost(run));
@@ -329,7 +329,7 @@ TEST_P(JointedBeamUnder, ItsLawIsTheChain) {
     ASSERT_EQ(cells.size(), gravities.size());
     for (const double gravity : gravities) {
       const BeamState &found = at_gravity(run.held, gravity), &same = at_gravity(cells, gravity);
-      const std::string name = (half ? "half block, " : "full block, ") + text(gravity) + ", " + law.name;
+      const std::string name = (half ? "half block, " : "full block, ") + in_g(gravity) + ", " + law.name;
       const std::string because =
           "a chain of 16 cells deviates by at most 0.6 % in thrust and 0.8 % in deflection: the "
           "stress at a cell's mean overlap misses some of its exponential growth";

@@ -23,7 +23,7 @@ TEST(JointedBeam, OnWholeFacesIsTheChainOfDistributedJointsThatDoNotSlip) {
                 one_point = run_beam(beam, "scene.toml", {no_slip, "joint_properties.rock.sub_contacts=1"});
   ASSERT_EQ(whole.lost, 0) << whole.results.message;
   for (const double gravity : judged) {
-    const std::string name = "whole faces, no slip, " + text(gravity);
+    const std::string name = "whole faces, no slip, " + in_g(gravity);
     const std::string because =
         "both integrate the same pressure, 1e-5 by the chain's cells and steps, rest to 1e-6; the whole face's shear "
         "stress is even, the chain's where a joint opens is not";

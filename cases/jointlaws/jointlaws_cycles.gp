@@ -1,6 +1,4 @@
 # two shear cycles of the hardening joint: constant normal load, and surroundings of constant normal stiffness
-load style
-set output out
 set xlabel 'slip (µm)'
 set ylabel 'shear stress (MPa)'
 set y2label 'normal stress (MPa)'

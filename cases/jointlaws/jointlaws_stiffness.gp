@@ -1,8 +1,5 @@
 # Boon (2013), Figs 4.17, 4.31 and 4.30 (b) as far as they are formulas: stiffness against stress and against slip
-load style
-set terminal svg size 1080,420 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 1080,420 @page
 set multiplot layout 1,3 margins 0.075,0.985,0.15,0.78 spacing 0.095
 set key above vertical maxrows 4 samplen 2
 set xlabel 'normal stress (MPa)'

@@ -1,8 +1,5 @@
 # work and precision: the worst of the four errors against planes looked at and against time; the lines are the fronts
-load style
-set terminal svg size 980,460 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 980,460 @page
 set logscale xy
 set format y '10^{%T}'
 set yrange [1e-12:1]

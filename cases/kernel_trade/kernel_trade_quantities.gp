@@ -1,8 +1,5 @@
 # the four errors apart, against planes looked at; horizontal: what another definition of the contact point changes
-load style
-set terminal svg size 980,620 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 980,620 @page
 set logscale xy
 set format y '10^{%T}'
 set yrange [1e-17:10]

@@ -1,8 +1,5 @@
 # the radius r: tilt near an edge in units of r, and what r does between too small and too large
-load style
-set terminal svg size 1080,460 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 1080,460 @page
 set multiplot layout 1,2 margins 0.07,0.72,0.15,0.95 spacing 0.09
 
 set xlabel 'distance from the edge over r'

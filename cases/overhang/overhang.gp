@@ -1,21 +1,14 @@
 # The stack 0.1 % below its limit with the forces that carry it, and how its top turns as the overhang grows.
-load style
-set terminal svg size 760,620 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
-stone = "with filledcurves closed fc rgb '#efe6d2' fs solid border lc rgb '#8c7f66'"
+set terminal svg size 760,620 @page
 set multiplot
 
 set origin 0, 0.52
 set size 1, 0.48
-set size ratio -1
+@picture
 set lmargin 2
 set rmargin 2
 set tmargin 0.5
 set bmargin 0.5
-unset border
-unset tics
-unset grid
 unset key
 set xrange [-1.3:2.0]
 set yrange [-0.28:1.45]

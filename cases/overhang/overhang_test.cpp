@@ -32,12 +32,6 @@ void PrintTo(const Variant& v, std::ostream* out) {
   *out << v.name;
 }
 
-std::string text(double number) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.15g", number);
-  return buffer;
-}
-
 // what turns a scene into a stack that leans out by this fraction
 std::vector<std::string> leaning(double fraction, int dimension) {
   const std::vector<double> overhangs = harmonic_overhangs(stack, fraction);

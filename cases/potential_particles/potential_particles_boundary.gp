@@ -1,8 +1,5 @@
 # below which r/size the change stays under 5, 1 and 0.1 %, over k; the column also: above the line it does not stand
-load style
-set terminal svg size 1000,720 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 1000,720 @page
 set logscale y
 set format y '10^{%T}'
 set xrange [-0.02:0.95]

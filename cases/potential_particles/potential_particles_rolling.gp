@@ -1,6 +1,4 @@
 # a rounded square that rolls over its corner: the angle over time, this run and quadrature
-load style
-set output out
 set xlabel 'time (s)'
 set ylabel 'leans by that much more (deg)'
 set xrange [0:*]

@@ -1,8 +1,5 @@
 # what rounding changes, over r/size, one line for each k
-load style
-set terminal svg size 1000,720 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 1000,720 @page
 set logscale xy
 set format x '10^{%T}'
 set format y '10^{%T}'

@@ -1,8 +1,5 @@
 # force against tilt of a pushed column, and the force that tips it against the stiffness of the joint
-load style
-set terminal svg size 980,430 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 980,430 @page
 set multiplot layout 1,2 margins 0.09,0.98,0.15,0.95 spacing 0.1
 set xlabel 'tilt (mrad)'
 set ylabel 'force over that of a rigid joint'

@@ -32,12 +32,6 @@ PushedColumn on(double stiffness) {
   return column;
 }
 
-std::string text(double number) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.15g", number);
-  return buffer;
-}
-
 // what a scene is run with
 struct Joint {
   double stiffness = 1e10;  // Pa/m, in both directions
@@ -381,7 +375,7 @@ TEST(FreeBlocks, GoAsTheirForcesSay) {
 }
 
 // the closed forms, for the figure
-TEST(PushedColumn, DrawsItsReference) {
+TEST(PushedColumnFigure, HasItsReference) {
   std::vector<std::vector<double>> columns(1);
   for (double mrad = 1e-3; mrad < 16; mrad *= 1.02)
     columns[0].push_back(mrad);

@@ -1,8 +1,5 @@
 # the atlas: a row of maps for every kernel, a column for every difficulty; each cell is the worst of its answers
-load style
-set terminal svg size 1180,1000 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,11' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 1180,1000 @page font 'DejaVu Sans,Helvetica,Arial,sans-serif,11'
 kernels = 'block cut decision centre normal overlap area'
 said = '"block making" "cutting" "touch or apart" "analytic centre" "normal" "overlap" "contact area"'
 difficulties = '"thinness" "angle of faces (rad)" "ratio of sizes" "pair at (m)" "made at (m)" "faces"'

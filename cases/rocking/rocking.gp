@@ -1,8 +1,5 @@
 # the free rocking of the block, and the moment that holds it when it is turned slowly
-load style
-set terminal svg size 760,680 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 760,680 @page
 set multiplot
 set lmargin 11
 set rmargin 3

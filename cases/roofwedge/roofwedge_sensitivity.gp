@@ -1,8 +1,5 @@
 # friction the wedge needs over the joints' stiffness ratio and over the stress that was brought in from outside
-load style
-set terminal svg size 980,430 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 980,430 @page
 set multiplot layout 1,2 margins 0.10,0.98,0.15,0.95 spacing 0.11
 set ylabel 'critical friction (deg)'
 set key inside top right vertical

@@ -1,6 +1,4 @@
 # way of the block down the shaken plane
-load style
-set output out
 set xlabel 'time since the shaking began (s)'
 set ylabel 'distance down the plane (mm)'
 set xrange [0:1.7]

@@ -1,12 +1,6 @@
 # the assembly in space, seen from east, south and above, without the blocks of one corner
-load style
-set terminal svg size 620,700 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
-set size ratio -1
-unset border
-unset tics
-unset grid
+set terminal svg size 620,700 @page
+@picture
 unset key
 set lmargin 0
 set rmargin 0

@@ -1,8 +1,5 @@
 # time of slicing against the number of blocks, Table 4.1, with and without culling
-load style
-set terminal svg size 800,420 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 800,420 @page
 set multiplot layout 1,2
 set logscale xy
 set xlabel 'number of blocks'

@@ -1,18 +1,12 @@
 # one joint pattern, cut in four ways
-load style
-set terminal svg size 800,860 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 800,860 @page
 rock  = "with filledcurves closed fc rgb '#efe6d2' fs solid noborder"
 count(name) = system("sed -n 2p pattern_counts.csv | cut -d, -f" . name) + 0
 names = "persistent extended sized healed"
 titles(k) = k == 1 ? 'a  joints without end' : k == 2 ? 'b  extended to the next joint' : \
             k == 3 ? 'c  as b, inscribed diameter at least 0.4 m' : 'd  healed where a joint ends'
 set multiplot
-set size ratio -1
-unset grid
-unset border
-unset tics
+@picture
 set xrange [-0.1:10.1]
 set yrange [-0.1:10.1]
 unset key

@@ -1,12 +1,6 @@
 # the rock mass at rest, from the south-east, walls not drawn: by how far each block has gone
-load style
-set terminal svg size 860,560 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
-unset border
-unset tics
-unset grid
-set size ratio -1
+set terminal svg size 860,560 @page
+@picture
 set key outside bottom center horizontal samplen 1.5
 set style fill solid 1 noborder
 load 'settled.gp'

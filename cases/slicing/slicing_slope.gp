@@ -1,8 +1,5 @@
 # the slope: construction joints through everything with persistent sets, and finite cross joints
-load style
-set terminal svg size 760,900 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 760,900 @page
 rock   = "with filledcurves closed fc rgb '#efe6d2' fs solid border lc rgb '#6f6450'"
 clump  = "with filledcurves closed fc rgb '#e69f00' fs solid border lc rgb '#6f6450'"
 ground = "with filledcurves closed fc rgb '#d5d5d5' fs solid border lc rgb '#606060'"

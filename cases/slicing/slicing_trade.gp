@@ -1,8 +1,5 @@
 # what the limits on blocks cost and save
-load style
-set terminal svg size 860,640 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 860,640 @page
 set multiplot layout 2,2
 set xlabel 'smallest inscribed radius allowed, m'
 set xrange [-0.01:0.21]

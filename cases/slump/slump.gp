@@ -1,6 +1,4 @@
 # the mechanism of the slope: rigid-block limit analysis against blocks that slip without opening
-load style
-set output out
 set size ratio -1
 set xlabel 'x (m)'
 set ylabel 'y (m)'

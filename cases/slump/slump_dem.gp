@@ -1,6 +1,4 @@
 # the slope as the distinct element run lost it: settled, and in the last trial that failed, its motion magnified
-load style
-set output out
 set size ratio -1
 set xlabel 'x (m)'
 set ylabel 'y (m)'

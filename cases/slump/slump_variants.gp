@@ -1,6 +1,4 @@
 # the angle at which each variant of the slope is lost, by three methods
-load style
-set output out
 set ylabel 'critical friction (deg)'
 set xrange [-0.6:13.6]
 set yrange [0:30]

@@ -1,8 +1,5 @@
 # how far a face on n x n points is from the distributed joint, and what a contact then costs in a step; dashed: a whole face
-load style
-set terminal svg size 980,460 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 980,460 @page
 set logscale xy
 set multiplot layout 1,2 margins 0.09,0.98,0.14,0.79 spacing 0.1
 set xlabel 'points along a face'

@@ -1,6 +1,4 @@
 # what a bar carries whose bond slips as its joint opens
-load style
-set output out
 set xlabel 'opening of the joint (mm)'
 set ylabel 'force of the bar (kN)'
 set xrange [0:1.02]

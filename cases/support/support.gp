@@ -1,6 +1,4 @@
 # what a bolt's spring carries as its joint slips and opens by a twentieth of the slip
-load style
-set output out
 set xlabel 'slip of the joint (mm)'
 set ylabel 'force of the bolt (kN)'
 set xrange [0:20.5]

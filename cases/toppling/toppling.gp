@@ -1,8 +1,5 @@
 # modes of a block on an incline: the map of dynamics, that of statics, and what the runs did
-load style
-set terminal svg size 760,560 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 760,560 @page
 set xlabel 'slope of the plane (°)'
 set ylabel 'friction angle (°)'
 set xrange [0:50]

@@ -41,12 +41,6 @@ void PrintTo(const Variant& v, std::ostream* out) {
   *out << v.name;
 }
 
-std::string text(double number) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.15g", number);
-  return buffer;
-}
-
 // deg: the slope, or where it slides the friction angle, at which the block overturns on its elastic joint
 double overturns_at(double slope_deg) {
   return to_degrees(reference::overturning_angle(breadth, height, weight * std::cos(slope_deg * degree), stiffness));

@@ -1,6 +1,4 @@
 # the largest force of each bolt of the first trial along the wall
-load style
-set output out
 set xlabel 'angle from the springline to the right (°)'
 set ylabel 'largest force of a bolt over p_0 D'
 set xrange [-30:210]

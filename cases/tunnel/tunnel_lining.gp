@@ -1,8 +1,5 @@
 # thrust and moment of a lining of 0.3 m
-load style
-set terminal svg size 1000,420 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
+set terminal svg size 1000,420 @page
 set xlabel 'angle from the springline to the right (°)'
 set xrange [-90:270]
 set xtics 90

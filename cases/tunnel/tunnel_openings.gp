@@ -1,12 +1,6 @@
 # openings 12 and 11 of table 5.1, four tenths of a second after they are dug
-load style
-set terminal svg size 1000,520 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
-set size ratio -1
-unset grid
-unset tics
-unset border
+set terminal svg size 1000,520 @page
+@picture
 unset key
 set xrange [-14:14]
 set yrange [-11:15]

@@ -1,6 +1,4 @@
 # the section cut at both bends of its slide, every 80 m along the seat and every 80 m above the slide
-load style
-set output out
 set size ratio -1
 unset grid
 set xlabel 'distance downslope (m)'

@@ -1,6 +1,4 @@
 # three blocks on the back, 37.5 degrees, friction 40: what the bottom block creeps after the damping has ended
-load style
-set output out
 set xlabel 'time without damping (s)'
 set ylabel 'way of the bottom block (mm)'
 set key left top

@@ -1,13 +1,7 @@
 # the section before it is lost and after: blocks, and the contacts' forces as bars along them
-load style
-set terminal svg size 1000,520 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
-set size ratio -1
-unset grid
+set terminal svg size 1000,520 @page
+@picture
 unset key
-unset tics
-unset border
 set xrange [0:1480]
 set yrange [545:1190]
 set multiplot layout 2,2 margins 0.01, 0.99, 0.01, 0.94 spacing 0.02, 0.08

@@ -1,6 +1,4 @@
 # way of three blocks against the friction of the slide in space: blocks of 160 m
-load style
-set output out
 set xlabel 'friction of the slide (deg)'
 set ylabel 'displacement (m)'
 set xrange [28.1:8.5]

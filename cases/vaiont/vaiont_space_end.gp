@@ -1,12 +1,6 @@
 # the slide in space when it is lost: from above, from the gorge, and cut along its seat
-load style
-set terminal svg size 1000,700 dynamic background rgb 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13' \
-    linewidth 1 enhanced
-set output out
-set size ratio -1
-unset border
-unset tics
-unset grid
+set terminal svg size 1000,700 @page
+@picture
 unset key
 set multiplot
 set lmargin at screen 0.01

@@ -146,7 +146,7 @@ void write_blocks(const Model<2>& model, const std::string& file, bool fixed) {
   if (!out) throw std::runtime_error("cannot write " + file);
 }
 
-TEST(Vaiont, DrawsItsBlocks) {
+TEST(VaiontFigure, HasItsBlocks) {
   const LimitAnalysis analysis = analyse("beds_80.toml", {});
   write_blocks(analysis.model, "fixed.csv", true);
   write_blocks(analysis.model, "free.csv", false);

@@ -1,6 +1,4 @@
 # critical friction of the slide against the height of the water
-load style
-set output out
 set xlabel 'water above the seat (m)'
 set ylabel 'critical friction of the slide (deg)'
 set xrange [-2:232]

@@ -1,6 +1,4 @@
 # critical friction of the plane failure as its crack fills
-load style
-set output out
 set xlabel 'water in the crack, of its depth'
 set ylabel 'critical friction (deg)'
 set xrange [-0.02:1.02]

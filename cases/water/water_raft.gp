@@ -1,6 +1,4 @@
 # a raft that was pushed: heave and roll
-load style
-set output out
 set multiplot layout 2,1
 set xrange [0:12]
 set ylabel 'heave (mm)'

@@ -1,6 +1,4 @@
 # plastic slip of the block whose contact rings
-load style
-set output out
 set xlabel 'time since gravity doubled (s)'
 set ylabel 'plastic slip (mm)'
 set xrange [0:1]

@@ -1,6 +1,4 @@
 # the stiffer the joints of the wedge in shear, the lower the angle, under 1 kPa as in air
-load style
-set output out
 set logscale x
 set xlabel 'shear stiffness over normal stiffness'
 set ylabel 'critical friction (deg)'

@@ -53,7 +53,7 @@ void sweep(const std::string& file, const std::string& scene, const std::vector<
   write_csv("wedge", file, {"evaluations", "error_deg"}, {spent, error});
 }
 
-TEST(WedgeSaving, DrawsErrorAgainstCost) {
+TEST(WedgeSavingFigure, HasErrorAgainstCost) {
   std::vector<std::vector<std::string>> rates, pairs, brackets, damped;
   for (const double rate : {4.0, 2.0, 1.0, 0.5, 0.25, 0.1, 0.025})
     rates.push_back({fmt::format("stage.reduce.rate_deg_per_s={}", rate)});

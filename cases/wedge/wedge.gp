@@ -1,6 +1,4 @@
 # displacement against friction angle, stepwise reduction
-load style
-set output out
 stats 'closed_form.csv' using 1 nooutput name 'critical'
 set xlabel 'friction angle of both joints (deg)'
 set ylabel 'displacement since settling (mm)'

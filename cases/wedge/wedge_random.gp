@@ -1,6 +1,4 @@
 # ten random wedges: computed against closed form
-load style
-set output out
 set xlabel 'closed form (deg)'
 set ylabel 'computed critical friction angle (deg)'
 set xrange [0:90]

@@ -1,6 +1,4 @@
 # what the critical angle costs by each way of looking for it
-load style
-set output out
 set logscale xy
 set xlabel 'contact evaluations'
 set ylabel 'error of the critical angle (deg)'

@@ -1,6 +1,4 @@
 # critical angle against the ratio of shear to normal stiffness
-load style
-set output out
 stats 'closed_form.csv' using 1 nooutput name 'critical'
 set xlabel 'shear stiffness / normal stiffness'
 set ylabel 'critical friction angle (deg)'

@@ -21,11 +21,7 @@ constexpr double errors = 4.5;
 
 template <int Dim>
 Polytope<Dim> box(const Vector<Dim>& low, const Vector<Dim>& high) {
-  HalfSpaces<Dim> planes;
-  for (int k = 0; k < Dim; ++k) {
-    planes.push_back({-Vector<Dim>::Unit(k), -low[k]});
-    planes.push_back({Vector<Dim>::Unit(k), high[k]});
-  }
+  const HalfSpaces<Dim> planes = shapes::box<Dim>(low, high);
   return make_block<Dim>(planes, std::vector<int>(planes.size(), no_joint)).part;
 }
 

@@ -11,8 +11,7 @@
 #include "core/run/checkpoint.hpp"
 #include "core/run/excavate.hpp"
 #include "core/run/history.hpp"
-#include "core/run/simulate.hpp"
-#include "core/scene/scene.hpp"
+#include "core/testing/whole_runs.hpp"
 
 namespace voussoir {
 namespace {
@@ -47,10 +46,6 @@ kind = "settle"
 std::string wall(const std::string& angles, const std::string& more = "") {
   return "[[monitors]]\nname = \"wall\"\nquantities = [\"convergence\"]\nexcavation = \"tunnel\"\nangles_deg = " +
          angles + "\n" + more;
-}
-
-Prepared<2> scene_of(const std::string& text) {
-  return prepare<2>(parse_scene(text, "scene.toml", {}));
 }
 
 int body_at(const Model<2>& model, double x, double y) {

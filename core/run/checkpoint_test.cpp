@@ -5,8 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "core/run/fields.hpp"
-#include "core/run/simulate.hpp"
+#include "core/testing/end_bytes.hpp"
 #include "core/testing/models.hpp"
+#include "core/testing/whole_runs.hpp"
 
 namespace voussoir {
 namespace {
@@ -37,21 +38,8 @@ StagePlan stage(const std::string& name, std::variant<SettlePlan, RunPlan, Reduc
 
 // all that is left at the end but for the clock
 template <int Dim>
-std::string end_of(Progress<Dim> progress) {
-  progress.results.seconds = 0;
-  return bytes_of(progress);
-}
-
-template <int Dim>
 Progress<Dim> through_bytes(const Progress<Dim>& progress) {
   return read_checkpoint<Dim>(checkpoint_bytes(progress, scene_hash), scene_hash);
-}
-
-template <int Dim>
-Progress<Dim> whole_run(const Prepared<Dim>& scene) {
-  Progress<Dim> progress = initial_progress(scene);
-  EXPECT_TRUE(simulate(scene, progress, {}));
-  return progress;
 }
 
 // continues until `count` steps were done in all; true: the scene ended before
@@ -69,7 +57,7 @@ TEST(Checkpoint, EveryStepMayBeTheLastBeforeAnInterruption) {
   Prepared<3> scene = scene_of<3>(model_of<3>(jointed_box({0.05})),
                                   {stage("load", RunPlan{.duration = 2.2e-3, .gravity = {.ramp = 1e-3}}), slide});
   scene.settings.time.step = 2e-5;
-  const Progress<3> whole = whole_run(scene);
+  const Progress<3> whole = simulated(scene);
   const long long steps = whole.state.counters.steps;
   ASSERT_GE(steps, 200);
   const std::string expected = end_of(whole);
@@ -86,7 +74,7 @@ template <int Dim>
 void expect_search_survives(const ReducePlan& plan) {
   const Model<Dim> model = block_on_plate<Dim>(30 * degree, 40 * degree);
   const Prepared<Dim> scene = scene_of<Dim>(model, {stage("settle", SettlePlan{}), stage("reduce", plan)});
-  const Progress<Dim> whole = whole_run(scene);
+  const Progress<Dim> whole = simulated(scene);
   EXPECT_TRUE(whole.results.find(plan.searched == Searched::factor ? "factor_of_safety" : "critical_friction"));
 
   // again and again, at intervals that fit nothing

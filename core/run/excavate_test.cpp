@@ -7,10 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/run/checkpoint.hpp"
-#include "core/run/simulate.hpp"
-#include "core/scene/scene.hpp"
 #include "core/step.hpp"
+#include "core/testing/whole_runs.hpp"
 
 namespace voussoir {
 namespace {
@@ -59,17 +57,6 @@ std::string dig(const std::string& name, const std::string& kind, const std::str
   return "[[stage]]\nname = \"dig\"\nkind = \"" + kind + "\"\nexcavate = [\"" + name + "\"]\n" + more;
 }
 
-Prepared<2> scene_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return prepare<2>(parse_scene(text, "scene.toml", overrides));
-}
-
-Progress<2> simulated(const Prepared<2>& scene) {
-  Progress<2> progress = initial_progress(scene);
-  EXPECT_TRUE(simulate<2>(scene, progress, {}));
-  EXPECT_EQ(progress.results.outcome, Outcome::done) << progress.results.message;
-  return progress;
-}
-
 double sinks(const Progress<2>& progress, int body) {
   return -progress.state.bodies.motions[body].displacement[1];
 }
@@ -114,8 +101,8 @@ TEST(TakeOut, SmallPiecesGo) {
 // A splinter that an outline cuts off and a body holds is no measure of the steps of Newton's method.
 TEST(TakeOut, SplintersThatAreHeldDoNotHoldBackNewton) {
   const std::vector<std::string> newton{"damping.statics=newton"};
-  const Progress<2> plain = simulated(scene_of(wall + settle, newton));
-  const Progress<2> outlined = simulated(
+  const Progress<2> plain = whole_run(scene_of(wall + settle, newton));
+  const Progress<2> outlined = whole_run(
       scene_of(wall + top + settle + dig("top", "settle", ""),
                {"damping.statics=newton", "excavations.top.box.min=[-1, 2.9999]", "stage.dig.excavate=[\"top\"]"}));
   EXPECT_GT(plain.state.counters.static_iterations, 0);
@@ -129,7 +116,7 @@ TEST(TakeOut, WhatIsLeftIsRenewedAndUnloaded) {
   for (const char* statics : {"adaptive", "newton", "local"}) {
     const Prepared<2> scene =
         scene_of(wall + top + settle + dig("top", "settle", ""), {std::string("damping.statics=") + statics});
-    const Progress<2> end = simulated(scene);
+    const Progress<2> end = whole_run(scene);
     const Model<2> dug = apply(scene.model, scene.stages.back().change);
     ASSERT_EQ(dug.bodies.size(), 3u);
     EXPECT_NEAR(dug.bodies[2].mass, 2000 * 3, 1e-9);
@@ -148,12 +135,12 @@ TEST(TakeOut, AShareOfTheForcesGoesOnActing) {
       const std::string first =
           dig("top", "settle", "let_off = { share = " + std::to_string(share) + ", duration_s = 1 }\n");
       const std::vector<std::string> how{std::string("damping.statics=") + statics};
-      const Progress<2> held = simulated(scene_of(wall + top + settle + first, how));
+      const Progress<2> held = whole_run(scene_of(wall + top + settle + first, how));
       const double height = 0.5 + 0.5 * share;
       EXPECT_NEAR(sinks(held, 1), overlap_under(1 + height), 1e-6 * overlap_under(2)) << statics << share;
       EXPECT_NEAR(sinks(held, 2), overlap_under(1 + 2 * height), 1e-6 * overlap_under(2)) << statics << share;
       EXPECT_EQ(held.state.loads.relief.size(), 1u) << "the lower block loses nothing";
-      const Progress<2> gone = simulated(scene_of(wall + top + settle + first + later, how));
+      const Progress<2> gone = whole_run(scene_of(wall + top + settle + first + later, how));
       EXPECT_NEAR(sinks(gone, 1), overlap_under(1.5), 1e-6 * overlap_under(2)) << statics << share;
       EXPECT_LT(gone.results.energy.relative_error(), 1e-3);
     }
@@ -172,7 +159,7 @@ force = [{ name = "push", above = ["bed"], force = [3e4, 0] }]
                                        {"joint_properties.bed.sub_contacts=" + std::to_string(cells)});
     Prepared<2> pushed = scene;
     pushed.stages.pop_back();
-    State<2> state = simulated(pushed).state;
+    State<2> state = whole_run(pushed).state;
     Model<2> model = apply(apply(scene.model, scene.stages[0].change), scene.stages[1].change);
     find_forces(model, scene.settings, state);
     std::vector<Vector<2>> before;  // on the upper block by its contacts, but for that with the middle
@@ -200,7 +187,7 @@ force = [{ name = "push", above = ["bed"], force = [3e4, 0] }]
       ++found;
     }
     EXPECT_EQ(found, 2);
-    simulated(scene);  // and comes to rest
+    whole_run(scene);  // and comes to rest
   }
 }
 
@@ -230,7 +217,7 @@ duration_s = 0.2
 excavate = ["half"]
 )";
   const Prepared<2> scene = scene_of(text);
-  const Progress<2> end = simulated(scene);
+  const Progress<2> end = whole_run(scene);
   const double angle = 3 * 0.1;
   const Vector<2> arm(-std::cos(angle), -std::sin(angle));  // from the old centroid to the new one
   const Vector<2> velocity(1 - 3 * arm[1], 2 + 3 * arm[0]);
@@ -247,22 +234,15 @@ TEST(TakeOut, SurvivesAnInterruption) {
                            dig("gate", "run", "duration_s = 0.02\nlet_off = { share = 0.3 }\n") +
                            "[[stage]]\nname = \"rest\"\nkind = \"settle\"\nexcavate = [\"top\"]\n";
   Prepared<2> scene = scene_of(text);
-  const Progress<2> whole = simulated(scene);
+  const Progress<2> whole = whole_run(scene);
   ASSERT_FALSE(whole.state.loads.relief.empty());
   const long long steps = whole.state.counters.steps;
   for (const double fraction : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
-    Watcher<2> watcher;
-    watcher.pause = [&](const Progress<2>& now) {
-      return now.state.counters.steps == static_cast<long long>(fraction * static_cast<double>(steps));
-    };
-    Progress<2> first = initial_progress(scene);
-    ASSERT_FALSE(simulate(scene, first, watcher));
-    Progress<2> second = read_checkpoint<2>(checkpoint_bytes(first, "hash"), "hash");
-    ASSERT_TRUE(simulate<2>(scene, second, {}));
+    const Progress<2> second = continued(scene, static_cast<long long>(fraction * static_cast<double>(steps)));
     EXPECT_EQ(second.results.state_hash, whole.results.state_hash) << fraction;
   }
   scene.settings.threads = 3;
-  EXPECT_EQ(simulated(scene).results.state_hash, whole.results.state_hash);
+  EXPECT_EQ(whole_run(scene).results.state_hash, whole.results.state_hash);
 }
 
 // Two blocks on a smooth floor pressed together from both sides: what the floor carries is their weight, and what the
@@ -300,7 +280,7 @@ in_situ = { surface = 4, k0 = 0.5 }
 )";
   const Prepared<2> scene = scene_of(text);
   ASSERT_EQ(scene.model.bodies.size(), 4u);
-  const Progress<2> end = simulated(scene);
+  const Progress<2> end = whole_run(scene);
   const Model<2> model = apply(scene.model, scene.stages.front().change);
   EXPECT_EQ(model.boundary.size(), 2u) << "the two upper ones";
   double across = 0, down = 0;  // N/m

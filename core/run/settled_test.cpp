@@ -11,6 +11,7 @@
 #include "core/run/checkpoint.hpp"
 #include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
+#include "core/testing/whole_runs.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -40,10 +41,7 @@ const std::string search =
     "[[stage]]\nname = \"search\"\nkind = \"reduce\"\nfrom_deg = 20\nto_deg = 1\ntolerance_deg = 0.5\n";
 
 Results results_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const Prepared<2> scene = prepare<2>(parse_scene(text, "scene.toml", overrides));
-  Progress<2> progress = initial_progress(scene);
-  EXPECT_TRUE(simulate<2>(scene, progress, {}));
-  return progress.results;
+  return simulated(scene_of(text, overrides)).results;
 }
 
 // A block of 1 m by 1 m that slides on a floor under a gravity that leans, until a wall stops it `gap` away; one on its

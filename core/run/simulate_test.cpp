@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/output/paraview.hpp"
-#include "core/run/checkpoint.hpp"
 #include "core/run/snapshot.hpp"
 #include "core/step/free_fall.hpp"
 #include "core/testing/models.hpp"
+#include "core/testing/whole_runs.hpp"
 
 namespace voussoir {
 namespace {
@@ -57,9 +57,7 @@ ReducePlan reduction_to(double to, ReductionMethod method = ReductionMethod::bis
 
 template <int Dim>
 Results results_of(const Prepared<Dim>& scene, const Watcher<Dim>& watcher = {}) {
-  Progress<Dim> progress = initial_progress(scene);
-  EXPECT_TRUE(simulate(scene, progress, watcher));
-  return progress.results;
+  return simulated(scene, watcher).results;
 }
 
 std::vector<double> column_of(const History& history, const std::string& name) {
@@ -292,12 +290,7 @@ TEST(Bonds, ThatAreDueSurviveAnInterruption) {
     ASSERT_GT(whole.bonds->made, 0);
     ASSERT_GT(whole.bonds->due, 0) << "else nothing is due at the end";
     for (const long long stop : {0, 1, 5, 17, 60, 110}) {
-      Watcher<3> watcher;
-      watcher.pause = [&](const Progress<3>& now) { return now.state.counters.steps == stop; };
-      Progress<3> first = initial_progress(scene);
-      ASSERT_FALSE(simulate(scene, first, watcher));
-      Progress<3> second = read_checkpoint<3>(checkpoint_bytes(first, "hash"), "hash");
-      ASSERT_TRUE(simulate(scene, second, {}));
+      const Progress<3> second = continued(scene, stop);
       EXPECT_EQ(second.results.state_hash, whole.state_hash) << stop;
       EXPECT_EQ(second.results.bonds->made, whole.bonds->made) << stop;
     }

@@ -11,6 +11,7 @@
 
 #include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
+#include "core/testing/whole_runs.hpp"
 
 namespace voussoir {
 namespace {
@@ -83,10 +84,7 @@ struct Columns {
 
 template <int Dim>
 Results results_of(const std::string& text) {
-  const Prepared<Dim> scene = prepare<Dim>(parse_scene(text, "scene.toml"));
-  Progress<Dim> progress = initial_progress(scene);
-  EXPECT_TRUE(simulate(scene, progress, Watcher<Dim>()));
-  return progress.results;
+  return simulated(scene_of<Dim>(text)).results;
 }
 
 const StableState* find(const Results& results, const std::string& stage) {

@@ -6,9 +6,12 @@
 
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_error.hpp"
+#include "core/testing/bad_scenes.hpp"
 
 namespace voussoir {
 namespace {
+
+using bad_scenes::complaint_about;
 
 const std::string rock = R"(
 dimension = 2
@@ -29,22 +32,13 @@ const std::string grouted = "kind = \"grouted\"\naxial_stiffness = 1e8\nbond_sti
 const std::string line = "from = [1, 1]\nto = [1, 3]\n", stiff = "stiffness = 2e8\n",
                   fan = "from_deg = 60, to_deg = 120, spacing_deg = 30, length = 2 }\n";
 
-// the message; empty: the scene is taken
-std::string refusal(const std::string& text) {
-  try {
-    prepare<2>(parse_scene(text, "scene.toml", {}));
-    return {};
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-}
-
 TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
-  EXPECT_EQ(refusal(rock + bolts(line + stiff) + install), "");
-  EXPECT_EQ(refusal(rock + bolts("fan = { centre = [2, 0], start = 1, " + fan + stiff) + install), "");
-  EXPECT_EQ(refusal(rock + bolts(line + grouted) + install), "");
+  EXPECT_EQ(complaint_about(rock + bolts(line + stiff) + install), "");
+  EXPECT_EQ(complaint_about(rock + bolts("fan = { centre = [2, 0], start = 1, " + fan + stiff) + install), "");
+  EXPECT_EQ(complaint_about(rock + bolts(line + grouted) + install), "");
   EXPECT_EQ(
-      refusal(rock + bolts(line + grouted + "plate = \"spring\"\nplate_stiffness = 1e8\npretension = 1e5\n") + install),
+      complaint_about(rock + bolts(line + grouted + "plate = \"spring\"\nplate_stiffness = 1e8\npretension = 1e5\n") +
+                      install),
       "");
   struct Case {
     std::string text, key, says;
@@ -129,7 +123,7 @@ TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
       {stage + "[[monitors]]\nname = \"m\"\nquantities = [\"displacement\"]\nall = true\n", "monitors", "over ="},
   };
   for (const Case& c : cases) {
-    const std::string message = refusal(rock + c.text);
+    const std::string message = complaint_about(rock + c.text);
     EXPECT_NE(message.find("scene.toml:"), std::string::npos) << c.text << message;
     EXPECT_NE(message.find(c.key), std::string::npos) << c.text << message;
     EXPECT_NE(message.find(c.says), std::string::npos) << c.text << "said: " << message;

@@ -6,9 +6,12 @@
 
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_error.hpp"
+#include "core/testing/bad_scenes.hpp"
 
 namespace voussoir {
 namespace {
+
+using bad_scenes::complaint_about;
 
 const std::string rock = R"(
 dimension = 2
@@ -42,22 +45,12 @@ std::string monitor(const std::string& keys) {
   return "[[monitors]]\nname = \"m\"\n" + keys;
 }
 
-// the message; empty: the scene is taken
-std::string refusal(const std::string& text) {
-  try {
-    prepare<2>(parse_scene(text, "scene.toml", {}));
-    return {};
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-}
-
 struct Case {
   std::string text, key, says;
 };
 
 TEST(BadLinings, AreRefusedWithAReasonAndARepair) {
-  ASSERT_EQ(refusal(rock + lining(section) + dig), "");
+  ASSERT_EQ(complaint_about(rock + lining(section) + dig), "");
   const std::vector<Case> cases{
       {lining(section, "tunel") + dig, "excavation", "no excavation has this name; did you mean"},
       {rough + lining(section, "rough") + dig, "excavation", "write outline = true"},
@@ -96,7 +89,7 @@ TEST(BadLinings, AreRefusedWithAReasonAndARepair) {
        "angles_deg", "of a lining"},
   };
   for (const Case& c : cases) {
-    const std::string message = refusal(rock + c.text);
+    const std::string message = complaint_about(rock + c.text);
     EXPECT_NE(message.find("scene.toml:"), std::string::npos) << c.text << message;
     EXPECT_NE(message.find(c.key), std::string::npos) << c.text << message;
     EXPECT_NE(message.find(c.says), std::string::npos) << c.text << "said: " << message;

@@ -6,9 +6,12 @@
 
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_error.hpp"
+#include "core/testing/bad_scenes.hpp"
 
 namespace voussoir {
 namespace {
+
+using bad_scenes::complaint_about;
 
 const std::string rock = R"(
 dimension = 2
@@ -41,20 +44,10 @@ std::string monitor(const std::string& keys) {
 const std::string wall = "quantities = [\"convergence\"]\nexcavation = \"tunnel\"\n",
                   block = "inside = [3.8, 0]\nquantities = [\"displacement\"]\n";
 
-// the message; empty: the scene is taken
-std::string refusal(const std::string& text) {
-  try {
-    prepare<2>(parse_scene(text, "scene.toml", {}));
-    return {};
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-}
-
 TEST(BadMonitors, OfWallsAndOfStagesAreRefusedWithAReasonAndARepair) {
-  EXPECT_EQ(refusal(rock + monitor(wall + "angles_deg = [90, 0]\nsince = \"stress\"")), "");
-  EXPECT_EQ(refusal(rock + monitor(block + "since = \"dig\"")), "");
-  EXPECT_EQ(refusal(rock + monitor(block + "since_start = \"later\"")), "");
+  EXPECT_EQ(complaint_about(rock + monitor(wall + "angles_deg = [90, 0]\nsince = \"stress\"")), "");
+  EXPECT_EQ(complaint_about(rock + monitor(block + "since = \"dig\"")), "");
+  EXPECT_EQ(complaint_about(rock + monitor(block + "since_start = \"later\"")), "");
   struct Case {
     std::string text, key, says;
   };
@@ -88,7 +81,7 @@ TEST(BadMonitors, OfWallsAndOfStagesAreRefusedWithAReasonAndARepair) {
       {monitor("joint = \"bed\"\nquantities = [\"contact_force\"]\nsince = \"dig\""), "since", "contact_force"},
   };
   for (const Case& c : cases) {
-    const std::string message = refusal(rock + c.text);
+    const std::string message = complaint_about(rock + c.text);
     EXPECT_NE(message.find(c.key), std::string::npos) << c.text << message;
     EXPECT_NE(message.find(c.says), std::string::npos) << c.text << message;
     EXPECT_EQ(message.find("scene.toml:"), 0u) << c.text << message;

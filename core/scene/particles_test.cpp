@@ -17,6 +17,7 @@
 #include "core/step.hpp"
 #include "core/step/neighbours.hpp"
 #include "core/testing/counted_allocations.hpp"
+#include "core/testing/end_bytes.hpp"
 #include "core/testing/potential_pairs.hpp"
 
 namespace voussoir {
@@ -269,11 +270,6 @@ std::string heap(bool reversed = false) {
 }
 
 // all that is left at the end but for the clock
-std::string end_of(Progress<3> progress) {
-  progress.results.seconds = 0;
-  return bytes_of(progress);
-}
-
 TEST(Particles, KeepTheirBitsOverThreadsOrderAndInterruptions) {
   const Ran<3> run = whole_run<3>(heap());
   const Counters& counters = run.progress.state.counters;

@@ -11,6 +11,7 @@
 #include "core/run/fields.hpp"
 #include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
+#include "core/testing/whole_runs.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -51,20 +52,14 @@ const std::string flow = "[[stage]]\nname = \"rise\"\nkind = \"run\"\nduration_s
 const std::string rise = "water = [{ name = \"lake\", table = [[-1, 1], [0, 1.5], [1, 1.2]], duration_s = 0.01 }]\n";
 
 Prepared<2> prepared(const std::string& stages, const std::vector<std::string>& overrides = {}) {
-  return prepare<2>(parse_scene(stack + stages, "scene.toml", overrides));
-}
-
-Progress<2> done(const Prepared<2>& scene) {
-  Progress<2> progress = initial_progress(scene);
-  simulate<2>(scene, progress, {});
-  return progress;
+  return scene_of(stack + stages, overrides);
 }
 
 TEST(WaterOfAScene, ChangesAsItsStagesSay) {
   const Prepared<2> scene = prepared(settle + flow + rise);
   // the level has the points of the table that it becomes
   EXPECT_EQ(scene.model.waters[0].values.size(), 6u);
-  const Progress<2> progress = done(scene);
+  const Progress<2> progress = simulated(scene);
   ASSERT_EQ(progress.results.outcome, Outcome::done) << progress.results.message;
   const auto value = [&](const char* name) { return progress.results.find(name)->value; };
   EXPECT_DOUBLE_EQ(value("lake_level_1"), 1);
@@ -82,11 +77,11 @@ TEST(WaterOfAScene, ChangesAsItsStagesSay) {
 TEST(WaterOfAScene, GivesTheSameBitsForThreadsAndAfterAPause) {
   for (const std::string& stages :
        {settle + flow + rise, settle + "[[stage]]\nname = \"up\"\nkind = \"settle\"\n" + rise}) {
-    const std::string once = bytes_of(done(prepared(stages)).state);
-    EXPECT_EQ(bytes_of(done(prepared(stages, {})).state), once);
+    const std::string once = bytes_of(simulated(prepared(stages)).state);
+    EXPECT_EQ(bytes_of(simulated(prepared(stages, {})).state), once);
     Prepared<2> threads = prepared(stages);
     threads.settings.threads = 3;
-    EXPECT_EQ(bytes_of(done(threads).state), once);
+    EXPECT_EQ(bytes_of(simulated(threads).state), once);
 
     const Prepared<2> scene = prepared(stages);
     Progress<2> progress = initial_progress(scene);
@@ -115,8 +110,8 @@ TEST(WaterOfAScene, IsKnownToTheHash) {
 // Newton's method comes to the same rest as relaxation, by itself, in increments of the level
 TEST(WaterOfAScene, IsMetByNewtonsMethod) {
   const std::string up = settle + "[[stage]]\nname = \"up\"\nkind = \"settle\"\n" + rise;
-  const Progress<2> relaxed = done(prepared(up));
-  const Progress<2> newton = done(prepared(up, {"damping.statics=newton", "damping.increments=3"}));
+  const Progress<2> relaxed = simulated(prepared(up));
+  const Progress<2> newton = simulated(prepared(up, {"damping.statics=newton", "damping.increments=3"}));
   ASSERT_EQ(newton.results.outcome, Outcome::done) << newton.results.message;
   EXPECT_GT(newton.state.counters.static_iterations, 0);
   EXPECT_EQ(newton.state.counters.static_fallbacks, 0);
@@ -191,9 +186,9 @@ TEST(WaterOfAScene, AtABendPushesInRunAndSearch) {
                              "5\ntolerance_deg = 0.1\nfailure_displacement = 1e-3\n";
   for (const Table& table : {bent_tables[0], bent_tables[1], bent_tables[3]}) {
     const std::string scene = cracked + water_text(table, "\"crack\"");
-    const Progress<2> run = done(prepare<2>(parse_scene(scene + instant, "scene.toml")));
+    const Progress<2> run = simulated(prepare<2>(parse_scene(scene + instant, "scene.toml")));
     EXPECT_NEAR(run.results.find("m_water_load_x")->value, -5000, 1e-3);
-    const Progress<2> search = done(prepare<2>(parse_scene(scene + reduce, "scene.toml")));
+    const Progress<2> search = simulated(prepare<2>(parse_scene(scene + reduce, "scene.toml")));
     ASSERT_EQ(search.results.outcome, Outcome::done) << search.results.message;
     // the bracket, and 1 mm of slip out of the water, which takes 0.2 % of its thrust
     EXPECT_NEAR(search.results.find("critical_friction")->value, std::atan(0.25) / degree, 0.1 + 0.03);

@@ -22,13 +22,7 @@ namespace {
 
 template <int Dim>
 HalfSpaces<Dim> box(const Vector<Dim>& middle, const Vector<Dim>& half) {
-  HalfSpaces<Dim> planes;
-  for (int k = 0; k < Dim; ++k)
-    for (const double sign : {1.0, -1.0}) {
-      const Vector<Dim> normal = sign * Vector<Dim>::Unit(k);
-      planes.push_back({normal, normal.dot(middle) + half[k]});
-    }
-  return planes;
+  return shapes::box<Dim>(middle - half, middle + half);
 }
 
 // a bounded region around the origin: a box and planes of any direction

@@ -6,33 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "core/run/checkpoint.hpp"
-#include "core/run/simulate.hpp"
-#include "core/scene/scene.hpp"
 #include "core/stage/install_bolts.hpp"
 #include "core/step.hpp"
 #include "core/step/bolt_forces.hpp"
+#include "core/testing/hung_slab.hpp"
 #include "core/testing/shapes.hpp"
+#include "core/testing/whole_runs.hpp"
 
 namespace voussoir {
 namespace {
 
-// A fixed roof, and under it a block of 4 m by 1 m that nothing else holds.
-const std::string slab = R"(
-dimension = 2
-gravity = [0, -10]
-density = 2500
-domain = { box = { min = [0, 0], max = [4, 3] } }
-equilibrium = { unbalanced = 1e-9 }
-joint_properties = [{ name = "bed", normal_stiffness = 1e9, shear_stiffness = 5e8, friction_deg = 40, sub_contacts = 2 }]
-[[joints]]
-name = "bed"
-dip = 0
-point = [0, 1]
-[[fix]]
-above = ["bed"]
-)";
-constexpr double weight = 4 * 2500 * 10;  // N/m
+using hung_slab::hang;
+using hung_slab::slab;
+using hung_slab::stage;
+using hung_slab::weight;
+
 constexpr double axial = 1e8, bond = 1e9;
 
 std::string bolts(const std::string& more, const std::string& name = "roof") {
@@ -41,23 +29,6 @@ std::string bolts(const std::string& more, const std::string& name = "roof") {
 }
 // three of them, upright, 2 m long
 const std::string row = "from = [1, 0]\nto = [1, 2]\nrepeat = [{ step = [1, 0], count = 3 }]\n";
-
-std::string stage(const std::string& more, const std::string& name = "settle") {
-  return "[[stage]]\nname = \"" + name + "\"\nkind = \"settle\"\n" + more + "\n";
-}
-const std::string hang = stage("gravity_ramp_s = 1\ninstall = [\"roof\"]");
-
-template <int Dim = 2>
-Prepared<Dim> scene_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return prepare<Dim>(parse_scene(text, "scene.toml", overrides));
-}
-
-template <int Dim>
-Progress<Dim> simulated(const Prepared<Dim>& scene) {
-  Progress<Dim> progress = initial_progress(scene);
-  EXPECT_TRUE(simulate<Dim>(scene, progress, {}));
-  return progress;
-}
 
 // over a joint at the middle of 2 m: of each half √(EA k) tanh(l √(k/EA))
 double joint_stiffness() {
@@ -390,14 +361,7 @@ void expect_same_bits(const std::string& statics) {
             whole.results.state_hash);
   const double steps = static_cast<double>(whole.state.counters.steps);
   for (const double fraction : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
-    Watcher<2> watcher;
-    watcher.pause = [&](const Progress<2>& now) {
-      return now.state.counters.steps == static_cast<long long>(fraction * steps);
-    };
-    Progress<2> first = initial_progress(scene);
-    ASSERT_FALSE(simulate(scene, first, watcher));
-    Progress<2> second = read_checkpoint<2>(checkpoint_bytes(first, "hash"), "hash");
-    ASSERT_TRUE(simulate<2>(scene, second, {}));
+    const Progress<2> second = continued(scene, static_cast<long long>(fraction * steps));
     EXPECT_EQ(second.results.state_hash, whole.results.state_hash) << fraction;
     EXPECT_EQ(second.results.bolts.size(), whole.results.bolts.size());
   }

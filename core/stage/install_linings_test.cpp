@@ -8,31 +8,23 @@
 #include <string>
 #include <vector>
 
-#include "core/run/checkpoint.hpp"
-#include "core/run/simulate.hpp"
 #include "core/step.hpp"
 #include "core/step/lining_forces.hpp"
 #include "core/step/tangent.hpp"
 #include "core/step/time_step.hpp"
 #include "core/testing/dense.hpp"
 #include "core/testing/lined_opening.hpp"
+#include "core/testing/whole_runs.hpp"
 
 namespace voussoir {
 namespace {
 
 using namespace lined_opening;
 
-Progress<2> simulated(const Prepared<2>& scene) {
-  Progress<2> progress = initial_progress(scene);
-  EXPECT_TRUE(simulate<2>(scene, progress, {}));
-  EXPECT_EQ(progress.results.outcome, Outcome::done) << progress.results.message;
-  return progress;
-}
-
 // The forces of the rock on a ring, and of the ring on the rock, balance the ring's weight.
 TEST(Linings, HangInTheRockWithTheirWeight) {
   const Prepared<2> scene = scene_of(rock + held + shell + dig);
-  const Progress<2> done = simulated(scene);
+  const Progress<2> done = whole_run(scene);
   EXPECT_LT(done.results.energy.relative_error(), 0.01);
   ASSERT_EQ(done.results.linings.size(), 48u);
   Vector<2> of_rock = Vector<2>::Zero();
@@ -67,8 +59,8 @@ TEST(Linings, RestTheSameByNewtonsMethod) {
                                           "joint_properties.contact.friction_deg=89", "linings.shell.density=1"};
   std::vector<std::string> by_newton = stick;
   by_newton.push_back("stage.line.damping={ statics = \"newton\" }");
-  const Progress<2> relaxed = simulated(scene_of(rock + held + shell + dig, stick));
-  const Progress<2> newton = simulated(scene_of(rock + held + shell + dig, by_newton));
+  const Progress<2> relaxed = whole_run(scene_of(rock + held + shell + dig, stick));
+  const Progress<2> newton = whole_run(scene_of(rock + held + shell + dig, by_newton));
   EXPECT_GT(newton.results.counters.static_iterations, 0);
   EXPECT_EQ(newton.results.counters.static_fallbacks, 0);
   double largest = 0;
@@ -82,21 +74,15 @@ TEST(Linings, RestTheSameByNewtonsMethod) {
 // What is interrupted, has three threads or states its tables in another order ends in the same bits.
 TEST(Linings, KeepTheirBits) {
   const Prepared<2> scene = scene_of(rock + held + shell + dig);
-  const Progress<2> whole = simulated(scene);
+  const Progress<2> whole = whole_run(scene);
   for (const double part : {0.4, 0.8, 0.95}) {
     const auto until = static_cast<long long>(part * static_cast<double>(whole.state.counters.steps));
-    Progress<2> progress = initial_progress(scene);
-    Watcher<2> watcher;
-    watcher.pause = [&](const Progress<2>& now) { return now.state.counters.steps >= until; };
-    EXPECT_FALSE(simulate<2>(scene, progress, watcher));
-    Progress<2> resumed = read_checkpoint<2>(checkpoint_bytes(progress, "scene"), "scene");
-    EXPECT_TRUE(simulate<2>(scene, resumed, {}));
-    EXPECT_EQ(resumed.results.state_hash, whole.results.state_hash) << part;
+    EXPECT_EQ(continued(scene, until).results.state_hash, whole.results.state_hash) << part;
   }
-  EXPECT_EQ(simulated(scene_of(rock + dig + shell + held)).results.state_hash, whole.results.state_hash);
+  EXPECT_EQ(whole_run(scene_of(rock + dig + shell + held)).results.state_hash, whole.results.state_hash);
   Prepared<2> threads = scene;
   threads.settings.threads = 3;
-  EXPECT_EQ(simulated(threads).results.state_hash, whole.results.state_hash);
+  EXPECT_EQ(whole_run(threads).results.state_hash, whole.results.state_hash);
 }
 
 // Bolts that the same stage installs look for their blocks among the bodies of the lining, too: they carry what they do
@@ -111,11 +97,11 @@ TEST(Linings, AreInstalledTogetherWithBolts) {
     return stage("line", "install = [" + names + "]\nlet_off = { share = 0, duration_s = 1 }");
   };
   const std::string support = held + shell + left + right;
-  const Progress<2> together = simulated(scene_of(rock + support + dug + last(R"("roof", "shell", "right")")));
+  const Progress<2> together = whole_run(scene_of(rock + support + dug + last(R"("roof", "shell", "right")")));
   const Progress<2> reordered =
-      simulated(scene_of(rock + right + left + shell + held + dug + last(R"("shell", "right", "roof")")));
+      whole_run(scene_of(rock + right + left + shell + held + dug + last(R"("shell", "right", "roof")")));
   const Progress<2> before =
-      simulated(scene_of(rock + support + dug + stage("bolt", R"(install = ["right", "roof"])") + last(R"("shell")")));
+      whole_run(scene_of(rock + support + dug + stage("bolt", R"(install = ["right", "roof"])") + last(R"("shell")")));
   EXPECT_EQ(reordered.results.state_hash, together.results.state_hash);
   ASSERT_EQ(together.state.supports.bolt_springs.size(), 2u);
   ASSERT_EQ(before.state.supports.bolt_springs.size(), 2u);
@@ -140,7 +126,7 @@ TEST(Linings, AreCastWithoutForce) {
 
 // Bodies that follow count their paths from 0 again: what a pair may skip until some path is forgotten, too.
 TEST(Linings, LetNoPairBeSkippedForAnOldPath) {
-  const Progress<2> before = simulated(scene_of(rock + held + stage("weight", "gravity_ramp_s = 1")));
+  const Progress<2> before = whole_run(scene_of(rock + held + stage("weight", "gravity_ramp_s = 1")));
   Cast cast;
   State<2> state = before.state;
   for (Contact<2>& contact : state.contacts.list)
@@ -278,7 +264,7 @@ TEST(Linings, LoseTheRockThatIsTakenOut) {
   const std::string more =
       "[[excavations]]\nname = \"cross\"\noutline = true\nbox = { min = [0.5, -1], max = [11, 1] }\n";
   const Progress<2> done =
-      simulated(scene_of(rock + more + held + shell + dig + stage("cross", "excavate = [\"cross\"]")));
+      whole_run(scene_of(rock + more + held + shell + dig + stage("cross", "excavate = [\"cross\"]")));
   const LiningState& lined = done.state.supports.linings.front();
   const int without = nodes_without_rock(lined);
   EXPECT_GT(without, 2);

@@ -7,12 +7,11 @@
 #include <numbers>
 
 #include "core/load/time_factor.hpp"
-#include "core/run/checkpoint.hpp"
-#include "core/run/fields.hpp"
-#include "core/run/simulate.hpp"
 #include "core/step/integrate.hpp"
 #include "core/step/time_step.hpp"
+#include "core/testing/end_bytes.hpp"
 #include "core/testing/models.hpp"
+#include "core/testing/whole_runs.hpp"
 
 namespace voussoir {
 namespace {
@@ -276,14 +275,7 @@ Prepared<3> shaken() {
   return scene_of(model, initial_state(model), {run_of(12e-3, {sine, jack}), run_of(4e-3, {})});
 }
 
-template <int Dim>
-std::string end_of(Progress<Dim> progress) {
-  progress.results.seconds = 0;  // all that is left at the end but for the clock
-  return bytes_of(progress);
-}
-
 TEST(AppliedForces, GoOnFromACheckpoint) {
-  const std::string hash = "fnv1a64:0123456789abcdef";
   const Prepared<3> scene = shaken();
   Progress<3> whole = initial_progress(scene);
   ASSERT_TRUE(simulate(scene, whole, {}));
@@ -293,13 +285,7 @@ TEST(AppliedForces, GoOnFromACheckpoint) {
   ASSERT_GT(steps, 50);
   const std::string expected = end_of(whole);
   for (long long k = 1; k < steps; k += std::max(1LL, steps / 20)) {
-    Progress<3> first = initial_progress(scene);
-    Watcher<3> watcher;
-    watcher.pause = [k](const Progress<3>& p) { return p.state.counters.steps >= k; };
-    ASSERT_FALSE(simulate(scene, first, watcher));
-    Progress<3> second = read_checkpoint<3>(checkpoint_bytes(first, hash), hash);
-    ASSERT_TRUE(simulate(scene, second, {}));
-    ASSERT_TRUE(end_of(second) == expected) << "interrupted after step " << k << " of " << steps;
+    ASSERT_TRUE(end_of(continued(scene, k)) == expected) << "interrupted after step " << k << " of " << steps;
   }
 }
 

@@ -6,10 +6,9 @@
 
 #include <algorithm>
 
-#include "core/run/checkpoint.hpp"
-#include "core/run/fields.hpp"
-#include "core/run/simulate.hpp"
+#include "core/testing/end_bytes.hpp"
 #include "core/testing/models.hpp"
+#include "core/testing/whole_runs.hpp"
 
 namespace voussoir {
 namespace {
@@ -51,14 +50,6 @@ Prepared<Dim> scene_of(const Model<Dim>& model, std::vector<StagePlan> stages, d
   scene.settings.damping.local = 0;
   scene.settings.time.step = step;
   return scene;
-}
-
-template <int Dim>
-Progress<Dim> whole_run(const Prepared<Dim>& scene) {
-  Progress<Dim> progress = initial_progress(scene);
-  EXPECT_TRUE(simulate(scene, progress, {}));
-  EXPECT_EQ(progress.results.outcome, Outcome::done) << progress.results.message;
-  return progress;
 }
 
 TEST(TimeFactor, IsLinearBetweenItsTimesAndTimesASine) {
@@ -251,26 +242,14 @@ TEST(Prescribed, EndsWithItsStage) {
 }
 
 // all that is left at the end but for the clock
-std::string end_of(Progress<2> progress) {
-  progress.results.seconds = 0;
-  return bytes_of(progress);
-}
-
 TEST(Prescribed, GoesOnFromACheckpoint) {
-  const std::string hash = "fnv1a64:0123456789abcdef";
   const Model<2> model = block_on_plate<2>(0, 35 * degree);
   const TimeFactor factor{.times = {0, 0.01}, .factors = {0, 1}, .frequency = 30, .phase = 0.3};
   const Prepared<2> scene =
       scene_of(model, {run_of("shake", 0.02, {move_of<2>("plate", 0, 0.3, factor)}), run_of("rest", 0.005)}, 1e-4);
   const std::string expected = end_of(whole_run(scene));
   for (long long k = 0; k < 250; k += 7) {
-    Progress<2> first = initial_progress(scene);
-    Watcher<2> watcher;
-    watcher.pause = [k](const Progress<2>& p) { return p.state.counters.steps >= k; };
-    ASSERT_FALSE(simulate(scene, first, watcher));
-    Progress<2> second = read_checkpoint<2>(checkpoint_bytes(first, hash), hash);
-    ASSERT_TRUE(simulate(scene, second, {}));
-    ASSERT_TRUE(end_of(second) == expected) << "interrupted after step " << k;
+    ASSERT_TRUE(end_of(continued(scene, k)) == expected) << "interrupted after step " << k;
   }
 }
 

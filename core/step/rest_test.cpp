@@ -12,6 +12,7 @@
 #include "core/step/integrate.hpp"
 #include "core/testing/lined_opening.hpp"
 #include "core/testing/models.hpp"
+#include "core/testing/whole_runs.hpp"
 
 namespace voussoir {
 namespace {
@@ -97,10 +98,7 @@ TEST(Rest, IsMeasuredAgainstTheLargestMeanOfWhatActs) {
 
 template <int Dim>
 Progress<Dim> run_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const Prepared<Dim> scene = prepare<Dim>(parse_scene(text, "scene.toml", overrides));
-  Progress<Dim> progress = initial_progress(scene);
-  EXPECT_TRUE(simulate<Dim>(scene, progress, {}));
-  return progress;
+  return simulated(scene_of<Dim>(text, overrides));
 }
 
 // A slab that hangs in the roof of an opening, by the forces of the rock that was below it, then by two bolts.
@@ -196,7 +194,7 @@ water = [{{ name = "seep", pressure = {:.17g}, duration_s = 0.1 }}]
 // A lining that its rock leaves on all sides has nothing to rest on.
 TEST(Rest, IsNotAwaitedOfALiningThatHasLeftItsRock) {
   const Prepared<2> prepared =
-      lined_opening::scene_of(lined_opening::rock + lined_opening::held + lined_opening::shell + lined_opening::dig);
+      scene_of(lined_opening::rock + lined_opening::held + lined_opening::shell + lined_opening::dig);
   Progress<2> progress = initial_progress(prepared);
   ASSERT_TRUE(simulate<2>(prepared, progress, {}));
   ASSERT_EQ(progress.results.outcome, Outcome::done) << progress.results.message;

@@ -10,12 +10,11 @@
 #include "core/base/on_threads.hpp"
 #include "core/joint_laws/joint_law.hpp"
 #include "core/model/state_hash.hpp"
-#include "core/run/checkpoint.hpp"
-#include "core/run/fields.hpp"
 #include "core/run/run.hpp"
 #include "core/run/simulate.hpp"
 #include "core/step/loads.hpp"
 #include "core/testing/models.hpp"
+#include "core/testing/whole_runs.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -396,18 +395,11 @@ TEST(Newton, EveryEvaluationMayBeTheLastBeforeAnInterruption) {
   settle.name = "settle";
   settle.plan = SettlePlan{.gravity = {.ramp = 1}};
   scene.stages.push_back(settle);
-  Progress<2> whole = initial_progress(scene);
-  ASSERT_TRUE(simulate(scene, whole, {}));
+  const Progress<2> whole = simulated(scene);
   const long long steps = whole.state.counters.steps;
   ASSERT_GT(whole.state.counters.static_iterations, 3);
   for (long long k = 0; k < steps; ++k) {
-    Watcher<2> watcher;
-    watcher.pause = [k](const Progress<2>& p) { return p.state.counters.steps >= k; };
-    Progress<2> first = initial_progress(scene);
-    ASSERT_FALSE(simulate(scene, first, watcher));
-    Progress<2> second = read_checkpoint<2>(checkpoint_bytes(first, "scene"), "scene");
-    ASSERT_TRUE(simulate(scene, second, {}));
-    EXPECT_EQ(second.results.state_hash, whole.results.state_hash) << "interrupted after step " << k;
+    EXPECT_EQ(continued(scene, k).results.state_hash, whole.results.state_hash) << "interrupted after step " << k;
   }
 }
 

@@ -15,10 +15,6 @@ constexpr double converged = 1e-22;
 // below this decrement Newton's full step converges quadratically
 constexpr double full_step = 0.25;
 
-Quad product(const QuadVector& a, const QuadVector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 // Seen from the start, which is subtracted before anything is rounded: slacks have all their digits, however thin the
 // region is.
 struct Barrier {
@@ -33,7 +29,7 @@ struct Barrier {
       slacks.push_back(to_quad(p.offset - dot(p.normal, start)));
     }
   }
-  Quad slack(std::size_t i, const QuadVector& x) const { return slacks[i] - product(normals[i], x); }
+  Quad slack(std::size_t i, const QuadVector& x) const { return slacks[i] - dot(normals[i], x); }
 };
 
 // H y = g by Gaussian elimination with pivots on the diagonal: H is positive definite
@@ -81,8 +77,8 @@ struct Newton {
   Quad length(const QuadVector& y) const {
     QuadVector hy;
     for (int k = 0; k < 3; ++k)
-      hy[k] = product(hessian[k], y);
-    return root(product(y, hy));
+      hy[k] = dot(hessian[k], y);
+    return root(dot(y, hy));
   }
 };
 
@@ -119,8 +115,8 @@ QuadVector potential_direction(const Barrier& barrier, int first, int last, cons
     for (int k = 0; k < 3; ++k)
       sum[k] += barrier.weights[i] * depth * barrier.normals[i][k];
   }
-  if (product(sum, sum) == 0) sum = barrier.normals[nearest];
-  const Quad length = root(product(sum, sum));
+  if (dot(sum, sum) == 0) sum = barrier.normals[nearest];
+  const Quad length = root(dot(sum, sum));
   for (Quad& s : sum)
     s /= length;
   return sum;
@@ -170,7 +166,7 @@ std::optional<ConvergedContact> converged_contact(const Planes& planes, int face
                    of_b = potential_direction(barrier, faces_a, faces_a + faces_b, *centre, radius);
   for (int k = 0; k < 3; ++k)
     result.normal[k] = of_a[k] - of_b[k];
-  const Quad length = root(product(result.normal, result.normal));
+  const Quad length = root(dot(result.normal, result.normal));
   if (!(length > 0)) return result;
   Point point, normal;
   for (int k = 0; k < 3; ++k) {

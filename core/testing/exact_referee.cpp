@@ -1,4 +1,4 @@
-// The exact referee's sections, solids and 113-bit answers.
+// The exact referee's planes, sections and solids.
 #include "core/testing/exact_referee.hpp"
 
 #include <algorithm>
@@ -21,27 +21,6 @@ Point point_of(const Vector<2>& v) {
 
 namespace {
 
-// ---- 113 bits -------------------------------------------------------------------------------------------------------
-
-Quad quad(const Rational& q) {
-  // three doubles hold 159 bits
-  mpf_class rest(q, 256);
-  Quad sum = 0;
-  for (int part = 0; part < 3; ++part) {
-    const double leading = rest.get_d();
-    sum += leading;
-    rest -= leading;
-  }
-  return sum;
-}
-
-QuadVector quads(const Vector<3>& v) {
-  return {v[0], v[1], v[2]};
-}
-using exact::dot;
-Quad dot(const QuadVector& a, const QuadVector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 QuadVector cross(const QuadVector& a, const QuadVector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -284,18 +263,19 @@ Section section(const Planes& planes, const Point& point, const Point& n) {
   if (polygon.size() < 3) return {};
   std::vector<std::array<Quad, 2>> corner;
   for (const Corner& c : polygon)
-    corner.push_back({quad(c.u / c.w - polygon[0].u / polygon[0].w), quad(c.v / c.w - polygon[0].v / polygon[0].w)});
+    corner.push_back(
+        {to_quad(c.u / c.w - polygon[0].u / polygon[0].w), to_quad(c.v / c.w - polygon[0].v / polygon[0].w)});
   Quad twice = 0;
   for (std::size_t k = 1; k + 1 < corner.size(); ++k)
     twice += corner[k][0] * corner[k + 1][1] - corner[k][1] * corner[k + 1][0];
-  const Quad length = root(quad(dot(n, n)));
-  Section result{(twice < 0 ? -twice : twice) / 2 * length / quad(abs(n[chart.k])), 0};
+  const Quad length = root(to_quad(dot(n, n)));
+  Section result{(twice < 0 ? -twice : twice) / 2 * length / to_quad(abs(n[chart.k])), 0};
   // in the chart an edge moves by |n_k|/|(α, β)| when its plane moves by 1, and areas are stretched by |n|/|n_k|
   for (std::size_t k = 0; k < corner.size(); ++k) {
     const Line& line = lines[polygon[k].second];
     const auto &here = corner[k], &next = corner[(k + 1) % corner.size()];
     const Quad u = next[0] - here[0], v = next[1] - here[1];
-    const Quad slope = quad(line.alpha * line.alpha + line.beta * line.beta);
+    const Quad slope = to_quad(line.alpha * line.alpha + line.beta * line.beta);
     result.sensitivity += root((u * u + v * v) / slope) * length;
   }
   return result;
@@ -318,7 +298,7 @@ IntegratedContact pressed_face(const Planes& planes, int face_a, int face_b) {
   const Polygon polygon = clipped_section(chart, sides, rounded_planes(sides), -1, lines);
   if (polygon.size() < 3) return {};
 
-  const Quad length = root(quad(dot(mean.normal, mean.normal)));
+  const Quad length = root(to_quad(dot(mean.normal, mean.normal)));
   std::vector<QuadVector> corner;  // from the first
   std::vector<Quad> overlap;
   const Point first = chart.lift(polygon[0]);
@@ -326,15 +306,15 @@ IntegratedContact pressed_face(const Planes& planes, int face_a, int face_b) {
   IntegratedContact face;
   for (const Corner& c : polygon) {
     const Point x = chart.lift(c);
-    overlap.push_back(quad(open.offset - dot(open.normal, x)) / (length / 2));
-    corner.push_back({quad(x[0] - first[0]), quad(x[1] - first[1]), quad(x[2] - first[2])});
+    overlap.push_back(to_quad(open.offset - dot(open.normal, x)) / (length / 2));
+    corner.push_back({to_quad(x[0] - first[0]), to_quad(x[1] - first[1]), to_quad(x[2] - first[2])});
     face.extent = std::max(face.extent, root(dot(corner.back(), corner.back())));
     // a line of the chart holds two components of the cross product of both planes' normals
     const Line& line = lines[c.second];
     if (line.alpha == pressed_edge.alpha && line.beta == pressed_edge.beta) continue;
     const Point& n = mean.normal;
     const Rational third = (n[chart.i] * line.beta - n[chart.j] * line.alpha) / n[chart.k];
-    const Quad sine = root(quad(line.alpha * line.alpha + line.beta * line.beta + third * third)) / length;
+    const Quad sine = root(to_quad(line.alpha * line.alpha + line.beta * line.beta + third * third)) / length;
     face.least_sine = std::min(face.least_sine, sine);
   }
   QuadVector moment{}, pressed{};
@@ -354,8 +334,8 @@ IntegratedContact pressed_face(const Planes& planes, int face_a, int face_b) {
   if (!(face.area > 0) || !(face.volume > 0)) return {};
   face.polar = second - dot(moment, moment) / face.area;
   for (int i = 0; i < 3; ++i) {
-    face.centre[i] = quad(first[i]) + moment[i] / face.area;
-    face.pressure[i] = quad(first[i]) + pressed[i] / face.volume;
+    face.centre[i] = to_quad(first[i]) + moment[i] / face.area;
+    face.pressure[i] = to_quad(first[i]) + pressed[i] / face.volume;
   }
   return face;
 }
@@ -394,7 +374,7 @@ Solid solid(const Planes& planes) {
   for (const std::vector<Point>& facet : facets) {
     std::vector<QuadVector> v;
     for (const Point& p : facet) {
-      v.push_back({quad(p[0] - middle[0]), quad(p[1] - middle[1]), quad(p[2] - middle[2])});
+      v.push_back({to_quad(p[0] - middle[0]), to_quad(p[1] - middle[1]), to_quad(p[2] - middle[2])});
       result.corners.push_back({p[0].get_d(), p[1].get_d(), p[2].get_d()});
     }
     for (std::size_t t = 1; t + 1 < v.size(); ++t) {
@@ -412,89 +392,11 @@ Solid solid(const Planes& planes) {
   }
   if (!(result.volume > 0)) return result;
   for (int i = 0; i < 3; ++i) {
-    result.centroid[i] = quad(middle[i]) + first[i] / result.volume;
+    result.centroid[i] = to_quad(middle[i]) + first[i] / result.volume;
     for (int j = 0; j < 3; ++j)
       result.second_moment[i][j] = about_middle[i][j] - first[i] * first[j] / result.volume;
   }
   return result;
-}
-
-Centre centre(const HalfSpaces<3>& planes, const Vector<3>& point) {
-  Centre result;
-  const QuadVector x = quads(point);
-  QuadVector gradient{};
-  std::array<QuadVector, 3> hessian{};
-  for (const HalfSpace<3>& p : planes) {
-    const QuadVector a = quads(p.normal);
-    const Quad slack = Quad(p.offset) - dot(a, x);
-    if (!(slack > 0)) return result;
-    for (int i = 0; i < 3; ++i) {
-      gradient[i] += a[i] / slack;
-      for (int j = 0; j < 3; ++j)
-        hessian[i][j] += a[i] * a[j] / (slack * slack);
-    }
-  }
-  result.interior = true;
-  // gᵀ H⁻¹ g by Gaussian elimination with pivots on the diagonal: H is positive definite
-  std::array<bool, 3> done{};
-  for (int round = 0; round < 3; ++round) {
-    int pivot = -1;
-    for (int i = 0; i < 3; ++i)
-      if (!done[i] && (pivot < 0 || hessian[i][i] > hessian[pivot][pivot])) pivot = i;
-    done[pivot] = true;
-    if (!(hessian[pivot][pivot] > 0)) throw std::logic_error("113 bits do not resolve the region");
-    result.decrement += gradient[pivot] * gradient[pivot] / hessian[pivot][pivot];
-    for (int i = 0; i < 3; ++i) {
-      if (done[i]) continue;
-      const Quad factor = hessian[i][pivot] / hessian[pivot][pivot];
-      gradient[i] -= factor * gradient[pivot];
-      for (int j = 0; j < 3; ++j)
-        if (!done[j]) hessian[i][j] -= factor * hessian[pivot][j];
-    }
-  }
-  result.decrement = root(result.decrement);
-  return result;
-}
-
-Normal contact_normal(const HalfSpaces<3>& planes, int faces_a, const Vector<3>& point, double radius) {
-  const QuadVector x = quads(point);
-  std::array<QuadVector, 2> gradient{};
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    const QuadVector a = quads(planes[i].normal);
-    const Quad depth = dot(a, x) - Quad(planes[i].offset) + Quad(radius);
-    if (!(depth > 0)) continue;
-    for (int k = 0; k < 3; ++k)
-      gradient[static_cast<int>(i) < faces_a ? 0 : 1][k] += depth * a[k];
-  }
-  Normal result;
-  result.gradient_a = root(dot(gradient[0], gradient[0]));
-  result.gradient_b = root(dot(gradient[1], gradient[1]));
-  if (result.gradient_a == 0 || result.gradient_b == 0) return result;
-  for (int k = 0; k < 3; ++k)
-    result.normal[k] = gradient[0][k] / result.gradient_a - gradient[1][k] / result.gradient_b;
-  result.difference = root(dot(result.normal, result.normal));
-  if (result.difference == 0) return result;
-  for (Quad& n : result.normal)
-    n /= result.difference;
-  return result;
-}
-
-double to_double(const Quad& q) {
-  return static_cast<double>(q);
-}
-
-Quad to_quad(const Rational& q) {
-  return quad(q);
-}
-
-Quad root(Quad square) {
-  if (!(square > 0)) return 0;
-  // the double's root has 53 bits; each of Heron's steps doubles them
-  Quad r = std::sqrt(static_cast<double>(square));
-  if (r == 0) return 0;  // below the range of doubles: far below anything judged here
-  for (int step = 0; step < 2; ++step)
-    r = (r + square / r) / 2;
-  return r;
 }
 
 }  // namespace voussoir::exact

@@ -137,5 +137,7 @@ Normal contact_normal(const HalfSpaces<3>& planes, int faces_a, const Vector<3>&
 double to_double(const Quad& q);
 Quad to_quad(const Rational& q);
 Quad root(Quad square);
+QuadVector quads(const Vector<3>& v);
+Quad dot(const QuadVector& a, const QuadVector& b);
 
 }  // namespace voussoir::exact

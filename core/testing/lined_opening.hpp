@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/scene.hpp"
 #include "core/stage/install_linings.hpp"
+#include "core/testing/whole_runs.hpp"
 
 namespace voussoir::lined_opening {
 
@@ -53,10 +53,6 @@ inline std::string stage(const std::string& name, const std::string& more) {
 inline const std::string dig = stage("weight", "gravity_ramp_s = 1") +
                                stage("dig", "excavate = [\"tunnel\"]\nlet_off = { share = 0.5, duration_s = 1 }") +
                                stage("line", "install = [\"shell\"]\nlet_off = { share = 0, duration_s = 1 }");
-
-inline Prepared<2> scene_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return prepare<2>(parse_scene(text, "scene.toml", overrides));
-}
 
 // The state in which the lining of `rock` has just been cast.
 struct Cast {

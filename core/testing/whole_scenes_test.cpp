@@ -1,5 +1,4 @@
 // Whole scenes with closed forms: what stages of kind run do by themselves, and that a row is of one time.
-#include "core/run/simulate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,17 +6,13 @@
 #include <cmath>
 #include <string>
 
-#include "core/scene/scene.hpp"
+#include "core/testing/whole_runs.hpp"
 
 namespace voussoir {
 namespace {
 
-Progress<2> whole_run(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const Prepared<2> scene = prepare<2>(parse_scene(text, "scene.toml", overrides));
-  Progress<2> progress = initial_progress(scene);
-  EXPECT_TRUE(simulate(scene, progress, {}));
-  EXPECT_EQ(progress.results.outcome, Outcome::done) << progress.results.message;
-  return progress;
+Progress<2> ran(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return whole_run(scene_of(text, overrides));
 }
 
 // a column of the history, over the rows of one stage (numbered from 1)
@@ -42,7 +37,7 @@ monitors = [{ name = "stone", bodies = ["stone"], quantities = ["displacement"] 
 )";
 
 TEST(RunStage, LetsAStoneFallAtG) {
-  const Progress<2> run = whole_run(stone);
+  const Progress<2> run = ran(stone);
   const std::vector<double> time = column(run, "time_s", 1), fallen = column(run, "stone_displacement_y_m", 1);
   EXPECT_EQ(time.front(), 0);
   EXPECT_EQ(time.back(), 0.5);
@@ -52,7 +47,7 @@ TEST(RunStage, LetsAStoneFallAtG) {
 
 TEST(RunStage, IsDampedAsStated) {
   for (const char* stated : {"damping.local=0.3", "stage.fall.damping.local=0.3"}) {
-    const Progress<2> run = whole_run(stone, {stated});
+    const Progress<2> run = ran(stone, {stated});
     EXPECT_NEAR(run.state.bodies.motions[1].displacement[1] + run.state.bodies.motions[0].displacement[1],
                 -0.7 * 0.5 * 9.81 * 0.5 * 0.5, 1e-3)
         << stated;
@@ -86,7 +81,7 @@ kind = "run"
 duration_s = 0.0195
 move = [{ bodies = ["block"], velocity = [0, 0.01] }]
 )";
-  const Progress<2> run = whole_run(text);
+  const Progress<2> run = ran(text);
   const double duration[] = {0.0295, 0.0195};
   for (const int stage : {1, 2}) {
     const std::vector<double> time = column(run, "time_s", stage), load = column(run, "block_contact_load_y_N", stage),
@@ -110,7 +105,7 @@ blocks = [{ name = "ground", box = { min = [-2, -1], max = [4, 0] }, fixed = tru
           { name = "upper", box = { min = [0, 1.5], max = [1, 3] } }]
 stage = [{ name = "topple", kind = "run", duration_s = 0.5, damping = { local = 0.7 } }]
 )";
-  const Progress<2> run = whole_run(text);
+  const Progress<2> run = ran(text);
   ASSERT_EQ(run.results.warnings.size(), 1u);
   const std::string& warning = run.results.warnings.front();
   EXPECT_NE(warning.find("in the balance of the contacts"), std::string::npos) << warning;

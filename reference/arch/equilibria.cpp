@@ -5,10 +5,6 @@
 namespace voussoir::reference {
 namespace {
 
-double cross(const Plane& a, const Plane& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 Plane turned(const Plane& v, double angle) {
   return Eigen::Rotation2Dd(angle) * v;
 }

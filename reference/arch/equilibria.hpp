@@ -18,6 +18,10 @@ namespace voussoir::reference {
 
 using Plane = Eigen::Vector2d;
 
+inline double cross(const Plane& a, const Plane& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 // what the right abutment gives: a force (N/m) on the arch, m from the middle of the joint outwards
 struct FootForce {
   Plane force;

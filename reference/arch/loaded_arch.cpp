@@ -11,10 +11,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double cross(const Plane& a, const Plane& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 // --- rigid voussoirs
 
 Plane direction(const LoadedArch& loaded, int joint) {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "reference/jointed_block.hpp"
+#include "reference/require.hpp"
 #include "reference/wedge/wedge.hpp"
 
 namespace voussoir::reference {
@@ -17,9 +17,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("roof wedge: " + message);
-}
+constexpr Require require{"roof wedge: "};
 
 Vector3d to_eigen(const Vector3& v) {
   return {v[0], v[1], v[2]};

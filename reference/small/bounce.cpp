@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "reference/require.hpp"
 #include "reference/small/small.hpp"
 
 namespace voussoir::reference {
@@ -16,9 +17,7 @@ constexpr double pi = std::numbers::pi;
 // Brent's method gains a digit or more a round; 200 leaves room for the worst bisection.
 constexpr int most_rounds = 200;
 
-void require(bool holds, const char* message) {
-  if (!holds) throw std::invalid_argument(message);
-}
+constexpr Require require{""};
 
 // acos(z)/sqrt(1-z^2), continued through z = 1 by its series and above by acosh(z)/sqrt(z^2-1).
 double angle_over_sine(double z) {

@@ -8,14 +8,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "reference/require.hpp"
 #include "reference/small/small.hpp"
 
 namespace voussoir::reference {
 namespace {
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("free rotation: " + message);
-}
+constexpr Require require{"free rotation: "};
 
 // The motion w_a = A cn u, w_b = B sn u, w_c = C dn u, u = u0 + rate t; c is the axis the angular momentum circles
 // about.

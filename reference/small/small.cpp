@@ -2,17 +2,15 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
+
+#include "reference/require.hpp"
 
 namespace voussoir::reference {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument(message);
-}
+constexpr Require require{""};
 
 void check(const Incline& incline, double time) {
   require(incline.angle >= 0 && incline.angle <= pi / 2, "incline: angle must lie in 0..pi/2 radians");

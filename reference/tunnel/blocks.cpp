@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "reference/tunnel/polygons.hpp"
+
 namespace voussoir::reference::network {
 namespace {
 
@@ -16,15 +18,6 @@ namespace {
   throw std::invalid_argument("blocks: " + message);
 }
 
-double dot(const Point& a, const Point& b) {
-  return a[0] * b[0] + a[1] * b[1];
-}
-double cross(const Point& a, const Point& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
-Point minus(const Point& a, const Point& b) {
-  return {a[0] - b[0], a[1] - b[1]};
-}
 Point along(const Point& a, const Point& b, double fraction) {
   return {a[0] + fraction * (b[0] - a[0]), a[1] + fraction * (b[1] - a[1])};
 }

@@ -7,15 +7,13 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "reference/tunnel/polygons.hpp"
+
 using namespace voussoir::reference::network;
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Polygon box(double left, double bottom, double right, double top) {
-  return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
-}
 
 Polygon regular(int sides, double radius) {
   Polygon polygon;
@@ -36,13 +34,6 @@ double length_of(const std::vector<Face>& faces) {
   for (const Face& face : faces)
     sum += std::hypot(face.end[0] - face.start[0], face.end[1] - face.start[1]);
   return sum;
-}
-
-std::vector<Block> one_each(const std::vector<Polygon>& pieces) {
-  std::vector<Block> blocks;
-  for (const Polygon& piece : pieces)
-    blocks.push_back({{piece}});
-  return blocks;
 }
 
 // Bricks: faces in part, and the ground that is longer than all of them.

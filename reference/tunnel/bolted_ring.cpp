@@ -6,16 +6,14 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 #include "reference/ode.hpp"
+#include "reference/require.hpp"
 
 namespace voussoir::reference {
 namespace {
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("bolted ring: " + message);
-}
+constexpr Require require{"bolted ring: "};
 
 void check(const BoltedRing& ring, double distance) {
   require(std::isfinite(ring.radius) && ring.radius > 0, "radius must be positive");

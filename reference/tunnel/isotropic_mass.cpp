@@ -2,21 +2,15 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
+
+#include "reference/require.hpp"
 
 namespace voussoir::reference::network {
 namespace {
 
 using std::numbers::pi;
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("isotropic mass: " + message);
-}
-
-bool positive(double value) {
-  return std::isfinite(value) && value > 0;
-}
+constexpr Require require{"isotropic mass: "};
 
 // corners closer to a line than this of the spacing are on it
 constexpr double rounding = 1e-7;

@@ -1,17 +1,15 @@
 #include "reference/tunnel/lining.hpp"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
+#include "reference/require.hpp"
 #include "reference/tunnel/bolted_ring.hpp"
 
 namespace voussoir::reference {
 namespace {
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("lining: " + message);
-}
+constexpr Require require{"lining: "};
 
 void require_positive(double value, const std::string& name) {
   require(std::isfinite(value) && value > 0, name + " must be positive and finite");

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "reference/tunnel/polygons.hpp"
+
 namespace voussoir::reference::network {
 namespace {
 
@@ -29,15 +31,6 @@ bool is_unit(const Point& direction) {
   return std::abs(std::hypot(direction[0], direction[1]) - 1) < rounding;
 }
 
-double cross(const Point& a, const Point& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
-double dot(const Point& a, const Point& b) {
-  return a[0] * b[0] + a[1] * b[1];
-}
-Point minus(const Point& a, const Point& b) {
-  return {a[0] - b[0], a[1] - b[1]};
-}
 Point turned(const Point& a) {
   return {-a[1], a[0]};
 }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "reference/tunnel/blocks.hpp"
+#include "reference/tunnel/polygons.hpp"
 #include "reference/tunnel/ring_moment.hpp"
 
 using namespace voussoir::reference::network;
@@ -17,10 +18,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double kn = 5e9, ks = 0.5e9;
-
-Polygon box(double left, double bottom, double right, double top) {
-  return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
-}
 
 Block ground(const Polygon& polygon) {
   return {{polygon}, {true, true, true}};

@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
+
+#include "reference/require.hpp"
 
 namespace voussoir::reference {
 namespace {
 
 using std::numbers::pi;
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("ring: " + message);
-}
+constexpr Require require{"ring: "};
 
 void check(double pressure, double radius) {
   require(std::isfinite(pressure), "pressure must be finite, in Pa");

@@ -5,16 +5,14 @@
 #include <limits>
 #include <numbers>
 #include <random>
-#include <stdexcept>
-#include <string>
 #include <utility>
+
+#include "reference/require.hpp"
 
 namespace voussoir::reference::network {
 namespace {
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("rock mass: " + message);
-}
+constexpr Require require{"rock mass: "};
 
 // how far inside a polygon's edge a point lies: offset - normal·x, normal unit
 struct Side {

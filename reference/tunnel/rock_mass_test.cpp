@@ -7,23 +7,13 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "reference/tunnel/polygons.hpp"
 #include "text/angle.hpp"
 
 using namespace voussoir::reference::network;
 using voussoir::degree;
 
 namespace {
-
-Polygon box(double left, double bottom, double right, double top) {
-  return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
-}
-
-std::vector<Block> one_each(const std::vector<Polygon>& pieces) {
-  std::vector<Block> blocks;
-  for (const Polygon& piece : pieces)
-    blocks.push_back({{piece}});
-  return blocks;
-}
 
 TEST(RockMass, InscribedRadius) {
   EXPECT_NEAR(inscribed_radius(box(1000, 3, 1005, 4.2)), 0.6, 1e-12);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
+
+#include "reference/require.hpp"
 
 namespace voussoir::reference {
 namespace {
@@ -13,9 +13,7 @@ constexpr double right_angle = std::numbers::pi / 2;
 // How near, relatively, a friction angle may come to the one at which the sum has a pole.
 constexpr double before_locking = 1e-9;
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("section of a slide: " + message);
-}
+constexpr Require require{"section of a slide: "};
 
 using Polygon = std::vector<SectionPoint>;
 

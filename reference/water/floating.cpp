@@ -4,17 +4,15 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
+
+#include "reference/require.hpp"
 
 namespace voussoir::reference {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("floating block: " + message);
-}
+constexpr Require require{"floating block: "};
 
 void check(const FloatingBlock& block) {
   require(std::isfinite(block.width) && block.width > 0, "width must be positive");

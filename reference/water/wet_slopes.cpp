@@ -3,21 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
+
+#include "reference/require.hpp"
 
 namespace voussoir::reference {
 namespace {
 
 constexpr double right_angle = std::numbers::pi / 2;
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("water: " + message);
-}
-
-bool positive(double value) {
-  return std::isfinite(value) && value > 0;
-}
+constexpr Require require{"water: "};
 
 // along a joint of this dip: what drives, and what presses on it when the water is taken off
 struct Balance {

@@ -1,4 +1,5 @@
 #include "reference/wedge/wedge.hpp"
+#include "reference/require.hpp"
 #include "text/angle.hpp"
 
 #include <Eigen/Dense>
@@ -33,9 +34,7 @@ Vector3 to_array(const Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("wedge: " + message);
-}
+constexpr Require require{"wedge: "};
 
 void check_plane(const WedgePlane& plane, const std::string& name) {
   const std::string of = " of plane " + name;

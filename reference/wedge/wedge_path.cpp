@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "reference/jointed_block.hpp"
+#include "reference/require.hpp"
 
 namespace voussoir::reference {
 namespace {
@@ -19,9 +19,7 @@ using Eigen::Vector3d;
 // degrees about 1500 are left, at the same error.
 constexpr double widening_distance = 0.0044;
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("wedge path: " + message);
-}
+constexpr Require require{"wedge path: "};
 
 Vector3d to_eigen(const Vector3& v) {
   return {v[0], v[1], v[2]};

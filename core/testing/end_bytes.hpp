@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "core/run/fields.hpp"
+#include "core/run/simulate.hpp"
+
+namespace voussoir {
+
+// all that is left at the end of a run but for the clock
+template <int Dim>
+std::string end_of(Progress<Dim> progress) {
+  progress.results.seconds = 0;
+  return bytes_of(progress);
+}
+
+}  // namespace voussoir
