@@ -51,6 +51,8 @@ endfunction()
 
 function(voussoir_case_not_modelled)
   set_property(GLOBAL APPEND PROPERTY VOUSSOIR_CASES_NOT_MODELLED ${ARGN})
+  list(TRANSFORM ARGN APPEND /*.cpp)
+  voussoir_built_elsewhere(${ARGN})
 endfunction()
 
 function(_voussoir_case_files result name)
