@@ -1,7 +1,7 @@
-# voussoir_case(<name> [LONG] SOURCES <files…> [LIBS <targets…>] [FIGURES <x.gp> …])
-#   program case_<name>, CTest entry case.<name> (label case), and per figure report.<x> (label report), which draws
+# voussoir_case(<name> [LONG] SOURCES <files…> [LIBS <targets…>])
+#   program case_<name>, CTest entry case.<name> (label case), and per <name>/<x>.gp report.<x> (label report), which draws
 #   <build>/reports/figures/<x>.svg from the files that the case's test left in <build>/cases/<name>.
-#   Files are looked for beside the calling CMakeLists.txt, then in its folder <name>.
+#   Sources are looked for in the folder <name>; they stay a list, for its order is that of the checks on the case's page.
 #   With LONG, its test suites whose names end in Long are case.<name>.long (label long), which only `ctest -C Long` runs.
 #   Suites whose names end in Figure check nothing: report.<name>.data (label report) has them write data of figures.
 # voussoir_case_not_modelled(<name> …)
@@ -10,15 +10,15 @@
 # what should have run, not for what happens to be there.
 
 function(voussoir_case name)
-  cmake_parse_arguments(arg "LONG" "" "SOURCES;LIBS;FIGURES" ${ARGN})
+  cmake_parse_arguments(arg "LONG" "" "SOURCES;LIBS" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_SOURCES)
-    message(FATAL_ERROR "voussoir_case(${name}): give SOURCES, LIBS, FIGURES and nothing else: ${arg_UNPARSED_ARGUMENTS}")
+    message(FATAL_ERROR "voussoir_case(${name}): give SOURCES, LIBS and nothing else: ${arg_UNPARSED_ARGUMENTS}")
   endif()
   if(NOT VOUSSOIR_BUILD_TESTS)
     return()
   endif()
-  _voussoir_case_files(sources ${name} ${arg_SOURCES})
-  _voussoir_case_files(figures ${name} ${arg_FIGURES})
+  list(TRANSFORM arg_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/${name}/ OUTPUT_VARIABLE sources)
+  file(GLOB figures CONFIGURE_DEPENDS ${name}/*.gp)
 
   add_executable(case_${name} ${sources})
   target_link_libraries(case_${name} PRIVATE
@@ -65,18 +65,6 @@ endfunction()
 
 function(voussoir_case_not_modelled)
   set_property(GLOBAL APPEND PROPERTY VOUSSOIR_CASES_NOT_MODELLED ${ARGN})
-endfunction()
-
-function(_voussoir_case_files result name)
-  set(found)
-  foreach(file ${ARGN})
-    if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
-      list(APPEND found ${CMAKE_CURRENT_SOURCE_DIR}/${file})
-    elseif(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/${file})
-      list(APPEND found ${CMAKE_CURRENT_SOURCE_DIR}/${name}/${file})
-    else()
-      message(FATAL_ERROR "voussoir_case(${name}): there is no ${file}")
-    endif()
-  endforeach()
-  set(${result} ${found} PARENT_SCOPE)
+  list(TRANSFORM ARGN APPEND /*.cpp)
+  voussoir_built_elsewhere(${ARGN})
 endfunction()

@@ -13,16 +13,18 @@ if(VOUSSOIR_BUILD_TESTS)
   voussoir_precompiled_tests(voussoir_case_headers voussoir_core voussoir_reference fmt::fmt)
 endif()
 
-# voussoir_test(<name> [LONG] LABEL <label> SOURCES <files…> LIBS <targets…>): one GoogleTest program, one CTest entry,
-# with floating-point traps on. With LONG, its test suites whose names end in Long are <name>.long (label long), which
-# only `ctest -C Long` runs.
+# voussoir_test(<name> [LONG] LABEL <label> SOURCES <patterns…> LIBS <targets…>): one GoogleTest program, one CTest entry,
+# with floating-point traps on. A pattern (core/*_test.cpp) takes the sources that no earlier program of the same
+# CMakeLists.txt took: name the exceptions first. With LONG, its test suites whose names end in Long are <name>.long
+# (label long), which only `ctest -C Long` runs.
 function(voussoir_test name)
   cmake_parse_arguments(arg "LONG" "LABEL" "SOURCES;LIBS" ${ARGN})
   if(NOT VOUSSOIR_BUILD_TESTS)
     return()
   endif()
   string(REPLACE "." "_" target ${name})
-  add_executable(${target} ${arg_SOURCES})
+  _voussoir_untaken(sources ${name} ${arg_SOURCES})
+  add_executable(${target} ${sources})
   target_link_libraries(${target} PRIVATE voussoir_flags voussoir_traps ${arg_LIBS} GTest::gtest_main)
   # a test's own code need not be fast, and compiling it is what `make test` waits for
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
@@ -30,8 +32,23 @@ function(voussoir_test name)
   if("voussoir_core" IN_LIST arg_LIBS OR "voussoir_app" IN_LIST arg_LIBS)
     target_precompile_headers(${target} REUSE_FROM voussoir_unit_headers)
   endif()
-  voussoir_test_entries(${name} ${target} ${CMAKE_CURRENT_BINARY_DIR} ${arg_LONG} ${arg_SOURCES})
+  voussoir_test_entries(${name} ${target} ${CMAKE_CURRENT_BINARY_DIR} ${arg_LONG} ${sources})
   set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL})
+endfunction()
+
+function(_voussoir_untaken result name)
+  get_property(taken DIRECTORY PROPERTY VOUSSOIR_TAKEN)
+  set(sources)
+  foreach(pattern ${ARGN})
+    file(GLOB found CONFIGURE_DEPENDS ${pattern})
+    list(REMOVE_ITEM found ${taken} ${sources})
+    if(NOT found)
+      message(FATAL_ERROR "${name}: ${pattern} matches no source, or none that no other program took before")
+    endif()
+    list(APPEND sources ${found})
+  endforeach()
+  set_property(DIRECTORY APPEND PROPERTY VOUSSOIR_TAKEN ${sources})
+  set(${result} ${sources} PARENT_SCOPE)
 endfunction()
 
 # The CTest entries of a GoogleTest program that runs in a folder: <name>, and with `long` <name>.long. Suites whose names

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact/narrow_phase.hpp"
-#include "core/slicing/block.hpp"
+#include "core/testing/one_pair.hpp"
+#include "core/testing/shapes.hpp"
 #include "fuzz/require.hpp"
 
 namespace voussoir::fuzz {
 namespace {
+
+using contacts::Outcome;
+using contacts::touch;
 
 constexpr int most_planes = 16;  // of one part
 
@@ -103,30 +106,12 @@ void require_sound(const Polytope<Dim>& part) {
 
 // the same planes at twice the size: powers of two change no digit
 template <int Dim>
-void require_scaling(HalfSpaces<Dim> planes, const BlockResult<Dim>& block) {
-  for (HalfSpace<Dim>& p : planes)
-    p.offset *= 2;
-  const BlockResult<Dim> twice = made<Dim>(planes);
+void require_scaling(const HalfSpaces<Dim>& planes, const BlockResult<Dim>& block) {
+  const BlockResult<Dim> twice = made<Dim>(shapes::scaled<Dim>(planes, 2));
   require(twice.status == block.status, "scaling a block keeps its status");
   if (block.status != BlockStatus::ok) return;
   require(twice.part.inscribed_radius == 2 * block.part.inscribed_radius, "the inscribed radius scales");
   require(twice.part.mass.volume == std::pow(2, Dim) * block.part.mass.volume, "the volume scales");
-}
-
-template <int Dim>
-struct Outcome {
-  Contact<Dim> contact;
-  KernelCounters counters;
-};
-
-template <int Dim>
-Outcome<Dim> touch(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<Dim>& rotation,
-                   const Vector<Dim>& offset, const Contact<Dim>& before = {}) {
-  Outcome<Dim> r{before, {}};
-  const Pair<Dim> pair{&a, &b, Matrix<Dim>::Identity(), rotation, offset};
-  Contact<Dim>* slot = &r.contact;
-  narrow_phase<Dim>(std::span(&pair, 1), {}, {}, std::span(&slot, 1), r.counters);
-  return r;
 }
 
 template <int Dim>
@@ -181,18 +166,8 @@ void require_symmetry(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matr
 template <int Dim>
 void require_scaling(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<Dim>& rotation,
                      const Vector<Dim>& offset, const Outcome<Dim>& outcome) {
-  const auto doubled = [](Polytope<Dim> part) {
-    for (HalfSpace<Dim>& f : part.faces)
-      f.offset *= 2;
-    part.inscribed_radius *= 2;
-    part.radius *= 2;
-    part.centre *= 2;
-    part.vertex_error *= 2;
-    for (Vector<Dim>& v : part.vertices)
-      v *= 2;
-    return part;
-  };
-  const Outcome<Dim> other = touch<Dim>(doubled(a), doubled(b), rotation, 2 * offset);
+  const Outcome<Dim> other =
+      touch<Dim>(shapes::scaled_block<Dim>(a, 2), shapes::scaled_block<Dim>(b, 2), rotation, 2 * offset);
   const ContactGeometry<Dim>&g = outcome.contact.geometry, &h = other.contact.geometry;
   require(other.contact.status == outcome.contact.status, "scaling keeps the status");
   require(h.overlap == 2 * g.overlap && h.point == 2 * g.point && h.normal == g.normal, "scaling scales the contact");
@@ -242,7 +217,7 @@ void run(FuzzedDataProvider& bytes) {
 
   // one step on, from the warm start
   const Vector<Dim> moved = offset + 1e-3 * vector<Dim>(bytes, false);
-  const Outcome<Dim> next = touch<Dim>(parts[0], parts[1], rotation, moved, outcome.contact);
+  const Outcome<Dim> next = touch<Dim>(parts[0], parts[1], rotation, moved, {}, outcome.contact);
   require_sound<Dim>(parts[0], parts[1], rotation, moved, next.contact);
 }
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# run.sh PROGRAM TARGET replay|long [WORK]: the committed corpus and, for scenes, the cases' own. `replay` runs each input once, by
+# run.sh PROGRAM TARGET replay|long [WORK DICTIONARY]: the committed corpus and, for scenes, the cases' own. `replay` runs each input once, by
 # a program made of replay.cpp; `long` fuzzes from them for VOUSSOIR_FUZZ_SECONDS (3600) in the folder WORK, where it
 # leaves what it found: corpus/, and findings/ for inputs that break something.
 set -euo pipefail
-program=$1 target=$2 length=$3 work=${4:-}
+program=$1 target=$2 length=$3 work=${4:-} dictionary=${5:-}
 here=$(cd "$(dirname "$0")" && pwd)
 if [ ! -x "$program" ]; then
   echo "skipped: $program was not built (Debian: clang libclang-rt-14-dev)"
@@ -22,7 +22,7 @@ fi
 # a finding must not pass for a skip, whose code is libFuzzer's own for a crash
 options=(-error_exitcode=1 -timeout=20 -rss_limit_mb=2048 -verbosity=0 -print_final_stats=1)  # a hang of one second ends the target itself
 case $target in
-  scene) options+=(-dict="$here/scene.dict" -seed_inputs="$(IFS=,; echo "${seeds[*]}")" -max_len=6000) ;;
+  scene) options+=(-dict="$dictionary" -seed_inputs="$(IFS=,; echo "${seeds[*]}")" -max_len=6000) ;;
   import) options+=(-max_len=6000) ;;
   *) options+=(-max_len=120) ;;
 esac

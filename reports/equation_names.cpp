@@ -178,7 +178,7 @@ Place place_of(const std::string& file) {
 // CTest entries; a name that CMake puts together from others is none of these
 void read_programs(const std::string& text, std::set<std::string>& programs) {
   static const std::regex entry(
-      R"re((voussoir_test|voussoir_case|voussoir_same_bits|add_test)\((?:NAME )?([\w.]+)[\s)])re");
+      R"re((voussoir_\w*test|voussoir_case|voussoir_same_bits|add_test)\((?:NAME )?([\w.]+)[\s)])re");
   for (std::sregex_iterator match(text.begin(), text.end(), entry), end; match != end; ++match) {
     const std::string command = (*match)[1];
     const char* prefix = command == "voussoir_case"        ? "case."

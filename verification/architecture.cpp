@@ -286,6 +286,19 @@ std::vector<std::string> violations(const std::vector<SourceFile>& sources) {
   return found;
 }
 
+std::vector<std::string> unused_files(const std::vector<SourceFile>& sources, const std::set<std::string>& built) {
+  std::set<std::string> included;
+  for (const SourceFile& source : sources)
+    for (const std::string& path : source.includes)
+      if (path != source.path) included.insert(path);
+  std::vector<std::string> unused;
+  for (const SourceFile& source : sources)
+    if (source.path.ends_with(".cpp") ? !built.contains(source.path) : !included.contains(source.path))
+      unused.push_back(source.path +
+                       (source.path.ends_with(".cpp") ? " is in no target of CMake" : " is included by no file"));
+  return unused;
+}
+
 std::vector<std::string> cited_paths(std::string_view text) {
   static const std::regex quoted(R"re("(\\.|[^"\\])*")re"), comment(R"(//(.*))");
   static const std::regex path(R"((?:^|[\s(`',;:])((?:[\w-]+/)*[\w-]+(?:\.\w+)*))");

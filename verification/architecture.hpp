@@ -4,6 +4,7 @@
 // each other in a circle. And no two types of one program have one name: the linker would take the functions of either
 // for both, without a word.
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,10 @@ std::vector<SourceFile> read_sources(const std::filesystem::path& root);
 // One sentence per violation: an arrow that runs back up or across, a circle of files or folders, a room of the core
 // without a floor, a file that is too long, a type that another file defines, too.
 std::vector<std::string> violations(const std::vector<SourceFile>& sources);
+
+// One sentence for each source that no target builds, by the paths of those that targets do, and each header that no
+// file includes.
+std::vector<std::string> unused_files(const std::vector<SourceFile>& sources, const std::set<std::string>& built);
 
 // The files and folders that the comments of a text cite: paths from one of the repository's folders, with their
 // extension or without, and names of pages and sources.

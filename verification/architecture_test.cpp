@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 
 #include "verification/architecture.hpp"
 
@@ -165,6 +166,16 @@ TEST(Architecture, RefusesCitationsOfWhatIsNotThere) {
   std::filesystem::remove_all(root);
 }
 
+TEST(Architecture, RefusesFilesThatNothingUses) {
+  const std::vector<SourceFile> sources{{"core/contact/pair.cpp", {"core/contact/pair.hpp"}},
+                                        {"core/contact/pair.hpp", {}},
+                                        {"core/contact/twin.cpp", {"core/contact/pair.hpp"}},
+                                        {"core/contact/twin.hpp", {"core/contact/twin.hpp"}}};
+  EXPECT_EQ(unused_files(sources, {"core/contact/pair.cpp"}),
+            (std::vector<std::string>{"core/contact/twin.cpp is in no target of CMake",
+                                      "core/contact/twin.hpp is included by no file"}));
+}
+
 TEST(Architecture, HoldsInTheSources) {
   const std::vector<SourceFile> sources = read_sources(VOUSSOIR_SOURCE_DIR);
   ASSERT_GT(sources.size(), 5u) << "no sources were read, so nothing would be found";
@@ -172,6 +183,10 @@ TEST(Architecture, HoldsInTheSources) {
     ADD_FAILURE() << violation;
   for (const std::string& room : rooms_without_file(sources))
     ADD_FAILURE() << room << " has a floor in verification/architecture.cpp, but no file";
+  std::ifstream list(VOUSSOIR_BUILT_SOURCES);
+  const std::set<std::string> built{std::istream_iterator<std::string>(list), {}};
+  for (const std::string& file : unused_files(sources, built))
+    ADD_FAILURE() << file;
   for (const std::string& citation : dead_citations(VOUSSOIR_SOURCE_DIR))
     ADD_FAILURE() << citation;
 }

@@ -9,13 +9,12 @@ namespace {
 
 Contact<3> resolve(const TouchingPair& pair, double potential_radius, KernelCounters& counters) {
   const Pair<3> input{&pair.a, &pair.b, Matrix<3>::Identity(), pair.turn, pair.offset, QueryLevel::overlap};
-  Contact<3> contact;
-  Contact<3>* slot = &contact;
   ContactSettings settings;
   settings.potential_radius = potential_radius;
-  narrow_phase<3>(std::span(&input, 1), settings, {}, std::span(&slot, 1), counters);
-  if (!contact.touching()) throw std::logic_error("a pair of the study does not touch");
-  return contact;
+  const contacts::Outcome<3> outcome = contacts::resolve<3>(input, settings);
+  counters = outcome.counters;
+  if (!outcome.contact.touching()) throw std::logic_error("a pair of the study does not touch");
+  return outcome.contact;
 }
 
 double angle(const Vector<3>& u, const Vector<3>& v) {

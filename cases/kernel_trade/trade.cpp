@@ -17,11 +17,9 @@ constexpr double potential_radius = 0.02;  // of the smaller inscribed radius: t
 // the whole kernel on one pair
 Contact<3> resolve(const TouchingPair& pair, const ContactSettings& settings, const Contact<3>& before,
                    KernelCounters& counters) {
-  const Pair<3> input{&pair.a, &pair.b, Matrix<3>::Identity(), pair.turn, pair.offset};
-  Contact<3> contact = before;
-  Contact<3>* slot = &contact;
-  narrow_phase<3>(std::span(&input, 1), settings, {}, std::span(&slot, 1), counters);
-  return contact;
+  const contacts::Outcome<3> outcome = contacts::touch<3>(pair.a, pair.b, pair.turn, pair.offset, settings, before);
+  counters = outcome.counters;
+  return outcome.contact;
 }
 
 double reach(const TouchingPair& pair) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cases/kernel_trade/small_kernel.hpp"
-#include "core/contact/narrow_phase.hpp"
 #include "core/contact/pair_geometry.hpp"
+#include "core/testing/one_pair.hpp"
 #include "core/testing/shapes.hpp"
 
 namespace voussoir::trade {

@@ -6,14 +6,6 @@
 namespace voussoir::atlas {
 namespace {
 
-Matrix<3> any_turn(Random& random) {
-  return matrix(shapes::orientation<3>(random));
-}
-
-HalfSpaces<3> turned(const HalfSpaces<3>& planes, Random& random) {
-  return shapes::placed<3>(planes, any_turn(random), Vector<3>::Zero());
-}
-
 // five random planes in a cube, about one across
 HalfSpaces<3> ordinary(Random& random) {
   return shapes::random_planes<3>(random, 5, 0.5);
@@ -60,8 +52,8 @@ HalfSpaces<3> with_small_face(double ratio, Random& random) {
   const Polytope<3> part = shapes::block<3>(planes);
   const int corner = shapes::integer(random, 0, static_cast<int>(part.vertices.size()) - 1);
   Vector<3> out = Vector<3>::Zero();
-  for (std::size_t f = 0; f < part.faces.size(); ++f)
-    if (std::count(part.loops[f].begin(), part.loops[f].end(), corner)) out += part.faces[f].normal;
+  for (const int f : shapes::faces_at<3>(part, {corner}))
+    out += part.faces[f].normal;
   out.normalize();
   planes.push_back({out, out.dot(part.vertices[corner]) - 0.1 / ratio});
   return planes;
@@ -77,16 +69,6 @@ HalfSpaces<3> round(int faces, Random& random) {
 }
 
 // ---- features -------------------------------------------------------------------------------------------------------
-
-std::vector<int> faces_at(const Polytope<3>& part, std::initializer_list<int> corners) {
-  std::vector<int> faces;
-  for (std::size_t f = 0; f < part.loops.size(); ++f)
-    if (std::all_of(corners.begin(), corners.end(), [&](int corner) {
-          return std::find(part.loops[f].begin(), part.loops[f].end(), corner) != part.loops[f].end();
-        }))
-      faces.push_back(static_cast<int>(f));
-  return faces;
-}
 
 // between the normals of the faces, strictly
 Vector<3> direction_between(const Polytope<3>& part, const std::vector<int>& faces, Random& random) {
@@ -107,7 +89,7 @@ int any_corner(const std::vector<int>& loop, Random& random) {
 Feature corner_of(const Polytope<3>& part, Random& random) {
   const std::vector<int>& loop = part.loops[any_face(part, random)];
   const int corner = loop[any_corner(loop, random)];
-  return {part.vertices[corner], direction_between(part, faces_at(part, {corner}), random)};
+  return {part.vertices[corner], direction_between(part, shapes::faces_at<3>(part, {corner}), random)};
 }
 
 Feature edge_of(const Polytope<3>& part, Random& random) {
@@ -115,7 +97,7 @@ Feature edge_of(const Polytope<3>& part, Random& random) {
   const int k = any_corner(loop, random), from = loop[k], to = loop[(k + 1) % loop.size()];
   const Vector<3> middle =
       part.vertices[from] + shapes::uniform(random, 0.3, 0.7) * (part.vertices[to] - part.vertices[from]);
-  return {middle, direction_between(part, faces_at(part, {from, to}), random)};
+  return {middle, direction_between(part, shapes::faces_at<3>(part, {from, to}), random)};
 }
 
 Feature face_of(const Polytope<3>& part, Random& random) {
@@ -185,8 +167,8 @@ Shapes random_shapes(const Place& place, Random& random) {
       s.a = round(static_cast<int>(place.value), random);
       s.b = round(static_cast<int>(place.value), random);
   }
-  s.a = turned(s.a, random);
-  s.b = turned(s.b, random);
+  s.a = shapes::turned_anyhow<3>(s.a, random);
+  s.b = shapes::turned_anyhow<3>(s.b, random);
   if (place.axis == Axis::made) s.made = place.value * shapes::direction<3>(random);
   return s;
 }

@@ -259,18 +259,9 @@ void expect_symmetry(std::uint64_t seed, int pairs) {
 
     // powers of two change the unit, and not one bit else
     for (const double factor : {0x1p-10, 0x1p13}) {
-      const auto scale = [&](Polytope<Dim> p) {
-        for (HalfSpace<Dim>& f : p.faces)
-          f.offset *= factor;
-        p.radius *= factor;
-        p.inscribed_radius *= factor;
-        p.centre *= factor;
-        p.vertex_error *= factor;
-        for (Vector<Dim>& v : p.vertices)
-          v *= factor;
-        return p;
-      };
-      const ContactGeometry<Dim> s = touch<Dim>(scale(a), scale(b), turn, factor * offset).contact.geometry;
+      const ContactGeometry<Dim> s =
+          touch<Dim>(shapes::scaled_block<Dim>(a, factor), shapes::scaled_block<Dim>(b, factor), turn, factor * offset)
+              .contact.geometry;
       EXPECT_EQ(s.normal, g.normal);
       EXPECT_EQ(s.point, factor * g.point);
       EXPECT_EQ(s.overlap, factor * g.overlap);

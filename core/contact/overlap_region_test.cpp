@@ -240,10 +240,7 @@ TEST(FallbackSolver, AnswersWhenTheSearchForTheCentreFails) {
   const Polytope<3> cube = unit_cube<3>();
   const Pair<3> pair{&cube, &cube, Matrix<3>::Identity(), Matrix<3>::Identity(), {0.25, -0.5, 0.99}};
   const auto resolve = [&](const Solvers<3>& solvers, const ContactSettings& settings) {
-    Outcome<3> r;
-    Contact<3>* slot = &r.contact;
-    narrow_phase<3>(std::span(&pair, 1), settings, solvers, std::span(&slot, 1), r.counters);
-    return r;
+    return contacts::resolve<3>(pair, settings, {}, solvers);
   };
   const Outcome<3> own = resolve({}, {});
   ASSERT_TRUE(own.contact.touching());

@@ -291,15 +291,6 @@ struct Queue {
 };
 
 template <int Dim>
-Contact<Dim> resolve_alone(const Pair<Dim>& pair, const Contact<Dim>& before, const ContactSettings& settings) {
-  Contact<Dim> contact = before;
-  Contact<Dim>* slot = &contact;
-  KernelCounters counters;
-  narrow_phase<Dim>(std::span(&pair, 1), settings, {}, std::span(&slot, 1), counters);
-  return contact;
-}
-
-template <int Dim>
 Queue<Dim> make_queue(const ContactSettings& settings, long long first, int count, Random& random) {
   Queue<Dim> queue{.settings = settings, .cases = {}, .pairs = {}, .before = {}, .alone = {}};
   for (int i = 0; i < count; ++i)
@@ -307,13 +298,13 @@ Queue<Dim> make_queue(const ContactSettings& settings, long long first, int coun
   for (const Case<Dim>& c : queue.cases) {
     const Matrix<Dim> axes = matrix(shapes::orientation<Dim>(random));
     Pair<Dim> cold{&c.a, &c.b, axes, c.rotation, c.offset}, warm{&c.a, &c.b, axes, c.rotation_after, c.offset_after};
-    const Contact<Dim> persistent = resolve_alone<Dim>(cold, {}, settings);
+    const Contact<Dim> persistent = contacts::resolve<Dim>(cold, settings).contact;
     cold.level = static_cast<QueryLevel>(integer(random, 0, 3));
     warm.level = static_cast<QueryLevel>(integer(random, 0, 3));
     for (const auto& [pair, before] : {std::pair{cold, Contact<Dim>{}}, std::pair{warm, persistent}}) {
       queue.pairs.push_back(pair);
       queue.before.push_back(before);
-      queue.alone.push_back(resolve_alone<Dim>(pair, before, settings));
+      queue.alone.push_back(contacts::resolve<Dim>(pair, settings, before).contact);
     }
   }
   return queue;
@@ -418,7 +409,7 @@ void expect_same_bits_on(const Target& target, const Queue<Dim>& queue) {
   const std::vector<Contact<Dim>> together = resolve_together<Dim>(queue, order);
   for (const int i : order) {
     ASSERT_EQ(bits_of<Dim>(together[i]), bits_of<Dim>(queue.alone[i])) << target.name << ", in a batch, pair " << i;
-    ASSERT_EQ(bits_of<Dim>(resolve_alone<Dim>(queue.pairs[i], queue.before[i], queue.settings)),
+    ASSERT_EQ(bits_of<Dim>(contacts::resolve<Dim>(queue.pairs[i], queue.settings, queue.before[i]).contact),
               bits_of<Dim>(queue.alone[i]))
         << target.name << ", alone, pair " << i;
   }

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/contact/narrow_phase.hpp"
 #include "core/contact/pair_geometry.hpp"
+#include "core/testing/one_pair.hpp"
 #include "core/testing/oracles.hpp"
 #include "core/testing/shapes.hpp"
 
@@ -28,22 +28,6 @@ inline constexpr double undecided = 1e-11;
 
 // the same for the LP's value, which is closer to the rounding: twice the tolerance of a unit cube's half edge
 inline constexpr double undecided_value = 1e-13;
-
-template <int Dim>
-struct Outcome {
-  Contact<Dim> contact;
-  KernelCounters counters;
-};
-
-template <int Dim>
-Outcome<Dim> touch(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<Dim>& turn, const Vector<Dim>& offset,
-                   const ContactSettings& settings = {}, const Contact<Dim>& before = {}) {
-  Outcome<Dim> r{before, {}};
-  const Pair<Dim> pair{&a, &b, Matrix<Dim>::Identity(), turn, offset};
-  Contact<Dim>* slot = &r.contact;
-  narrow_phase<Dim>(std::span(&pair, 1), settings, {}, std::span(&slot, 1), r.counters);
-  return r;
-}
 
 template <int Dim>
 Outcome<Dim> touch(const Polytope<Dim>& a, const Polytope<Dim>& b, const Vector<Dim>& offset) {

@@ -1,14 +1,22 @@
-// A scene in which every key of the table can stand, and where.
+// Scenes with a table for every key, and where in them a value of a key can be set: that follows from the key table.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <map>
+#include <memory>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/scene/keys.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/toml_text.hpp"
 
 namespace voussoir::every_key {
 
-// every key of the table can stand in it
 inline const std::string everything = R"(dimension = 3
 density = 2000
 [domain]
@@ -183,6 +191,7 @@ velocity = [1, 0, 0]
 [time]
 [equilibrium]
 [slicing]
+[accuracy]
 [[stage]]
 name = "settle"
 kind = "settle"
@@ -350,83 +359,85 @@ name = "settle"
 kind = "settle"
 )";
 
-// the scene in which a row's key can be set
-inline const std::string& scene_of(const KeyRow& row) {
-  if (row.table == "blocks" && row.when.key == "shape") return of_particles;
-  const bool of_lining = row.table == "monitors" && row.key == "lining";
-  return row.table == "linings" || of_lining ? in_the_plane : everything;
+// a table of a scene, with the groups of keys that it may hold
+struct Holder {
+  Subject table;
+  Groups groups;
+};
+
+inline void add_holders(const Subject& table, const Groups& groups, std::vector<Holder>& holders) {
+  holders.push_back({table, groups});
+  for (const std::string_view group : groups)
+    for (const KeyRow& row : key_rows(group)) {
+      if (row.holds.empty() || !table.node->find(row.key)) continue;
+      if (row.type == KeyType::tables)
+        for (const Subject& inner : children(table, row.key))
+          add_holders(inner, row.holds, holders);
+      else
+        add_holders(*child(table, row.key), row.holds, holders);
+    }
 }
 
-// where in its scene a row's key can be set
-inline std::string address(const KeyRow& row) {
-  const std::map<std::string_view, std::string> tables = {{"box", "domain.box"},
-                                                          {"domain.planes", "domain.planes.1"},
-                                                          {"joints", "joints.A"},
-                                                          {"excavations", "excavations.tunnel"},
-                                                          {"region", "excavations.tunnel"},
-                                                          {"cylinder", "excavations.tunnel.cylinder"},
-                                                          {"joint_properties", "joint_properties.rock"},
-                                                          {"blocks", "blocks.by planes"},
-                                                          {"blocks.planes", "blocks.by planes.planes.1"},
-                                                          {"water", "water.lake"},
-                                                          {"water_surface", "water.lake"},
-                                                          {"water_table", "water.seep.table"},
-                                                          {"water_change", "stage.settle.water.lake"},
-                                                          {"bolts", "bolts.roof"},
-                                                          {"fan", "bolts.roof.fan"},
-                                                          {"repeat", "bolts.roof.repeat.1"},
-                                                          {"linings", "linings.shell"},
-                                                          {"label", "fix.1"},
-                                                          {"copies", "repeat.1"},
-                                                          {"let_off", "stage.settle.let_off"},
-                                                          {"selector", "fix.1"},
-                                                          {"restrain", "restrain.1"},
-                                                          {"motion", "initial_velocity.1"},
-                                                          {"boundary", "stage.run.boundary.1"},
-                                                          {"in_situ", "stage.run.boundary.1.in_situ"},
-                                                          {"friction", "stage.run.friction.rock"},
-                                                          {"force", "stage.run.force.push"},
-                                                          {"move", "stage.run.move.1"},
-                                                          {"factor", "stage.run.move.1"},
-                                                          {"monitors", "monitors.body"}};
-  std::string table(row.table);
-  if (const auto at = tables.find(row.table); at != tables.end()) table = at->second;
-  if (row.table == "stage") {
-    const std::string kind(row.when.value.substr(0, row.when.value.find('|')));
-    table = "stage." + (kind.empty() ? "settle" : kind == "reduce" || kind == "friction" ? "bisection" : kind);
-    if (row.and_when.value == "factor") table = kind == "steps" ? "stage.factor_steps" : "stage.factor";
+// A scene with its tables as they are written, before copies are made.
+struct Written {
+  explicit Written(const std::string& scene)
+      : text(scene), tree(parse_toml(scene, std::make_shared<const std::string>("scene.toml"))) {
+    add_holders({&tree, ""}, {""}, holders);
   }
-  if (row.table == "joint_properties" && !row.when.value.empty())
-    table = row.when.value == "linear" || row.when.value == "hardening" ? "joint_properties.linear"
-                                                                        : "joint_properties.power";
-  if (row.table == "joints" && row.when.key == "shape")
-    table = row.when.value == "polygon" ? "joints.polygon" : "joints.ellipse";
-  if (row.table == "joints" && row.when.key == "kind") table = "joints.boundary";
-  if (row.table == "joint_sets") {
-    const bool plain = row.key != "spacing" && (row.when.value.empty() || row.when.value == "persistent");
-    table = plain ? "joint_sets.plain" : row.when.value == "fisher" ? "joint_sets.fisher" : "joint_sets.finite";
+
+  const std::string& text;
+  Node tree;
+  std::vector<Holder> holders;
+};
+
+struct Home {
+  const std::string* scene = nullptr;
+  std::string address;  // of the key, as `--set` takes it
+};
+
+inline bool accepts(const Home& home, std::string_view value) {
+  try {
+    parse_scene(*home.scene, "scene.toml", {home.address + "=" + std::string(value)});
+    return true;
+  } catch (const SceneError&) {
+    return false;
   }
-  if (row.table == "joint_sets" && row.when.key == "arrangement") table = "joint_sets.equal";
-  if (row.table == "blocks" && row.key == "vertices") table = "blocks.by vertices";
-  if (row.table == "blocks" && &scene_of(row) == &of_particles)
-    table = row.key == "mass_tolerance" ? "blocks.ball" : "blocks.rounded";
-  if (row.table == "blocks.planes" && row.key == "point") table = "blocks.by planes.planes.5";
-  if (row.table == "monitors" && row.key == "joint") table = "monitors.joint";
-  if (row.table == "monitors" && (row.key == "excavation" || row.key == "angles_deg" || row.key.starts_with("since")))
-    table = "monitors.wall";
-  if (row.table == "monitors" && row.key == "water") table = "monitors.lake";
-  if (&scene_of(row) == &in_the_plane && row.table == "monitors") table = "monitors.crown";
-  if (row.table == "monitors" && row.key == "bolts") table = "monitors.bolts";
-  if (row.table == "bolts" && (row.key == "from" || row.key == "to" || row.key == "axial_stiffness" ||
-                               row.key == "pretension" || row.key == "rupture_extension"))
-    table = "bolts.anchor";
-  if (row.table == "bolts" && row.key.starts_with("dowel_strength")) table = "bolts.dowel";
-  if (row.table == "bolts" && (row.when.value == "grouted" || row.key == "plate_stiffness")) table = "bolts.bar";
-  if (row.table == "bolts" && row.key == "plate") table = "bolts.plain bar";
-  if (row.table == "water_surface" && row.key == "table") table = "water.seep";
-  if (row.table == "water_surface" && row.key == "pressure") table = "water.grout";
-  if (row.table == "water_change" && row.key == "rate") table = "stage.run.water.lake";
-  return key_path(table, row.key);
+}
+
+// The first table that accepts this value of a row's key. Some values fit beside no other: then the first table that
+// states the key, or else may state it.
+inline Home home_of(const KeyRow& row, std::string_view value) {
+  static const std::array scenes{Written(everything), Written(in_the_plane), Written(of_particles)};
+  Home stated, allowed;
+  for (const Written& scene : scenes)
+    for (const Holder& holder : scene.holders) {
+      const Node& table = *holder.table.node;
+      if (std::ranges::find(holder.groups, row.table) == holder.groups.end() || !key_applies(table, holder.groups, row))
+        continue;
+      const Home here{&scene.text, key_path(holder.table.path, row.key)};
+      if (!value.empty() && accepts(here, value)) return here;
+      if (!stated.scene && table.find(row.key)) stated = here;
+      if (!allowed.scene) allowed = here;
+    }
+  if (!allowed.scene)
+    throw std::logic_error("no scene of core/testing/every_key.hpp has a table for " +
+                           key_path(std::string(row.table), row.key));
+  return stated.scene ? stated : allowed;
+}
+
+inline const Home& home(const KeyRow& row, std::string_view value) {
+  static std::map<std::pair<const KeyRow*, std::string>, Home> homes;
+  Home& found = homes[{&row, std::string(value)}];
+  if (!found.scene) found = home_of(row, value);
+  return found;
+}
+
+// the scene in which a row's key can have its example, and where
+inline const std::string& scene_of(const KeyRow& row) {
+  return *home(row, row.example).scene;
+}
+inline const std::string& address(const KeyRow& row) {
+  return home(row, row.example).address;
 }
 
 }  // namespace voussoir::every_key

@@ -15,16 +15,12 @@ namespace {
 using shapes::integer;
 using shapes::power_of_ten;
 using shapes::Random;
+using shapes::turned_anyhow;
 using shapes::uniform;
 
 constexpr double pi = std::numbers::pi;
 
 // ---- blocks ---------------------------------------------------------------------------------------------------------
-
-template <int Dim>
-HalfSpaces<Dim> turned_anyhow(const HalfSpaces<Dim>& planes, Random& random) {
-  return shapes::placed<Dim>(planes, matrix(shapes::orientation<Dim>(random)), Vector<Dim>::Zero());
-}
 
 // 6, 12, 20 or 50 faces before the redundant ones go
 template <int Dim>
@@ -124,12 +120,8 @@ Feature<Dim> feature_at(const Polytope<Dim>& part, const std::vector<int>& corne
     sum += weight;
   }
   f.point /= sum;
-  for (std::size_t i = 0; i < part.faces.size(); ++i) {
-    const std::vector<int>& loop = part.loops[i];
-    const bool holds = std::all_of(corners.begin(), corners.end(),
-                                   [&](int c) { return std::find(loop.begin(), loop.end(), c) != loop.end(); });
-    if (holds) f.direction += uniform(random, 0.05, 1) * part.faces[i].normal;
-  }
+  for (const int face : shapes::faces_at<Dim>(part, corners))
+    f.direction += uniform(random, 0.05, 1) * part.faces[face].normal;
   f.direction.normalize();
   return f;
 }

@@ -11,6 +11,8 @@
 #include "core/contact/pair_geometry.hpp"
 #include "core/slicing/block.hpp"
 #include "core/testing/exact_contacts.hpp"
+#include "core/testing/one_pair.hpp"
+#include "core/testing/shapes.hpp"
 #include "core/testing/workers.hpp"
 
 namespace voussoir::families {
@@ -75,9 +77,7 @@ struct Scene {
     int farthest = 0;
     for (std::size_t v = 1; v < own.vertices.size(); ++v)
       if (seen.dot(own.vertices[v]) > seen.dot(own.vertices[farthest])) farthest = static_cast<int>(v);
-    std::vector<int> meeting;
-    for (int f = 0; f < static_cast<int>(own.faces.size()); ++f)
-      if (std::find(own.loops[f].begin(), own.loops[f].end(), farthest) != own.loops[f].end()) meeting.push_back(f);
+    std::vector<int> meeting = shapes::faces_at<Dim>(own, {farthest});
     if constexpr (Dim == 2) meeting.push_back(static_cast<int>(own.faces.size()));
     const Planes part_planes = part(first);
     const Point exactly = exact::point_of(direction);
@@ -266,12 +266,9 @@ template <int Dim>
 Contact<Dim> resolve(Pair<Dim> pair, QueryLevel level, const Contact<Dim>& before, Tally& tally,
                      const ContactSettings& settings = {}) {
   pair.level = level;
-  Contact<Dim> contact = before;
-  Contact<Dim>* slot = &contact;
-  KernelCounters counters;
-  narrow_phase<Dim>(std::span(&pair, 1), settings, {}, std::span(&slot, 1), counters);
-  tally.counts["centres by another solver"] += counters.centre_fallbacks;
-  return contact;
+  const contacts::Outcome<Dim> outcome = contacts::resolve<Dim>(pair, settings, before);
+  tally.counts["centres by another solver"] += outcome.counters.centre_fallbacks;
+  return outcome.contact;
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 // Seeded shapes for the tests: the same numbers on every platform.
 #pragma once
 
+#include <algorithm>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_int_distribution.hpp>
@@ -173,6 +174,11 @@ HalfSpaces<Dim> scaled(HalfSpaces<Dim> planes, double factor) {
   return planes;
 }
 
+template <int Dim>
+HalfSpaces<Dim> turned_anyhow(const HalfSpaces<Dim>& planes, Random& random) {
+  return placed<Dim>(planes, matrix(orientation<Dim>(random)), Vector<Dim>::Zero());
+}
+
 // ---- blocks ---------------------------------------------------------------------------------------------------------
 
 // throws when the planes make no block
@@ -188,6 +194,29 @@ template <int Dim>
 Polytope<Dim> centred_block(const HalfSpaces<Dim>& planes) {
   const Polytope<Dim> part = block<Dim>(planes);
   return moved_origin<Dim>(part, part.mass.centroid);
+}
+
+// all that a contact asks of a block, at another size; a power of two changes no digit
+template <int Dim>
+Polytope<Dim> scaled_block(Polytope<Dim> part, double factor) {
+  part.faces = scaled<Dim>(part.faces, factor);
+  part.radius *= factor;
+  part.inscribed_radius *= factor;
+  part.centre *= factor;
+  part.vertex_error *= factor;
+  for (Vector<Dim>& v : part.vertices)
+    v *= factor;
+  return part;
+}
+
+// the faces that hold all these corners
+template <int Dim>
+std::vector<int> faces_at(const Polytope<Dim>& part, const std::vector<int>& corners) {
+  std::vector<int> faces;
+  for (std::size_t f = 0; f < part.loops.size(); ++f)
+    if (std::ranges::all_of(corners, [&](int c) { return std::ranges::count(part.loops[f], c) > 0; }))
+      faces.push_back(static_cast<int>(f));
+  return faces;
 }
 
 }  // namespace voussoir::shapes

@@ -1,0 +1,40 @@
+# The file VOUSSOIR_BUILT_SOURCES lists the sources of all targets, for unit.architecture, which finds those of none.
+set(VOUSSOIR_BUILT_SOURCES ${PROJECT_BINARY_DIR}/built_sources.txt)
+
+# voussoir_built_elsewhere(<patterns…>): sources that an option or a missing library leaves out of this build, or that a
+# test builds in a project of its own
+function(voussoir_built_elsewhere)
+  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  file(GLOB found CONFIGURE_DEPENDS ${ARGN})
+  set_property(GLOBAL APPEND PROPERTY VOUSSOIR_BUILT_ELSEWHERE ${found})
+endfunction()
+
+function(_voussoir_sources_below folder)
+  get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(target ${targets})
+    get_target_property(sources ${target} SOURCES)
+    foreach(source ${sources})
+      if(source MATCHES "\\.cpp$")
+        cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder})
+        set_property(GLOBAL APPEND PROPERTY VOUSSOIR_BUILT ${source})
+      endif()
+    endforeach()
+  endforeach()
+  get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+  foreach(inner ${folders})
+    _voussoir_sources_below(${inner})
+  endforeach()
+endfunction()
+
+# to be called when all targets are there
+function(voussoir_write_built_sources)
+  _voussoir_sources_below(${PROJECT_SOURCE_DIR})
+  get_property(built GLOBAL PROPERTY VOUSSOIR_BUILT)
+  get_property(elsewhere GLOBAL PROPERTY VOUSSOIR_BUILT_ELSEWHERE)
+  list(APPEND built ${elsewhere})
+  list(REMOVE_DUPLICATES built)
+  list(TRANSFORM built REPLACE "^${PROJECT_SOURCE_DIR}/" "")
+  list(SORT built)
+  list(JOIN built "\n" lines)
+  file(CONFIGURE OUTPUT ${VOUSSOIR_BUILT_SOURCES} CONTENT "${lines}\n" @ONLY)
+endfunction()
