@@ -9,7 +9,7 @@
 namespace voussoir {
 namespace {
 
-bool holds(const std::vector<std::string>& list, const std::string& name) {
+bool has_name(const std::vector<std::string>& list, const std::string& name) {
   return std::ranges::find(list, name) != list.end();
 }
 
@@ -19,7 +19,7 @@ std::vector<std::string> names_of_supports(const Scene& scene) {
   for (const SceneSupport& row : scene_supports)
     if (row.stated)
       for (const StatedSupport& support : row.stated(scene)) {
-        if (holds(names, support.name))
+        if (has_name(names, support.name))
           refuse(support.subject, "name",
                  "is the name of bolts or of another lining; stages install by name, so give it another");
         names.push_back(support.name);
@@ -37,16 +37,16 @@ std::vector<std::string> installed_names(const Scene& scene) {
     for (const std::string& name : stage.plan.change.excavate)
       excavated.push_back(name);
     for (const std::string& name : stage.plan.change.install) {
-      if (!holds(names, name))
+      if (!has_name(names, name))
         refuse(stage.subject, "install",
                names.empty() ? "there is nothing to install; add [[bolts]] or [[linings]] with a name"
                              : "no bolts or lining are named '" + one_line(name, 60) + "'; " + suggestion(name, names));
-      if (holds(installed, name))
+      if (has_name(installed, name))
         refuse(stage.subject, "install",
                "puts in '" + one_line(name, 60) + "' once more; name bolts and linings in one stage, once");
       installed.push_back(name);
       for (const LiningSpec& spec : scene.linings)
-        if (spec.properties.name == name && holds(later, spec.excavation) && !holds(excavated, spec.excavation))
+        if (spec.properties.name == name && has_name(later, spec.excavation) && !has_name(excavated, spec.excavation))
           refuse(stage.subject, "install",
                  "puts in the lining '" + one_line(name, 60) + "' before '" + one_line(spec.excavation, 60) +
                      "' is taken out; install it in the stage that excavates, or after it");
@@ -62,7 +62,7 @@ void check_installs(const Scene& scene) {
   for (const SceneSupport& row : scene_supports)
     if (row.stated)
       for (const StatedSupport& support : row.stated(scene))
-        if (!holds(installed, support.name))
+        if (!has_name(installed, support.name))
           refuse(
               support.subject, "name",
               fmt::format("no stage installs {}; write install = [\"{}\"] in the stage before which it is put in, or "
