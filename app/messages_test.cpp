@@ -4,7 +4,7 @@
 
 #include "app/testing/program.hpp"
 #include "core/model/body_title.hpp"
-#include "core/output/paraview.hpp"
+#include "core/output/bolt_output.hpp"
 #include "core/scene/scene.hpp"
 #include "core/stage/install_bolts.hpp"
 #include "core/testing/lined_opening.hpp"

@@ -1,12 +1,11 @@
 #include "core/step.hpp"
 
-#include "core/step/bolt_forces.hpp"
 #include "core/step/joint_forces.hpp"
-#include "core/step/lining_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
 #include "core/step/neighbours.hpp"
 #include "core/step/static_solver.hpp"
+#include "core/step/support_table.hpp"
 
 namespace voussoir {
 
@@ -19,9 +18,9 @@ void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   // while all of it is at hand: overlap and slip to forces, histories renewed
   find_joint_forces(model, settings, state);
 
-  // what bolts answer to where their anchors have gone, and linings to where their rock has
-  find_bolt_forces(model, state);
-  find_lining_forces(model, settings, state);
+  // forces of bolts where their anchors have gone, and of linings where their rock has
+  for (const StepSupport<Dim>& row : step_supports<Dim>)
+    row.find_forces(model, settings, state);
 
   // what acts on each body: joint forces in the order of the contacts, then gravity
   sum_loads(model, settings, state);

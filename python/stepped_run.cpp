@@ -8,11 +8,10 @@
 #include "core/base/version.hpp"
 #include "core/model/state_hash.hpp"
 #include "core/output/atomic_file.hpp"
-#include "core/output/bolts_csv.hpp"
 #include "core/output/history_csv.hpp"
-#include "core/output/lining_csv.hpp"
 #include "core/output/paraview.hpp"
 #include "core/output/results_json.hpp"
+#include "core/output/support_table.hpp"
 #include "core/run/simulate.hpp"
 #include "core/run/snapshot.hpp"
 #include "core/scene/accuracy_target.hpp"
@@ -52,7 +51,9 @@ void claim(const fs::path& folder, bool overwrite, const std::vector<fs::path>& 
   if (fs::exists(folder / "run.json", error))
     throw FileInTheWay("'" + folder.string() + "' holds a run of the program: save into another folder");
   std::vector<fs::path> files = series_files(folder);
-  for (const char* name : {"scene.toml", "history.csv", "bolts.csv", "lining.csv", "results.json"})
+  std::vector<std::string> names = support_table_files();
+  names.insert(names.end(), {"scene.toml", "history.csv", "results.json"});
+  for (const std::string& name : names)
     if (fs::exists(folder / name, error)) files.push_back(name);
   for (const fs::path& name : files) {
     const std::string shown = "'" + (folder / name).string() + "'";
@@ -154,8 +155,7 @@ class SteppedRunOf : public SteppedRun {
     }
     const Results& results = progress_.results;
     write_history_csv(folder / "history.csv", history());
-    if (!results.bolts.empty()) write_bolts_csv(folder / "bolts.csv", results.bolts);
-    if (!results.linings.empty()) write_lining_csv(folder / "lining.csv", results.linings);
+    write_support_tables(folder, results);
     if (const Snapshot<Dim> now = snapshot(prepared_, progress_);
         saved_->times.empty() || saved_->times.back() != now.state.schedule.time)
       write_frame(*saved_, now.model, now.state, now.state.schedule.time);

@@ -20,11 +20,10 @@
 #include "app/run_folder/run_folder.hpp"
 #include "app/view/page.hpp"
 #include "core/output/atomic_file.hpp"
-#include "core/output/bolts_csv.hpp"
 #include "core/output/history_csv.hpp"
-#include "core/output/lining_csv.hpp"
 #include "core/output/paraview.hpp"
 #include "core/output/results_json.hpp"
+#include "core/output/support_table.hpp"
 #include "core/output/view.hpp"
 #include "core/run/stable_state.hpp"
 #include "core/scene/toml_text.hpp"
@@ -163,8 +162,7 @@ struct WrittenSeries {
 template <int Dim>
 void write_tables(const fs::path& folder, const Progress<Dim>& progress) {
   write_history_csv(folder / "history.csv", history_so_far(progress));
-  if (!progress.results.bolts.empty()) write_bolts_csv(folder / "bolts.csv", progress.results.bolts);
-  if (!progress.results.linings.empty()) write_lining_csv(folder / "lining.csv", progress.results.linings);
+  write_support_tables(folder, progress.results);
 }
 
 // the run continues from where `progress` stands; false: a signal stopped it, with a checkpoint

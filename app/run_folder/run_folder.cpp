@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/output/atomic_file.hpp"
+#include "core/output/support_table.hpp"
 #include "core/run/simulate.hpp"
 #include "text/read_file.hpp"
 
@@ -112,10 +113,13 @@ RunOptions read_options(const fs::path& folder) {
 }
 
 Outputs run_outputs() {
-  return {"run",
-          {"results.json", "run.json", newest, previous, end_state, "history.csv", "bolts.csv", "lining.csv",
-           "view.bin", "view.html", "scene.toml"},
-          true};
+  Outputs outputs{
+      "run",
+      {"results.json", "run.json", newest, previous, end_state, "history.csv", "view.bin", "view.html", "scene.toml"},
+      true};
+  for (const std::string& table : support_table_files())
+    outputs.files.push_back(table);
+  return outputs;
 }
 
 Outputs resume_outputs() {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "core/output/support_table.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -174,44 +175,6 @@ void append_water(std::vector<double>& values, const Monitor& monitor, const Mod
     values.push_back(numbers[Dim == 2 ? 2 * k + 1 : 0] + model.origin[Dim - 1]);
 }
 
-// of one bolt, N
-template <int Dim>
-void append_bolts(std::vector<double>& values, int properties, const Model<Dim>& model, const State<Dim>& state) {
-  const BoltProperties& p = model.bolt_properties[properties];
-  double largest = 0, sum = 0, count = 0, yielded = 0, broken = 0;
-  for (const BoltSpring<Dim>& s : state.supports.bolt_springs) {
-    if (model.bolts[s.bolt].properties != properties) continue;
-    if (std::abs(s.force) > std::abs(largest)) largest = s.force;
-    sum += s.force;
-    count += 1;
-    yielded += s.plastic != 0;
-    broken += s.broken;
-  }
-  values.insert(values.end(), {p.spacing * largest, count > 0 ? p.spacing * sum / count : 0, yielded, broken});
-}
-
-// at a node, or the largest of all nodes and the largest use of the strength; nothing before it is installed
-template <int Dim>
-void append_lining(std::vector<double>& values, const Monitor& monitor, const Model<Dim>& model,
-                   const State<Dim>& state) {
-  SectionForces found;
-  double use = 0;
-  if constexpr (Dim == 2)
-    if (std::ranges::count(state.supports.linings, monitor.subject, &LiningState::lining) > 0) {
-      const Lining& lining = model.linings[monitor.subject];
-      const std::vector<SectionForces> at_nodes = forces_at_nodes(lining, forces_of_beams(lining, state.bodies));
-      if (monitor.node >= 0) found = at_nodes[monitor.node];
-      for (const SectionForces& at : at_nodes) {
-        use = std::max(use, use_of(lining.properties, at).value_or(0));
-        if (monitor.node >= 0) continue;
-        for (double SectionForces::*force : {&SectionForces::thrust, &SectionForces::shear, &SectionForces::moment})
-          if (std::abs(at.*force) > std::abs(found.*force)) found.*force = at.*force;
-      }
-    }
-  values.insert(values.end(), {found.thrust, found.shear, found.moment});
-  if (monitor.node < 0) values.push_back(use);
-}
-
 }  // namespace
 
 template <int Dim>
@@ -283,25 +246,17 @@ std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
         for (int k = 1; k <= m.points; ++k)
           columns.push_back({m.name + "_level" + (m.points > 1 ? fmt::format("_{}", k) : ""), "m"});
         break;
-      case Quantity::bolt_force:
-        columns.push_back({m.name + "_largest_force", "N"});
-        columns.push_back({m.name + "_mean_force", "N"});
-        columns.push_back({m.name + "_yielded", "1"});
-        columns.push_back({m.name + "_broken", "1"});
-        break;
       case Quantity::convergence:
         if (m.wall.size() < 2 || m.over != Over::one) columns.push_back({m.name + "_convergence", "m"});
         for (std::size_t k = 1; m.over == Over::one && m.wall.size() > 1 && k <= m.wall.size(); ++k)
           columns.push_back({fmt::format("{}_convergence_{}", m.name, k), "m"});
         break;
-      case Quantity::lining_force: {
-        const std::string name = m.name + (m.node < 0 ? "_largest" : "");
-        columns.push_back({name + "_thrust", "N"});
-        columns.push_back({name + "_shear_force", "N"});
-        columns.push_back({name + "_moment", "Nm"});
-        if (m.node < 0) columns.push_back({name + "_use", "1"});
-        break;
-      }
+      default:
+        for (const OutputSupport<Dim>& row : output_supports<Dim>)
+          if (row.quantity == m.followed.quantity)
+            row.add_columns(m, [&](std::string name, std::string unit) {
+              columns.push_back({std::move(name), std::move(unit)});
+            });
     }
   }
   return columns;
@@ -329,15 +284,12 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
       case Quantity::level:
         append_water(values, m, model, state);
         break;
-      case Quantity::bolt_force:
-        append_bolts(values, m.subject, model, state);
-        break;
       case Quantity::convergence:
         append_convergence(values, m, model, state, ends);
         break;
-      case Quantity::lining_force:
-        append_lining(values, m, model, state);
-        break;
+      default:
+        for (const OutputSupport<Dim>& row : output_supports<Dim>)
+          if (row.quantity == m.followed.quantity) row.add_values(m, model, state, values);
     }
   }
   return values;

@@ -11,24 +11,13 @@
 #include <span>
 
 #include "core/output/atomic_file.hpp"
+#include "core/output/drawn_points.hpp"
+#include "core/output/support_table.hpp"
 #include "core/potential/particle.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
-
-std::array<double, 3> in_space(const Vector<2>& v) {
-  return {v[0], v[1], 0};
-}
-std::array<double, 3> in_space(const Vector<3>& v) {
-  return {v[0], v[1], v[2]};
-}
-
-template <int Dim>
-void append(DataArray& array, const Vector<Dim>& v) {
-  const std::array<double, 3> components = in_space(v);
-  array.values.insert(array.values.end(), components.begin(), components.end());
-}
 
 // 3-D: the faces; 2-D: one polygon, its edges chained end to start
 std::vector<std::vector<int>> polygons(const Polytope<3>& part) {
@@ -87,19 +76,19 @@ void append_part(PolyData& data, BlockArrays& arrays, const Model<Dim>& model, c
   }
 }
 
-template <class Named>
-std::vector<std::string> names_of(const std::vector<Named>& list) {
-  std::vector<std::string> names;
-  for (const Named& item : list)
-    names.push_back(item.name);
-  return names;
-}
-
-constexpr std::array frame_kinds{"blocks", "contacts", "force_lines", "bolts", "linings"};
+// of every scene
+constexpr std::array kinds_of_all{"blocks", "contacts", "force_lines"};
 
 // whether every scene has frames of this kind
 bool always(const std::string& kind) {
-  return kind != "bolts" && kind != "linings";
+  return std::ranges::count(kinds_of_all, kind) > 0;
+}
+
+std::vector<const char*> frame_kinds() {
+  std::vector<const char*> kinds(kinds_of_all.begin(), kinds_of_all.end());
+  for (const OutputSupport<2>& row : output_supports<2>)
+    if (row.lines) kinds.push_back(row.frames);
+  return kinds;
 }
 
 std::string frame_file(const std::string& series, const char* kind, std::size_t number) {
@@ -113,7 +102,7 @@ std::string collection_file(const std::string& series, const char* kind) {
 // the number in the name of one of the series' frames
 std::optional<std::size_t> frame_number(const std::string& series, const std::filesystem::path& path) {
   const std::string name = path.filename().string();
-  for (const char* kind : frame_kinds) {
+  for (const char* kind : frame_kinds()) {
     const std::string before = series + kind + "_";
     if (!name.starts_with(before)) continue;
     std::size_t number = 0;
@@ -129,7 +118,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "frames", error))
     if (frame_number(series, entry.path())) files.push_back("frames" / entry.path().filename());
-  for (const char* kind : frame_kinds) {
+  for (const char* kind : frame_kinds()) {
     const std::filesystem::path collection = folder / collection_file(series, kind);
     if (std::filesystem::is_symlink(collection, error) || std::filesystem::exists(collection, error))
       files.push_back(collection.filename());
@@ -138,7 +127,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
 }
 
 void write_collections(const FrameSeries& series) {
-  for (const char* kind : frame_kinds) {
+  for (const char* kind : frame_kinds()) {
     std::vector<TimedFile> files;
     for (std::size_t k = 0; k < series.times.size(); ++k)
       if (const std::string file = frame_file(series.name, kind, k);
@@ -286,115 +275,6 @@ PolyData force_lines(const Model<Dim>& model, const State<Dim>& state, double ti
   return data;
 }
 
-namespace {
-
-template <int Dim>
-Vector<Dim> place_of(const Model<Dim>& model, const State<Dim>& state, int body, const Vector<Dim>& place) {
-  const Motion<Dim>& m = state.bodies.motions[body];
-  return model.origin + model.bodies[body].reference + m.displacement + matrix(m.rotation) * place;
-}
-
-// The nodes of a bar, the first and last moved out to collar and toe, where these are left.
-template <int Dim>
-std::vector<Vector<Dim>> drawn_nodes(const Model<Dim>& model, const State<Dim>& state, const GroutedBolt<Dim>& g) {
-  std::vector<Vector<Dim>> nodes;
-  for (std::size_t i = 0; i < g.body.size(); ++i)
-    nodes.push_back(place_of(model, state, g.body[i], g.place[i]));
-  const BoltSpring<Dim>&first = state.supports.bolt_springs[g.first_spring],
-        &last = state.supports.bolt_springs[g.first_spring + g.joints() - 1];
-  const Vector<Dim> along = matrix(state.bodies.motions[first.body_a].rotation) * first.axis;
-  const Vector<Dim> collar = place_of(model, state, first.body_a, first.begin),
-                    toe = place_of(model, state, last.body_b, last.end);
-  if (along.dot(nodes.front() - collar) > 0) nodes.front() = collar;
-  if (along.dot(toe - nodes.back()) > 0) nodes.back() = toe;
-  return nodes;
-}
-
-}  // namespace
-
-template <int Dim>
-PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double time) {
-  PolyData data;
-  data.kind = PolyData::Cells::lines;
-  data.time = time;
-  DataArray bolts{"bolts", 1, true, {}}, number{"bolt", 1, true, {}}, joint{"joint", 1, true, {}},
-      force{"force_N", 1, false, {}}, shear{"shear_N", 1, false, {}}, plastic{"plastic_m", 1, false, {}},
-      use{"use", 1, false, {}}, broken{"broken", 1, true, {}};
-  const auto anchor = [&](int body, const Vector<Dim>& place) { return place_of(model, state, body, place); };
-  const std::vector<BoltSpring<Dim>>& springs = state.supports.bolt_springs;
-  const auto add = [&](const Vector<Dim>& begin, const Vector<Dim>& end, int of, int at_joint, double f,
-                       double plastic_f) {
-    const int first = static_cast<int>(data.points.size());
-    data.points.push_back(in_space(begin));
-    data.points.push_back(in_space(end));
-    data.cells.push_back({first, first + 1});
-    const Bolt<Dim>& bolt = model.bolts[of];
-    const BoltProperties& p = model.bolt_properties[bolt.properties];
-    bolts.values.push_back(bolt.properties);
-    number.values.push_back(bolt.number);
-    joint.values.push_back(at_joint);
-    force.values.push_back(p.spacing * f);
-    plastic.values.push_back(plastic_f);
-    use.values.push_back(p.yield ? std::abs(f) / *p.yield : 0);
-  };
-  for (const BoltSpring<Dim>& s : springs) {
-    const BoltProperties& p = model.bolt_properties[model.bolts[s.bolt].properties];
-    if (p.kind == BoltKind::grouted) continue;
-    add(anchor(s.body_a, s.begin), anchor(s.body_b, s.end), s.bolt, s.number, s.force, s.plastic);
-    shear.values.push_back(p.spacing * s.shear.norm());
-    broken.values.push_back(s.broken);
-  }
-  for (const GroutedBolt<Dim>& g : state.supports.grouted) {
-    const std::vector<Vector<Dim>> nodes = drawn_nodes(model, state, g);
-    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-      const int next = std::min(g.stretch[i], g.joints() - 1);
-      add(nodes[i], nodes[i + 1], g.bolt, springs[g.first_spring + next].number, g.state.bar_force[i],
-          g.state.plastic_stretch[i]);
-      shear.values.push_back(0);
-      broken.values.push_back(0);
-    }
-  }
-  data.cell_data = {bolts, number, joint, force, shear, plastic, use, broken};
-  data.names = {{"bolt_names", names_of(model.bolt_properties)}};
-  return data;
-}
-
-PolyData lining_lines(const Model<2>& model, const State<2>& state, double time) {
-  PolyData data;
-  data.kind = PolyData::Cells::lines;
-  data.time = time;
-  DataArray linings{"lining", 1, true, {}}, node{"node", 1, true, {}}, displacement{"displacement", 3, false, {}},
-      thrust{"thrust_N", 1, false, {}}, shear{"shear_N", 1, false, {}}, moment{"moment_Nm", 1, false, {}},
-      pressure{"pressure_Pa", 1, false, {}}, use{"use", 1, false, {}};
-  std::vector<std::string> names;
-  for (const Lining& lining : model.linings)
-    names.push_back(lining.properties.name);
-  for (const LiningState& lined : state.supports.linings) {
-    const Lining& lining = model.linings[lined.lining];
-    const int first = static_cast<int>(data.points.size());
-    const std::vector<SectionForces> forces = forces_at_nodes(lining, forces_of_beams(lining, state.bodies));
-    for (std::size_t i = 0; i < lining.nodes.size(); ++i) {
-      const LiningNode& at = lining.nodes[i];
-      const Vector<2>& moved = state.bodies.motions[lining.first_body + i].displacement;
-      data.points.push_back(in_space(Vector<2>(model.origin + at.place + moved)));
-      append<2>(displacement, moved);
-      linings.values.push_back(lined.lining);
-      node.values.push_back(static_cast<double>(i + 1));
-      thrust.values.push_back(forces[i].thrust);
-      shear.values.push_back(forces[i].shear);
-      moment.values.push_back(forces[i].moment);
-      pressure.values.push_back((lined.contacts[2 * i].normal + lined.contacts[2 * i + 1].normal) /
-                                (at.half_length[0] + at.half_length[1]));
-      use.values.push_back(use_of(lining.properties, forces[i]).value_or(0));
-    }
-    for (int k = 0; k < lining.beams(); ++k)
-      data.cells.push_back({first + k, first + lining.next(k)});
-  }
-  data.point_data = {linings, node, displacement, thrust, shear, moment, pressure, use};
-  data.names = {{"lining_names", names}};
-  return data;
-}
-
 std::vector<std::filesystem::path> series_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files = files_of(folder, {}), trials = files_of(folder, trial_series);
   files.insert(files.end(), trials.begin(), trials.end());
@@ -410,7 +290,7 @@ FrameSeries cut_back(const std::filesystem::path& folder, const std::vector<doub
   }
   if (times.empty()) return series;
   prepare_folder(folder / "frames");
-  for (const char* kind : frame_kinds)
+  for (const char* kind : frame_kinds())
     for (std::size_t k = 0; k < times.size(); ++k)
       if (const std::string file = frame_file(name, kind, k); always(kind) && !std::filesystem::exists(folder / file))
         series.lost.insert(file);
@@ -426,11 +306,9 @@ void write_frame(FrameSeries& series, const Model<Dim>& model, const State<Dim>&
              vtp(block_faces(model, state, time, series.sets)));
   write_file(series.folder / frame_file(series.name, "contacts", frame), vtp(contact_points(model, state, time)));
   write_file(series.folder / frame_file(series.name, "force_lines", frame), vtp(force_lines(model, state, time)));
-  if (!model.bolts.empty())
-    write_file(series.folder / frame_file(series.name, "bolts", frame), vtp(bolt_lines(model, state, time)));
-  if constexpr (Dim == 2)
-    if (!model.linings.empty())
-      write_file(series.folder / frame_file(series.name, "linings", frame), vtp(lining_lines(model, state, time)));
+  for (const OutputSupport<Dim>& row : output_supports<Dim>)
+    if (row.lines && row.has(model))
+      write_file(series.folder / frame_file(series.name, row.frames, frame), vtp(row.lines(model, state, time)));
   series.times.push_back(time);
   write_collections(series);  // last: they never name a file that is not there
 }
@@ -439,8 +317,6 @@ template PolyData block_faces<2>(const Model<2>&, const State<2>&, double, const
 template PolyData block_faces<3>(const Model<3>&, const State<3>&, double, const JointSets&);
 template PolyData force_lines<2>(const Model<2>&, const State<2>&, double);
 template PolyData force_lines<3>(const Model<3>&, const State<3>&, double);
-template PolyData bolt_lines<2>(const Model<2>&, const State<2>&, double);
-template PolyData bolt_lines<3>(const Model<3>&, const State<3>&, double);
 template PolyData contact_points<2>(const Model<2>&, const State<2>&, double);
 template PolyData contact_points<3>(const Model<3>&, const State<3>&, double);
 template void write_frame<2>(FrameSeries&, const Model<2>&, const State<2>&, double);

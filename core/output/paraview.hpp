@@ -35,22 +35,10 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
 template <int Dim>
 PolyData force_lines(const Model<Dim>& model, const State<Dim>& state, double time);
 
-// The springs of bolts, a line each, between the middles of the bolt's length from joint to joint, from its
-// collar to its toe; of grouted bolts the rods between the nodes of their bars, the first and last as long, with the
-// joint that they cross or that comes next. Cell data: bolts, bolt, joint, force_N and shear_N (of one bolt, tension
-// positive), plastic_m, use (of yield; 0 where it has none), broken. Field data: bolt_names.
-template <int Dim>
-PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double time);
-
-// The beams of linings, a line each. Point data: lining, node, displacement (m, since it was installed), thrust_N
-// (compression positive), shear_N, moment_Nm (sagging positive), pressure_Pa of the rock, use (of strength; 0 where
-// none is stated). Field data: lining_names.
-PolyData lining_lines(const Model<2>& model, const State<2>& state, double time);
-
 // A growing series of frames in `folder`: frames/blocks_0000.vtp …, frames/contacts_0000.vtp …,
-// frames/force_lines_0000.vtp …, blocks.pvd, contacts.pvd, force_lines.pvd, where the scene has bolts also
-// frames/bolts_0000.vtp … and bolts.pvd, with linings linings_… likewise; the name of the series stands before each of
-// them.
+// frames/force_lines_0000.vtp …, blocks.pvd, contacts.pvd, force_lines.pvd, where the scene has supports also
+// frames/bolts_0000.vtp … and bolts.pvd, with linings linings_… likewise (support_table.hpp); the name of the series
+// stands before each of them.
 struct FrameSeries {
   std::filesystem::path folder;
   std::vector<double> times = {};   // of the frames written: s, or the numbers of trials

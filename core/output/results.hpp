@@ -88,7 +88,7 @@ struct History {
   std::vector<std::vector<double>> rows;
 };
 
-// a spring of a bolt at the end of a stage, or the plate of a grouted one (core/output/bolts_csv.hpp)
+// a spring of a bolt at the end of a stage, or the plate of a grouted one (core/output/bolt_output.hpp)
 struct BoltRow {
   int stage = 1;
   std::string bolts;
@@ -102,7 +102,7 @@ struct BoltRow {
   std::optional<double> slip{};  // m, of a grouted bolt's bond
 };
 
-// a node of a lining at the end of a stage (core/output/lining_csv.hpp)
+// a node of a lining at the end of a stage (core/output/lining_output.hpp)
 struct LiningRow {
   int stage = 1;
   std::string lining;

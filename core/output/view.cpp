@@ -13,6 +13,7 @@
 #include "core/joint_laws/joint_law.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/paraview.hpp"
+#include "core/output/support_table.hpp"
 #include "core/potential/particle.hpp"
 #include "text/angle.hpp"
 #include "text/read_file.hpp"
@@ -288,41 +289,27 @@ void put_contacts(Record& record, ViewSeries& series, const Model<Dim>& model, c
     record.list(column);
 }
 
-// ---- bolts and linings ---------------------------------------------------------------------------------------------
-
-const std::vector<double>* values_of(const std::vector<DataArray>& arrays, std::string_view name) {
-  const auto found = std::ranges::find(arrays, name, &DataArray::name);
-  return found == arrays.end() ? nullptr : &found->values;
-}
+// ---- supports ------------------------------------------------------------------------------------------------------
 
 // Straight pieces: ends from the model's origin, m; the force along them, N, tension positive; use of strength; 0 for a
 // bolt, 1 for a lining.
 template <int Dim>
 void put_support(Record& record, const Model<Dim>& model, const State<Dim>& state) {
   std::array<std::vector<float>, 2 * Dim + 3> columns;
-  const auto add = [&](const PolyData& data, std::size_t cell, double force, double use, float kind) {
+  const auto add = [&](const PolyData& data, std::size_t cell, const LinePull& pull, float kind) {
     for (int end = 0; end < 2; ++end)
       for (int k = 0; k < Dim; ++k)
         columns[Dim * end + k].push_back(single(data.points[data.cells[cell][end]][k] - model.origin[k]));
-    columns[2 * Dim].push_back(short_single(force));
-    columns[2 * Dim + 1].push_back(short_single(use));
+    columns[2 * Dim].push_back(short_single(pull.force));
+    columns[2 * Dim + 1].push_back(short_single(pull.use));
     columns[2 * Dim + 2].push_back(kind);
   };
-  if (!model.bolts.empty()) {
-    const PolyData bolts = bolt_lines(model, state, 0);
-    for (std::size_t i = 0; i < bolts.cells.size(); ++i)
-      add(bolts, i, (*values_of(bolts.cell_data, "force_N"))[i], (*values_of(bolts.cell_data, "use"))[i], 0);
+  for (const OutputSupport<Dim>& row : output_supports<Dim>) {
+    if (!row.lines || !row.has(model)) continue;
+    const PolyData lines = row.lines(model, state, 0);
+    for (std::size_t i = 0; i < lines.cells.size(); ++i)
+      add(lines, i, row.pull(lines, i), row.viewer_kind);
   }
-  if constexpr (Dim == 2)
-    if (!model.linings.empty()) {
-      const PolyData linings = lining_lines(model, state, 0);
-      const std::vector<double>&thrust = *values_of(linings.point_data, "thrust_N"),
-            &use = *values_of(linings.point_data, "use");
-      for (std::size_t i = 0; i < linings.cells.size(); ++i) {
-        const int a = linings.cells[i][0], b = linings.cells[i][1];
-        add(linings, i, -0.5 * (thrust[a] + thrust[b]), std::max(use[a], use[b]), 1);
-      }
-    }
   record.put(static_cast<std::uint32_t>(columns[0].size()));
   for (const std::vector<float>& column : columns)
     record.list(column);

@@ -31,6 +31,11 @@ struct PolyData {
   std::vector<std::pair<std::string, std::vector<std::string>>> names;
 };
 
+// of a support that is drawn as a line: the force along it, N, tension positive, and that over its strength
+struct LinePull {
+  double force = 0, use = 0;
+};
+
 // A number that is not finite is written as 0: a failed run's last frame is worth seeing, and no reader takes "nan".
 std::string vtp(const PolyData& data);
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "core/output/monitor.hpp"
+#include "core/output/support_table.hpp"
 #include "core/run/history.hpp"
 #include "text/angle.hpp"
 
@@ -38,47 +38,6 @@ Replayed<Dim> replay(const Prepared<Dim>& scene, int stages) {
       friction.push_back(p.friction);
   }
   return replayed;
-}
-
-// Bolts of other names may stand before those that are in place: the springs are told by name and number.
-template <int Dim>
-void find_bolts(const Model<Dim>& model, int stages, const std::vector<BoltRow>& rows, State<Dim>& state) {
-  std::vector<const BoltRow*> last;
-  for (const BoltRow& row : rows)
-    if (row.stage == stages && row.joint > 0) last.push_back(&row);  // not of a grouted bolt's plate
-  if (last.size() != state.supports.bolt_springs.size()) throw BeginError("lists other bolts than it holds");
-  std::map<int, int> now;
-  for (std::size_t i = 0; i < last.size(); ++i) {
-    const auto is_it = [&](const Bolt<Dim>& b) {
-      return model.bolt_properties[b.properties].name == last[i]->bolts && b.number == last[i]->bolt;
-    };
-    const auto found = std::ranges::find_if(model.bolts, is_it);
-    if (found == model.bolts.end()) throw BeginError("holds bolts that this scene does not have");
-    now[state.supports.bolt_springs[i].bolt] = static_cast<int>(found - model.bolts.begin());
-  }
-  const auto renumber = [&](auto& installed) {
-    for (auto& one : installed)
-      if (const auto found = now.find(one.bolt); found != now.end()) one.bolt = found->second;
-  };
-  for (SupportsState<Dim>* supports : {&state.supports, &state.increment.supports}) {
-    renumber(supports->bolt_springs);
-    renumber(supports->grouted);
-  }
-}
-
-// likewise linings, by name
-template <int Dim>
-void find_linings(const Model<Dim>& model, int stages, const std::vector<LiningRow>& rows, State<Dim>& state) {
-  std::vector<std::string> names;
-  for (const LiningRow& row : rows)
-    if (row.stage == stages && !holds(names, row.lining)) names.push_back(row.lining);
-  if (names.size() != state.supports.linings.size()) throw BeginError("lists other linings than it holds");
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto found =
-        std::ranges::find_if(model.linings, [&](const Lining& l) { return l.properties.name == names[i]; });
-    if (found == model.linings.end()) throw BeginError("holds a lining that this scene does not have");
-    state.supports.linings[i].lining = static_cast<int>(found - model.linings.begin());
-  }
 }
 
 // joint properties that nothing has used are this scene's
@@ -174,8 +133,11 @@ Progress<Dim> begin_at_end(const Prepared<Dim>& scene, Progress<Dim> other, cons
   const Replayed<Dim> replayed = replay(scene, other.stage);
   if (!fits(replayed.model, other.state)) throw BeginError("holds other blocks than this scene makes");
   other.ends = ends_wanted(scene, other);
-  find_bolts(replayed.model, other.stage, other.results.bolts, other.state);
-  find_linings(replayed.model, other.stage, other.results.linings, other.state);
+  for (const OutputSupport<Dim>& row : output_supports<Dim>)
+    if (const std::string wrong =
+            row.find_again ? row.find_again(replayed.model, other.stage, other.results, other.state) : "";
+        !wrong.empty())
+      throw BeginError(wrong);
   take_own_strength(replayed, shared.own, other.state.schedule);
   rewrite_history(scene, replayed, shared, other.results.history);
   other.frames.clear();

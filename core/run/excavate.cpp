@@ -4,8 +4,7 @@
 #include <tuple>
 
 #include "core/stage/excavation.hpp"
-#include "core/stage/install_bolts.hpp"
-#include "core/stage/install_linings.hpp"
+#include "core/stage/support_table.hpp"
 #include "core/step.hpp"
 
 namespace voussoir {
@@ -98,14 +97,6 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
   state.contacts.subs = std::move(subs);
 }
 
-// what is left of bolts: what is fixed in parts that are left
-template <int Dim>
-void carry_springs(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state) {
-  if (state.supports.bolt_springs.empty()) return;
-  const auto is_left = [&](int& body, Vector<Dim>& place) { return follow(before, model, moved, body, place); };
-  cut_bolts<Dim>(is_left, state);
-}
-
 template <int Dim>
 std::vector<Load<Dim>> loads_now(const Model<Dim>& model, const Settings& settings, State<Dim> state) {
   find_forces(model, settings, state);
@@ -124,8 +115,8 @@ Excavated<Dim> excavate(const std::vector<std::string>& names, const Settings& s
   const std::vector<Motion<Dim>> motions = state.bodies.motions;
   carry_motions(before, model, moved, state);
   carry_contacts(before, model, moved, motions, state);
-  carry_springs(before, model, moved, state);
-  carry_linings(before, model, moved, state);
+  for (const StageSupport<Dim>& row : stage_supports<Dim>)
+    if (row.carry) row.carry(before, model, moved, state);
   forget_lists(state);
   if (!hold) return moved;
 

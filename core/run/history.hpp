@@ -6,7 +6,6 @@
 
 #include "core/model/prepared.hpp"
 #include "core/output/monitor.hpp"
-#include "core/output/results.hpp"
 
 namespace voussoir {
 
@@ -24,13 +23,5 @@ std::vector<std::string> history_columns(const Prepared<Dim>& scene);
 template <int Dim>
 std::vector<double> history_row(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state, int stage,
                                 int trial, const std::vector<StageEnd<Dim>>& ends = {});
-
-// what every spring of a bolt carries at the end of a stage, counted from 1
-template <int Dim>
-std::vector<BoltRow> bolt_rows(const Model<Dim>& model, const State<Dim>& state, int stage);
-
-// what every node of a lining carries at the end of a stage, counted from 1
-template <int Dim>
-std::vector<LiningRow> lining_rows(const Model<Dim>& model, const State<Dim>& state, int stage);
 
 }  // namespace voussoir

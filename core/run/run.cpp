@@ -14,6 +14,7 @@
 #include "core/step/prescribed.hpp"
 #include "core/step/relaxation.hpp"
 #include "core/step/static_solver.hpp"
+#include "core/step/support_table.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -118,14 +119,12 @@ std::string unreached(const Model<Dim>& model, const Settings& settings, const R
   return ramps.empty() ? "" : fmt::format("; not reached: {}", fmt::join(ramps, ", "));
 }
 
-// A lining that had rock opposite and touches none any more; -1: none.
+// the support that has left its rock, as a sentence; empty: none
 template <int Dim>
-int loose_lining(const State<Dim>& state) {
-  for (const LiningState& lined : state.supports.linings) {
-    const auto touches = [](const LiningContact& c) { return c.rock >= 0 && (c.bonded || c.closure >= 0); };
-    if (!lined.rock.empty() && std::ranges::none_of(lined.contacts, touches)) return lined.lining;
-  }
-  return -1;
+std::string loose_support(const Model<Dim>& model, const State<Dim>& state) {
+  for (const StepSupport<Dim>& row : step_supports<Dim>)
+    if (std::string found = row.loose ? row.loose(model, state.supports) : ""; !found.empty()) return found;
+  return {};
 }
 
 // what falls may yet be lifted by a water, or lose its weight
@@ -320,11 +319,9 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
     if (goal.moved_away && has_moved_away(model, goal, progress.begin, state)) return stop(StopReason::moved_away);
     if (goal.end_time && state.schedule.time >= *goal.end_time) return stop(StopReason::end_time);
-    if (const int lining = goal.rest && !evaluated && std::isinf(report.unbalanced) ? loose_lining(state) : -1;
-        lining >= 0)
-      return stop(StopReason::lining_loose,
-                  fmt::format("no node of the lining '{}' touches rock any more, and nothing else exerts a force",
-                              model.linings[lining].properties.name));
+    if (goal.rest && !evaluated && std::isinf(report.unbalanced))
+      if (const std::string loose = loose_support(model, state); !loose.empty())
+        return stop(StopReason::lining_loose, loose + ", and nothing else exerts a force");
     if (goal.rest && !goal.moved_away && !may_return(schedule, changing) && !state.increment.under_way &&
         progress.steps % steps_between_falls == 0)
       if (const int body = falling_free(model, state); body >= 0)

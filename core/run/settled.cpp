@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/run/run.hpp"
+#include "core/step/support_table.hpp"
 
 namespace voussoir {
 namespace {
@@ -112,8 +113,8 @@ struct Settling {
 
   // whether it has left all that it touched, if it touched anything, and no bolt holds it
   bool has_left_all(int body) const {
-    for (const BoltSpring<Dim>& spring : now.supports.bolt_springs)
-      if (!spring.broken && (spring.body_a == body || spring.body_b == body)) return false;
+    for (const StepSupport<Dim>& row : step_supports<Dim>)
+      if (row.hangs && row.hangs(now.supports, body)) return false;
     bool touched = false;
     for (const NearBodies& pair : begin.near) {
       if (!pair.touched || (pair.a != body && pair.b != body)) continue;

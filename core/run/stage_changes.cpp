@@ -6,13 +6,13 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "core/output/support_table.hpp"
 #include "core/run/doubts.hpp"
 #include "core/run/excavate.hpp"
 #include "core/run/history.hpp"
 #include "core/run/record.hpp"
 #include "core/run/stable_state.hpp"
-#include "core/stage/install_bolts.hpp"
-#include "core/stage/install_linings.hpp"
+#include "core/stage/support_table.hpp"
 #include "core/step/free_fall.hpp"
 #include "core/step/joint_forces.hpp"
 #include "core/step/relaxation.hpp"
@@ -23,21 +23,17 @@ namespace {
 template <int Dim>
 void install_supports(const StageInForce<Dim>& stage, State<Dim>& state, Results& results) {
   const StagePlan& plan = stage.plan();
-  try {
-    for (const std::string& idle : install_bolts(stage.model, plan.change.install, state))
-      results.warnings.push_back(fmt::format(
-          "stage {}: the bolts '{}' cross no joint between two blocks and hold nothing; lengthen or move them, or "
-          "install them before their blocks are taken out",
-          plan.name, idle));
-  } catch (const std::invalid_argument& error) {  // grout that does not hold what they are tightened to
-    fail(plan, Outcome::failed, error.what(), results);
+  for (const StageSupport<Dim>& row : stage_supports<Dim>)
+    if (row.remove) row.remove(stage.model, state);
+  for (const StageSupport<Dim>& row : stage_supports<Dim>) {
+    if (!row.install) continue;
+    try {
+      for (const std::string& idle : row.install(stage.model, plan.change.install, state))
+        results.warnings.push_back(fmt::format("stage {}: {}", plan.name, row.describe_idle(idle)));
+    } catch (const std::invalid_argument& error) {  // grout that does not hold what they are tightened to
+      fail(plan, Outcome::failed, error.what(), results);
+    }
   }
-  release_linings(stage.model, state);
-  for (const std::string& idle : install_linings(stage.model, plan.change.install, state))
-    results.warnings.push_back(fmt::format(
-        "stage {}: no block has a face on the outline of the lining '{}', so that nothing holds it; install it after "
-        "its excavation is taken out",
-        plan.name, idle));
 }
 
 // candidates, time step and relief loads belong to the stage
@@ -127,7 +123,6 @@ void begin_stage(const StageInForce<Dim>& stage, Progress<Dim>& progress) {
   }
   add_bodies(stage.model, state);  // bolts ask where all bodies are
   remove_bonds(stage.model, state);
-  remove_springs(stage.model, state);
   install_supports(stage, state, progress.results);
   if (change.zero_slip) zero_slip(state);
   if (change.bond) make_bonds(stage.model, stage.settings, state);
@@ -158,10 +153,8 @@ void end_stage(const StageInForce<Dim>& stage, const StageOutcome& done, const W
   if (std::holds_alternative<SettlePlan>(plan.plan) && results.outcome == Outcome::done)
     judge_moved(stage, now, progress.settle, results);
   finish_rows(stage, now, progress);
-  for (BoltRow& bolt : bolt_rows(stage.model, now, stage.place + 1))
-    results.bolts.push_back(std::move(bolt));
-  for (LiningRow& node : lining_rows(stage.model, now, stage.place + 1))
-    results.linings.push_back(std::move(node));
+  for (const OutputSupport<Dim>& row : output_supports<Dim>)
+    if (row.add_rows) row.add_rows(stage.model, now, stage.place + 1, results);
   add_frame(stage, now, watcher, progress);
   report_progress(stage, state, done.ended, done.unbalanced, 1, watcher);
 }

@@ -172,59 +172,9 @@ BoltProperties per_metre(BoltProperties p, double spacing) {
 
 }  // namespace
 
-std::vector<BoltSpec> read_bolts(const Subject& scene, int dimension) {
-  std::vector<BoltSpec> all;
-  for (const Subject& item : children(scene, "bolts"))
-    all.push_back(read_bolt(item, dimension));
-  return all;
-}
-
-void check_installs(const Scene& scene) {
-  std::vector<std::string> names, installed;
-  for (const BoltSpec& spec : scene.bolts)
-    names.push_back(spec.properties.name);
-  const auto holds = [](const std::vector<std::string>& list, const std::string& name) {
-    return std::ranges::find(list, name) != list.end();
-  };
-  for (const LiningSpec& spec : scene.linings) {
-    if (holds(names, spec.properties.name))
-      refuse(spec.subject, "name",
-             "is the name of bolts or of another lining; stages install by name, so give it another");
-    names.push_back(spec.properties.name);
-  }
-  std::vector<std::string> excavated, later;
-  for (const StageSpec& stage : scene.stages)
-    later.insert(later.end(), stage.plan.change.excavate.begin(), stage.plan.change.excavate.end());
-  for (const StageSpec& stage : scene.stages) {
-    for (const std::string& name : stage.plan.change.excavate)
-      excavated.push_back(name);
-    for (const std::string& name : stage.plan.change.install) {
-      if (!holds(names, name))
-        refuse(stage.subject, "install",
-               names.empty() ? "there is nothing to install; add [[bolts]] or [[linings]] with a name"
-                             : "no bolts or lining are named '" + one_line(name, 60) + "'; " + suggestion(name, names));
-      if (holds(installed, name))
-        refuse(stage.subject, "install",
-               "puts in '" + one_line(name, 60) + "' once more; name bolts and linings in one stage, once");
-      installed.push_back(name);
-      for (const LiningSpec& spec : scene.linings)
-        if (spec.properties.name == name && holds(later, spec.excavation) && !holds(excavated, spec.excavation))
-          refuse(stage.subject, "install",
-                 "puts in the lining '" + one_line(name, 60) + "' before '" + one_line(spec.excavation, 60) +
-                     "' is taken out; install it in the stage that excavates, or after it");
-    }
-  }
-  const auto demand = [&](const Subject& subject, const std::string& name, const char* what) {
-    if (!holds(installed, name))
-      refuse(subject, "name",
-             fmt::format("no stage installs {}; write install = [\"{}\"] in the stage before which it is put in, or "
-                         "remove it",
-                         what, one_line(name, 60)));
-  };
-  for (const BoltSpec& spec : scene.bolts)
-    demand(spec.subject, spec.properties.name, "these bolts");
-  for (const LiningSpec& spec : scene.linings)
-    demand(spec.subject, spec.properties.name, "this lining");
+void read_bolts(const Subject& top, Scene& scene) {
+  for (const Subject& item : children(top, "bolts"))
+    scene.bolts.push_back(read_bolt(item, scene.dimension));
 }
 
 template <int Dim>

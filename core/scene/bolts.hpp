@@ -9,11 +9,7 @@
 namespace voussoir {
 
 // Throws SceneError.
-std::vector<BoltSpec> read_bolts(const Subject& scene, int dimension);
-
-// Every stage installs bolts and linings that exist, each is installed by one stage, and a lining once its opening is
-// there. Throws SceneError.
-void check_installs(const Scene& scene);
+void read_bolts(const Subject& top, Scene& scene);
 
 // What angles of rays across an axis count from and turn to: right and up; in the plane the x and the y axis.
 template <int Dim>

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "core/scene/keys/tables.hpp"
+#include "core/scene/keys/supports.hpp"
 
 namespace voussoir {
 namespace {
@@ -31,10 +31,10 @@ std::vector<KeyRow> all_rows() {
     tables.push_back(std::move(table));
   for (KeyTable& table : water_keys())
     tables.push_back(std::move(table));
-  for (KeyTable& table : bolt_keys())
+  for (KeyTable& table : support_keys())
     tables.push_back(std::move(table));
-  for (KeyTable& table : std::vector<KeyTable>{lining_keys(), let_off_keys(), stage_friction_keys(), move_keys(),
-                                               monitor_keys(), output_keys(), joint_set_keys()})
+  for (KeyTable& table : std::vector<KeyTable>{let_off_keys(), stage_friction_keys(), move_keys(), monitor_keys(),
+                                               output_keys(), joint_set_keys()})
     tables.push_back(std::move(table));
   std::vector<KeyRow> all;
   for (const KeyTable& table : tables)

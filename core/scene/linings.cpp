@@ -111,14 +111,12 @@ LiningSpec read_lining(const Subject& item) {
 
 }  // namespace
 
-std::vector<LiningSpec> read_linings(const Subject& scene, int dimension) {
-  std::vector<LiningSpec> all;
-  for (const Subject& item : children(scene, "linings")) {
-    if (dimension == 3)
+void read_linings(const Subject& top, Scene& scene) {
+  for (const Subject& item : children(top, "linings")) {
+    if (scene.dimension == 3)
       refuse(item, "name", "applies only where dimension = 2: linings are beams of the plane; remove [[linings]]");
-    all.push_back(read_lining(item));
+    scene.linings.push_back(read_lining(item));
   }
-  return all;
 }
 
 template <int Dim>

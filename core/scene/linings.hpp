@@ -6,7 +6,7 @@
 namespace voussoir {
 
 // Throws SceneError.
-std::vector<LiningSpec> read_linings(const Subject& scene, int dimension);
+void read_linings(const Subject& top, Scene& scene);
 
 // Model::linings, whatever the order in which the scene states them; the model has its origin and its joint properties.
 // Throws SceneError.

@@ -9,6 +9,7 @@
 #include "core/potential/particle.hpp"
 #include "core/potential/support.hpp"
 #include "core/potential/valid_shape.hpp"
+#include "core/scene/support_table.hpp"
 #include "core/slicing/block.hpp"
 
 namespace voussoir {
@@ -200,8 +201,8 @@ void check_beside_particles(const Scene& scene, const Model<Dim>& model) {
                          table));
   };
   refuse_all(scene.waters, "water");
-  refuse_all(scene.bolts, "bolts");
-  refuse_all(scene.linings, "linings");
+  for (const SceneSupport& row : scene_supports)
+    if (row.table) refuse_all(row.stated(scene), row.table);
   if (scene.settings.contact.tolerance > 0)
     refuse(*child({scene.tree.get(), ""}, "contact"), "tolerance",
            "is a tolerance of half-spaces, which potential particles do not know; leave it out");

@@ -10,15 +10,14 @@
 #include "core/model/water_surfaces.hpp"
 #include "core/potential/particle.hpp"
 #include "core/scene/bodies.hpp"
-#include "core/scene/bolts.hpp"
 #include "core/scene/domain_blocks.hpp"
 #include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/keys.hpp"
-#include "core/scene/linings.hpp"
 #include "core/scene/particles.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/stage_excavations.hpp"
 #include "core/scene/stated_bodies.hpp"
+#include "core/scene/support_table.hpp"
 #include "core/scene/wall_points.hpp"
 #include "core/scene/wet_faces.hpp"
 #include "text/angle.hpp"
@@ -446,8 +445,8 @@ Prepared<Dim> prepare(const Scene& scene) {
 
   // what the scene says about them by selectors, and the water on them
   add_waters<Dim>(scene, model);
-  add_bolts<Dim>(scene, model);
-  add_linings<Dim>(scene, model);
+  for (const SceneSupport& row : scene_supports)
+    row.add_to(scene, model);
   add_supports<Dim>(scene, model);
   prepared.state = moving_state<Dim>(scene, model);
   prepared.stages = checked_stages<Dim>(scene, model);

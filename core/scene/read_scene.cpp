@@ -9,10 +9,8 @@
 #include "core/scene/accuracy_level.hpp"
 #include "core/scene/accuracy_target.hpp"
 #include "core/scene/base_scene.hpp"
-#include "core/scene/bolts.hpp"
 #include "core/scene/divided_strength.hpp"
 #include "core/scene/keys.hpp"
-#include "core/scene/linings.hpp"
 #include "core/scene/overrides.hpp"
 #include "core/scene/particles.hpp"
 #include "core/scene/read_joint_sets.hpp"
@@ -22,6 +20,7 @@
 #include "core/scene/repeat.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_text.hpp"
+#include "core/scene/support_table.hpp"
 #include "core/scene/toml_text.hpp"
 
 namespace voussoir {
@@ -209,8 +208,8 @@ Scene read_tree(Node stated, const std::string& name, const std::vector<std::str
   check_divided_strength(scene.properties, scene.stages);
   scene.waters = read_waters(top, scene.dimension);
   read_water_changes(scene.waters, scene.stages, scene.dimension);
-  scene.bolts = read_bolts(top, scene.dimension);
-  scene.linings = read_linings(top, scene.dimension);
+  for (const SceneSupport& row : scene_supports)
+    if (row.read) row.read(top, scene);
   scene.monitors = read_monitors(top);
   return scene;
 }

@@ -1,4 +1,5 @@
 #include "core/scene/shared_stages.hpp"
+#include "core/scene/support_table.hpp"
 
 #include <fmt/format.h>
 
@@ -184,8 +185,8 @@ Node shared_part(const Scene& scene, int stages) {
   Node* list = tree.find("stage");
   list->items.resize(std::min(list->items.size(), static_cast<std::size_t>(stages)));
   const NameSet installed = installed_by(*list), used = used_properties(tree, *list);
-  for (const char* support : {"bolts", "linings"})
-    keep_items(tree, support, [&](const Node& item) { return installed.contains(name_of(item)); });
+  for (const SceneSupport& row : scene_supports)
+    if (row.table) keep_items(tree, row.table, [&](const Node& item) { return installed.contains(name_of(item)); });
   reduce_properties(used, tree);
   tell_excavations(scene, tree);
   tell_waters(scene, tree);

@@ -4,6 +4,7 @@
 
 #include "core/model/model.hpp"
 #include "core/stage/excavation.hpp"
+#include "core/stage/support_table.hpp"
 
 namespace voussoir {
 namespace {
@@ -76,27 +77,6 @@ void apply_forces(Model<Dim>& model, const std::vector<ForcePlan>& plans) {
   std::ranges::stable_sort(model.applied, {}, &AppliedForce<Dim>::body);
 }
 
-// the nodes of linings become bodies without parts, at the end of the list
-template <int Dim>
-void add_lining_nodes(Model<Dim>& model, const std::vector<std::string>& names) {
-  if constexpr (Dim == 2)
-    for (Lining& lining : model.linings) {
-      if (std::ranges::find(names, lining.properties.name) == names.end()) continue;
-      lining.first_body = static_cast<int>(model.bodies.size());
-      for (const LiningNode& node : lining.nodes) {
-        Body<2> body;
-        body.reference = node.place;
-        body.mass = node.mass;
-        body.inertia[0] = node.inertia;
-        body.radius = body.size = 0.5 * (node.half_length[0] + node.half_length[1]);
-        body.free_translation.fill(true);
-        body.free_rotation.fill(true);
-        model.bodies.push_back(body);
-      }
-      bound_water_stiffness(model);
-    }
-}
-
 template <int Dim>
 DepthStress<Dim> depth_stress_of(const BoundaryPlan& plan, double origin) {
   DepthStress<Dim> stress{stress_tensor<Dim>(plan.stress), Matrix<Dim>::Zero(), 0};
@@ -151,7 +131,8 @@ Model<Dim> apply(Model<Dim> model, const Change& change) {
     for (const FrictionPlan& plan : change.friction_of)
       if (plan.properties == p.name) p.friction = plan.friction;
   }
-  add_lining_nodes(model, change.install);
+  for (const StageSupport<Dim>& row : stage_supports<Dim>)
+    if (row.add_bodies) row.add_bodies(model, change.install);
   for (const MovePlan& plan : change.move)
     prescribe(model, plan);
   std::sort(model.prescribed.begin(), model.prescribed.end(),

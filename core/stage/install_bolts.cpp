@@ -1,5 +1,7 @@
 #include "core/stage/install_bolts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -347,19 +349,35 @@ void cut_bolts(const std::function<bool(int& body, Vector<Dim>& place)>& is_left
 }
 
 template <int Dim>
+void carry_bolts(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state) {
+  if (state.supports.bolt_springs.empty()) return;
+  const auto is_left = [&](int& body, Vector<Dim>& place) { return follow(before, model, moved, body, place); };
+  cut_bolts<Dim>(is_left, state);
+}
+
+std::string describe_idle_bolts(const std::string& name) {
+  return fmt::format(
+      "the bolts '{}' cross no joint between two blocks and hold nothing; lengthen or move them, or install them "
+      "before "
+      "their blocks are taken out",
+      name);
+}
+
+template <int Dim>
 void remove_springs(const Model<Dim>& model, State<Dim>& state) {
   cut_bolts<Dim>([&](int& body, Vector<Dim>&) { return model.bodies[body].present; }, state);
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                          \
-  template std::vector<BoltSpring<Dim>> springs_of<Dim>(const Model<Dim>&, const State<Dim>&, int);        \
-  template std::optional<GroutedBolt<Dim>> bar_of<Dim>(const Model<Dim>&, const State<Dim>&, int,          \
-                                                       const std::vector<BoltSpring<Dim>>&);               \
-  template void cut_bolts<Dim>(const std::function<bool(int&, Vector<Dim>&)>&, State<Dim>&);               \
-  template bool ends_in_rock<Dim>(const Model<Dim>&, const State<Dim>&, int);                              \
-  template bool shortened<Dim>(const Model<Dim>&, const BoltSpring<Dim>&);                                 \
-  template std::vector<std::string> install_bolts<Dim>(const Model<Dim>&, const std::vector<std::string>&, \
-                                                       State<Dim>&);                                       \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                           \
+  template std::vector<BoltSpring<Dim>> springs_of<Dim>(const Model<Dim>&, const State<Dim>&, int);         \
+  template std::optional<GroutedBolt<Dim>> bar_of<Dim>(const Model<Dim>&, const State<Dim>&, int,           \
+                                                       const std::vector<BoltSpring<Dim>>&);                \
+  template void cut_bolts<Dim>(const std::function<bool(int&, Vector<Dim>&)>&, State<Dim>&);                \
+  template bool ends_in_rock<Dim>(const Model<Dim>&, const State<Dim>&, int);                               \
+  template bool shortened<Dim>(const Model<Dim>&, const BoltSpring<Dim>&);                                  \
+  template std::vector<std::string> install_bolts<Dim>(const Model<Dim>&, const std::vector<std::string>&,  \
+                                                       State<Dim>&);                                        \
+  template void carry_bolts<Dim>(const Model<Dim>&, const Model<Dim>&, const Excavated<Dim>&, State<Dim>&); \
   template void remove_springs<Dim>(const Model<Dim>&, State<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -8,6 +8,7 @@
 
 #include "core/model/model.hpp"
 #include "core/model/state.hpp"
+#include "core/stage/excavation.hpp"
 
 namespace voussoir {
 
@@ -39,11 +40,18 @@ template <int Dim>
 std::vector<std::string> install_bolts(const Model<Dim>& model, const std::vector<std::string>& names,
                                        State<Dim>& state);
 
+// about bolts of which none crosses a joint
+std::string describe_idle_bolts(const std::string& name);
+
 // Leaves what is left of all bolts where rock goes. `is_left`: whether a place in a body's frame is, which then takes
 // the body and the place that it is now. A spring stays with both its anchors. A grouted bar is cut where its nodes or
 // joints go; each piece that crosses a joint yet is a bar of its own, with free ends, and a plate goes with its rock.
 template <int Dim>
 void cut_bolts(const std::function<bool(int& body, Vector<Dim>& place)>& is_left, State<Dim>& state);
+
+// Leaves what is fixed in parts that an excavation has left.
+template <int Dim>
+void carry_bolts(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state);
 
 // springs and bars in blocks that are no longer there
 template <int Dim>

@@ -142,7 +142,7 @@ struct Bars {
   void evaluate(State<Dim>& s) const {
     cache_poses(scene.model, 1, s.bodies);
     s.ledger.energy.elastic = 0;
-    find_bolt_forces(scene.model, s);
+    find_bar_forces(scene.model, scene.settings, s);
   }
   // along one freedom of a body
   void move(State<Dim>& s, int body, int freedom, double by) const {
@@ -215,10 +215,10 @@ template <int Dim>
 void expect_a_tangent() {
   const Bars<Dim> bars;
   std::vector<PairStiffness<Dim>> pairs;
-  add_bolt_pairs(bars.scene.model, bars.state, pairs);
+  add_bar_pairs(bars.scene.model, bars.scene.settings, bars.state, pairs);
   ASSERT_EQ(pairs.size(), 6u) << "each of four blocks with each other one";
   std::vector<BodyStiffness> bounds(4);
-  add_bolt_stiffness(bars.scene.model, bars.state, bounds);
+  add_bar_stiffness(bars.scene.model, bars.state, bounds);
   const std::vector<Load<Dim>> before = bars.loads(bars.state);
   constexpr double step = 1e-7;
   for (int b = 0; b < 4; ++b)

@@ -1,5 +1,7 @@
 #include "core/stage/install_linings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -137,6 +139,26 @@ int nodes_without_rock(const LiningState& lined) {
 }
 
 template <int Dim>
+void add_lining_nodes(Model<Dim>& model, const std::vector<std::string>& names) {
+  if constexpr (Dim == 2)
+    for (Lining& lining : model.linings) {
+      if (std::ranges::find(names, lining.properties.name) == names.end()) continue;
+      lining.first_body = static_cast<int>(model.bodies.size());
+      for (const LiningNode& node : lining.nodes) {
+        Body<2> body;
+        body.reference = node.place;
+        body.mass = node.mass;
+        body.inertia[0] = node.inertia;
+        body.radius = body.size = 0.5 * (node.half_length[0] + node.half_length[1]);
+        body.free_translation.fill(true);
+        body.free_rotation.fill(true);
+        model.bodies.push_back(body);
+      }
+      bound_water_stiffness(model);
+    }
+}
+
+template <int Dim>
 std::vector<std::string> install_linings(const Model<Dim>& model, const std::vector<std::string>& names,
                                          State<Dim>& state) {
   std::vector<std::string> idle;
@@ -151,6 +173,13 @@ std::vector<std::string> install_linings(const Model<Dim>& model, const std::vec
     std::ranges::stable_sort(state.supports.linings, {}, &LiningState::lining);
   }
   return idle;
+}
+
+std::string describe_idle_lining(const std::string& name) {
+  return fmt::format(
+      "no block has a face on the outline of the lining '{}', so that nothing holds it; install it after its "
+      "excavation is taken out",
+      name);
 }
 
 template <int Dim>
@@ -174,6 +203,7 @@ void carry_linings(const Model<Dim>& before, const Model<Dim>& model, const Exca
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                            \
   template std::vector<std::string> install_linings<Dim>(const Model<Dim>&, const std::vector<std::string>&, \
                                                          State<Dim>&);                                       \
+  template void add_lining_nodes<Dim>(Model<Dim>&, const std::vector<std::string>&);                         \
   template void release_linings<Dim>(const Model<Dim>&, State<Dim>&);                                        \
   template void carry_linings<Dim>(const Model<Dim>&, const Model<Dim>&, const Excavated<Dim>&, State<Dim>&);
 VOUSSOIR_INSTANTIATE(2)

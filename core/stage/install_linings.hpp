@@ -13,11 +13,18 @@ namespace voussoir {
 // The faces of blocks that a lining would be cast against as they stand.
 std::vector<LiningRock> rock_around(const Model<2>& model, const State<2>& state, const Lining& lining);
 
+// The nodes of linings become bodies without parts, at the end of the list.
+template <int Dim>
+void add_lining_nodes(Model<Dim>& model, const std::vector<std::string>& names);
+
 // Adds to the state what the linings of these names carry, without force, whose nodes are in the model; gives the names
 // of which no node has rock opposite.
 template <int Dim>
 std::vector<std::string> install_linings(const Model<Dim>& model, const std::vector<std::string>& names,
                                          State<Dim>& state);
+
+// about a lining that has no rock opposite
+std::string describe_idle_lining(const std::string& name);
 
 // how many nodes of an installed lining have no rock opposite
 int nodes_without_rock(const LiningState& state);

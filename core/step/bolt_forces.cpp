@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/step/anchors.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -12,20 +14,6 @@ template <int Dim>
 const BoltProperties& properties_of(const Model<Dim>& model, const BoltSpring<Dim>& spring) {
   return model.bolt_properties[model.bolts[spring.bolt].properties];
 }
-
-// where a spring stands, world axes, m
-template <int Dim>
-struct Stretched {
-  Vector<Dim> apart;         // of its anchors
-  Vector<Dim> arm_a, arm_b;  // of the second anchor from each centroid
-
-  Stretched(const State<Dim>& state, const BoltSpring<Dim>& spring) {
-    const CachedPose<Dim>&a = state.bodies.poses[spring.body_a], &b = state.bodies.poses[spring.body_b];
-    arm_b = b.axes * spring.place_b;
-    arm_a = between(a, b) + arm_b;
-    apart = arm_a - a.axes * spring.place_a;
-  }
-};
 
 // whether the spring is a joint of a grouted bar
 template <int Dim>
@@ -93,7 +81,17 @@ Vector<Dim> force_of(const State<Dim>& state, const BoltSpring<Dim>& spring, con
 }  // namespace
 
 template <int Dim>
-void find_bolt_forces(const Model<Dim>& model, State<Dim>& state) {
+bool has_springs(const Model<Dim>&, const State<Dim>& state) {
+  return !state.supports.bolt_springs.empty();
+}
+
+template <int Dim>
+bool has_bars(const Model<Dim>&, const State<Dim>& state) {
+  return !state.supports.grouted.empty();
+}
+
+template <int Dim>
+void find_spring_forces(const Model<Dim>& model, const Settings&, State<Dim>& state) {
   for (BoltSpring<Dim>& spring : state.supports.bolt_springs) {
     if (is_grouted(model, spring)) continue;
     const Stretched<Dim> at(state, spring);
@@ -102,6 +100,10 @@ void find_bolt_forces(const Model<Dim>& model, State<Dim>& state) {
     state.ledger.energy.elastic += answer.elastic;
     state.ledger.energy.flows[Source::bolt_yield] += answer.lost;
   }
+}
+
+template <int Dim>
+void find_bar_forces(const Model<Dim>&, const Settings&, State<Dim>& state) {
   for (GroutedBolt<Dim>& grouted : state.supports.grouted)
     find_bar_force(grouted, state);
 }
@@ -117,7 +119,7 @@ void bolt_loads(const Model<Dim>&, int, const State<Dim>& state, std::vector<Loa
 }
 
 template <int Dim>
-void add_bolt_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
+void add_spring_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
   for (const BoltSpring<Dim>& spring : state.supports.bolt_springs) {
     if (is_grouted(model, spring)) continue;
     const Stretched<Dim> at(state, spring);
@@ -128,6 +130,10 @@ void add_bolt_stiffness(const Model<Dim>& model, const State<Dim>& state, std::v
     stiffness[spring.body_b].translation += k;
     stiffness[spring.body_b].rotation += k * at.arm_b.squaredNorm();
   }
+}
+
+template <int Dim>
+void add_bar_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
   for (const GroutedBolt<Dim>& grouted : state.supports.grouted) {
     const auto joints = joints_of(state, grouted);
     std::size_t free = 0;
@@ -153,33 +159,9 @@ void add_bolt_stiffness(const Model<Dim>& model, const State<Dim>& state, std::v
 
 namespace {
 
-// how a force on the second body at the spring's second anchor, world axes, changes
 template <int Dim>
-PairStiffness<Dim> pair_of(const State<Dim>& state, int body_a, int body_b, const Vector<Dim>& arm_b,
-                           const Matrix<Dim>& k, const Vector<Dim>& force) {
-  constexpr int S = spin_freedoms<Dim>;
-  PairStiffness<Dim> pair;
-  pair.contact = -1;
-  pair.body_a = body_a;
-  pair.body_b = body_b;
-  pair.apart = between(state.bodies.poses[body_a], state.bodies.poses[body_b]);
-  pair.wrench.template head<Dim>() = force;
-  pair.wrench.template tail<S>() = moment(arm_b, force);
-  for (int f = 0; f < freedoms<Dim>; ++f) {
-    // the second anchor as the second body moves along this freedom
-    const Vector<Dim> way =
-        f < Dim ? Vector<Dim>(Vector<Dim>::Unit(f % Dim)) : cross(Spin<Dim>(Spin<Dim>::Unit((f + S - Dim) % S)), arm_b);
-    const Vector<Dim> lost = k * way;
-    pair.stiffness.template block<Dim, 1>(0, f) = lost;
-    pair.stiffness.template block<S, 1>(Dim, f) = moment(arm_b, lost);
-    if (f >= Dim) pair.stiffness.template block<S, 1>(Dim, f) -= moment(way, force);
-  }
-  return pair;
-}
-
-template <int Dim>
-void add_bar_pairs(const Model<Dim>& model, const State<Dim>& state, const GroutedBolt<Dim>& grouted,
-                   std::vector<PairStiffness<Dim>>& pairs) {
+void add_pairs_of(const Model<Dim>& model, const State<Dim>& state, const GroutedBolt<Dim>& grouted,
+                  std::vector<PairStiffness<Dim>>& pairs) {
   GroutWorkspace workspace;
   std::vector<double> stiffness;
   const auto joints = joints_of(state, grouted);
@@ -207,7 +189,8 @@ void add_bar_pairs(const Model<Dim>& model, const State<Dim>& state, const Grout
 }  // namespace
 
 template <int Dim>
-void add_bolt_pairs(const Model<Dim>& model, const State<Dim>& state, std::vector<PairStiffness<Dim>>& pairs) {
+void add_spring_pairs(const Model<Dim>& model, const Settings&, const State<Dim>& state,
+                      std::vector<PairStiffness<Dim>>& pairs) {
   for (const BoltSpring<Dim>& spring : state.supports.bolt_springs) {
     if (is_grouted(model, spring)) continue;
     if (spring.broken || (model.bodies[spring.body_a].fixed && model.bodies[spring.body_b].fixed)) continue;
@@ -218,15 +201,57 @@ void add_bolt_pairs(const Model<Dim>& model, const State<Dim>& state, std::vecto
     const Matrix<Dim> k = a.axes * own * a.axes.transpose();
     pairs.push_back(pair_of<Dim>(state, spring.body_a, spring.body_b, at.arm_b, k, force_of(state, spring, at)));
   }
-  for (const GroutedBolt<Dim>& grouted : state.supports.grouted)
-    add_bar_pairs(model, state, grouted, pairs);
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                           \
-  template void find_bolt_forces<Dim>(const Model<Dim>&, State<Dim>&);                                      \
-  template void bolt_loads<Dim>(const Model<Dim>&, int, const State<Dim>&, std::vector<Load<Dim>>&);        \
-  template void add_bolt_stiffness<Dim>(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&); \
-  template void add_bolt_pairs<Dim>(const Model<Dim>&, const State<Dim>&, std::vector<PairStiffness<Dim>>&);
+template <int Dim>
+void add_bar_pairs(const Model<Dim>& model, const Settings&, const State<Dim>& state,
+                   std::vector<PairStiffness<Dim>>& pairs) {
+  for (const GroutedBolt<Dim>& grouted : state.supports.grouted)
+    add_pairs_of(model, state, grouted, pairs);
+}
+
+template <int Dim>
+void add_spring_forces(const SupportsState<Dim>& supports, ForcesAtRest& sums) {
+  for (const BoltSpring<Dim>& spring : supports.bolt_springs)
+    if (!spring.broken) sums.add_support(std::abs(spring.force) + spring.shear.norm(), 1);
+}
+
+template <int Dim>
+void tie_springs(const Model<Dim>&, const SupportsState<Dim>& supports, const TwoBodies& tie) {
+  for (const BoltSpring<Dim>& spring : supports.bolt_springs)
+    if (!spring.broken) tie(spring.body_a, spring.body_b);
+}
+
+template <int Dim>
+void tie_bars(const Model<Dim>&, const SupportsState<Dim>& supports, const TwoBodies& tie) {
+  for (const GroutedBolt<Dim>& grouted : supports.grouted)
+    for (const int body : grouted.body)
+      tie(grouted.body.front(), body);
+}
+
+template <int Dim>
+bool hangs_on_spring(const SupportsState<Dim>& supports, int body) {
+  return std::ranges::any_of(supports.bolt_springs, [&](const BoltSpring<Dim>& spring) {
+    return !spring.broken && (spring.body_a == body || spring.body_b == body);
+  });
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
+  template bool has_springs<Dim>(const Model<Dim>&, const State<Dim>&);                                       \
+  template bool has_bars<Dim>(const Model<Dim>&, const State<Dim>&);                                          \
+  template void find_spring_forces<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);                     \
+  template void find_bar_forces<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);                        \
+  template void bolt_loads<Dim>(const Model<Dim>&, int, const State<Dim>&, std::vector<Load<Dim>>&);          \
+  template void add_spring_stiffness<Dim>(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&); \
+  template void add_bar_stiffness<Dim>(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&);    \
+  template void add_spring_pairs<Dim>(const Model<Dim>&, const Settings&, const State<Dim>&,                  \
+                                      std::vector<PairStiffness<Dim>>&);                                      \
+  template void add_bar_pairs<Dim>(const Model<Dim>&, const Settings&, const State<Dim>&,                     \
+                                   std::vector<PairStiffness<Dim>>&);                                         \
+  template void add_spring_forces<Dim>(const SupportsState<Dim>&, ForcesAtRest&);                             \
+  template void tie_springs<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);             \
+  template void tie_bars<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);                \
+  template bool hangs_on_spring<Dim>(const SupportsState<Dim>&, int);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

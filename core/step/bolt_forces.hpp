@@ -1,28 +1,58 @@
-// What bolts do to their blocks (core/support/bolt.hpp, core/support/grouted_bolt.hpp).
+// What bolts do to their blocks (core/support/bolt.hpp, core/support/grouted_bolt.hpp): the entries of their rows in
+// support_table.hpp.
 #pragma once
 
+#include <vector>
+
+#include "core/base/settings.hpp"
 #include "core/model/model.hpp"
 #include "core/model/state.hpp"
+#include "core/step/support_questions.hpp"
 
 namespace voussoir {
 
-// Answers every spring and every grouted bar at the poses of now, which must be cached; the ledger gets the energy that
-// they hold, which it must already have of the contacts, and what yield took. A bar without equilibrium counts as
-// unconverged.
 template <int Dim>
-void find_bolt_forces(const Model<Dim>& model, State<Dim>& state);
+bool has_springs(const Model<Dim>& model, const State<Dim>& state);
+template <int Dim>
+bool has_bars(const Model<Dim>& model, const State<Dim>& state);
 
-// adds what the springs do, as they were answered
+// The forces of springs that are no joints of a bar.
+template <int Dim>
+void find_spring_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+
+// Those of grouted bars and of the springs that are their joints. A bar without equilibrium counts as unconverged.
+template <int Dim>
+void find_bar_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+
+// of all springs, joints of bars among them
 template <int Dim>
 void bolt_loads(const Model<Dim>& model, int threads, const State<Dim>& state, std::vector<Load<Dim>>& loads);
 
-// adds what they stiffen each body by, at most
 template <int Dim>
-void add_bolt_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness);
+void add_spring_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness);
+template <int Dim>
+void add_bar_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness);
 
-// Adds a pair for each unbroken spring with a free body, with no contact (-1), and of a grouted bar one for any two of
-// its stretches: between neighbours with the force at their joint, between others as if the bar were straight.
+// a pair for each unbroken spring with a free body
 template <int Dim>
-void add_bolt_pairs(const Model<Dim>& model, const State<Dim>& state, std::vector<PairStiffness<Dim>>& pairs);
+void add_spring_pairs(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
+                      std::vector<PairStiffness<Dim>>& pairs);
+
+// One for any two stretches of a bar: between neighbours with the force at their joint, between others as if the bar
+// were straight.
+template <int Dim>
+void add_bar_pairs(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
+                   std::vector<PairStiffness<Dim>>& pairs);
+
+// of all unbroken springs
+template <int Dim>
+void add_spring_forces(const SupportsState<Dim>& supports, ForcesAtRest& sums);
+template <int Dim>
+bool hangs_on_spring(const SupportsState<Dim>& supports, int body);
+template <int Dim>
+void tie_springs(const Model<Dim>& model, const SupportsState<Dim>& supports, const TwoBodies& tie);
+
+template <int Dim>
+void tie_bars(const Model<Dim>& model, const SupportsState<Dim>& supports, const TwoBodies& tie);
 
 }  // namespace voussoir

@@ -1,4 +1,5 @@
 #include "core/step/free_fall.hpp"
+#include "core/step/support_table.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -65,7 +66,7 @@ std::vector<Vector<Dim>> pulls(const Model<Dim>& model, const State<Dim>& state)
   return pull;
 }
 
-// the bodies that chains of near pairs, bolts and linings tie, by a number for each chain
+// the bodies that chains of near pairs and supports tie, by a number for each chain
 class Chains {
  public:
   explicit Chains(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -85,18 +86,8 @@ Chains chains_of(const Model<Dim>& model, const State<Dim>& state) {
   Chains chains(model.bodies.size());
   for (const Contact<Dim>& contact : state.contacts.list)
     chains.join(model.parts[contact.part_a].body, model.parts[contact.part_b].body);
-  for (const BoltSpring<Dim>& spring : state.supports.bolt_springs)
-    if (!spring.broken) chains.join(spring.body_a, spring.body_b);
-  for (const GroutedBolt<Dim>& grouted : state.supports.grouted)
-    for (const int body : grouted.body)
-      chains.join(grouted.body.front(), body);
-  for (const LiningState& lined : state.supports.linings) {
-    const Lining& lining = model.linings[lined.lining];
-    for (int node = 0; node < static_cast<int>(lining.nodes.size()); ++node)
-      chains.join(lining.first_body, lining.first_body + node);
-    for (const LiningRock& rock : lined.rock)
-      chains.join(lining.first_body, rock.body);
-  }
+  for (const StepSupport<Dim>& row : step_supports<Dim>)
+    row.tie(model, state.supports, [&](int a, int b) { chains.join(a, b); });
   return chains;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/on_threads.hpp"
+#include "core/step/support_table.hpp"
 
 namespace voussoir {
 namespace {
@@ -158,13 +159,6 @@ double mean_load(const Model<Dim>& model, const State<Dim>& state, std::initiali
   return loaded > 0 ? forces / loaded : 0;
 }
 
-struct ForceSum {
-  double forces = 0;  // N
-  long long acting = 0;
-
-  double mean() const { return acting > 0 ? forces / static_cast<double>(acting) : 0; }
-};
-
 // N: what is unbalanced is measured against this. Contacts may carry next to nothing of what acts: what floats touches
 // nothing, and relief loads or the water in a joint may hold all that its contacts held.
 template <int Dim>
@@ -175,22 +169,14 @@ double force_at_rest(const Model<Dim>& model, int threads, const State<Dim>& sta
     sum.forces += c.force.norm();
     ++sum.acting;
   };
-  ForceSum all, supports;  // contacts and supports; supports alone
+  ForcesAtRest sums;
   for (const ForceSum& some : sums_in_groups<ForceSum>(threads, state.contacts.loads.size(), add_contact)) {
-    all.forces += some.forces;
-    all.acting += some.acting;
+    sums.all.forces += some.forces;
+    sums.all.acting += some.acting;
   }
-  const auto add_support = [&](double force, long long acting) {
-    for (ForceSum* const sum : {&all, &supports}) {
-      sum->forces += force;
-      sum->acting += acting;
-    }
-  };
-  for (const BoltSpring<Dim>& spring : state.supports.bolt_springs)
-    if (!spring.broken) add_support(std::abs(spring.force) + spring.shear.norm(), 1);
-  const InterfaceSum of_linings = interface_sum(state.supports.linings);
-  add_support(of_linings.forces, of_linings.touching);
-  return std::max({all.mean(), supports.mean(), mean_load(model, state, {Source::let_off}),
+  for (const StepSupport<Dim>& row : step_supports<Dim>)
+    if (row.add_forces) row.add_forces(state.supports, sums);
+  return std::max({sums.all.mean(), sums.supports.mean(), mean_load(model, state, {Source::let_off}),
                    mean_load(model, state, {Source::applied_forces}),
                    mean_load(model, state, {Source::water, Source::water_pressure})});
 }

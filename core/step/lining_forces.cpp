@@ -1,5 +1,7 @@
 #include "core/step/lining_forces.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -222,12 +224,74 @@ void add_lining_pairs(const Model<Dim>& model, const Settings& settings, const S
   }
 }
 
+template <int Dim>
+bool has_linings(const Model<Dim>&, const State<Dim>& state) {
+  return !state.supports.linings.empty();
+}
+
+template <int Dim>
+void add_interface_forces(const SupportsState<Dim>& supports, ForcesAtRest& sums) {
+  const InterfaceSum of_linings = interface_sum(supports.linings);
+  sums.add_support(of_linings.forces, of_linings.touching);
+}
+
+template <int Dim>
+void tie_linings(const Model<Dim>& model, const SupportsState<Dim>& supports, const TwoBodies& tie) {
+  for (const LiningState& lined : supports.linings) {
+    const Lining& lining = model.linings[lined.lining];
+    for (int node = 0; node < static_cast<int>(lining.nodes.size()); ++node)
+      tie(lining.first_body, lining.first_body + node);
+    for (const LiningRock& rock : lined.rock)
+      tie(lining.first_body, rock.body);
+  }
+}
+
+template <int Dim>
+void tell_touching_nodes(const Model<Dim>& model, const SupportsState<Dim>& supports, const TwoBodies& tell) {
+  for (const LiningState& lined : supports.linings)
+    for (std::size_t i = 0; i < lined.contacts.size(); ++i)
+      if (const int rock = lined.contacts[i].rock; rock >= 0)
+        tell(lined.rock[rock].body, model.linings[lined.lining].first_body + static_cast<int>(i / 2));
+}
+
+template <int Dim>
+void scale_nodes(const Model<Dim>& model, const std::vector<int>& place, Eigen::VectorXd& scale) {
+  constexpr int F = freedoms<Dim>;
+  for (const Lining& lining : model.linings)
+    for (std::size_t k = 0; lining.first_body >= 0 && k < lining.nodes.size(); ++k) {
+      const LiningNode& node = lining.nodes[k];
+      const int i = place[lining.first_body + k];
+      const double length = node.half_length[0] + node.half_length[1];
+      const double translation = 2 * lining.properties.axial() / length +
+                                 model.properties[lining.interface_properties].normal_stiffness * length;
+      for (int f = 0; f < F; ++f)
+        scale[F * i + f] = f < Dim ? translation : translation * length * length / 12;
+    }
+}
+
+template <int Dim>
+std::string loose_lining(const Model<Dim>& model, const SupportsState<Dim>& supports) {
+  for (const LiningState& lined : supports.linings) {
+    const auto touches = [](const LiningContact& c) { return c.rock >= 0 && (c.bonded || c.closure >= 0); };
+    if (!lined.rock.empty() && std::ranges::none_of(lined.contacts, touches))
+      return fmt::format("no node of the lining '{}' touches rock any more",
+                         model.linings[lined.lining].properties.name);
+  }
+  return {};
+}
+
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
+  template bool has_linings<Dim>(const Model<Dim>&, const State<Dim>&);                                       \
   template void find_lining_forces<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);                     \
   template void lining_loads<Dim>(const Model<Dim>&, int, const State<Dim>&, std::vector<Load<Dim>>&);        \
   template void add_lining_stiffness<Dim>(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&); \
   template void add_lining_pairs<Dim>(const Model<Dim>&, const Settings&, const State<Dim>&,                  \
-                                      std::vector<PairStiffness<Dim>>&);
+                                      std::vector<PairStiffness<Dim>>&);                                      \
+  template void add_interface_forces<Dim>(const SupportsState<Dim>&, ForcesAtRest&);                          \
+  template void tie_linings<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);             \
+  template void tell_touching_nodes<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);     \
+  template void scale_nodes<Dim>(const Model<Dim>&, const std::vector<int>&, Eigen::VectorXd&);               \
+  template std::string loose_lining<Dim>(const Model<Dim>&, const SupportsState<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

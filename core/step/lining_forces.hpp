@@ -1,30 +1,53 @@
-// What linings do to their nodes and to the rock (core/support/lining.hpp). In the plane; elsewhere there are none.
+// What linings do to their nodes and to the rock (core/support/lining.hpp): the entries of their row in
+// support_table.hpp. In the plane; elsewhere there are none.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/base/settings.hpp"
 #include "core/model/model.hpp"
 #include "core/model/state.hpp"
+#include "core/step/support_questions.hpp"
 
 namespace voussoir {
 
-// Answers the interface of every node at the poses of now, which must be cached; the ledger gets the energy that
-// linings hold, which it must already have of contacts and bolts, and what slip and damping took.
+template <int Dim>
+bool has_linings(const Model<Dim>& model, const State<Dim>& state);
+
+// of beams and of the interface of every node
 template <int Dim>
 void find_lining_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
 
-// adds what beams and interfaces do, as they were answered
 template <int Dim>
 void lining_loads(const Model<Dim>& model, int threads, const State<Dim>& state, std::vector<Load<Dim>>& loads);
 
-// adds what they stiffen each body by, at most
 template <int Dim>
 void add_lining_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness);
 
-// adds a pair for each beam and for each half node at rock, with no contact (-1); the state is that of a trial
+// a pair for each beam and for each half node at rock
 template <int Dim>
 void add_lining_pairs(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
                       std::vector<PairStiffness<Dim>>& pairs);
+
+// of interfaces
+template <int Dim>
+void add_interface_forces(const SupportsState<Dim>& supports, ForcesAtRest& sums);
+
+// the nodes of a lining, and the blocks whose faces it was cast against
+template <int Dim>
+void tie_linings(const Model<Dim>& model, const SupportsState<Dim>& supports, const TwoBodies& tie);
+
+// each node with the block opposite
+template <int Dim>
+void tell_touching_nodes(const Model<Dim>& model, const SupportsState<Dim>& supports, const TwoBodies& tell);
+
+// A node has no face: its beams and its interface.
+template <int Dim>
+void scale_nodes(const Model<Dim>& model, const std::vector<int>& place, Eigen::VectorXd& scale);
+
+// a lining that had rock opposite and touches none any more
+template <int Dim>
+std::string loose_lining(const Model<Dim>& model, const SupportsState<Dim>& supports);
 
 }  // namespace voussoir

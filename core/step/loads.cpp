@@ -3,8 +3,7 @@
 #include "core/base/on_threads.hpp"
 #include "core/load/time_factor.hpp"
 #include "core/model/water_surfaces.hpp"
-#include "core/step/bolt_forces.hpp"
-#include "core/step/lining_forces.hpp"
+#include "core/step/support_table.hpp"
 
 namespace voussoir {
 namespace {
@@ -139,18 +138,7 @@ void applied_tangent(const Model<Dim>& model, const State<Dim>& state, std::vect
   }
 }
 
-// A load: whether the model has any, what it does, and, where it changes with the body's pose, by how much at most (for
-// the time step) and how (for Newton's method).
-template <int Dim>
-struct LoadRow {
-  Source source;
-  bool (*acts)(const Model<Dim>&, const State<Dim>&);
-  void (*find)(const Model<Dim>&, int threads, const State<Dim>&, std::vector<Load<Dim>>&);
-  void (*stiffen)(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&) = nullptr;
-  void (*add_tangent)(const Model<Dim>&, const State<Dim>&, std::vector<Block<Dim>>&) = nullptr;
-};
-
-// those that are known before the bodies move, in the order in which they are summed
+// those that are known before the bodies move, in the order in which they are summed; those of supports follow
 template <int Dim>
 constexpr LoadRow<Dim> load_table[] = {
     {Source::contacts, [](const Model<Dim>&, const State<Dim>&) { return true; }, contact_loads<Dim>},
@@ -162,10 +150,6 @@ constexpr LoadRow<Dim> load_table[] = {
     {Source::water, has_water_by_volume<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
     {Source::water_pressure, has_water_by_faces<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
     {Source::let_off, [](const Model<Dim>&, const State<Dim>& s) { return !s.loads.relief.empty(); }, held_loads<Dim>},
-    {Source::bolts, [](const Model<Dim>&, const State<Dim>& s) { return !s.supports.bolt_springs.empty(); },
-     bolt_loads<Dim>, add_bolt_stiffness<Dim>},
-    {Source::lining, [](const Model<Dim>&, const State<Dim>& s) { return !s.supports.linings.empty(); },
-     lining_loads<Dim>, add_lining_stiffness<Dim>},
 };
 
 }  // namespace
@@ -174,20 +158,31 @@ template <int Dim>
 void sum_loads(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const std::size_t count = model.bodies.size();
   state.loads.stiffened.clear();
-  for (const LoadRow<Dim>& row : load_table<Dim>) {
-    std::vector<Load<Dim>>& loads = state.loads.by_source[row.source];
-    loads.assign(row.acts(model, state) ? count : 0, {});
-    if (loads.empty()) continue;
-    row.find(model, settings.threads, state, loads);
-    if (!row.stiffen) continue;
+  const auto find = [&](const LoadRow<Dim>& row) {
+    const bool acts = row.acts(model, state);
+    if (row.find) {
+      std::vector<Load<Dim>>& loads = state.loads.by_source[row.source];
+      loads.assign(acts ? count : 0, {});
+      if (acts) row.find(model, settings.threads, state, loads);
+    }
+    if (!acts || !row.stiffen) return;
     state.loads.stiffened.resize(count);
     row.stiffen(model, state, state.loads.stiffened);
-  }
+  };
+  for (const LoadRow<Dim>& row : load_table<Dim>)
+    find(row);
+  for (const StepSupport<Dim>& row : step_supports<Dim>)
+    find(row.load);
   each_on_threads(settings.threads, count, [&](int b) {
     state.loads.total[b] = {};
-    for (const LoadRow<Dim>& row : load_table<Dim>)
-      if (const std::vector<Load<Dim>>& loads = state.loads.by_source[row.source]; !loads.empty())
+    const auto add = [&](const LoadRow<Dim>& row) {
+      if (const std::vector<Load<Dim>>& loads = state.loads.by_source[row.source]; row.find && !loads.empty())
         state.loads.total[b] += loads[b];
+    };
+    for (const LoadRow<Dim>& row : load_table<Dim>)
+      add(row);
+    for (const StepSupport<Dim>& row : step_supports<Dim>)
+      add(row.load);
   });
 }
 

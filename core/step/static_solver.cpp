@@ -15,6 +15,7 @@
 #include "core/step/relaxation.hpp"
 #include "core/step/static_solver_base.hpp"
 #include "core/step/step_length.hpp"
+#include "core/step/support_table.hpp"
 #include "core/step/tangent.hpp"
 #include "core/step/water_stiffness.hpp"
 
@@ -309,8 +310,8 @@ struct Newton {
     if (forced || ++n.since_commit >= most_since_commit || fraction_in_new_contacts() > most_in_new_contacts) commit();
     const double reached = static_cast<double>(n.stiffness.size());
     find_pair_stiffness(model, settings, state);
-    add_bolt_pairs(model, state, n.stiffness);
-    add_lining_pairs(model, settings, state, n.stiffness);
+    for (const StepSupport<Dim>& row : step_supports<Dim>)
+      row.add_pairs(model, settings, state, n.stiffness);
     const bool reached_all = static_cast<double>(n.stiffness.size()) < still_reaching * reached;
     if (n.iteration >= closed_iterations && reached_all) n.closed.clear();
     find_water_stiffness(model, settings, state);

@@ -1,4 +1,5 @@
 #include "core/step/static_solver_base.hpp"
+#include "core/step/support_table.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,17 +31,8 @@ Unknowns<Dim>::Unknowns(const Model<Dim>& model) : place(model.bodies.size(), -1
       free[F * i + f] = f < Dim ? body.free_translation[f] : body.free_rotation[f - Dim];
     }
   }
-  // a node has no face: its beams and its interface
-  for (const Lining& lining : model.linings)
-    for (std::size_t k = 0; lining.first_body >= 0 && k < lining.nodes.size(); ++k) {
-      const LiningNode& node = lining.nodes[k];
-      const int i = place[lining.first_body + k];
-      const double length = node.half_length[0] + node.half_length[1];
-      const double translation = 2 * lining.properties.axial() / length +
-                                 model.properties[lining.interface_properties].normal_stiffness * length;
-      for (int f = 0; f < F; ++f)
-        scale[F * i + f] = f < Dim ? translation : translation * length * length / 12;
-    }
+  for (const StepSupport<Dim>& row : step_supports<Dim>)
+    if (row.scale_unknowns) row.scale_unknowns(model, place, scale);
 }
 
 template <int Dim>

@@ -1,4 +1,5 @@
 #include "core/step/step_length.hpp"
+#include "core/step/support_table.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -50,10 +51,8 @@ std::vector<double> excess_by_body(const Model<Dim>& model, const Unknowns<Dim>&
   };
   for (const Contact<Dim>& c : state.contacts.list)
     if (c.status != ContactStatus::apart) add_pair(model.parts[c.part_a].body, model.parts[c.part_b].body);
-  for (const LiningState& lined : state.supports.linings)  // a node against its rock
-    for (std::size_t i = 0; i < lined.contacts.size(); ++i)
-      if (const int rock = lined.contacts[i].rock; rock >= 0)
-        add_pair(lined.rock[rock].body, model.linings[lined.lining].first_body + static_cast<int>(i / 2));
+  for (const StepSupport<Dim>& row : step_supports<Dim>)
+    if (row.touch) row.touch(model, state.supports, add_pair);
   for (std::size_t i = 0; i < unknowns.count(); ++i) {
     const Body<Dim>& body = model.bodies[unknowns.bodies[i]];
     const double turning = body.radius * dq.segment<spin_freedoms<Dim>>(freedoms<Dim> * i + Dim).norm();

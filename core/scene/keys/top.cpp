@@ -1,12 +1,12 @@
 // The top of a scene file.
-#include "core/scene/keys/tables.hpp"
+#include "core/scene/keys/supports.hpp"
 #include "core/scene/scene_spec.hpp"
 
 namespace voussoir::keys {
 
 // clang-format off
 KeyTable top_keys() {
-  return {"", {
+  KeyTable top{"", {
     {.key = "title", .members = {in(&Scene::title)}, .example = "\"Sliding wedge\"",
      .meaning = "one line for reports"},
     {.key = "base", .type = text, .example = "\"scene.toml\"",
@@ -52,10 +52,10 @@ KeyTable top_keys() {
     {.key = "water", .type = tables, .holds = {"water", "water_surface"},
      .meaning = "water in joints and around blocks: its pressure acts on their faces as total weight acts on their mass, so "
          "that contact forces are effective. It stands still: no flow, no drag, no added mass"},
-    {.key = "bolts", .type = tables, .holds = {"bolts"},
-     .meaning = "rock bolts and cables, which a stage installs"},
-    {.key = "linings", .type = tables, .holds = {"linings"},
-     .meaning = "linings of openings, in the plane: beams between nodes on an excavation's outline, which a stage installs"},
+  }};
+  for (KeyRow& row : support_rows())
+    top.rows.push_back(std::move(row));
+  const std::vector<KeyRow> others{
     {.key = "fix", .type = tables, .holds = {"label", "selector"}, .meaning = "blocks that never move"},
     {.key = "restrain", .type = tables, .holds = {"label", "restrain", "selector"},
      .meaning = "blocks that cannot move in some directions (world axes)"},
@@ -77,7 +77,9 @@ KeyTable top_keys() {
      .meaning = "quantities followed in history.csv: of one block that a selector chooses, or of a joint's contacts"},
     {.key = "output", .members = {group(&Scene::output, "output")},
      .meaning = "how often results are written"},
-  }};
+  };
+  top.rows.insert(top.rows.end(), others.begin(), others.end());
+  return top;
 }
 // clang-format on
 

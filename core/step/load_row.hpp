@@ -1,0 +1,23 @@
+// A load in the table of loads.cpp, or of a support in support_table.hpp.
+#pragma once
+
+#include <vector>
+
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
+
+namespace voussoir {
+
+// A load: whether there is any, what it does to the bodies, whose loads are zero before, and, where it changes with the
+// body's pose, by how much at most (for the time step) and how (for Newton's method).
+template <int Dim>
+struct LoadRow {
+  using Block = typename PairStiffness<Dim>::Block;
+  Source source;
+  bool (*acts)(const Model<Dim>&, const State<Dim>&);
+  void (*find)(const Model<Dim>&, int threads, const State<Dim>&, std::vector<Load<Dim>>&);
+  void (*stiffen)(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&) = nullptr;
+  void (*add_tangent)(const Model<Dim>&, const State<Dim>&, std::vector<Block>&) = nullptr;
+};
+
+}  // namespace voussoir
