@@ -96,8 +96,7 @@ LoadedScene load_blocks(const std::filesystem::path& path, const std::vector<std
 }
 
 void tell_remarks(const Scene& scene) {
-  for (const std::string& remark : scene.remarks)
-    tell("voussoir: warning: {}\n", remark);
+  tell_warnings(scene.remarks);
 }
 
 Results simulate_scene(const LoadedScene& scene, const ProgressHook& progress) {

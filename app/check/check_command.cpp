@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/base/arguments.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/check/check_blocks.hpp"
 #include "app/check/check_support.hpp"
@@ -456,8 +457,6 @@ void print_derived(const Plausibility& plausibility) {
   }
 }
 
-}  // namespace
-
 ExitCode check_command(const SceneArguments& arguments) {
   const LoadedScene scene = load_scene(arguments.scene, arguments.overrides);
   fmt::print("{} ({}-D)\n", scene.title.empty() ? arguments.scene.filename().string() : scene.title, scene.dimension);
@@ -470,6 +469,14 @@ ExitCode check_command(const SceneArguments& arguments) {
     fmt::print("warning: {}\n", warning);
   fmt::print("{}\n", plausibility.warnings.empty() ? "no warnings" : "the scene can run; see the warnings");
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, Action& action) {
+  const auto [command, arguments] =
+      add_command(program, action, "check", "say what a scene activates and what looks wrong", check_command);
+  add_scene(command, arguments);
 }
 
 }  // namespace voussoir
