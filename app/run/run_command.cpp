@@ -7,7 +7,7 @@
 #include "app/base/arguments.hpp"
 #include "app/base/bad_input.hpp"
 #include "app/base/message.hpp"
-#include "app/check/plausibility.hpp"
+#include "app/check/assess.hpp"
 #include "app/run/carry_out.hpp"
 #include "app/run/error_budget.hpp"
 #include "app/run_folder/begin_run.hpp"

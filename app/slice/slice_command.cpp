@@ -18,7 +18,7 @@
 #include "core/output/paraview.hpp"
 #include "core/output/view.hpp"
 #include "core/potential/particle.hpp"
-#include "core/scene/plausibility.hpp"
+#include "core/scene/judge_values.hpp"
 #include "text/csv_table.hpp"
 
 namespace voussoir {

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <vector>
+
+#include "core/base/chains.hpp"
 
 namespace voussoir {
 namespace {
@@ -65,37 +66,23 @@ std::vector<Vector<Dim>> pulls(const Model<Dim>& model, const State<Dim>& state)
   return pull;
 }
 
-// the bodies that chains of near pairs, bolts and linings tie, by a number for each chain
-class Chains {
- public:
-  explicit Chains(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int body) {
-    while (parent_[body] != body)
-      body = parent_[body] = parent_[parent_[body]];
-    return body;
-  }
-  void join(int a, int b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<int> parent_;
-};
-
+// the bodies that near pairs, bolts and linings tie
 template <int Dim>
 Chains chains_of(const Model<Dim>& model, const State<Dim>& state) {
   Chains chains(model.bodies.size());
   for (const Contact<Dim>& contact : state.contacts.list)
-    chains.join(model.parts[contact.part_a].body, model.parts[contact.part_b].body);
+    chains.tie(model.parts[contact.part_a].body, model.parts[contact.part_b].body);
   for (const BoltSpring<Dim>& spring : state.supports.bolt_springs)
-    if (!spring.broken) chains.join(spring.body_a, spring.body_b);
+    if (!spring.broken) chains.tie(spring.body_a, spring.body_b);
   for (const GroutedBolt<Dim>& grouted : state.supports.grouted)
     for (const int body : grouted.body)
-      chains.join(grouted.body.front(), body);
+      chains.tie(grouted.body.front(), body);
   for (const LiningState& lined : state.supports.linings) {
     const Lining& lining = model.linings[lined.lining];
     for (int node = 0; node < static_cast<int>(lining.nodes.size()); ++node)
-      chains.join(lining.first_body, lining.first_body + node);
+      chains.tie(lining.first_body, lining.first_body + node);
     for (const LiningRock& rock : lined.rock)
-      chains.join(lining.first_body, rock.body);
+      chains.tie(lining.first_body, rock.body);
   }
   return chains;
 }
