@@ -12,7 +12,7 @@
 #include <numbers>
 #include <set>
 
-#include "app/check/plausibility.hpp"
+#include "app/check/assess.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/toml_text.hpp"

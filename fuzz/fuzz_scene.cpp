@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/scene/effective_scene.hpp"
-#include "core/scene/plausibility.hpp"
+#include "core/scene/judge_values.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/toml_text.hpp"
 #include "fuzz/require.hpp"
@@ -39,7 +39,7 @@ void prepare_and_judge(const Scene& scene) {
     require(std::isfinite(body.mass) && body.mass > 0, "masses are finite and positive");
     require(body.inertia.allFinite() && body.inertia.minCoeff() > 0, "moments of inertia are finite and positive");
   }
-  for (const std::string& warning : implausible_values<Dim>(scene, prepared))
+  for (const std::string& warning : judge_values<Dim>(scene, prepared))
     require_one_line(warning);
 }
 

@@ -16,7 +16,7 @@
 #include "core/run/snapshot.hpp"
 #include "core/scene/accuracy_target.hpp"
 #include "core/scene/effective_scene.hpp"
-#include "core/scene/plausibility.hpp"
+#include "core/scene/judge_values.hpp"
 #include "core/scene/read_stages.hpp"
 #include "core/scene/scene.hpp"
 
@@ -187,7 +187,7 @@ class SteppedRunOf : public SteppedRun {
 template <int Dim>
 void cut(OpenedScene& scene) {
   Prepared<Dim> prepared = prepare<Dim>(scene.stated);
-  scene.warnings = implausible_values<Dim>(scene.stated, prepared);
+  scene.warnings = judge_values<Dim>(scene.stated, prepared);
   scene.prepared = std::move(prepared);
 }
 

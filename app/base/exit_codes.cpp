@@ -14,4 +14,8 @@ ExitCode exit_code(Outcome outcome) {
   return ExitCode::numerical;
 }
 
+ExitCode ended_by(int signal) {
+  return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + signal);
+}
+
 }  // namespace voussoir

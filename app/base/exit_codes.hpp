@@ -19,6 +19,7 @@ enum class ExitCode {
 };
 
 ExitCode exit_code(Outcome outcome);
+ExitCode ended_by(int signal);
 
 struct ExitCodeMeaning {
   ExitCode code;

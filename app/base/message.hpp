@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "text/plain_text.hpp"
 
@@ -18,6 +20,11 @@ void tell(fmt::format_string<Values...> format, Values&&... values) {
   std::string line = fmt::format(format, std::forward<Values>(values)...);
   if (line.ends_with('\n')) line.pop_back();
   std::fputs((printable(line) + "\n").c_str(), stderr);
+}
+
+inline void tell_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings)
+    tell("voussoir: warning: {}\n", warning);
 }
 
 // replaces the line that the cursor of a terminal is in

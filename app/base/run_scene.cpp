@@ -5,7 +5,7 @@
 #include "core/base/fingerprint.hpp"
 #include "core/base/version.hpp"
 #include "core/scene/effective_scene.hpp"
-#include "core/scene/plausibility.hpp"
+#include "core/scene/judge_values.hpp"
 #include "core/scene/read_stages.hpp"
 #include "core/scene/scene.hpp"
 #ifdef VOUSSOIR_HAS_GLPK
@@ -54,7 +54,7 @@ Prepared<Dim> prepare_to_run(const Scene& scene, int threads) {
 template <int Dim>
 void load_prepared(const Scene& scene, int threads, LoadedScene& loaded) {
   Prepared<Dim> prepared = prepare_to_run<Dim>(scene, threads);
-  loaded.warnings = implausible_values<Dim>(scene, prepared);
+  loaded.warnings = judge_values<Dim>(scene, prepared);
   loaded.prepared = std::move(prepared);
 }
 
@@ -96,8 +96,7 @@ LoadedScene load_blocks(const std::filesystem::path& path, const std::vector<std
 }
 
 void tell_remarks(const Scene& scene) {
-  for (const std::string& remark : scene.remarks)
-    tell("voussoir: warning: {}\n", remark);
+  tell_warnings(scene.remarks);
 }
 
 Results simulate_scene(const LoadedScene& scene, const ProgressHook& progress) {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <limits>
 
-#include "app/check/check_support.hpp"
+#include "app/check/check_line.hpp"
 #include "core/model/body_title.hpp"
 #include "core/potential/particle.hpp"
 #include "core/scene/bodies.hpp"

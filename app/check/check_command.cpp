@@ -6,14 +6,16 @@
 #include <cmath>
 #include <limits>
 
+#include "app/base/arguments.hpp"
 #include "app/base/run_scene.hpp"
+#include "app/check/assess.hpp"
 #include "app/check/check_blocks.hpp"
+#include "app/check/check_line.hpp"
+#include "app/check/check_stages.hpp"
 #include "app/check/check_support.hpp"
-#include "app/check/plausibility.hpp"
 #include "core/contact/integrable.hpp"
 #include "core/model/water_surfaces.hpp"
-#include "core/scene/plausibility.hpp"
-#include "core/scene/stage_excavations.hpp"
+#include "core/scene/judge_values.hpp"
 #include "core/step/relaxation.hpp"
 #include "core/step/static_solver.hpp"
 #include "text/angle.hpp"
@@ -187,145 +189,6 @@ void print_properties(const Model<Dim>& model, const ContactSettings& contact) {
   }
 }
 
-std::string damping_text(const DampingSettings& damping, bool seeks_rest = true) {
-  std::string text;
-  if (damping.local > 0) text = fmt::format("local {:g}", damping.local);
-  if (damping.viscous_ratio > 0) text += fmt::format("{}viscous {:g}", text.empty() ? "" : ", ", damping.viscous_ratio);
-  std::string rest;
-  if (relaxes(seeks_rest, damping))
-    rest =
-        damping.statics == Statics::newton
-            ? fmt::format("; to rest by Newton's method in {} increments, confirmed by relaxation", damping.increments)
-            : "; to rest by relaxation";
-  return (text.empty() ? "none" : text) + rest;
-}
-
-struct PlanText {
-  std::string operator()(const SettlePlan& plan) const { return "settle until at rest" + gravity(plan.gravity); }
-  std::string operator()(const RunPlan& plan) const {
-    return fmt::format("run for {:g} s", plan.duration) + gravity(plan.gravity);
-  }
-  std::string operator()(const ReducePlan& plan) const {
-    std::string of = "all joint properties";
-    if (!plan.properties.empty()) of = fmt::format("{}", fmt::join(plan.properties, ", "));
-    std::string failure = plan.failure_displacement > 0 ? fmt::format("{:g} m", plan.failure_displacement)
-                                                        : std::string("a tenth of the smallest inscribed radius");
-    if (plan.failure_fraction > 0) failure += fmt::format(", by {:g} of the free mass", plan.failure_fraction);
-    if (plan.searched == Searched::factor)
-      return fmt::format("divide tan φ and cohesion of {} by {:g} to {:g} {}; failed after {}", of, plan.factor.from,
-                         plan.factor.to, how(plan.method, plan.factor), failure);
-    return fmt::format("reduce the friction of {} from {:g} to {:g} deg {}; failed after {}", of, to_degrees(plan.from),
-                       to_degrees(plan.to), how(plan), failure);
-  }
-  static std::string how(ReductionMethod method, const FactorPlan& plan) {
-    if (method == ReductionMethod::steps) return fmt::format("in steps of {:g}", plan.step);
-    return fmt::format("by bisection to {:g}", plan.tolerance);
-  }
-  static std::string gravity(const GravityPlan& plan) {
-    if (plan.ramp > 0 && !plan.to && plan.from == 0) return fmt::format(", gravity put on within {:g} s", plan.ramp);
-    if (plan.ramp > 0)
-      return fmt::format(", gravity taken from {:g} to {:g} times itself within {:g} s", plan.from, plan.to.value_or(1),
-                         plan.ramp);
-    return plan.to ? fmt::format(", under {:g} times the gravity", *plan.to) : "";
-  }
-  static std::string how(const ReducePlan& plan) {
-    switch (plan.method) {
-      case ReductionMethod::bisection:
-        return fmt::format("by bisection to {:g} deg", to_degrees(plan.tolerance));
-      case ReductionMethod::steps:
-        return fmt::format("in steps of {:g} deg", to_degrees(plan.step));
-      case ReductionMethod::rate:
-        return fmt::format("at {:g} deg/s", to_degrees(plan.rate));
-      case ReductionMethod::two_rates:
-        return fmt::format("at {:g} and {:g} deg/s, extrapolated", to_degrees(plan.rate), to_degrees(plan.slower_rate));
-    }
-    return "";
-  }
-};
-
-std::string numbers_text(const std::vector<double>& numbers) {
-  std::vector<std::string> texts;
-  for (const double number : numbers)
-    texts.push_back(fmt::format("{:g}", number + 0.0));
-  return fmt::format("({})", fmt::join(texts, ", "));
-}
-
-std::string factor_text(const TimeFactor& factor) {
-  std::string text;
-  if (factor.frequency > 0)
-    text += fmt::format(", times a sine of {:g} Hz from {:g} deg on", factor.frequency, to_degrees(factor.phase));
-  if (!factor.times.empty())
-    text += fmt::format(", times {} at {} s", numbers_text(factor.factors), numbers_text(factor.times));
-  return text;
-}
-
-std::string move_text(const MovePlan& move) {
-  std::string text;
-  if (!move.velocity.empty()) {
-    std::string axes;
-    for (std::size_t k = 0; k < move.velocity.size(); ++k)
-      if (move.translation[k]) axes += "xyz"[k];
-    text = fmt::format("at {} m/s along {}", numbers_text(move.velocity), axes);
-  }
-  if (!move.angular_velocity.empty())
-    text += fmt::format("{}turning at {} rad/s", text.empty() ? "" : ", ", numbers_text(move.angular_velocity));
-  return text + factor_text(move.factor);
-}
-
-// what happens to the model before the stage, and what is forced upon it within
-std::string change_text(const Change& change) {
-  std::string text;
-  for (const MovePlan& move : change.move)
-    text += "; moves blocks " + move_text(move);
-  for (const BoundaryPlan& plan : change.boundary) {
-    text +=
-        fmt::format("; stress {} = {} Pa on outer faces of blocks",
-                    plan.stress.size() == 3 ? "(xx, yy, xy)" : "(xx, yy, zz, yz, zx, xy)", numbers_text(plan.stress));
-    if (plan.in_situ)
-      text += fmt::format(" and that of {:g} N/m³ below {:g} m, horizontally {:g}{} times as much",
-                          plan.in_situ->unit_weight.value(), plan.in_situ->surface, plan.in_situ->k0,
-                          plan.in_situ->k0_y ? fmt::format(", along y {:g}", *plan.in_situ->k0_y) : "");
-  }
-  for (const ForcePlan& plan : change.force) {
-    text += fmt::format("; force '{}' = {} {} on blocks", plan.name, numbers_text(plan.force),
-                        plan.force.size() == 2 ? "N/m" : "N");
-    if (!plan.point.empty()) text += fmt::format(" at {} m", numbers_text(plan.point));
-    if (plan.turns_with_body) text += ", turning with them";
-    text += factor_text(plan.factor);
-  }
-  if (change.bond) text += "; bonds closed joints that have tension or cohesion";
-  if (!change.fix.empty()) text += "; fixes blocks";
-  if (!change.release.empty()) text += "; releases blocks";
-  if (!change.remove.empty()) text += "; removes blocks";
-  if (!change.excavate.empty()) text += fmt::format("; excavates '{}'", fmt::join(change.excavate, "', '"));
-  if (!change.install.empty()) text += fmt::format("; installs '{}'", fmt::join(change.install, "', '"));
-  if (change.friction) text += fmt::format("; friction {:g} deg", to_degrees(*change.friction));
-  for (const FrictionPlan& plan : change.friction_of)
-    text += fmt::format("; friction of {} {:g} deg", plan.properties, to_degrees(plan.friction));
-  if (change.zero_slip) text += "; plastic slip set to zero";
-  return text;
-}
-
-void print_stages(const std::vector<StagePlan>& stages, const std::vector<Water>& waters) {
-  ActingShare acting;
-  for (std::size_t k = 0; k < stages.size(); ++k) {
-    const StagePlan& stage = stages[k];
-    std::string text = fmt::format("{} {}: {}", k + 1, stage.name, std::visit(PlanText{}, stage.plan));
-    text += change_text(stage.change);
-    for (const WaterPlan& water : stage.water)
-      text += fmt::format("; water '{}' changes within {:g} s", waters[water.water].name, water.ramp);
-    if (stage.let_off)
-      text += fmt::format("; lets off to a share of {:g} within {:g} s", stage.let_off->share, stage.let_off->duration);
-    const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
-    if (stage.damping) text += "; damping " + damping_text(*stage.damping, seeks_rest);
-    print_line(k == 0 ? "stages" : "", text);
-    acting.follow(stage);
-  }
-  if (acting.share > 0)
-    print_line("", fmt::format("let_off: a share of {:g} still acts after the last stage, since stage {}", acting.share,
-                               acting.stage));
-}
-
 template <int Dim>
 void print_monitors(const Prepared<Dim>& prepared) {
   const char* label = "monitors";
@@ -431,32 +294,30 @@ void print_active(const Scene& stated, const Prepared<Dim>& prepared) {
   print_line("not active", inactive(prepared));
 }
 
-void print_derived(const Plausibility& plausibility) {
+void print_derived(const Forecast& forecast) {
   fmt::print("derived\n");
   print_line("contacts",
-             fmt::format("{} pairs near each other, {} of them touch", plausibility.candidates, plausibility.touching));
-  if (plausibility.candidates > 0)
+             fmt::format("{} pairs near each other, {} of them touch", forecast.candidates, forecast.touching));
+  if (forecast.candidates > 0)
     print_line("", fmt::format("most, {}, of block {}; {:.0f} pairs in all are allowed; a run takes about {:.0f} MB",
-                               plausibility.most_candidates, plausibility.crowded, plausibility.candidates_allowed,
-                               1e-6 * plausibility.memory));
-  if (const auto& bonds = plausibility.bonds)
+                               forecast.most_candidates, forecast.crowded, forecast.candidates_allowed,
+                               1e-6 * forecast.memory));
+  if (const auto& bonds = forecast.bonds)
     print_line("bonds", fmt::format("at the start {} closed joints press and can be bonded, {} when they first press",
                                     bonds->made, bonds->due));
-  if (plausibility.overlap > 0)
+  if (forecast.overlap > 0)
     print_line("overlap", fmt::format("about {:.2g} m under a block's own weight, {:.1g} of its inscribed radius",
-                                      plausibility.overlap, plausibility.overlap_fraction));
-  if (std::isfinite(plausibility.step_limit))
-    print_line("time step", fmt::format("stable below {:.3g} s", plausibility.step_limit));
-  for (const StageForecast& stage : plausibility.stages) {
+                                      forecast.overlap, forecast.overlap_fraction));
+  if (std::isfinite(forecast.step_limit))
+    print_line("time step", fmt::format("stable below {:.3g} s", forecast.step_limit));
+  for (const StageForecast& stage : forecast.stages) {
     const std::string step = stage.time_step > 0 ? fmt::format("steps of {:.3g} s", stage.time_step)
                                                  : "no contact and no time.step_s: no time step yet";
     const std::string count =
-        stage.steps > 0 ? fmt::format(", {} {:.1g} of them", text_of(stage.reckoning), stage.steps) : "";
+        stage.steps > 0 ? fmt::format(", {} {:.1g} of them", text_of(stage.kind), stage.steps) : "";
     print_line("", fmt::format("{}: {}{}", stage.name, step, count));
   }
 }
-
-}  // namespace
 
 ExitCode check_command(const SceneArguments& arguments) {
   const LoadedScene scene = load_scene(arguments.scene, arguments.overrides);
@@ -464,12 +325,20 @@ ExitCode check_command(const SceneArguments& arguments) {
   std::visit([&](const auto& prepared) { print_active(*scene.stated, prepared); }, scene.prepared);
   for (std::size_t k = 0; k < scene.from_level.size(); ++k)
     print_line(k == 0 ? "by level" : "", scene.from_level[k]);
-  const Plausibility plausibility = assess(scene);
-  print_derived(plausibility);
-  for (const std::string& warning : plausibility.warnings)
+  const Assessment assessment = assess(scene);
+  print_derived(assessment.forecast);
+  for (const std::string& warning : assessment.warnings)
     fmt::print("warning: {}\n", warning);
-  fmt::print("{}\n", plausibility.warnings.empty() ? "no warnings" : "the scene can run; see the warnings");
+  fmt::print("{}\n", assessment.warnings.empty() ? "no warnings" : "the scene can run; see the warnings");
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, Action& action) {
+  const auto [command, arguments] =
+      add_command(program, action, "check", "say what a scene activates and what looks wrong", check_command);
+  add_scene(command, arguments);
 }
 
 }  // namespace voussoir

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/check/check_line.hpp"
 #include "core/potential/particle.hpp"
 #include "core/stage/install_bolts.hpp"
 
@@ -71,10 +72,6 @@ void print_linings(const Prepared<Dim>& prepared) {
 }
 
 }  // namespace
-
-void print_line(const char* label, const std::string& text) {
-  fmt::print("  {:<12}{}\n", label, text);
-}
 
 template <int Dim>
 void print_particles(const Model<Dim>& model) {

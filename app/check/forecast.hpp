@@ -1,11 +1,12 @@
 // What is expected of a run: for each stage its time step, duration and steps, and the numbers of the scene as it
-// begins.
+// begins. Estimates for people, within a factor of a few.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/model/prepared.hpp"
 #include "core/model/state.hpp"
 
 namespace voussoir {
@@ -19,10 +20,10 @@ struct StageForecast {
   double time_step = 0;  // s; 0 when no contact determines it; of a stage that relaxes, fictitious
   double duration = 0;   // s: expected; 0 when nothing tells
   double steps = 0;      // 0 when nothing tells
-  EstimateKind reckoning = EstimateKind::about;
+  EstimateKind kind = EstimateKind::about;
 };
 
-struct Plausibility {
+struct Forecast {
   int candidates = 0;              // pairs of parts near each other at the start
   int touching = 0;                // of them
   int most_candidates = 0;         // of one block
@@ -34,7 +35,27 @@ struct Plausibility {
   double overlap_fraction = 0;     // the same over the body's smallest inscribed radius
   std::optional<BondCount> bonds;  // as a stage would make them at the start, where one makes some
   std::vector<StageForecast> stages;
-  std::vector<std::string> warnings;  // one line each, with the repair
 };
+
+// `model` and `state` as the first stage begins, near pairs, contacts and loads found; the estimate of the time step
+// is left in it
+template <int Dim>
+Forecast forecast(const Prepared<Dim>& prepared, const Model<Dim>& model, State<Dim>& state);
+
+const char* text_of(EstimateKind kind);
+
+// inscribed radius of the smallest free block, m; 0 when none is free yet
+template <int Dim>
+double smallest_size(const Model<Dim>& model);
+
+// a stage that relaxes from its first step on stops every body
+bool relaxes(const StagePlan& stage, const DampingSettings& damping);
+
+// s: how long gravity, waters and relief loads of a stage change: rest waits for the longest. Forces and motions change
+// in stages of kind run alone, whose duration is stated.
+double ramp_of(const StagePlan& stage);
+
+// whether any stage comes to rest by Newton's method on the joints
+bool asks_for_newton(const DampingSettings& damping, const std::vector<StagePlan>& stages);
 
 }  // namespace voussoir

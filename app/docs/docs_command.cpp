@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/base/arguments.hpp"
+#include "app/docs/command_pages.hpp"
 #include "app/study/keys.hpp"
 #include "core/output/monitor.hpp"
 #include "core/run/simulate.hpp"
@@ -94,11 +96,30 @@ search for the critical friction or the factor of safety writes one at the end o
   return text;
 }
 
-}  // namespace
-
-ExitCode docs_command() {
+ExitCode print_documentation() {
   fmt::print("{}{}{}", scene_documentation(), history_documentation(), study_documentation());
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_docs(CLI::App& program, Action& action) {
+  struct Pages {
+    bool manual = false, completion = false;
+  };
+  const auto pages = std::make_shared<Pages>();
+  CLI::App* command =
+      program.add_subcommand("docs", "every key of scenes and studies and every column of history.csv, as Markdown");
+  CLI::Option* manual = command->add_flag("--man", pages->manual, "instead, the page that man voussoir shows (troff)");
+  command->add_flag("--completion", pages->completion, "instead, what bash sources to complete the program's arguments")
+      ->excludes(manual);
+  command->callback([pages, &program, &action] {
+    action = [pages, &program] {
+      if (!pages->manual && !pages->completion) return print_documentation();
+      fmt::print("{}", pages->manual ? manual_page(program) : bash_completion(program));
+      return ExitCode::done;
+    };
+  });
 }
 
 }  // namespace voussoir

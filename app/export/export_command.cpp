@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/base/arguments.hpp"
 #include "app/base/bad_input.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/export/formats.hpp"
@@ -10,6 +11,14 @@
 #include "core/scene/scene.hpp"
 
 namespace voussoir {
+namespace {
+
+struct ExportArguments {
+  SceneArguments scene;
+  std::string format;         // 3dec, yade
+  std::filesystem::path out;  // a file
+  bool overwrite = false;
+};
 
 ExitCode export_command(const ExportArguments& arguments) {
   const LoadedScene loaded = load_scene(arguments.scene.scene, arguments.scene.overrides);
@@ -25,6 +34,23 @@ ExitCode export_command(const ExportArguments& arguments) {
   fmt::print("{} blocks, {} joints: {}\nnot run in {}, nor verified by it; its head lists what was left out\n",
              scene.model->bodies.size(), scene.joints.size(), arguments.out.string(), three_dec ? "3DEC" : "YADE");
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_export(CLI::App& program, Action& action) {
+  const auto [command, arguments] = add_command(
+      program, action, "export",
+      "blocks, joints and properties of a scene in space as text for another program, which is not run here",
+      export_command);
+  add_scene(command, arguments.scene);
+  command
+      ->add_option("--as", arguments.format,
+                   "3dec: a data file of 3DEC 7, polyhedra by their faces; yade: a script for YADE with PotentialBlock")
+      ->required()
+      ->check(CLI::IsMember({"3dec", "yade"}));
+  command->add_option("--out", arguments.out, "the file, e.g. scene.dat or scene.py")->required()->check(plain_text());
+  add_overwrite(command, arguments.overwrite);
 }
 
 }  // namespace voussoir

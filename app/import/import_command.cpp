@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "app/base/arguments.hpp"
 #include "app/base/bad_input.hpp"
 #include "app/base/message.hpp"
 #include "app/base/orientation.hpp"
@@ -23,6 +24,14 @@ namespace voussoir {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct ImportArguments {
+  std::filesystem::path file;
+  std::string format;                     // facets, fab, dxf, traces
+  std::filesystem::path out;              // a file
+  std::vector<double> shift = {0, 0, 0};  // m, added to coordinates
+  bool overwrite = false;
+};
 
 constexpr std::uintmax_t largest_import = 64 << 20;  // bytes
 
@@ -168,8 +177,6 @@ std::string stereonet(const ImportedJoints& found, const fs::path& file) {
   return stereonet_svg("Poles of the joints of " + printable(file.filename().string()), poles);
 }
 
-}  // namespace
-
 ExitCode import_command(const ImportArguments& arguments) {
   const ImportedJoints found = read(arguments);
   const std::string table = joint_table(found.joints, found.dimension);
@@ -192,6 +199,34 @@ ExitCode import_command(const ImportArguments& arguments) {
   for (const std::string& warning : found.warnings)
     tell("voussoir: warning: {}: {}\n", printable(arguments.file.string()), warning);
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_import(CLI::App& program, Action& action) {
+  const auto [command, arguments] = add_command(
+      program, action, "import",
+      "joints of a scan, a drawing or a fracture network as a table that scenes read (joints_file)", import_command);
+  command->add_option("file", arguments.file, "the file")->required()->check(plain_text())->type_name("FILE");
+  command
+      ->add_option(
+          "--as", arguments.format,
+          "facets: CloudCompare's table of facets (CSV); fab: FracMan's fractures (ASCII); dxf: 3DFACE, POLYLINE "
+          "and LWPOLYLINE of an ASCII DXF, its layers are sets; traces: GeoJSON lines in a plane")
+      ->required()
+      ->check(CLI::IsMember({"facets", "fab", "dxf", "traces"}));
+  command->add_option("--out", arguments.out, "the table, e.g. joints.csv beside the scene")
+      ->required()
+      ->check(plain_text())
+      ->type_name("FILE");
+  command
+      ->add_option("--shift", arguments.shift,
+                   "x,y,z in m, added to every coordinate, e.g. --shift=-458000,-5210000,-900 (traces leave out z)")
+      ->delimiter(',')
+      ->expected(3)
+      ->allow_extra_args(false)
+      ->check(finite(-largest_argument, largest_argument));
+  command->add_flag("--overwrite", arguments.overwrite, "replace the table; the file that is read is never replaced");
 }
 
 }  // namespace voussoir

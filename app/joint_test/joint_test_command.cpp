@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "app/base/arguments.hpp"
 #include "app/base/bad_input.hpp"
 #include "app/base/message.hpp"
 #include "app/run_folder/claimed_folder.hpp"
@@ -17,6 +18,21 @@ namespace voussoir {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct JointTestArguments {
+  SceneArguments scene;
+  std::filesystem::path out;            // empty: results/<name of the scene's file>_joint_test
+  std::vector<std::string> properties;  // of these joint_properties; none: of all
+  std::string path = "shear";           // normal, shear, stiffness, cyclic
+  std::vector<double> stresses;         // Pa; none: 0.1, 0.5, 1, 2, 5 MPa
+  double slip = 1e-3;                   // m
+  double surroundings = 1e9;            // Pa/m, of the path `stiffness`
+  double dilation = 0.05;               // of the path `stiffness`
+  int cycles = 2;                       // of the path `cyclic`
+  int steps = 200;
+  bool bonded = false;
+  bool overwrite = false;
+};
 
 constexpr double usual_stresses[] = {0.1e6, 0.5e6, 1e6, 2e6, 5e6};
 
@@ -128,8 +144,6 @@ void draw(const fs::path& folder) {
   if (!drawn) tell("voussoir: gnuplot did not draw; the figure's script is {}\n", (folder / "joint_test.gp").string());
 }
 
-}  // namespace
-
 ExitCode joint_test_command(const JointTestArguments& arguments) {
   const Scene scene = read_scene(arguments.scene.scene, arguments.scene.overrides);
   std::vector<double> stresses = arguments.stresses;
@@ -168,6 +182,37 @@ ExitCode joint_test_command(const JointTestArguments& arguments) {
         snapped);
   fmt::print("table and figure: {}\n", folder.string());
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_joint_test(CLI::App& program, Action& action) {
+  const auto [command, arguments] =
+      add_command(program, action, "joint-test",
+                  "take the joint laws of a scene along laboratory paths, without any block", joint_test_command);
+  add_scene(command, arguments.scene);
+  add_out(command, arguments.out, "folder of the results (default: results/<scene>_joint_test)");
+  add_repeated(command, "--joint", arguments.properties, "name of joint_properties; may be repeated (default: all)")
+      ->check(plain_text());
+  command
+      ->add_option("--path", arguments.path,
+                   "normal: compression and back; shear: at constant normal stress; stiffness: in surroundings of "
+                   "constant normal stiffness; cyclic: to slip, -slip and back (default: shear)")
+      ->check(CLI::IsMember({"normal", "shear", "stiffness", "cyclic"}));
+  add_repeated(command, "--stress", arguments.stresses,
+               "normal stress in Pa; may be repeated (default: 0.1, 0.5, 1, 2, 5 MPa)")
+      ->check(finite(least_positive, largest_argument));
+  command->add_option("--slip", arguments.slip, "in m (default: 1e-3)")
+      ->check(finite(least_positive, largest_argument));
+  command->add_option("--surroundings", arguments.surroundings, "of path stiffness, in Pa/m (default: 1e9)")
+      ->check(finite(least_positive, largest_argument));
+  command->add_option("--dilation", arguments.dilation, "of path stiffness: rise over slip (default: 0.05)")
+      ->check(finite(0, 1));
+  command->add_option("--cycles", arguments.cycles, "of path cyclic (default: 2)")->check(CLI::Range(1, 1000));
+  command->add_option("--steps", arguments.steps, "points along each leg of a path (default: 200)")
+      ->check(CLI::Range(1, 1000000));
+  command->add_flag("--bonded", arguments.bonded, "tension and cohesion are intact when shear begins");
+  add_overwrite(command, arguments.overwrite);
 }
 
 }  // namespace voussoir

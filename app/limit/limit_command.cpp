@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/base/arguments.hpp"
 #include "app/base/bad_input.hpp"
 #ifdef VOUSSOIR_HAS_GLPK
 #include <algorithm>
@@ -12,6 +13,19 @@
 #endif
 
 namespace voussoir {
+namespace {
+
+struct LimitArguments {
+  SceneArguments scene;
+  std::filesystem::path out;            // empty: results/<name of the scene's file>_limit
+  std::string load;                     // gravity, left, right, applied; empty: the critical friction is sought
+  std::vector<std::string> properties;  // whose friction is sought; none: all
+  bool factor = false;                  // the factor of safety is sought
+  std::vector<std::string> joints;      // of whose joint_properties; none: of all
+  bool cohesion = false;                // joints have the cohesion that their properties state
+  bool overwrite = false;
+  bool quiet = false;
+};
 
 #ifndef VOUSSOIR_HAS_GLPK
 
@@ -20,8 +34,6 @@ ExitCode limit_command(const LimitArguments&) {
 }
 
 #else
-
-namespace {
 
 namespace fs = std::filesystem;
 
@@ -101,8 +113,6 @@ ExitCode exit_code(const LimitAnalysis& analysis) {
   return analysis.answered ? ExitCode::done : ExitCode::incomplete;
 }
 
-}  // namespace
-
 ExitCode limit_command(const LimitArguments& arguments) {
   const fs::path folder = results_folder(arguments);
   const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides);
@@ -110,14 +120,51 @@ ExitCode limit_command(const LimitArguments& arguments) {
   const Outputs outputs{"limit", {"results.json", "limit.svg", "blocks.vtp", "mechanism.vtp", "forces.vtp"}};
   const ClaimedFolder claim(folder, outputs, scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
-  if (!arguments.quiet)
-    for (const std::string& warning : analysis.warnings)
-      tell("voussoir: warning: {}\n", warning);
+  if (!arguments.quiet) tell_warnings(analysis.warnings);
   write_limit_files(analysis, folder);
   if (!arguments.quiet) print_analysis(analysis, folder);
   return exit_code(analysis);
 }
 
 #endif
+
+}  // namespace
+
+void add_limit(CLI::App& program, Action& action) {
+  const auto [command, arguments] =
+      add_command(program, action, "limit",
+                  "critical friction angle, factor of safety or collapse load of blocks in "
+                  "the plane by rigid-block limit analysis",
+                  limit_command);
+  add_scene(command, arguments.scene);
+  add_out(command, arguments.out, "folder of the results (default: results/<scene>_limit)");
+  CLI::Option* load =
+      command
+          ->add_option(
+              "--load", arguments.load,
+              "seek the factor of this load at the scene's friction: gravity; or, beside gravity, an acceleration to "
+              "the left or right, or the applied forces of the first stage that states any, factors of time taken as "
+              "1 (default: seek the critical friction under gravity)")
+          ->check(CLI::IsMember({"gravity", "left", "right", "applied"}));
+  add_repeated(command, "--friction", arguments.properties,
+               "name of joint_properties whose critical friction is sought, the others keep theirs; may be repeated "
+               "(default: all)")
+      ->check(plain_text())
+      ->excludes(load);
+  CLI::Option* factor = command
+                            ->add_flag("--factor", arguments.factor,
+                                       "seek the factor of safety: what tan φ and cohesion are divided by until the "
+                                       "blocks collapse under gravity")
+                            ->excludes(load)
+                            ->excludes("--friction");
+  add_repeated(command, "--joint", arguments.joints,
+               "name of joint_properties whose strength --factor divides; may be repeated (default: all)")
+      ->check(plain_text())
+      ->needs(factor);
+  command->add_flag("--cohesion", arguments.cohesion,
+                    "count the cohesion that joint_properties state, as of bonds that are whole; tension is left out");
+  add_overwrite(command, arguments.overwrite);
+  command->add_flag("--quiet", arguments.quiet, "no warnings and no summary");
+}
 
 }  // namespace voussoir

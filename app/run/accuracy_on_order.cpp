@@ -90,10 +90,10 @@ std::optional<Refinement> refinement(const LoadedScene& scene, const AccuracyTar
   const double from = std::min(1.0, widest / 1.5);  // many small things: the largest of them
 
   Refinement next;
-  std::vector<std::string> told, left;
+  std::vector<std::string> finer, left;
   const auto refine = [&](const std::string& name, double times, const std::vector<std::string>& overrides) {
     next.overrides.insert(next.overrides.end(), overrides.begin(), overrides.end());
-    told.push_back(fmt::format("{} {:.2g} times finer", name, times));
+    finer.push_back(fmt::format("{} {:.2g} times finer", name, times));
     next.cost *= cost_of(name, times);
   };
   for (const Search& search : searches_of(scene)) {
@@ -122,11 +122,11 @@ std::optional<Refinement> refinement(const LoadedScene& scene, const AccuracyTar
   if (next.overrides.empty() || rounds >= most_rounds) {
     results.outcome = Outcome::incomplete;
     results.message = fmt::format("accuracy.error is not reached: {} after {} rounds; {}", open, rounds,
-                                  left.empty() ? fmt::format("the next would take {}", fmt::join(told, ", "))
+                                  left.empty() ? fmt::format("the next would take {}", fmt::join(finer, ", "))
                                                : fmt::format("no finer {} is known", fmt::join(left, ", ")));
     return std::nullopt;
   }
-  next.told = fmt::format("{}; next round: {}", open, fmt::join(told, ", "));
+  next.summary = fmt::format("{}; next round: {}", open, fmt::join(finer, ", "));
   return next;
 }
 

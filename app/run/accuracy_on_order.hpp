@@ -19,12 +19,12 @@ std::optional<AccuracyTarget> wanted_accuracy(const LoadedScene& scene);
 // Whether a bracket alone is so wide that a budget would be wasted on it.
 bool brackets_too_wide(const LoadedScene& scene, const AccuracyTarget& target, const Results& results);
 
-// What to make finer than in `scene`, of which `results` are the answer, and how it is told; nothing where every bar is
-// within the target, or nothing can be refined: then the results say so.
+// What to make finer than in `scene`, of which `results` are the answer, and what a user reads of it; nothing where
+// every bar is within the target, or nothing can be refined: then the results say so.
 struct Refinement {
   std::vector<std::string> overrides;
-  std::string told;  // "normal stiffness 8 times, tolerance a third"
-  double cost = 1;   // of an answer, over the last one's: an estimate
+  std::string summary;  // "normal stiffness 8 times, tolerance a third"
+  double cost = 1;      // of an answer, over the last one's: an estimate
 };
 std::optional<Refinement> refinement(const LoadedScene& scene, const AccuracyTarget& target, int rounds,
                                      Results& results);

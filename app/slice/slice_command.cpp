@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/base/arguments.hpp"
 #include "app/base/bad_input.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/run_folder/claimed_folder.hpp"
@@ -17,13 +18,22 @@
 #include "core/output/paraview.hpp"
 #include "core/output/view.hpp"
 #include "core/potential/particle.hpp"
-#include "core/scene/plausibility.hpp"
+#include "core/scene/judge_values.hpp"
 #include "text/csv_table.hpp"
 
 namespace voussoir {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct SliceArguments {
+  SceneArguments scene;
+  std::filesystem::path out;
+  bool view = false;                              // view.html
+  bool report = false;                            // on the joint sets, and joints.csv
+  bool planes = false, stl = false, obj = false;  // further formats of the blocks
+  bool overwrite = false;
+};
 
 // m: coordinates below this are zero but for the rounding of those they were computed from
 template <int Dim>
@@ -132,8 +142,6 @@ void write_blocks(const Prepared<Dim>& prepared, const SliceArguments& arguments
              (folder / "blocks.csv").string());
 }
 
-}  // namespace
-
 ExitCode slice_command(const SliceArguments& arguments) {
   if (arguments.view) require_viewer();
   const LoadedScene loaded = load_blocks(arguments.scene.scene, arguments.scene.overrides);
@@ -160,6 +168,25 @@ ExitCode slice_command(const SliceArguments& arguments) {
     fmt::print("\n{}", write_slice_report(scene, sizes, arguments.out));
   }
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_slice(CLI::App& program, Action& action) {
+  const auto [command, arguments] =
+      add_command(program, action, "slice", "cut the blocks and write them, without running", slice_command);
+  add_scene(command, arguments.scene);
+  add_out(command, arguments.out, "folder of blocks.vtp and blocks.csv", true);
+  command->add_flag("--report", arguments.report,
+                    "joint sets against what was stated, listed joints by their set: report.md, joints.csv, stereonet, "
+                    "spacings, block "
+                    "sizes");
+  command->add_flag("--view", arguments.view, "view.html, one page in which the blocks can be turned");
+  command->add_flag("--planes", arguments.planes,
+                    "the planes of the blocks: block_planes.csv, readable as blocks_file");
+  command->add_flag("--stl", arguments.stl, "the blocks as blocks.stl (ASCII; 3-D)");
+  command->add_flag("--obj", arguments.obj, "the blocks as blocks.obj (3-D), readable as blocks_file");
+  add_overwrite(command, arguments.overwrite);
 }
 
 }  // namespace voussoir

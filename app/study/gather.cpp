@@ -149,12 +149,9 @@ ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, cons
   fmt::print("{} settings, {} failed: {}\n{}", gathered.rows.size(), failed, file.string(), remark);
   for (const std::string& line : origin_lines(gathered.origins, study.program_digest))
     fmt::print("{}\n", line);
-  for (const std::string& warning : origin_warnings(gathered.origins))
-    tell("voussoir: warning: {}\n", warning);
-  for (const std::string& warning : flat_results(study.plan, gathered.rows))
-    tell("voussoir: warning: {}\n", warning);
-  for (const std::string& warning : warning_lines(gathered.warnings))
-    tell("voussoir: warning: {}\n", warning);
+  tell_warnings(origin_warnings(gathered.origins));
+  tell_warnings(flat_results(study.plan, gathered.rows));
+  tell_warnings(warning_lines(gathered.warnings));
   for (const std::string& line : findings.lines)
     fmt::print("{}\n", line);
   std::set<std::string> divided;

@@ -8,7 +8,7 @@
 #include "app/base/bad_input.hpp"
 #include "app/base/digest.hpp"
 #include "app/base/run_scene.hpp"
-#include "app/check/plausibility.hpp"
+#include "app/check/assess.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/shared_stages.hpp"
 
@@ -36,7 +36,7 @@ double expected_cost(const LoadedScene& scene, bool limit) {
   if (limit)
     return std::visit([](const auto& prepared) { return static_cast<double>(prepared.model.bodies.size()); },
                       scene.prepared);
-  const Plausibility forecast = assess(scene);
+  const Forecast forecast = assess(scene).forecast;
   double steps = 0;
   for (const StageForecast& stage : forecast.stages)
     steps += stage.steps;

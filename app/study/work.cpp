@@ -122,7 +122,7 @@ RunsEnded work_at(const StudyFolder& study, const std::vector<PlannedRow>& rows,
 
 ExitCode tell_interruption(const fs::path& folder) {
   tell("voussoir: interrupted: the same command continues with what is done in '{}'\n", folder.string());
-  return static_cast<ExitCode>(static_cast<int>(ExitCode::signal) + interruption());
+  return ended_by(interruption());
 }
 
 ExitCode study_run_command(const WorkArguments& arguments) {

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "app/base/arguments.hpp"
 #include "app/base/bad_input.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/run_folder.hpp"
@@ -16,6 +17,16 @@ namespace voussoir {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct ViewArguments {
+  std::filesystem::path folder;
+  std::filesystem::path out;     // empty: view.html in the folder
+  bool fragment = false;         // for a page that holds the viewer once and many of these
+  bool script = false;           // what such a page holds once; then no folder is read
+  std::filesystem::path poster;  // a picture, PNG or WebP, to stand there until it is clicked; empty: none
+  std::string look;              // what a fragment shows at first, as behind # in a page's address
+  bool overwrite = false;
+};
 
 fs::path target_of(const ViewArguments& arguments) {
   return arguments.out.empty() ? arguments.folder / page_file : arguments.out;
@@ -71,8 +82,6 @@ ExitCode write_script(const ViewArguments& arguments) {
   return ExitCode::done;
 }
 
-}  // namespace
-
 ExitCode view_command(const ViewArguments& arguments) {
   require_viewer();
   if (arguments.script) return write_script(arguments);
@@ -85,6 +94,32 @@ ExitCode view_command(const ViewArguments& arguments) {
   write_file(target, arguments.fragment ? view_fragment(data, poster_of(arguments), arguments.look) : view_page(data));
   fmt::print("{}\n", target.string());
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_view(CLI::App& program, Action& action) {
+  const auto [command, arguments] = add_command(
+      program, action, "view",
+      "write the page in which the blocks of a run can be turned; the run was asked for --view", view_command);
+  command->add_option("folder", arguments.folder, "the folder of its results")->check(plain_text());
+  add_out(command, arguments.out, "the page (default: view.html in the folder)");
+  CLI::Option* fragment = command->add_flag(
+      "--fragment", arguments.fragment,
+      "instead of a page the piece of one, for a page that holds many of them and what --script writes once");
+  command->add_flag("--script", arguments.script, "what a page with fragments holds once; takes no folder")
+      ->excludes(fragment);
+  command
+      ->add_option("--poster", arguments.poster,
+                   "PNG or WebP that a fragment shows until it is clicked (viewer/poster.mjs makes it)")
+      ->needs(fragment)
+      ->check(plain_text());
+  command
+      ->add_option(
+          "--look", arguments.look,
+          "what a fragment shows at first, as behind # in a page's address: frame=3&magnified=100&forces=arrows")
+      ->needs(fragment);
+  command->add_flag("--overwrite", arguments.overwrite, "replace the file");
 }
 
 }  // namespace voussoir

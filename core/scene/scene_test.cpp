@@ -8,7 +8,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "core/scene/plausibility.hpp"
+#include "core/scene/judge_values.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -294,7 +294,7 @@ TEST(CanonicalText, ForgetsLayoutAndRemembersMeaning) {
 std::string warnings(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const Scene scene = parse(text, overrides);
   std::string all;
-  for (const std::string& warning : implausible_values<3>(scene, prepare<3>(scene)))
+  for (const std::string& warning : judge_values<3>(scene, prepare<3>(scene)))
     all += warning + "\n";
   return all;
 }

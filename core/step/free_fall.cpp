@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <vector>
+
+#include "core/base/chains.hpp"
 
 namespace voussoir {
 namespace {
@@ -66,28 +67,14 @@ std::vector<Vector<Dim>> pulls(const Model<Dim>& model, const State<Dim>& state)
   return pull;
 }
 
-// the bodies that chains of near pairs and supports tie, by a number for each chain
-class Chains {
- public:
-  explicit Chains(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int body) {
-    while (parent_[body] != body)
-      body = parent_[body] = parent_[parent_[body]];
-    return body;
-  }
-  void join(int a, int b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<int> parent_;
-};
-
+// the bodies that near pairs and supports tie
 template <int Dim>
 Chains chains_of(const Model<Dim>& model, const State<Dim>& state) {
   Chains chains(model.bodies.size());
   for (const Contact<Dim>& contact : state.contacts.list)
-    chains.join(model.parts[contact.part_a].body, model.parts[contact.part_b].body);
+    chains.tie(model.parts[contact.part_a].body, model.parts[contact.part_b].body);
   for (const StepSupport<Dim>& row : step_supports<Dim>)
-    row.tie(model, state.supports, [&](int a, int b) { chains.join(a, b); });
+    row.tie(model, state.supports, [&](int a, int b) { chains.tie(a, b); });
   return chains;
 }
 

@@ -1,4 +1,4 @@
-#include "core/scene/plausibility.hpp"
+#include "core/scene/judge_values.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -464,7 +464,7 @@ template std::vector<bool> properties_of_faces<2>(const Model<2>&);
 template std::vector<bool> properties_of_faces<3>(const Model<3>&);
 
 template <int Dim>
-std::vector<std::string> implausible_values(const Scene& scene, const Prepared<Dim>& prepared) {
+std::vector<std::string> judge_values(const Scene& scene, const Prepared<Dim>& prepared) {
   Warnings warnings = scene.remarks;
   TableJudge{extent_of(prepared.model), warnings}.table(*scene.tree, {""}, "");
   judge_gravity(scene, warnings);
@@ -484,7 +484,7 @@ std::vector<std::string> implausible_values(const Scene& scene, const Prepared<D
   return warnings;
 }
 
-template std::vector<std::string> implausible_values<2>(const Scene&, const Prepared<2>&);
-template std::vector<std::string> implausible_values<3>(const Scene&, const Prepared<3>&);
+template std::vector<std::string> judge_values<2>(const Scene&, const Prepared<2>&);
+template std::vector<std::string> judge_values<3>(const Scene&, const Prepared<3>&);
 
 }  // namespace voussoir

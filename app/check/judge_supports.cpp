@@ -1,4 +1,4 @@
-#include "app/check/plausible_support.hpp"
+#include "app/check/judge_supports.hpp"
 
 #include <fmt/format.h>
 
@@ -191,26 +191,9 @@ void judge_linings(const Model<Dim>& model, const State<Dim>& state, std::vector
     }
 }
 
-template <int Dim>
-LiningCost cost_of_linings(const Model<Dim>& model, const std::vector<std::string>& names) {
-  LiningCost cost{std::numeric_limits<double>::infinity(), 0};
-  for (const Lining& lining : model.linings) {
-    if (std::ranges::find(names, lining.properties.name) == names.end()) continue;
-    double square = 0;
-    for (const LiningNode& node : lining.nodes)
-      square = std::max(square, node.square_frequency);
-    if (square > 0) cost.step_limit = std::min(cost.step_limit, 2 / std::sqrt(square));
-    const auto nodes = static_cast<double>(lining.nodes.size());
-    cost.steps = std::max(cost.steps, nodes * nodes);
-  }
-  return cost;
-}
-
 template void judge_bolts<2>(const Model<2>&, const State<2>&, std::vector<std::string>&);
 template void judge_bolts<3>(const Model<3>&, const State<3>&, std::vector<std::string>&);
 template void judge_linings<2>(const Model<2>&, const State<2>&, std::vector<std::string>&);
 template void judge_linings<3>(const Model<3>&, const State<3>&, std::vector<std::string>&);
-template LiningCost cost_of_linings<2>(const Model<2>&, const std::vector<std::string>&);
-template LiningCost cost_of_linings<3>(const Model<3>&, const std::vector<std::string>&);
 
 }  // namespace voussoir

@@ -15,7 +15,7 @@ namespace voussoir {
 // direction of gravity, swapped stiffnesses, sizes of blocks, coordinates next to zero, planes and joints that miss the
 // domain.
 template <int Dim>
-std::vector<std::string> implausible_values(const Scene& scene, const Prepared<Dim>& prepared);
+std::vector<std::string> judge_values(const Scene& scene, const Prepared<Dim>& prepared);
 
 // "all 60 joints of 'joints.csv' are endless …; they cut 9096 blocks": where a table of joints states no size. Empty
 // for other scenes, and for ones in which no joint ends.

@@ -1,4 +1,4 @@
-#include "app/commands/arguments.hpp"
+#include "app/base/arguments.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -27,6 +27,18 @@ CLI::Validator plain_text() {
             return fault ? "must not contain " + fault->what : "";
           },
           ""};
+}
+
+void add_scene(CLI::App* command, SceneArguments& arguments) {
+  command->add_option("scene", arguments.scene, "scene file (TOML)")
+      ->required()
+      ->check(plain_text())
+      ->type_name("FILE");
+  add_repeated(command, "--set", arguments.overrides,
+               "replaces a value of the scene; tables of a list by their name, e.g. joints.A.dip=65. Each takes a "
+               "--set of its own")
+      ->type_name("KEY=VALUE")
+      ->check(plain_text());
 }
 
 void add_out(CLI::App* command, std::filesystem::path& out, const std::string& meaning, bool required) {

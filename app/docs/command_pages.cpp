@@ -1,4 +1,4 @@
-#include "app/commands/command_pages.hpp"
+#include "app/docs/command_pages.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

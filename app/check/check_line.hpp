@@ -1,0 +1,15 @@
+// The lines that `voussoir check` prints.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace voussoir {
+
+// one labelled line; the label only where the block of lines begins
+inline void print_line(const char* label, const std::string& text) {
+  fmt::print("  {:<12}{}\n", label, text);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,25 @@
+// What looks wrong with the contacts before anything is run: blocks in one another, points that carry too little,
+// overlaps that stiffness and weight do not explain.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/check/forecast.hpp"
+#include "core/model/prepared.hpp"
+
+namespace voussoir {
+
+// `model` and `state` as the first stage begins, near pairs and contacts found
+template <int Dim>
+void judge_first_contacts(const ContactSettings& settings, const Model<Dim>& model, const State<Dim>& state,
+                          std::vector<std::string>& warnings);
+
+// Weight over stiffness: a wrong unit in density, gravity, stiffness or geometry shows here.
+void judge_overlaps(const ContactSettings& contact, const Forecast& forecast, std::vector<std::string>& warnings);
+
+// what else contacts by multipliers need for a force that has a potential
+template <int Dim>
+void judge_multipliers(const ContactSettings& contact, const Model<Dim>& model, std::vector<std::string>& warnings);
+
+}  // namespace voussoir

@@ -1,0 +1,14 @@
+// What looks wrong with in-situ stresses, and with water in searches, before anything is run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/prepared.hpp"
+
+namespace voussoir {
+
+template <int Dim>
+void judge_loads(const Prepared<Dim>& prepared, std::vector<std::string>& warnings);
+
+}  // namespace voussoir

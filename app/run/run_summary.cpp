@@ -1,0 +1,96 @@
+#include "app/run/run_summary.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/base/progress_line.hpp"
+#include "core/run/stable_state.hpp"
+
+namespace voussoir {
+namespace {
+
+// an error bar needs two digits, and its value as many places
+std::string value_text(const Value& value) {
+  const std::string unit = value.unit == "1" ? "" : " " + value.unit;
+  if (!std::isfinite(value.value)) return "not a finite number" + unit;
+  if (!value.error_bar || *value.error_bar <= 0) return fmt::format("{:.6g}{}", value.value, unit);
+  const int places = std::clamp(1 - static_cast<int>(std::floor(std::log10(*value.error_bar))), 0, 15);
+  return fmt::format("{:.{}f} ± {:.{}f}{}, {}", value.value, places, *value.error_bar, places, unit,
+                     value.covers == "bracket" ? "the bracket alone" : "all that the budget varied");
+}
+
+void print_budget(const Value& value) {
+  constexpr double told = 0.01;  // of the bar; results.json has all
+  for (const BudgetLine& line : value.budget) {
+    if (!line.sensitivity && !(std::abs(line.left) >= told * value.error_bar.value_or(0) && line.left != 0)) continue;
+    fmt::print("      {:+.2g}{} with {}, {}: {}\n", line.shift, value.unit == "1" ? "" : " " + value.unit, line.varied,
+               line.change, line.sensitivity ? "measured, no error" : fmt::format("{:+.2g} is left", line.left));
+  }
+}
+
+// bodies that came to rest somewhere else than where their stage began
+void print_moved(const std::vector<MovedBody>& moved) {
+  constexpr std::size_t most_moved_shown = 10;
+  for (std::size_t k = 0; k < std::min(moved.size(), most_moved_shown); ++k) {
+    const MovedBody& m = moved[k];
+    fmt::print("  moved in stage {}: body {}{} by {:.3g} m, rests at ({:.4g}){}\n", m.stage, m.body,
+               m.name.empty() ? "" : " (" + m.name + ")", m.distance, fmt::join(m.place, ", "),
+               m.left_all ? ", in other contacts" : "");
+  }
+  if (moved.size() > most_moved_shown)
+    fmt::print("  and {} more (results.json, moved)\n", moved.size() - most_moved_shown);
+}
+
+void print_values(const std::vector<std::pair<std::string, Value>>& values) {
+  std::size_t width = 0;
+  for (const auto& [name, value] : values)
+    width = std::max(width, name.size());
+  for (const auto& [name, value] : values) {
+    fmt::print("  {:<{}}  {}{}\n", name, width, value_text(value), value.rule.empty() ? "" : "  (" + value.rule + ")");
+    print_budget(value);
+    if (!value.divides.empty()) fmt::print("      it {}\n", value.divides);
+  }
+}
+
+void print_stages(const std::vector<StageResult>& stages, const std::vector<StableState>& stable_states) {
+  for (const StageResult& stage : stages) {
+    fmt::print("  stage {}: {} after {} steps, {:.4g} s simulated\n", stage.name, stage.ended, stage.steps, stage.time);
+    for (const StableState& at : stable_states)
+      if (at.stage == stage.name && at.bonds) fmt::print("      {}: {}\n", moment_text(at), bonds_text(*at.bonds));
+  }
+}
+
+void print_cost(const Results& results, const std::vector<AccuracyRound>& rounds) {
+  const Counters& counters = results.counters;
+  fmt::print("  {} steps, {} contact evaluations, {}\n", counters.steps, counters.contact_evaluations,
+             duration_text(results.seconds));
+  for (std::size_t k = 0; k + 1 < rounds.size(); ++k)
+    fmt::print("  round {}: {} contact evaluations; {}\n", k + 1, rounds[k].contact_evaluations, rounds[k].told);
+  if (results.budget_evaluations > 0)
+    fmt::print("  error budget: {} contact evaluations, {:.2g} times the answer's\n", results.budget_evaluations,
+               static_cast<double>(results.budget_evaluations) / static_cast<double>(counters.contact_evaluations));
+}
+
+}  // namespace
+
+void print_summary(const std::string& title, const Results& results, const std::vector<AccuracyRound>& rounds,
+                   const std::filesystem::path& folder) {
+  const std::string message = results.message.empty() ? "" : ": " + results.message;
+  fmt::print("{}{}{}\n", title.empty() ? "" : title + " - ", outcome_name(results.outcome), message);
+  print_values(results.values);
+  print_stages(results.stages, results.at_last_stable_state);
+  if (const auto& bonds = results.bonds)
+    fmt::print("  bonds: {} made, {} whole, {} broken, {} removed with their blocks; {} joints have not pressed yet\n",
+               bonds->made, bonds->whole, bonds->broken, bonds->removed, bonds->due);
+  print_moved(results.moved);
+  if (results.relief_left > 0)
+    fmt::print("  let_off: a share of {:g} of the forces by which excavated rock held the rest still acts\n",
+               results.relief_left);
+  print_cost(results, rounds);
+  fmt::print("results: {}\n", folder.string());
+}
+
+}  // namespace voussoir
