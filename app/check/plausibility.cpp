@@ -145,7 +145,8 @@ void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, Sta
     const DampingSettings& damping = settings.damping;
     installed.insert(installed.end(), stage.change.install.begin(), stage.change.install.end());
     const LiningCost linings = cost_of_linings(model, installed);
-    TimeStepEstimate estimate = estimate_time_step<Dim>(model, settings, damping, state);
+    TimeStepEstimate estimate =
+        estimate_time_step<Dim>(model, settings, damping, state.bodies, state.loads, state.contacts, state.time_step);
     if (linings.step_limit < estimate.limit) {
       if (!settings.time.step && std::isfinite(estimate.limit)) estimate.step *= linings.step_limit / estimate.limit;
       estimate.limit = linings.step_limit;
@@ -421,12 +422,12 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
   State<Dim> state = prepared.state;
   if (!prepared.stages.empty()) {
     model = apply(std::move(model), prepared.stages.front().change);
-    add_bodies(model, state);
+    add_bodies(model, state.bodies, state.contacts, state.loads, state.time_step);
     install_linings(model, prepared.stages.front().change.install, state);
   }
   Plausibility result;
-  find_neighbours(model, prepared.settings, state);
-  find_contacts(model, prepared.settings, state);
+  find_neighbours(model, prepared.settings, state.bodies, state.contacts, state.counters);
+  find_contacts(model, prepared.settings, state.bodies, state.contacts, state.counters);
   sum_loads(model, prepared.settings, state);  // water and forces determine the step, too
   result.candidates = static_cast<int>(state.contacts.list.size());
   result.touching = static_cast<int>(std::count_if(state.contacts.list.begin(), state.contacts.list.end(),
@@ -434,8 +435,8 @@ Plausibility assess_prepared(const Prepared<Dim>& prepared) {
 
   if (std::any_of(prepared.stages.begin(), prepared.stages.end(), [](const StagePlan& s) { return s.change.bond; })) {
     State<Dim> bonded = state;
-    make_bonds(model, prepared.settings, bonded);
-    result.bonds = count_bonds(bonded);
+    make_bonds(model, prepared.settings, bonded.bodies, bonded.contacts, bonded.ledger.bonds, bonded.counters);
+    result.bonds = count_bonds(bonded.contacts, bonded.ledger.bonds);
   }
 
   // numbers
