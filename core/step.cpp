@@ -10,7 +10,8 @@
 
 namespace voussoir {
 
-// A line changes the parts that it names last, without `now`, which it only reads.
+// What a line only reads of the state is named `now.part`; the parts that it changes are named alone. Supports and
+// loads are each found in a table whose rows read all of the state.
 template <int Dim>
 void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const State<Dim>& now = state;
@@ -38,12 +39,14 @@ void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
   find_forces(model, settings, state);
   if (with_forces) with_forces(state);
 
-  // where that takes it: velocities, then positions and rotations; or the next trial of a static increment
+  // where that takes it: velocities, then positions and rotations; or the next trial of a static increment, which
+  // changes nearly everything
+  const State<Dim>& now = state;
   auto& [bodies, contacts, supports, loads, schedule, ledger, counters, time_step, relaxation, increment] = state;
   if (increment.under_way)
     iterate(model, settings, state);
   else
-    move_bodies(model, settings, counters, bodies, contacts, loads, schedule, ledger, time_step, relaxation);
+    move_bodies(model, settings, now.counters, bodies, contacts, loads, schedule, ledger, time_step, relaxation);
   ++counters.steps;
 }
 
