@@ -6,6 +6,7 @@
 
 #include "benchmarks/shapes.hpp"
 #include "core/contact/broad_phase.hpp"
+#include "core/model/state.hpp"
 #include "core/step/neighbours.hpp"
 #include "text/angle.hpp"
 

@@ -5,6 +5,7 @@
 
 #include "cases/robustness/judges.hpp"
 #include "core/contact/pair_geometry.hpp"
+#include "core/model/state.hpp"
 #include "core/step/contacts.hpp"
 #include "core/testing/exact_referee.hpp"
 

@@ -11,6 +11,7 @@
 
 #include "core/contact/broad_phase.hpp"
 #include "core/contact/nearness.hpp"
+#include "core/model/state.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir {
