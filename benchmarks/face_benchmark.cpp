@@ -44,9 +44,11 @@ Scene scene_of(bool corner, bool slides, ContactFace face) {
   s.state.time_step.length = 1e-4;
   for (std::size_t b = 1; b < s.model.bodies.size(); ++b)
     s.state.bodies.motions[b].velocity = slides ? Vector<3>(speed, 0.3 * speed, 0) : Vector<3>(1e-9, 0, 0);
-  find_neighbours(s.model, s.settings, s.state);
+  find_neighbours(s.model, s.settings, s.state.bodies, s.state.contacts, s.state.counters);
   for (int i = 0; i < 50; ++i)
-    find_joint_forces(s.model, s.settings, s.state);
+    find_joint_forces(s.model, s.settings, s.state.schedule,
+                      joint_step(s.settings, s.state.time_step, s.state.relaxation), s.state.bodies, s.state.contacts,
+                      s.state.ledger, s.state.counters);
   return s;
 }
 
@@ -64,7 +66,9 @@ std::map<std::string, Scene (*)()> ways() {
 void run(Scene (*make)(), benchmark::State& bench) {
   Scene s = make();
   for (auto _ : bench)
-    find_joint_forces(s.model, s.settings, s.state);
+    find_joint_forces(s.model, s.settings, s.state.schedule,
+                      joint_step(s.settings, s.state.time_step, s.state.relaxation), s.state.bodies, s.state.contacts,
+                      s.state.ledger, s.state.counters);
   int touching = 0;
   for (const Contact<3>& c : s.state.contacts.list)
     touching += c.touching();
@@ -83,7 +87,9 @@ int main(int argument_count, char** arguments) {
     if (!all.contains(arguments[2])) return 2;
     Scene s = all.at(arguments[2])();
     for (int i = 0; i < std::atoi(arguments[3]); ++i)
-      find_joint_forces(s.model, s.settings, s.state);
+      find_joint_forces(s.model, s.settings, s.state.schedule,
+                        joint_step(s.settings, s.state.time_step, s.state.relaxation), s.state.bodies, s.state.contacts,
+                        s.state.ledger, s.state.counters);
     return 0;
   }
   for (const auto& [way, make] : all)

@@ -124,7 +124,10 @@ void run(const std::string& way, benchmark::State& bench) {
   const bool hand = way == "by_hand";
   Scene scene = settled(hand ? plain() : ways().at(way));
   for (auto _ : bench)
-    hand ? by_hand(scene.model, scene.state) : apply_joint_laws(scene.model, scene.settings, scene.state);
+    hand ? by_hand(scene.model, scene.state)
+         : apply_joint_laws(scene.model, scene.settings, scene.state.schedule,
+                            joint_step(scene.settings, scene.state.time_step, scene.state.relaxation),
+                            scene.state.bodies, scene.state.contacts, scene.state.ledger, scene.state.counters);
   int touching = 0;
   for (const Contact<3>& c : scene.state.contacts.list)
     touching += c.touching();
@@ -143,7 +146,9 @@ int count(const std::string& way, int calls) {
     else if (hand)
       by_hand(scene.model, scene.state);
     else
-      apply_joint_laws(scene.model, scene.settings, scene.state);
+      apply_joint_laws(scene.model, scene.settings, scene.state.schedule,
+                       joint_step(scene.settings, scene.state.time_step, scene.state.relaxation), scene.state.bodies,
+                       scene.state.contacts, scene.state.ledger, scene.state.counters);
   return 0;
 }
 

@@ -88,11 +88,19 @@ Pile side_by_side(const Pile& one, int copies) {
 
 // the stages of `step`, timed
 void timed_step(const Pile& pile, State<3>& state, Times& times) {
-  const std::array<std::function<void()>, 5> stages{[&] { find_neighbours(pile.model, pile.settings, state); },
-                                                    [&] { find_contacts(pile.model, pile.settings, state); },
-                                                    [&] { apply_joint_laws(pile.model, pile.settings, state); },
-                                                    [&] { sum_loads(pile.model, pile.settings, state); },
-                                                    [&] { move_bodies(pile.model, pile.settings, state); }};
+  const std::array<std::function<void()>, 5> stages{
+      [&] { find_neighbours(pile.model, pile.settings, state.bodies, state.contacts, state.counters); },
+      [&] { find_contacts(pile.model, pile.settings, state.bodies, state.contacts, state.counters); },
+      [&] {
+        apply_joint_laws(pile.model, pile.settings, state.schedule,
+                         joint_step(pile.settings, state.time_step, state.relaxation), state.bodies, state.contacts,
+                         state.ledger, state.counters);
+      },
+      [&] { sum_loads(pile.model, pile.settings, state); },
+      [&] {
+        move_bodies(pile.model, pile.settings, state.counters, state.bodies, state.contacts, state.loads,
+                    state.schedule, state.ledger, state.time_step, state.relaxation);
+      }};
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const auto begin = Clock::now();
     stages[k]();

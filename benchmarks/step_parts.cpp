@@ -77,7 +77,8 @@ struct KernelAlone {
     const std::size_t count = std::min<std::size_t>(64, touching.size());
     for (std::size_t i = 0; i < count; ++i) {
       const Contact<3>& c = *touching[i * touching.size() / count];
-      pairs.push_back(pair_of(s.model, s.state, c.part_a, c.part_b, wide ? QueryLevel::area : QueryLevel::overlap));
+      pairs.push_back(
+          pair_of(s.model, s.state.bodies, c.part_a, c.part_b, wide ? QueryLevel::area : QueryLevel::overlap));
       contacts.push_back(c);
     }
     for (Contact<3>& c : contacts)
@@ -99,10 +100,19 @@ void time_parts(const char* name, Subject s) {
   s.settings.threads = 1;
   KernelAlone kernel(s);
   const std::vector<std::pair<const char*, std::function<void()>>> parts{
-      {"neighbours", [&] { find_neighbours(s.model, s.settings, s.state); }},
-      {"contacts, joint forces", [&] { find_joint_forces(s.model, s.settings, s.state); }},
+      {"neighbours", [&] { find_neighbours(s.model, s.settings, s.state.bodies, s.state.contacts, s.state.counters); }},
+      {"contacts, joint forces",
+       [&] {
+         find_joint_forces(s.model, s.settings, s.state.schedule,
+                           joint_step(s.settings, s.state.time_step, s.state.relaxation), s.state.bodies,
+                           s.state.contacts, s.state.ledger, s.state.counters);
+       }},
       {"loads", [&] { sum_loads(s.model, s.settings, s.state); }},
-      {"motion", [&] { move_bodies(s.model, s.settings, s.state); }},
+      {"motion",
+       [&] {
+         move_bodies(s.model, s.settings, s.state.counters, s.state.bodies, s.state.contacts, s.state.loads,
+                     s.state.schedule, s.state.ledger, s.state.time_step, s.state.relaxation);
+       }},
       {"rest",
        [&] {
          if (s.seeks_rest) unbalanced_ratio(s.model, 1, s.state);
@@ -130,7 +140,7 @@ void time_parts(const char* name, Subject s) {
     whole.push_back(one_step(&times));
     State<3> copy = s.state;
     const double begin = processor_ns();
-    estimate_time_step(s.model, s.settings, s.settings.damping, copy);
+    estimate_time_step(s.model, s.settings, s.settings.damping, copy.bodies, copy.loads, copy.contacts, copy.time_step);
     estimates.push_back(processor_ns() - begin);
   }
   const double touching = static_cast<double>(std::count_if(s.state.contacts.list.begin(), s.state.contacts.list.end(),

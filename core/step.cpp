@@ -9,14 +9,20 @@
 
 namespace voussoir {
 
+// What a line only reads of the state is named `now.part`; the parts that it changes are named alone. Supports and
+// loads are each found in a table whose rows read all of the state.
 template <int Dim>
 void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+  const State<Dim>& now = state;
+  auto& [bodies, contacts, supports, loads, schedule, ledger, counters, time_step, relaxation, increment] = state;
+
   // who may touch whom: bounding boxes with a skin, renewed only when a body has left it
-  find_neighbours(model, settings, state);
+  find_neighbours(model, settings, bodies, contacts, counters);
 
   // who does: point, normal, overlap and area of each candidate pair, each in its own slot; and what its joint answers
   // while all of it is at hand: overlap and slip to forces, histories renewed
-  find_joint_forces(model, settings, state);
+  const JointStep last = joint_step(settings, now.time_step, now.relaxation);
+  find_joint_forces(model, settings, now.schedule, last, bodies, contacts, ledger, counters);
 
   // forces of bolts where their anchors have gone, and of linings where their rock has
   for (const StepSupport<Dim>& row : step_supports<Dim>)
@@ -32,12 +38,15 @@ void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
   find_forces(model, settings, state);
   if (with_forces) with_forces(state);
 
-  // where that takes it: velocities, then positions and rotations; or the next trial of a static increment
-  if (state.increment.under_way)
+  // where that takes it: velocities, then positions and rotations; or the next trial of a static increment, which
+  // changes nearly everything
+  const State<Dim>& now = state;
+  auto& [bodies, contacts, supports, loads, schedule, ledger, counters, time_step, relaxation, increment] = state;
+  if (increment.under_way)
     iterate(model, settings, state);
   else
-    move_bodies(model, settings, state);
-  ++state.counters.steps;
+    move_bodies(model, settings, now.counters, bodies, contacts, loads, schedule, ledger, time_step, relaxation);
+  ++counters.steps;
 }
 
 template void find_forces<2>(const Model<2>&, const Settings&, State<2>&);

@@ -43,11 +43,11 @@ Assessment assess_prepared(const Prepared<Dim>& prepared, std::vector<std::strin
   State<Dim> state = prepared.state;
   if (!prepared.stages.empty()) {
     model = apply(std::move(model), prepared.stages.front().change);
-    add_bodies(model, state);
+    add_bodies(model, state.bodies, state.contacts, state.loads, state.time_step);
     install_linings(model, prepared.stages.front().change.install, state);
   }
-  find_neighbours(model, prepared.settings, state);
-  find_contacts(model, prepared.settings, state);
+  find_neighbours(model, prepared.settings, state.bodies, state.contacts, state.counters);
+  find_contacts(model, prepared.settings, state.bodies, state.contacts, state.counters);
   sum_loads(model, prepared.settings, state);  // water and forces determine the step, too
   Assessment result{forecast(prepared, model, state), std::move(warnings)};
   judge(prepared, model, state, result.forecast, result.warnings);

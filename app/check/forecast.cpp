@@ -163,7 +163,8 @@ void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, Sta
     const DampingSettings& damping = settings.damping;
     installed.insert(installed.end(), stage.change.install.begin(), stage.change.install.end());
     const LiningCost linings = cost_of_linings(model, installed);
-    TimeStepEstimate estimate = estimate_time_step<Dim>(model, settings, damping, state);
+    TimeStepEstimate estimate =
+        estimate_time_step<Dim>(model, settings, damping, state.bodies, state.loads, state.contacts, state.time_step);
     if (linings.step_limit < estimate.limit) {
       if (!settings.time.step && std::isfinite(estimate.limit)) estimate.step *= linings.step_limit / estimate.limit;
       estimate.limit = linings.step_limit;
@@ -225,8 +226,8 @@ Forecast forecast(const Prepared<Dim>& prepared, const Model<Dim>& model, State<
                                                    [](const Contact<Dim>& contact) { return contact.touching(); }));
   if (std::any_of(prepared.stages.begin(), prepared.stages.end(), [](const StagePlan& s) { return s.change.bond; })) {
     State<Dim> bonded = state;
-    make_bonds(model, prepared.settings, bonded);
-    result.bonds = count_bonds(bonded);
+    make_bonds(model, prepared.settings, bonded.bodies, bonded.contacts, bonded.ledger.bonds, bonded.counters);
+    result.bonds = count_bonds(bonded.contacts, bonded.ledger.bonds);
   }
   find_crowd(prepared, model, state, result);
   find_overlaps(model, result);

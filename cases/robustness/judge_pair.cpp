@@ -5,6 +5,7 @@
 
 #include "cases/robustness/judges.hpp"
 #include "core/contact/pair_geometry.hpp"
+#include "core/model/state.hpp"
 #include "core/step/contacts.hpp"
 #include "core/testing/exact_referee.hpp"
 
@@ -79,7 +80,7 @@ Decision decide(const Meeting& meeting, const FeasibilityResult<3>& lp, const Sc
   candidate.part_a = 0;
   candidate.part_b = 1;
   state.contacts.list = {candidate};
-  find_contacts(model, Settings{}, state);
+  find_contacts(model, Settings{}, state.bodies, state.contacts, state.counters);
   Decision decision{{}, state.contacts.list[0], state.counters};
 
   // the same bodies exactly

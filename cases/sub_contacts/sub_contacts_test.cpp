@@ -60,9 +60,10 @@ struct Pressed {
   }
 
   Answer<Dim> answer() {
-    find_neighbours(model, settings, state);
-    find_contacts(model, settings, state);
-    apply_joint_laws(model, settings, state);
+    find_neighbours(model, settings, state.bodies, state.contacts, state.counters);
+    find_contacts(model, settings, state.bodies, state.contacts, state.counters);
+    apply_joint_laws(model, settings, state.schedule, joint_step(settings, state.time_step, state.relaxation),
+                     state.bodies, state.contacts, state.ledger, state.counters);
     sum_loads(model, settings, state);
     const Load<Dim>& load = state.loads.total[block];
     const Vector<Dim> from_face = matrix(state.bodies.motions[block].rotation) * (arm * Vector<Dim>::Unit(Dim - 1));

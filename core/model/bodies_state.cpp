@@ -49,6 +49,14 @@ void cache_poses(const Model<Dim>& model, int threads, BodiesState<Dim>& bodies)
 }
 
 template <int Dim>
+void stop(std::vector<Motion<Dim>>& motions) {
+  for (Motion<Dim>& m : motions) {
+    m.velocity.setZero();
+    m.angular_momentum.setZero();
+  }
+}
+
+template <int Dim>
 Vector<Dim> between(const CachedPose<Dim>& a, const CachedPose<Dim>& b) {
   return (b.reference - a.reference) + (b.displacement - a.displacement);
 }
@@ -60,6 +68,8 @@ Standing<Dim> standing(const CachedPose<Dim>& pose) {
 
 template void cache_poses<2>(const Model<2>&, int, BodiesState<2>&);
 template void cache_poses<3>(const Model<3>&, int, BodiesState<3>&);
+template void stop<2>(std::vector<Motion<2>>&);
+template void stop<3>(std::vector<Motion<3>>&);
 template Vector<2> between<2>(const CachedPose<2>&, const CachedPose<2>&);
 template Vector<3> between<3>(const CachedPose<3>&, const CachedPose<3>&);
 template Standing<2> standing<2>(const CachedPose<2>&);

@@ -59,6 +59,10 @@ Standing<Dim> standing(const CachedPose<Dim>& pose);
 template <int Dim>
 void cache_poses(const Model<Dim>& model, int threads, BodiesState<Dim>& bodies);
 
+// sets all velocities to zero
+template <int Dim>
+void stop(std::vector<Motion<Dim>>& motions);
+
 // angular velocity in world axes, rad/s
 template <int Dim>
 Spin<Dim> angular_velocity(const Body<Dim>& body, const Motion<Dim>& motion);

@@ -218,18 +218,36 @@ void visit_fields(Either<PairStiffness> auto& p, auto&& visit) {
   visit(Saved{}, contact, body_a, body_b, stiffness, wrench, apart);
 }
 
-void visit_fields(Either<BaseHistory> auto& b, auto&& visit) {
-  auto& [part_a, part_b, divided_face, bond_due, history] = b;
+void visit_fields(Either<ContactHistory> auto& c, auto&& visit) {
+  auto& [part_a, part_b, divided_face, bond_due, history] = c;
   visit(Saved{}, part_a, part_b, divided_face, bond_due, history);
 }
 
+void visit_fields(Either<JointHistories> auto& h, auto&& visit) {
+  auto& [contacts, subs] = h;
+  visit(Saved{}, contacts, subs);
+}
+
+void visit_fields(Either<StaticBase> auto& b, auto&& visit) {
+  auto& [motions, histories, supports, ledger, loads, whole_bonds, listed] = b;
+  visit(Saved{}, motions, histories, supports, ledger, loads.values, whole_bonds, listed);
+}
+
+void visit_fields(Just<StaticProgress> auto& p, auto&& visit) {
+  auto& [iteration, since_commit, tries, flat, polished, regularisation, overshoot, accepted, residual, change,
+         merits] = p;
+  visit(Saved{}, iteration, since_commit, tries, flat, polished, regularisation, overshoot, accepted, residual, change,
+        merits);
+}
+
+void visit_fields(Either<StaticSystem> auto& s, auto&& visit) {
+  auto& [stiffness, closed, of_water] = s;
+  visit(Saved{}, stiffness, closed, of_water);
+}
+
 void visit_fields(Either<StaticIncrement> auto& n, auto&& visit) {
-  auto& [under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat, polished,
-         regularisation, overshoot, base, histories, supports, whole_bonds, sub_histories, listed, loads_begin, ledger,
-         accepted, residual, change, merits, stiffness, closed, of_water] = n;
-  visit(Saved{}, under_way, trial, increments_left, increment_time, ends, iteration, since_commit, tries, flat,
-        polished, regularisation, overshoot, base, histories, supports, whole_bonds, sub_histories, listed,
-        loads_begin.values, ledger, accepted, residual, change, merits, stiffness, closed, of_water);
+  auto& [under_way, trial, increments_left, increment_time, ends, base, progress, system] = n;
+  visit(Saved{}, under_way, trial, increments_left, increment_time, ends, base, progress, system);
 }
 
 void visit_fields(Either<State> auto& s, auto&& visit) {

@@ -6,6 +6,7 @@
 
 #include "core/contact/contact.hpp"
 #include "core/model/bodies_state.hpp"
+#include "core/model/joint_histories.hpp"
 #include "core/model/ledger.hpp"
 #include "core/model/loads_state.hpp"
 #include "core/model/supports_state.hpp"
@@ -35,20 +36,42 @@ template <int Dim>
 struct PairStiffness {
   using Block = FixedMatrix<freedoms<Dim>, freedoms<Dim>>;
   using Wrench = FixedMatrix<freedoms<Dim>, 1>;
-  int contact = 0;  // place in State::contacts; -1: of a bolt or a lining
+  int contact = 0;  // place in ContactsState::list; -1: of a bolt or a lining
   int body_a = 0, body_b = 0;
   Block stiffness = Block::Zero();          // minus the derivative, N/m, N and N m
   Wrench wrench = Wrench::Zero();           // as it is, N and N m
   Vector<Dim> apart = Vector<Dim>::Zero();  // m, of the second centroid from the first
 };
 
-// What a contact's joint remembers where an increment begins.
+// Where an increment of the static solver begins: the parts of the state that a trial begins with, and what it is
+// judged against.
 template <int Dim>
-struct BaseHistory {
-  int part_a = 0, part_b = 0;
-  int divided_face = -1;
-  bool bond_due = false;
-  JointState<Dim> history;
+struct StaticBase {
+  std::vector<Motion<Dim>> motions;  // by body
+  JointHistories<Dim> histories;
+  SupportsState<Dim> supports;
+  Ledger ledger;
+  LoadsBySource<Dim> loads;  // under the loads of now
+  long long whole_bonds = 0;
+  long long listed = 0;  // Counters::neighbour_builds that the histories belong to
+};
+
+// How far the iterations of an increment have come.
+struct StaticProgress {
+  int iteration = 0;  // accepted ones of this increment
+  int since_commit = 0, tries = 0, flat = 0, polished = 0;
+  double regularisation = 1;             // lambda
+  double overshoot = 0;                  // how many times the largest step the last one wanted to be
+  std::vector<double> accepted;          // by freedom: motion since the base
+  std::vector<double> residual, change;  // by freedom: what was out of balance, last step
+  std::vector<double> merits;            // of the accepted ones
+};
+
+// What its linear system consists of.
+template <int Dim>
+struct StaticSystem {
+  std::vector<PairStiffness<Dim>> stiffness, closed;  // of the contacts that touch; of those that touch without force
+  std::vector<typename PairStiffness<Dim>::Block> of_water;  // by body; none without water
 };
 
 // Newton's method on the joints (step/static_solver.hpp): what an increment keeps from one evaluation to the next.
@@ -61,23 +84,9 @@ struct StaticIncrement {
   int increments_left = 0;    // after this one
   double increment_time = 0;  // s: by how much the schedules go on with each
   double ends = 0;            // s: where the last one puts them
-  int iteration = 0;          // accepted ones of this increment
-  int since_commit = 0, tries = 0, flat = 0, polished = 0;
-  double regularisation = 1;                   // lambda
-  double overshoot = 0;                        // how many times the largest step the last one wanted to be
-  std::vector<Motion<Dim>> base;               // by body
-  std::vector<BaseHistory<Dim>> histories;     // by contact
-  SupportsState<Dim> supports;                 // as they were at the base
-  long long whole_bonds = 0;                   // there
-  std::vector<JointState<Dim>> sub_histories;  // as many places for each contact
-  long long listed = 0;                        // Counters::neighbour_builds that they belong to
-  LoadsBySource<Dim> loads_begin;              // at the base, under the loads of now
-  Ledger ledger;                               // at the base
-  std::vector<double> accepted, residual,
-      change;                  // by freedom: motion since the base, what was out of balance, last step
-  std::vector<double> merits;  // of the accepted ones
-  std::vector<PairStiffness<Dim>> stiffness, closed;  // of the contacts that touch; of those that touch without force
-  std::vector<typename PairStiffness<Dim>::Block> of_water;  // by body; none without water
+  StaticBase<Dim> base;
+  StaticProgress progress;
+  StaticSystem<Dim> system;
 };
 
 }  // namespace voussoir

@@ -28,11 +28,12 @@ struct State {
 
 // Bodies that the model has got since follow at rest.
 template <int Dim>
-void add_bodies(const Model<Dim>& model, State<Dim>& state);
+void add_bodies(const Model<Dim>& model, BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, LoadsState<Dim>& loads,
+                TimeStep& time_step);
 
-// Lists, poses and loads that are found again from motions and contacts.
+// Forgets lists, poses and loads that are found again from motions and contacts.
 template <int Dim>
-void forget_lists(State<Dim>& state);
+void forget_lists(BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, TimeStep& time_step);
 
 // rest at the reference configuration
 template <int Dim>

@@ -90,7 +90,7 @@ std::string find_bolts_again(const Model<Dim>& model, int stages, const Results&
     for (auto& one : installed)
       if (const auto found = now.find(one.bolt); found != now.end()) one.bolt = found->second;
   };
-  for (SupportsState<Dim>* supports : {&state.supports, &state.increment.supports}) {
+  for (SupportsState<Dim>* supports : {&state.supports, &state.increment.base.supports}) {
     renumber(supports->bolt_springs);
     renumber(supports->grouted);
   }

@@ -12,10 +12,10 @@ namespace {
 
 // the motions of bodies that lost parts, at their new centroids
 template <int Dim>
-void carry_motions(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved, State<Dim>& state) {
-  const std::vector<Motion<Dim>> then = state.bodies.motions;
-  state.bodies.motions.resize(model.bodies.size());
-  state.loads.total.resize(model.bodies.size());
+void carry_motions(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved,
+                   std::vector<Motion<Dim>>& motions) {
+  const std::vector<Motion<Dim>> then = motions;
+  motions.resize(model.bodies.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const int origin = moved.origin[b];
     const Body<Dim>&was = before.bodies[origin], &is = model.bodies[b];
@@ -26,7 +26,7 @@ void carry_motions(const Model<Dim>& before, const Model<Dim>& model, const Exca
     m.velocity += cross(spin, arm);
     m.displacement += arm - moved.shift[b];
     m.angular_momentum = angular_momentum(is, m.rotation, spin);
-    state.bodies.motions[b] = m;
+    motions[b] = m;
   }
 }
 
@@ -56,33 +56,33 @@ void turn_round(const Model<Dim>& model, Contact<Dim>& c, std::span<SubContact<D
 // the contacts that are left, by their new keys
 template <int Dim>
 void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved,
-                    const std::vector<Motion<Dim>>& then, State<Dim>& state) {
-  const std::size_t stride = state.contacts.list.empty() ? 0 : state.contacts.subs.size() / state.contacts.list.size();
+                    const std::vector<Motion<Dim>>& then, const std::vector<Motion<Dim>>& now,
+                    ContactsState<Dim>& contacts, BondTally& bonds) {
+  const std::size_t stride = sub_stride(contacts);
   std::vector<std::tuple<int, int, std::size_t>> order;
-  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
-    const auto [a, b] =
-        std::minmax(moved.part[state.contacts.list[i].part_a], moved.part[state.contacts.list[i].part_b]);
+  for (std::size_t i = 0; i < contacts.list.size(); ++i) {
+    const auto [a, b] = std::minmax(moved.part[contacts.list[i].part_a], moved.part[contacts.list[i].part_b]);
     if (a >= 0)
       order.emplace_back(a, b, i);
     else
-      state.ledger.bonds.removed += whole_bonds(state.contacts, i);
+      bonds.removed += whole_bonds(contacts, i);
   }
   std::ranges::sort(order);
 
-  std::vector<Contact<Dim>> contacts;
+  std::vector<Contact<Dim>> list;
   std::vector<SubContact<Dim>> subs(order.size() * stride);
   for (const auto& [a, b, from] : order) {
-    Contact<Dim> c = state.contacts.list[from];
-    const std::span<SubContact<Dim>> cells = std::span(subs).subspan(contacts.size() * stride, stride);
-    std::ranges::copy(std::span(state.contacts.subs).subspan(from * stride, stride), cells.begin());
+    Contact<Dim> c = contacts.list[from];
+    const std::span<SubContact<Dim>> cells = std::span(subs).subspan(list.size() * stride, stride);
+    std::ranges::copy(std::span(contacts.subs).subspan(from * stride, stride), cells.begin());
     const int was = before.parts[c.part_a].body, is = model.parts[a].body;
     const bool turned = moved.part[c.part_a] != a;
     c.part_a = moved.part[c.part_a];
     c.part_b = moved.part[c.part_b];
     if (turned) turn_round(model, c, cells);
     // points are relative to the first body's centroid
-    const Vector<Dim> shift = (model.bodies[is].reference - before.bodies[was].reference) +
-                              (state.bodies.motions[is].displacement - then[was].displacement);
+    const Vector<Dim> shift =
+        (model.bodies[is].reference - before.bodies[was].reference) + (now[is].displacement - then[was].displacement);
     c.geometry.point -= shift;
     c.history.point -= shift;
     for (SubContact<Dim>& s : cells) {
@@ -91,10 +91,10 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
     }
     if (turned || !shift.isZero(0)) c.proof = {};  // it is in that body's frame
     c.area_rated = -1;
-    contacts.push_back(c);
+    list.push_back(c);
   }
-  state.contacts.list = std::move(contacts);
-  state.contacts.subs = std::move(subs);
+  contacts.list = std::move(list);
+  contacts.subs = std::move(subs);
 }
 
 template <int Dim>
@@ -113,11 +113,12 @@ Excavated<Dim> excavate(const std::vector<std::string>& names, const Settings& s
   if (hold) then = loads_now(model, settings, state);
   const Excavated<Dim> moved = excavate(model, names);
   const std::vector<Motion<Dim>> motions = state.bodies.motions;
-  carry_motions(before, model, moved, state);
-  carry_contacts(before, model, moved, motions, state);
+  carry_motions(before, model, moved, state.bodies.motions);
+  state.loads.total.resize(model.bodies.size());
+  carry_contacts(before, model, moved, motions, state.bodies.motions, state.contacts, state.ledger.bonds);
   for (const StageSupport<Dim>& row : stage_supports<Dim>)
     if (row.carry) row.carry(before, model, moved, state);
-  forget_lists(state);
+  forget_lists(state.bodies, state.contacts, state.time_step);
   if (!hold) return moved;
 
   const std::vector<Load<Dim>> now = loads_now(model, settings, state);

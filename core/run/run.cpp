@@ -31,36 +31,36 @@ constexpr double never = std::numeric_limits<double>::infinity();  // s
 
 // sets the scheduled values to those of the time of the positions; true while they still change
 template <int Dim>
-bool follow(const Model<Dim>& model, const RunSchedule& plan, State<Dim>& state) {
-  const double began = state.schedule.started, elapsed = state.schedule.time - began;
+bool follow(const Model<Dim>& model, const RunSchedule& plan, Schedule& schedule,
+            std::vector<ReliefLoad<Dim>>& relief) {
+  const double began = schedule.started, elapsed = schedule.time - began;
   bool changing = false;
   if (plan.gravity.ramp > 0) {
     // the sum, not the difference, is what a stage that ends with its ramp reaches exactly
-    const double fraction = state.schedule.time >= began + plan.gravity.ramp ? 1 : elapsed / plan.gravity.ramp;
+    const double fraction = schedule.time >= began + plan.gravity.ramp ? 1 : elapsed / plan.gravity.ramp;
     const double from = plan.gravity.from;
-    state.schedule.gravity_factor = from + (plan.gravity.to.value_or(1) - from) * fraction;
+    schedule.gravity_factor = from + (plan.gravity.to.value_or(1) - from) * fraction;
     changing = fraction < 1;
   } else if (plan.gravity.to) {
-    state.schedule.gravity_factor = *plan.gravity.to;
+    schedule.gravity_factor = *plan.gravity.to;
   }
   if (plan.strength_rate > 0) {
     const double level = plan.searched == Searched::friction
                              ? std::max(plan.strength_to, plan.strength_from - plan.strength_rate * elapsed)
                              : std::min(plan.strength_to, plan.strength_from + plan.strength_rate * elapsed);
-    set_strength(model, plan.searched, plan.properties, level, state.schedule);
+    set_strength(model, plan.searched, plan.properties, level, schedule);
     changing = changing || level != plan.strength_to;
   }
   for (const WaterPlan& water : plan.water) {
-    const double fraction = state.schedule.time >= began + water.ramp ? 1 : elapsed / water.ramp;
-    std::vector<double>& numbers = state.schedule.water[water.water];
+    const double fraction = schedule.time >= began + water.ramp ? 1 : elapsed / water.ramp;
+    std::vector<double>& numbers = schedule.water[water.water];
     for (std::size_t k = 0; k < numbers.size(); ++k)
       numbers[k] = fraction < 1 ? water.from[k] + (water.to[k] - water.from[k]) * fraction : water.to[k];
     changing = changing || fraction < 1;
   }
-  if (plan.let_off && !state.loads.relief.empty()) {
-    const double fraction =
-        state.schedule.time >= began + plan.let_off->duration ? 1 : elapsed / plan.let_off->duration;
-    for (ReliefLoad<Dim>& held : state.loads.relief)
+  if (plan.let_off && !relief.empty()) {
+    const double fraction = schedule.time >= began + plan.let_off->duration ? 1 : elapsed / plan.let_off->duration;
+    for (ReliefLoad<Dim>& held : relief)
       held.share = held.begun + (std::min(held.begun, plan.let_off->share) - held.begun) * fraction;
     changing = changing || fraction < 1;
   }
@@ -70,18 +70,18 @@ bool follow(const Model<Dim>& model, const RunSchedule& plan, State<Dim>& state)
 // Whether enough has moved away. Where one body is not enough, those that have are left behind.
 template <int Dim>
 bool has_moved_away(const Model<Dim>& model, const RunGoal& goal, const std::vector<Vector<Dim>>& begin,
-                    State<Dim>& state) {
-  const bool trials = state.increment.under_way;  // one that is not yet judged is no motion
-  const std::vector<Vector<Dim>> accepted = trials ? accepted_displacements(model, state) : begin;
+                    const StaticIncrement<Dim>& increment, BodiesState<Dim>& bodies) {
+  const bool trials = increment.under_way;  // one that is not yet judged is no motion
+  const std::vector<Vector<Dim>> accepted = trials ? accepted_displacements(model, increment) : begin;
   double moved = 0, free = 0;  // kg
-  if (goal.moved_fraction > 0) state.bodies.left_behind.assign(model.bodies.size(), false);
+  if (goal.moved_fraction > 0) bodies.left_behind.assign(model.bodies.size(), false);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].fixed) continue;
     free += model.bodies[b].mass;
-    const double way = ((trials ? accepted[b] : state.bodies.motions[b].displacement) - begin[b]).norm();
+    const double way = ((trials ? accepted[b] : bodies.motions[b].displacement) - begin[b]).norm();
     if (!(way > *goal.moved_away)) continue;
     if (goal.moved_fraction == 0) return true;
-    state.bodies.left_behind[b] = true;
+    bodies.left_behind[b] = true;
     moved += model.bodies[b].mass;
   }
   return moved > 0 && moved >= goal.moved_fraction * free;
@@ -204,11 +204,11 @@ std::string first_unanswered(const Model<Dim>& model, const State<Dim>& state) {
 // joints slip.
 template <int Dim>
 void stop_bodies(const Model<Dim>& model, bool relaxing, State<Dim>& state) {
-  stop_held(model, state);
+  stop_held(model, state.bodies.motions);
   if (relaxing)
     begin_relaxation(state);
   else
-    begin_motion(state);
+    begin_motion(state.time_step, state.relaxation);
 }
 
 // Whether Newton's method begins with this step: the first, where it is asked for, or one of a relaxation that lingers.
@@ -221,14 +221,15 @@ bool begins_newton(const Model<Dim>& model, const Settings& settings, const RunP
 }
 
 template <int Dim>
-RunProgress<Dim> begin_run(const RunGoal& goal, State<Dim>& state) {
-  state.schedule.ends = goal.end_time.value_or(never);
-  state.bodies.left_behind.clear();
+RunProgress<Dim> begin_run(const RunGoal& goal, const Counters& counters, BodiesState<Dim>& bodies,
+                           Schedule& schedule) {
+  schedule.ends = goal.end_time.value_or(never);
+  bodies.left_behind.clear();
   RunProgress<Dim> progress;
   progress.under_way = true;
-  progress.unconverged = state.counters.unconverged;
+  progress.unconverged = counters.unconverged;
   if (goal.moved_away)
-    for (const Motion<Dim>& m : state.bodies.motions)
+    for (const Motion<Dim>& m : bodies.motions)
       progress.begin.push_back(m.displacement);
   return progress;
 }
@@ -272,7 +273,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
   const bool relaxing = relaxes(goal.rest, settings.damping);
   if (!progress.under_way) {
     std::vector<Vector<Dim>> stated = std::move(progress.begin);
-    progress = begin_run(goal, state);
+    progress = begin_run(goal, state.counters, state.bodies, state.schedule);
     if (!stated.empty()) progress.begin = std::move(stated);
   }
   RunReport report;
@@ -289,7 +290,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
   };
 
   // the forces of a step, and what comes after the run, stand under the schedule at the time of the positions
-  bool changing = follow(model, schedule, state);
+  bool changing = follow(model, schedule, state.schedule, state.loads.relief);
   // made once: no step asks for memory
   const std::function<void(State<Dim>&)> with_forces = [&](State<Dim>& now) {
     if (progress.steps == 0) stop_bodies(model, relaxing, now);
@@ -301,7 +302,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     if (hooks.pause && hooks.pause()) return stop(StopReason::interrupted);
     const bool tried = state.increment.under_way;
     step<Dim>(model, settings, state, with_forces);
-    const bool changed = std::exchange(changing, follow(model, schedule, state));
+    const bool changed = std::exchange(changing, follow(model, schedule, state.schedule, state.loads.relief));
     ++progress.steps;
     report.unbalanced = goal.rest ? unbalanced_ratio(model, settings.threads, state) : -1;
     if (hooks.after_step) hooks.after_step(state, report.unbalanced);
@@ -317,7 +318,8 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     const bool settled = goal.rest && !changed && !evaluated && report.unbalanced <= settings.equilibrium.unbalanced;
     progress.at_rest = settled ? progress.at_rest + 1 : 0;
     if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
-    if (goal.moved_away && has_moved_away(model, goal, progress.begin, state)) return stop(StopReason::moved_away);
+    if (goal.moved_away && has_moved_away(model, goal, progress.begin, state.increment, state.bodies))
+      return stop(StopReason::moved_away);
     if (goal.end_time && state.schedule.time >= *goal.end_time) return stop(StopReason::end_time);
     if (goal.rest && !evaluated && std::isinf(report.unbalanced))
       if (const std::string loose = loose_support(model, state); !loose.empty())

@@ -70,7 +70,7 @@ std::vector<std::string> doubts_about(const std::vector<StableState>& noted, con
 template <int Dim>
 void count_all_bonds(const Prepared<Dim>& scene, const State<Dim>& state, Results& results) {
   if (std::ranges::none_of(scene.stages, [](const StagePlan& stage) { return stage.change.bond; })) return;
-  results.bonds = count_bonds(state);
+  results.bonds = count_bonds(state.contacts, state.ledger.bonds);
   if (results.bonds->made == 0)
     results.warnings.push_back("stage.bond has made no bond: no joint with tension or cohesion was closed and pressed");
 }

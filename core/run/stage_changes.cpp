@@ -121,11 +121,13 @@ void begin_stage(const StageInForce<Dim>& stage, Progress<Dim>& progress) {
     state.schedule.friction[p] = stage.model.properties[p].friction;
     if (!state.schedule.strength_factor.empty()) state.schedule.strength_factor[p] = 1;
   }
-  add_bodies(stage.model, state);  // bolts ask where all bodies are
-  remove_bonds(stage.model, state);
+  add_bodies(stage.model, state.bodies, state.contacts, state.loads,
+             state.time_step);  // bolts ask where all bodies are
+  remove_bonds(stage.model, state.contacts, state.ledger.bonds);
   install_supports(stage, state, progress.results);
-  if (change.zero_slip) zero_slip(state);
-  if (change.bond) make_bonds(stage.model, stage.settings, state);
+  if (change.zero_slip) zero_slip(state.contacts);
+  if (change.bond)
+    make_bonds(stage.model, stage.settings, state.bodies, state.contacts, state.ledger.bonds, state.counters);
   renew_for_stage(stage.model, state);
   progress.stage_began = state.schedule.time;
   progress.record = {};

@@ -163,7 +163,7 @@ std::vector<std::string> install_linings(const Model<Dim>& model, const std::vec
                                          State<Dim>& state) {
   std::vector<std::string> idle;
   if constexpr (Dim == 2) {
-    add_bodies(model, state);
+    add_bodies(model, state.bodies, state.contacts, state.loads, state.time_step);
     for (std::size_t i = 0; i < model.linings.size(); ++i) {
       const std::string& name = model.linings[i].properties.name;
       if (std::ranges::find(names, name) == names.end()) continue;

@@ -131,7 +131,7 @@ TEST(Linings, LetNoPairBeSkippedForAnOldPath) {
   State<2> state = before.state;
   for (Contact<2>& contact : state.contacts.list)
     contact.near_until = contact.free_until = 5;
-  add_bodies(cast.model, state);
+  add_bodies(cast.model, state.bodies, state.contacts, state.loads, state.time_step);
   EXPECT_EQ(state.bodies.motions.size(), cast.model.bodies.size());
   for (const Contact<2>& contact : state.contacts.list) {
     EXPECT_EQ(contact.near_until, 0);
@@ -190,7 +190,7 @@ TEST(Linings, HaveTheTangentOfTheirForces) {
     return loads;
   };
   State<2> here = cast.state;
-  here.increment.supports.linings = here.supports.linings;
+  here.increment.base.supports.linings = here.supports.linings;
   cache_poses(cast.model, 1, here.bodies);
   find_lining_forces(cast.model, cast.scene.settings, here);
   std::vector<PairStiffness<2>> pairs;

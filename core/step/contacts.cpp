@@ -79,13 +79,13 @@ struct Waiting {
   int looked_at = 0;
   std::array<Contact<Dim>*, pairs_together> all;
 
-  void add(const Model<Dim>& model, const Settings& settings, State<Dim>& state, QueryLevel level, Contact<Dim>& c,
-           KernelCounters& counters) {
+  void add(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies, QueryLevel level,
+           ContactsState<Dim>& candidates, Contact<Dim>& c, KernelCounters& counters) {
     Pair<Dim>& pair = pairs[count];
-    set_pair(model, state, c.part_a, c.part_b, level, pair);
+    set_pair(model, bodies, c.part_a, c.part_b, level, pair);
     all[looked_at++] = &c;
     if (c.touching() && is_integrated(settings.contact, model.properties[c.properties])) [[unlikely]] {
-      if (integrate_as_before<Dim>(pair, c, state.contacts.faces[&c - state.contacts.list.data()])) {
+      if (integrate_as_before<Dim>(pair, c, candidates.faces[&c - candidates.list.data()])) {
         ++counters.evaluations;
         return;
       }
@@ -98,73 +98,73 @@ struct Waiting {
 
 // what they turn out to be
 template <int Dim>
-void resolve(const Model<Dim>& model, const Settings& settings, State<Dim>& state, double gap,
-             const Waiting<Dim>& waiting, Tally& tally) {
-  const std::span contacts = std::span(waiting.contacts).first(waiting.count);
-  resolve_pairs<Dim>(model, settings.contact, std::span(waiting.pairs).first(waiting.count), contacts, tally.kernel);
-  const std::size_t stride = sub_stride(state.contacts);
+void resolve(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies, double gap,
+             const Waiting<Dim>& waiting, ContactsState<Dim>& contacts, Tally& tally) {
+  const std::span resolved = std::span(waiting.contacts).first(waiting.count);
+  resolve_pairs<Dim>(model, settings.contact, std::span(waiting.pairs).first(waiting.count), resolved, tally.kernel);
+  const std::size_t stride = sub_stride(contacts);
   static thread_local HalfSpaces<Dim> planes;
   for (int i = 0; i < waiting.count; ++i) {
-    Contact<Dim>* const c = contacts[i];
-    const std::size_t place = c - state.contacts.list.data();
-    const long long bonds = c->bond_due ? whole_bonds(state.contacts, place) : 0;
+    Contact<Dim>* const c = resolved[i];
+    const std::size_t place = c - contacts.list.data();
+    const long long bonds = c->bond_due ? whole_bonds(contacts, place) : 0;
     if (c->touching()) {
       const bool whole = choose_joint(model, settings.contact, waiting.pairs[i], *c, planes);
       const int along = model.properties[c->properties].sub_contacts;
       if (whole) [[unlikely]] {
         c->cells = 0;
-        if (!integrate_contact<Dim>(waiting.pairs[i], planes, *c, state.contacts.faces[place])) {
+        if (!integrate_contact<Dim>(waiting.pairs[i], planes, *c, contacts.faces[place])) {
           c->status = ContactStatus::no_face;
           ++tally.unconverged;
         }
       } else if (const int cells = sub_contact_count<Dim>(along); cells > 0) {
-        divide<Dim>(waiting.pairs[i], along, *c, std::span(state.contacts.subs).subspan(place * stride, cells));
+        divide<Dim>(waiting.pairs[i], along, *c, std::span(contacts.subs).subspan(place * stride, cells));
       } else {
         c->cells = 0;
       }
-      if (bonds > 0 && whole_bonds(state.contacts, place) < bonds) c->bond_due = false;
+      if (bonds > 0 && whole_bonds(contacts, place) < bonds) c->bond_due = false;
       continue;
     }
     if (c->unanswered()) ++tally.unconverged;
     if (bonds > 0 || (c->status == ContactStatus::separated && c->proof.margin > gap)) c->bond_due = false;
     if (waiting.touched[i]) {
       c->near_until = 0;  // only its boxes were looked at
-      if (!is_near(model, state, gap, *c)) {
+      if (!is_near(model, bodies, gap, *c)) {
         set_apart(*c);
         continue;
       }
     }
     forget(*c);
     c->free_until =
-        c->status == ContactStatus::separated ? (travelled(model, state, *c) + c->proof.margin) * downwards : 0;
+        c->status == ContactStatus::separated ? (travelled(model, bodies, *c) + c->proof.margin) * downwards : 0;
   }
 }
 
 // the contacts of one group
 template <int Dim>
-void find_contacts_of(const Model<Dim>& model, const Settings& settings, State<Dim>& state, QueryLevel level,
-                      double gap, int group, const FoundContacts<Dim>& found, Tally& tally) {
+void find_contacts_of(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
+                      QueryLevel level, double gap, int group, const FoundContacts<Dim>& found,
+                      ContactsState<Dim>& contacts, Tally& tally) {
   static thread_local Waiting<Dim> waiting;
   const auto resolve_waiting = [&] {
-    resolve(model, settings, state, gap, waiting, tally);
+    resolve(model, settings, bodies, gap, waiting, contacts, tally);
     if (found) found(group, std::span(waiting.all).first(waiting.looked_at));
     waiting.count = waiting.looked_at = 0;
   };
-  const std::size_t first = group * summed_together,
-                    last = std::min(first + summed_together, state.contacts.list.size());
+  const std::size_t first = group * summed_together, last = std::min(first + summed_together, contacts.list.size());
   for (std::size_t i = first; i < last; ++i) {
-    Contact<Dim>& c = state.contacts.list[i];
-    state.contacts.loads[i].second = -1;
-    if (!is_near(model, state, gap, c)) {
-      if (c.bond_due && whole_bonds(state.contacts, i) > 0) c.bond_due = false;  // lost, not to be made again
+    Contact<Dim>& c = contacts.list[i];
+    contacts.loads[i].second = -1;
+    if (!is_near(model, bodies, gap, c)) {
+      if (c.bond_due && whole_bonds(contacts, i) > 0) c.bond_due = false;  // lost, not to be made again
       set_apart(c);
       continue;
     }
-    if (c.status == ContactStatus::separated && !c.bond_due && travelled(model, state, c) < c.free_until) {
+    if (c.status == ContactStatus::separated && !c.bond_due && travelled(model, bodies, c) < c.free_until) {
       ++tally.kernel.motion_skips;
       continue;
     }
-    waiting.add(model, settings, state, level, c, tally.kernel);
+    waiting.add(model, settings, bodies, level, contacts, c, tally.kernel);
     if (waiting.looked_at == pairs_together) resolve_waiting();
   }
   if (waiting.looked_at > 0) resolve_waiting();
@@ -190,30 +190,33 @@ void add(Counters& total, const Tally& tally) {
 }  // namespace
 
 template <int Dim>
-void find_contacts(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
-                   const FoundContacts<Dim>& found) {
+void find_contacts(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
+                   ContactsState<Dim>& contacts, Counters& counters, const FoundContacts<Dim>& found) {
   const QueryLevel level = level_of(model, settings.contact);
   const double gap = closed_gap(model);
-  cache_poses(model, settings.threads, state.bodies);
-  count_travels(model, settings, state);
-  state.contacts.loads.resize(state.contacts.list.size());
+  cache_poses(model, settings.threads, bodies);
+  count_travels(model, settings, bodies);
+  contacts.loads.resize(contacts.list.size());
   if (std::ranges::any_of(model.properties,
                           [&](const JointProperties& p) { return is_integrated(settings.contact, p); })) {
-    const std::size_t before = state.contacts.faces.size();
-    if (before < state.contacts.list.size()) state.contacts.faces.resize(state.contacts.list.size());
-    for (std::size_t i = before; i < state.contacts.faces.size(); ++i)
-      state.contacts.faces[i].polygon.corners.reserve(expected_corners);
+    const std::size_t before = contacts.faces.size();
+    if (before < contacts.list.size()) contacts.faces.resize(contacts.list.size());
+    for (std::size_t i = before; i < contacts.faces.size(); ++i)
+      contacts.faces[i].polygon.corners.reserve(expected_corners);
   }
   static thread_local std::vector<Tally> own;
   std::vector<Tally>& tallies = own;  // this thread's, filled by all
-  tallies.assign(groups_of_contacts(state), {});
-  on_threads(settings.threads, static_cast<int>(tallies.size()),
-             [&](int group) { find_contacts_of(model, settings, state, level, gap, group, found, tallies[group]); });
+  tallies.assign(groups_of(contacts.list.size()), {});
+  on_threads(settings.threads, static_cast<int>(tallies.size()), [&](int group) {
+    find_contacts_of(model, settings, bodies, level, gap, group, found, contacts, tallies[group]);
+  });
   for (const Tally& tally : tallies)
-    add(state.counters, tally);
+    add(counters, tally);
 }
 
-template void find_contacts<2>(const Model<2>&, const Settings&, State<2>&, const FoundContacts<2>&);
-template void find_contacts<3>(const Model<3>&, const Settings&, State<3>&, const FoundContacts<3>&);
+template void find_contacts<2>(const Model<2>&, const Settings&, BodiesState<2>&, ContactsState<2>&, Counters&,
+                               const FoundContacts<2>&);
+template void find_contacts<3>(const Model<3>&, const Settings&, BodiesState<3>&, ContactsState<3>&, Counters&,
+                               const FoundContacts<3>&);
 
 }  // namespace voussoir

@@ -212,14 +212,15 @@ Kick<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, const KickRule& 
 
 template <int Dim>
 std::vector<Kick<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std::span<const KickRule> rules,
-                                       StepTimes times, State<Dim>& state) {
+                                       StepTimes times, const std::vector<Load<Dim>>& loads,
+                                       std::vector<Motion<Dim>>& motions) {
   static thread_local std::vector<Kick<Dim>> own;
   std::vector<Kick<Dim>>& kicks = own;  // this thread's, filled by all
   kicks.resize(model.bodies.size());
   each_on_threads(threads, kicks.size(), [&](int b) {
-    kicks[b] = model.bodies[b].fixed ? Kick<Dim>()
-                                     : advance(model.bodies[b], state.loads.total[b], rules[rules.size() == 1 ? 0 : b],
-                                               times, state.bodies.motions[b]);
+    kicks[b] = model.bodies[b].fixed
+                   ? Kick<Dim>()
+                   : advance(model.bodies[b], loads[b], rules[rules.size() == 1 ? 0 : b], times, motions[b]);
   });
   return kicks;
 }
@@ -240,8 +241,10 @@ double unbalanced_ratio(const Model<Dim>& model, int threads, const State<Dim>& 
 
 template Kick<2> advance<2>(const Body<2>&, const Load<2>&, const KickRule&, StepTimes, Motion<2>&);
 template Kick<3> advance<3>(const Body<3>&, const Load<3>&, const KickRule&, StepTimes, Motion<3>&);
-template std::vector<Kick<2>>& advance_bodies<2>(const Model<2>&, int, std::span<const KickRule>, StepTimes, State<2>&);
-template std::vector<Kick<3>>& advance_bodies<3>(const Model<3>&, int, std::span<const KickRule>, StepTimes, State<3>&);
+template std::vector<Kick<2>>& advance_bodies<2>(const Model<2>&, int, std::span<const KickRule>, StepTimes,
+                                                 const std::vector<Load<2>>&, std::vector<Motion<2>>&);
+template std::vector<Kick<3>>& advance_bodies<3>(const Model<3>&, int, std::span<const KickRule>, StepTimes,
+                                                 const std::vector<Load<3>>&, std::vector<Motion<3>>&);
 template double unbalanced_ratio<2>(const Model<2>&, int, const State<2>&);
 template double unbalanced_ratio<3>(const Model<3>&, int, const State<3>&);
 

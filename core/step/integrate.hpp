@@ -41,11 +41,12 @@ template <int Dim>
 Kick<Dim> advance(const Body<Dim>& body, const Load<Dim>& load, const KickRule& rule, StepTimes times,
                   Motion<Dim>& motion);
 
-// Advances every free body, on as many threads; `rules` has one for each body, or one for all. The kicks, by body:
-// until the next call on this thread.
+// Advances every free body under its load, on as many threads; `rules` has one for each body, or one for all. The
+// kicks, by body: until the next call on this thread.
 template <int Dim>
 std::vector<Kick<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std::span<const KickRule> rules,
-                                       StepTimes times, State<Dim>& state);
+                                       StepTimes times, const std::vector<Load<Dim>>& loads,
+                                       std::vector<Motion<Dim>>& motions);
 
 // force left after damping each component against its velocity: f - α |f| sign(v)
 double damped(double force, double velocity, double local_damping);

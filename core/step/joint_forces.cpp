@@ -24,9 +24,8 @@ double spin_about(const Vector<2>&, const Spin<2>&, const Spin<2>&) {
 }
 
 template <int Dim>
-PairMotion<Dim> motion_of(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
-  const CachedPose<Dim>&a = state.bodies.poses[model.parts[c.part_a].body],
-        &b = state.bodies.poses[model.parts[c.part_b].body];
+PairMotion<Dim> motion_of(const Model<Dim>& model, const BodiesState<Dim>& bodies, const Contact<Dim>& c) {
+  const CachedPose<Dim>&a = bodies.poses[model.parts[c.part_a].body], &b = bodies.poses[model.parts[c.part_b].body];
   return {between(a, b), b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
 }
 
@@ -94,22 +93,22 @@ JointForce<Dim> answer_of_laws(const JointProperties& properties, double frictio
 // A contact's normal dashpot, 2ξ √(m kn A) (Eq. 6.9), over the root of its normal stiffness per area, N s/m; `fraction`
 // of the contact's mass goes with this area. Between two immobile bodies there is nothing to damp.
 template <int Dim>
-[[gnu::always_inline]] inline double dashpot_of(const Settings& settings, const State<Dim>& state,
-                                                const PairMotion<Dim>& motion, double area, double fraction = 1) {
-  return settings.damping.viscous_ratio > 0 && motion.inverse_mass > 0 && !state.relaxation.under_way
-             ? 2 * settings.damping.viscous_ratio * std::sqrt(area / motion.inverse_mass * fraction)
+[[gnu::always_inline]] inline double dashpot_of(const JointStep& step, const PairMotion<Dim>& motion, double area,
+                                                double fraction = 1) {
+  return step.viscous_ratio > 0 && motion.inverse_mass > 0
+             ? 2 * step.viscous_ratio * std::sqrt(area / motion.inverse_mass * fraction)
              : 0;
 }
 
 // Force on the second body; the history continues. Inlined by force: the call and what it passes would cost a plain
 // joint some percent of its law (benchmarks/price_of_laws.sh).
 template <int Dim>
-[[gnu::always_inline]] inline Vector<Dim> joint_force(const JointProperties& properties, const Settings& settings,
-                                                      const State<Dim>& state, const PairMotion<Dim>& motion,
-                                                      const Bearing<Dim>& at, const Friction& friction,
-                                                      JointState<Dim>& history, JointSums& sums) {
+[[gnu::always_inline]] inline Vector<Dim> joint_force(const JointProperties& properties, const JointStep& step,
+                                                      const PairMotion<Dim>& motion, const Bearing<Dim>& at,
+                                                      const Friction& friction, JointState<Dim>& history,
+                                                      JointSums& sums) {
   // the slip is the one of the step that led here
-  const double dt = state.time_step.length;
+  const double dt = step.length;
   const Vector<Dim>& n = at.normal;
   const Vector<Dim> velocity = motion.velocity_at(at.point);
 
@@ -146,7 +145,7 @@ template <int Dim>
     k.slip = since * dt * (velocity + k.closing_speed * n);
   }
 
-  const double damping = dashpot_of(settings, state, motion, k.area * k.stiffness_factor, at.fraction);
+  const double damping = dashpot_of(step, motion, k.area * k.stiffness_factor, at.fraction);
   const JointForce<Dim> answer =
       properties.laws.is_plain()
           ? plain_answer<Dim>(properties, friction.coefficient, damping, k, history)
@@ -164,19 +163,19 @@ template <int Dim>
 // The joint of a contact that is carried as a whole. Not inlined: what a scene does not ask for shall not lengthen its
 // loop.
 template <int Dim>
-[[gnu::noinline]] FaceForce<Dim> whole_face_force(const JointProperties& properties, const Settings& settings,
-                                                  const State<Dim>& state, const PairMotion<Dim>& motion,
-                                                  const ContactGeometry<Dim>& geometry,
+[[gnu::noinline]] FaceForce<Dim> whole_face_force(const JointProperties& properties, const JointStep& step,
+                                                  const PairMotion<Dim>& motion, const ContactGeometry<Dim>& geometry,
                                                   const IntegratedContact<Dim>& face, double friction,
                                                   JointState<Dim>& history) {
-  const double dashpot = dashpot_of(settings, state, motion, geometry.area) * std::sqrt(properties.normal_stiffness);
-  return face_force<Dim>(properties, friction, dashpot, state.time_step.length, motion, geometry, face, history);
+  const double dashpot = dashpot_of(step, motion, geometry.area) * std::sqrt(properties.normal_stiffness);
+  return face_force<Dim>(properties, friction, dashpot, step.length, motion, geometry, face, history);
 }
 
 // Bonds what presses of a contact whose bond is due.
 template <int Dim>
-void bond_what_presses(const JointProperties& properties, std::size_t place, State<Dim>& state, long long& made) {
-  Contact<Dim>& c = state.contacts.list[place];
+void bond_what_presses(const JointProperties& properties, std::size_t place, ContactsState<Dim>& contacts,
+                       long long& made) {
+  Contact<Dim>& c = contacts.list[place];
   const auto bond = [&](double overlap, JointState<Dim>& history) {
     if (history.bonded || !(normal_answer(properties, overlap, false).stress > 0)) return;
     history.bonded = true;
@@ -188,7 +187,7 @@ void bond_what_presses(const JointProperties& properties, std::size_t place, Sta
     bond(c.geometry.overlap, c.history);
     c.bond_due = !c.history.bonded;
   } else {
-    for (SubContact<Dim>& s : subs_of(state.contacts, place))
+    for (SubContact<Dim>& s : subs_of(contacts, place))
       if (s.area > 0) bond(s.overlap, s.history);
   }
 }
@@ -210,21 +209,21 @@ template <int Dim>
 // The joint of one contact, or of each of its cells; inlined as above.
 template <int Dim>
 [[gnu::always_inline]] inline void answer(const Model<Dim>& model, const Settings& settings,
-                                          const std::vector<Friction>& frictions, std::size_t place, State<Dim>& state,
-                                          JointSums& sums) {
-  Contact<Dim>& c = state.contacts.list[place];
+                                          const std::vector<Friction>& frictions, const JointStep& step,
+                                          const BodiesState<Dim>& bodies, std::size_t place,
+                                          ContactsState<Dim>& contacts, JointSums& sums) {
+  Contact<Dim>& c = contacts.list[place];
   if (!c.touching()) return;
   const JointProperties& properties = model.properties[c.properties];
   if (c.bond_due) [[unlikely]]
-    bond_what_presses(properties, place, state, sums.bonds_made);
+    bond_what_presses(properties, place, contacts, sums.bonds_made);
   const Friction& friction = frictions[c.properties];
-  const PairMotion<Dim> motion = motion_of(model, state, c);
+  const PairMotion<Dim> motion = motion_of(model, bodies, c);
   if (is_integrated(settings.contact, properties)) [[unlikely]] {
-    const FaceForce<Dim> f = whole_face_force<Dim>(properties, settings, state, motion, c.geometry,
-                                                   state.contacts.faces[place], friction.coefficient, c.history);
+    const FaceForce<Dim> f = whole_face_force<Dim>(properties, step, motion, c.geometry, contacts.faces[place],
+                                                   friction.coefficient, c.history);
     c.force = f.force;
-    state.contacts.loads[place] = {model.parts[c.part_b].body, f.force, f.about,
-                                   f.about - moment(motion.between, f.force)};
+    contacts.loads[place] = {model.parts[c.part_b].body, f.force, f.about, f.about - moment(motion.between, f.force)};
     sums.elastic += f.elastic;
     sums.friction += f.friction;
     sums.lost_area += f.lost_area;
@@ -237,13 +236,13 @@ template <int Dim>
       at.area = 1;
       at.stiffness_factor = c.geometry.stiffness_factor;
     }
-    c.force = joint_force<Dim>(properties, settings, state, motion, at, friction, c.history, sums);
-    note_load<Dim>(c, {}, model.parts[c.part_b].body, motion.between, state.contacts.loads[place]);
+    c.force = joint_force<Dim>(properties, step, motion, at, friction, c.history, sums);
+    note_load<Dim>(c, {}, model.parts[c.part_b].body, motion.between, contacts.loads[place]);
     return;
   }
   // each cell answers for itself; the contact keeps what they are together
   double whole = 0;
-  for (const SubContact<Dim>& s : subs_of(state.contacts, place))
+  for (const SubContact<Dim>& s : subs_of(contacts, place))
     whole += s.area;
   c.force.setZero();
   c.history = {};
@@ -251,11 +250,11 @@ template <int Dim>
   c.history.point = c.geometry.point;
   c.history.area = properties.constant_stiffness ? 1 : whole;
   c.history.bonded = whole > 0;
-  for (SubContact<Dim>& s : subs_of(state.contacts, place)) {
+  for (SubContact<Dim>& s : subs_of(contacts, place)) {
     if (!(s.area > 0)) continue;
     const double area = properties.constant_stiffness ? s.area / whole : s.area;
     const bool bonded = s.history.bonded;
-    s.force = joint_force<Dim>(properties, settings, state, motion,
+    s.force = joint_force<Dim>(properties, step, motion,
                                {s.point, c.geometry.normal, s.overlap, area, s.overlap_variance, s.area / whole},
                                friction, s.history, sums);
     c.force += s.force;
@@ -265,47 +264,46 @@ template <int Dim>
     c.history.bonded = c.history.bonded && s.history.bonded;
     if (bonded && !s.history.bonded) c.bond_due = false;  // where one breaks, none is made any more
   }
-  note_load<Dim>(c, subs_of(std::as_const(state.contacts), place), model.parts[c.part_b].body, motion.between,
-                 state.contacts.loads[place]);
+  note_load<Dim>(c, subs_of(std::as_const(contacts), place), model.parts[c.part_b].body, motion.between,
+                 contacts.loads[place]);
 }
 
 // the sums of all groups of contacts, in their order
-template <int Dim>
-void add(const std::vector<JointSums>& sums, State<Dim>& state) {
-  state.ledger.energy.elastic = 0;
+void add(const std::vector<JointSums>& sums, Ledger& ledger, Counters& counters) {
+  ledger.energy.elastic = 0;
   for (const JointSums& b : sums) {
-    state.ledger.energy.elastic += b.elastic;
-    state.ledger.energy.flows[Source::friction] += b.friction;
-    state.ledger.energy.flows[Source::lost_area] += b.lost_area;
-    state.ledger.energy.flows[Source::dashpots] += b.dashpots;
-    state.ledger.energy.flows[Source::stiffening] += b.stiffening;
-    state.counters.snap_backs += b.snap_backs;
-    state.ledger.bonds.made += b.bonds_made;
+    ledger.energy.elastic += b.elastic;
+    ledger.energy.flows[Source::friction] += b.friction;
+    ledger.energy.flows[Source::lost_area] += b.lost_area;
+    ledger.energy.flows[Source::dashpots] += b.dashpots;
+    ledger.energy.flows[Source::stiffening] += b.stiffening;
+    counters.snap_backs += b.snap_backs;
+    ledger.bonds.made += b.bonds_made;
   }
 }
 
 }  // namespace
 
 template <int Dim>
-PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
+PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Schedule& schedule, const JointStep& step,
                              const Contact<Dim>& c, std::span<const SubContact<Dim>> subs,
                              const IntegratedContact<Dim>* face, const PairMotion<Dim>& motion,
                              const JointState<Dim>& history, std::span<const JointState<Dim>> sub_histories) {
   PairWrench<Dim> wrench = PairWrench<Dim>::Zero();
   if (!c.touching()) return wrench;
   const JointProperties& properties = model.properties[c.properties];
-  const Friction friction = friction_of(state.schedule, c.properties);
+  const Friction friction = friction_of(schedule, c.properties);
   if (face != nullptr) {
     JointState<Dim> past = history;
     const FaceForce<Dim> f =
-        whole_face_force<Dim>(properties, settings, state, motion, c.geometry, *face, friction.coefficient, past);
+        whole_face_force<Dim>(properties, step, motion, c.geometry, *face, friction.coefficient, past);
     wrench.template head<Dim>() = f.force;
     wrench.template tail<spin_freedoms<Dim>>() = f.about - moment(motion.between, f.force);
     return wrench;
   }
   JointSums sums;
   const auto add = [&](const Bearing<Dim>& at, JointState<Dim> past) {
-    const Vector<Dim> force = joint_force<Dim>(properties, settings, state, motion, at, friction, past, sums);
+    const Vector<Dim> force = joint_force<Dim>(properties, step, motion, at, friction, past, sums);
     wrench.template head<Dim>() += force;
     wrench.template tail<spin_freedoms<Dim>>() += moment(Vector<Dim>(at.point - motion.between), force);
   };
@@ -331,91 +329,96 @@ PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Settings& settings, 
 }
 
 template <int Dim>
-void find_joint_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+void find_joint_forces(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
+                       const JointStep& step, BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, Ledger& ledger,
+                       Counters& counters) {
   static thread_local std::vector<JointSums> own;
   std::vector<JointSums>& sums = own;  // this thread's, filled by all
-  sums.assign(groups_of_contacts(state), {});
-  const std::vector<Friction>& frictions = frictions_of(state.schedule);
+  sums.assign(groups_of(contacts.list.size()), {});
+  const std::vector<Friction>& frictions = frictions_of(schedule);
   const auto answer_found = [&](int group, std::span<Contact<Dim>* const> found) {
     for (const Contact<Dim>* c : found)
-      answer(model, settings, frictions, static_cast<std::size_t>(c - state.contacts.list.data()), state, sums[group]);
+      answer(model, settings, frictions, step, bodies, static_cast<std::size_t>(c - contacts.list.data()), contacts,
+             sums[group]);
   };
-  find_contacts<Dim>(model, settings, state, std::ref(answer_found));
-  add(sums, state);
+  find_contacts<Dim>(model, settings, bodies, contacts, counters, std::ref(answer_found));
+  add(sums, ledger, counters);
 }
 
 template <int Dim>
-void apply_joint_laws(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  state.contacts.loads.resize(state.contacts.list.size());
-  const std::vector<Friction>& frictions = frictions_of(state.schedule);
+void apply_joint_laws(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
+                      const JointStep& step, const BodiesState<Dim>& bodies, ContactsState<Dim>& contacts,
+                      Ledger& ledger, Counters& counters) {
+  contacts.loads.resize(contacts.list.size());
+  const std::vector<Friction>& frictions = frictions_of(schedule);
   const auto work = [&](int i, JointSums& sum) {
-    answer(model, settings, frictions, static_cast<std::size_t>(i), state, sum);
+    answer(model, settings, frictions, step, bodies, static_cast<std::size_t>(i), contacts, sum);
   };
-  add(sums_in_groups<JointSums>(settings.threads, state.contacts.list.size(), work), state);
+  add(sums_in_groups<JointSums>(settings.threads, contacts.list.size(), work), ledger, counters);
 }
 
 template <int Dim>
-void make_bonds(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+void make_bonds(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
+                ContactsState<Dim>& contacts, BondTally& bonds, Counters& counters) {
   if (std::ranges::none_of(model.properties, [](const JointProperties& p) { return p.laws.bond; })) return;
   // which of the pairs that are near are closed shows as each is looked at
-  find_neighbours(model, settings, state);
-  for (Contact<Dim>& c : state.contacts.list)
+  find_neighbours(model, settings, bodies, contacts, counters);
+  for (Contact<Dim>& c : contacts.list)
     c.bond_due = true;
-  find_contacts(model, settings, state);
-  for (std::size_t i = 0; i < state.contacts.list.size(); ++i)
-    if (const Contact<Dim>& c = state.contacts.list[i]; c.bond_due && c.touching())
-      bond_what_presses(model.properties[c.properties], i, state, state.ledger.bonds.made);
+  find_contacts(model, settings, bodies, contacts, counters);
+  for (std::size_t i = 0; i < contacts.list.size(); ++i)
+    if (const Contact<Dim>& c = contacts.list[i]; c.bond_due && c.touching())
+      bond_what_presses(model.properties[c.properties], i, contacts, bonds.made);
 }
 
 template <int Dim>
-void remove_bonds(const Model<Dim>& model, State<Dim>& state) {
-  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
-    Contact<Dim>& c = state.contacts.list[i];
+void remove_bonds(const Model<Dim>& model, ContactsState<Dim>& contacts, BondTally& bonds) {
+  for (std::size_t i = 0; i < contacts.list.size(); ++i) {
+    Contact<Dim>& c = contacts.list[i];
     if (model.bodies[model.parts[c.part_a].body].present && model.bodies[model.parts[c.part_b].body].present) continue;
-    state.ledger.bonds.removed += whole_bonds(state.contacts, i);
+    bonds.removed += whole_bonds(contacts, i);
     c.history.bonded = false;
-    for (SubContact<Dim>& s : subs_of(state.contacts, i))
+    for (SubContact<Dim>& s : subs_of(contacts, i))
       s.history.bonded = false;
   }
 }
 
 template <int Dim>
-void zero_slip(State<Dim>& state) {
-  for (Contact<Dim>& c : state.contacts.list)
+void zero_slip(ContactsState<Dim>& contacts) {
+  for (Contact<Dim>& c : contacts.list)
     c.history.plastic_slip = 0;
-  for (SubContact<Dim>& s : state.contacts.subs)
+  for (SubContact<Dim>& s : contacts.subs)
     s.history.plastic_slip = 0;
 }
 
 template <int Dim>
-BondCount count_bonds(const State<Dim>& state) {
-  BondCount count{.made = state.ledger.bonds.made, .removed = state.ledger.bonds.removed};
-  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
-    const long long whole = whole_bonds(state.contacts, i);
+BondCount count_bonds(const ContactsState<Dim>& contacts, const BondTally& bonds) {
+  BondCount count{.made = bonds.made, .removed = bonds.removed};
+  for (std::size_t i = 0; i < contacts.list.size(); ++i) {
+    const long long whole = whole_bonds(contacts, i);
     count.whole += whole;
-    count.due += state.contacts.list[i].bond_due && whole == 0;
+    count.due += contacts.list[i].bond_due && whole == 0;
   }
   count.broken = count.made - count.removed - count.whole;
   return count;
 }
 
-template PairWrench<2> joint_wrench<2>(const Model<2>&, const Settings&, const State<2>&, const Contact<2>&,
-                                       std::span<const SubContact<2>>, const IntegratedContact<2>*,
-                                       const PairMotion<2>&, const JointState<2>&, std::span<const JointState<2>>);
-template PairWrench<3> joint_wrench<3>(const Model<3>&, const Settings&, const State<3>&, const Contact<3>&,
-                                       std::span<const SubContact<3>>, const IntegratedContact<3>*,
-                                       const PairMotion<3>&, const JointState<3>&, std::span<const JointState<3>>);
-template void zero_slip<2>(State<2>&);
-template void zero_slip<3>(State<3>&);
-template void remove_bonds<2>(const Model<2>&, State<2>&);
-template void remove_bonds<3>(const Model<3>&, State<3>&);
-template BondCount count_bonds<2>(const State<2>&);
-template BondCount count_bonds<3>(const State<3>&);
-template void make_bonds<2>(const Model<2>&, const Settings&, State<2>&);
-template void make_bonds<3>(const Model<3>&, const Settings&, State<3>&);
-template void find_joint_forces<2>(const Model<2>&, const Settings&, State<2>&);
-template void find_joint_forces<3>(const Model<3>&, const Settings&, State<3>&);
-template void apply_joint_laws<2>(const Model<2>&, const Settings&, State<2>&);
-template void apply_joint_laws<3>(const Model<3>&, const Settings&, State<3>&);
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
+  template PairWrench<Dim> joint_wrench<Dim>(const Model<Dim>&, const Schedule&, const JointStep&,            \
+                                             const Contact<Dim>&, std::span<const SubContact<Dim>>,           \
+                                             const IntegratedContact<Dim>*, const PairMotion<Dim>&,           \
+                                             const JointState<Dim>&, std::span<const JointState<Dim>>);       \
+  template void find_joint_forces<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const JointStep&, \
+                                       BodiesState<Dim>&, ContactsState<Dim>&, Ledger&, Counters&);           \
+  template void apply_joint_laws<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const JointStep&,  \
+                                      const BodiesState<Dim>&, ContactsState<Dim>&, Ledger&, Counters&);      \
+  template void make_bonds<Dim>(const Model<Dim>&, const Settings&, BodiesState<Dim>&, ContactsState<Dim>&,   \
+                                BondTally&, Counters&);                                                       \
+  template void remove_bonds<Dim>(const Model<Dim>&, ContactsState<Dim>&, BondTally&);                        \
+  template void zero_slip<Dim>(ContactsState<Dim>&);                                                          \
+  template BondCount count_bonds<Dim>(const ContactsState<Dim>&, const BondTally&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
 
 }  // namespace voussoir

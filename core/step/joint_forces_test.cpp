@@ -154,22 +154,24 @@ TEST(Bonds, AreMadeWhereAClosedJointPressesAndHoldUntilTheyBreak) {
     joint.tension = 2e4;  // an offset of 20 µm
     joint.cohesion = 1e5;
     EXPECT_NEAR(force_at(pressed, 1e-5), 0, 1e-6);  // never bonded: nothing below the offset
-    make_bonds(pressed.model, pressed.settings, pressed.state);
+    make_bonds(pressed.model, pressed.settings, pressed.state.bodies, pressed.state.contacts,
+               pressed.state.ledger.bonds, pressed.state.counters);
     EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6) << "nothing is under compression";
-    EXPECT_EQ(count_bonds(pressed.state).made, 0);
-    EXPECT_EQ(count_bonds(pressed.state).due, 1);
+    EXPECT_EQ(count_bonds(pressed.state.contacts, pressed.state.ledger.bonds).made, 0);
+    EXPECT_EQ(count_bonds(pressed.state.contacts, pressed.state.ledger.bonds).due, 1);
 
     EXPECT_NEAR(force_at(pressed, 1e-4), 8e4, 1);
-    EXPECT_EQ(count_bonds(pressed.state).whole, along);
-    make_bonds(pressed.model, pressed.settings, pressed.state);
-    EXPECT_EQ(count_bonds(pressed.state).made, along) << "none is made twice";
+    EXPECT_EQ(count_bonds(pressed.state.contacts, pressed.state.ledger.bonds).whole, along);
+    make_bonds(pressed.model, pressed.settings, pressed.state.bodies, pressed.state.contacts,
+               pressed.state.ledger.bonds, pressed.state.counters);
+    EXPECT_EQ(count_bonds(pressed.state.contacts, pressed.state.ledger.bonds).made, along) << "none is made twice";
     EXPECT_NEAR(force_at(pressed, 1e-4), 8e4, 1) << "a bond changes no force";
     EXPECT_NEAR(force_at(pressed, 5e-6), -1.5e4, 1);
     force_at(pressed, -1e-6);  // apart: the bond is lost with the contact
     EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6);
     EXPECT_NEAR(force_at(pressed, 1e-4), 8e4, 1) << "the offset stays";
     EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6) << "what is broken stays so";
-    EXPECT_EQ(count_bonds(pressed.state).broken, along);
+    EXPECT_EQ(count_bonds(pressed.state.contacts, pressed.state.ledger.bonds).broken, along);
   }
 }
 
@@ -182,17 +184,18 @@ TEST(Bonds, WaitForAClosedJointToPressUnlessItOpens) {
       joint.laws.bond = true;
       joint.cohesion = 1e5;
       pressed.state = initial_state(pressed.model);
-      make_bonds(pressed.model, pressed.settings, pressed.state);
-      EXPECT_EQ(count_bonds(pressed.state).due, 1);
+      make_bonds(pressed.model, pressed.settings, pressed.state.bodies, pressed.state.contacts,
+                 pressed.state.ledger.bonds, pressed.state.counters);
+      EXPECT_EQ(count_bonds(pressed.state.contacts, pressed.state.ledger.bonds).due, 1);
       force_at(pressed, -gap);
       const bool open = gap > 2.5e-4;  // the block's inscribed radius is a quarter of a metre
-      EXPECT_EQ(count_bonds(pressed.state).due, open ? 0 : 1) << gap;
+      EXPECT_EQ(count_bonds(pressed.state.contacts, pressed.state.ledger.bonds).due, open ? 0 : 1) << gap;
       force_at(pressed, 1e-5);
-      EXPECT_EQ(count_bonds(pressed.state).whole, open ? 0 : along) << gap;
+      EXPECT_EQ(count_bonds(pressed.state.contacts, pressed.state.ledger.bonds).whole, open ? 0 : along) << gap;
       pressed.model.bodies[pressed.block].present = false;
-      remove_bonds(pressed.model, pressed.state);
-      EXPECT_EQ(count_bonds(pressed.state).broken, 0);
-      EXPECT_EQ(count_bonds(pressed.state).whole, 0);
+      remove_bonds(pressed.model, pressed.state.contacts, pressed.state.ledger.bonds);
+      EXPECT_EQ(count_bonds(pressed.state.contacts, pressed.state.ledger.bonds).broken, 0);
+      EXPECT_EQ(count_bonds(pressed.state.contacts, pressed.state.ledger.bonds).whole, 0);
     }
 }
 
@@ -201,15 +204,19 @@ TEST(StressDependentStiffness, IsTheSameThroughAnyNumberOfPointsAndShortensTheSt
   for (const int along : {1, 2, 8}) {
     Pressed<3> pressed(along, 1e-4, 0);
     JointProperties& joint = pressed.model.properties[0];
-    const double plain = estimate_time_step(pressed.model, pressed.settings, {}, pressed.state).limit;
+    const double plain = estimate_time_step(pressed.model, pressed.settings, {}, pressed.state.bodies,
+                                            pressed.state.loads, pressed.state.contacts, pressed.state.time_step)
+                             .limit;
     joint.laws.normal = joint.laws.shear = StiffnessLaw::linear;
     joint.normal_growth = 2e4;  // stress at 0.1 mm: k/c (e² - 1)
     joint.shear_growth = 2e4;
     EXPECT_NEAR(force_at(pressed, 1e-4), joint.normal_stiffness / 2e4 * std::expm1(2), 1e-6 * 3e5);
-    const auto renewed = renew_time_step(pressed.model, pressed.settings, {}, pressed.state);
+    const auto renewed = renew_time_step(pressed.model, pressed.settings, {}, pressed.state.bodies, pressed.state.loads,
+                                         pressed.state.contacts, pressed.state.time_step);
     ASSERT_TRUE(renewed);
     const double stiffened = renewed->limit;
-    EXPECT_FALSE(renew_time_step(pressed.model, pressed.settings, {}, pressed.state));
+    EXPECT_FALSE(renew_time_step(pressed.model, pressed.settings, {}, pressed.state.bodies, pressed.state.loads,
+                                 pressed.state.contacts, pressed.state.time_step));
     EXPECT_LT(stiffened, plain * std::exp(-0.9));
     EXPECT_GT(stiffened, plain * std::exp(-1.5));
     if (along == 1) limit = stiffened;

@@ -192,7 +192,7 @@ void add_lining_pairs(const Model<Dim>& model, const Settings& settings, const S
   if constexpr (Dim == 2) {
     add_beam_pairs(model, state, pairs);
     for (std::size_t l = 0; l < state.supports.linings.size(); ++l) {
-      const LiningState &lined = state.supports.linings[l], &base = state.increment.supports.linings[l];
+      const LiningState &lined = state.supports.linings[l], &base = state.increment.base.supports.linings[l];
       const Lining& lining = model.linings[lined.lining];
       for (std::size_t i = 0; i < lined.contacts.size(); ++i) {
         const LiningContact& contact = lined.contacts[i];

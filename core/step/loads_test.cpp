@@ -201,15 +201,20 @@ TEST(AppliedForces, SetTheTimeStepOfABlockThatHangsFromOne) {
   list_by_body(model, state.contacts);
   sum_loads(model, Settings(), state);
   Settings settings;
-  EXPECT_NEAR(estimate_time_step(model, settings, {.viscous_ratio = 0}, state).limit * pendulum.frequency(), 2,
-              rounding);
+  EXPECT_NEAR(estimate_time_step(model, settings, {.viscous_ratio = 0}, state.bodies, state.loads, state.contacts,
+                                 state.time_step)
+                      .limit *
+                  pendulum.frequency(),
+              2, rounding);
 
   // one that turns with its block turns nothing back, and adds nothing
   ForcePlan jack = pendulum.hook();
   jack.turns_with_body = true;
   model = apply(pendulum.model, with({jack}));
   sum_loads(model, settings, state);
-  EXPECT_FALSE(std::isfinite(estimate_time_step(model, settings, {.viscous_ratio = 0}, state).limit));
+  EXPECT_FALSE(std::isfinite(estimate_time_step(model, settings, {.viscous_ratio = 0}, state.bodies, state.loads,
+                                                state.contacts, state.time_step)
+                                 .limit));
 }
 
 double period_of(const std::vector<double>& time, const std::vector<double>& lean) {

@@ -10,10 +10,14 @@ namespace voussoir {
 // Gravity that grows lifts or lowers the potential energy of what has already moved, and a water that rises that of
 // what lies in it: counted where it is. Relaxation learns what of the loads' change the water has imposed.
 template <int Dim>
-void add_ramps(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+void add_ramps(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
+               const LoadsState<Dim>& loads, Schedule& schedule, EnergyLedger& energy, Relaxation<Dim>& relaxation);
 
-// a time step that today's contacts allow, then velocities, then positions
+// A time step that today's contacts allow, then velocities, then positions; or one of relaxation. Contacts change in
+// nothing but the area that they are rated with.
 template <int Dim>
-void move_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+void move_bodies(const Model<Dim>& model, const Settings& settings, const Counters& counters, BodiesState<Dim>& bodies,
+                 ContactsState<Dim>& contacts, LoadsState<Dim>& loads, Schedule& schedule, Ledger& ledger,
+                 TimeStep& time_step, Relaxation<Dim>& relaxation);
 
 }  // namespace voussoir

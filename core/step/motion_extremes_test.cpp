@@ -343,7 +343,10 @@ void expect_safe_and_useful_step(std::uint64_t seed, int sets) {
     for (int b = 1; b < free; ++b)
       heaviest = std::max({heaviest, mass(b) / mass(0), mass(0) / mass(b)});
     const double limit = 2 / std::sqrt(assembly.largest_eigenvalue());
-    const double fraction = estimate_time_step(assembly.model, {}, {}, assembly.state).limit / limit;
+    const double fraction = estimate_time_step(assembly.model, {}, {}, assembly.state.bodies, assembly.state.loads,
+                                               assembly.state.contacts, assembly.state.time_step)
+                                .limit /
+                            limit;
     lowest = std::min(lowest, fraction);
     highest = std::max(highest, fraction);
   }

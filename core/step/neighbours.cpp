@@ -49,9 +49,9 @@ double turned_by(const Rotation<3>& from, const Rotation<3>& to) {
 
 // where the bodies stand; the list keeps its memory
 template <int Dim>
-void note_placements(const State<Dim>& state, std::vector<Placement<Dim>>& placements) {
+void note_placements(const BodiesState<Dim>& bodies, std::vector<Placement<Dim>>& placements) {
   placements.clear();
-  for (const Motion<Dim>& m : state.bodies.motions)
+  for (const Motion<Dim>& m : bodies.motions)
     placements.push_back({m.displacement, m.rotation});
 }
 
@@ -67,13 +67,13 @@ constexpr double coordinate_rounding = 8 * std::numeric_limits<double>::epsilon(
 // the box around a part, from its vertices where they now are (Eq. C.1), widened by `margin` and by what rounding may
 // have cut off
 template <int Dim>
-Box<Dim> bounds(const Model<Dim>& model, const State<Dim>& state, int part, double margin) {
+Box<Dim> bounds(const Model<Dim>& model, const BodiesState<Dim>& bodies, int part, double margin) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const PartId id = model.parts[part];
   const Body<Dim>& body = model.bodies[id.body];
   Box<Dim> box{Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity), id.body, body.immobile()};
   if (!body.present) return box;
-  const CachedPose<Dim>& at = state.bodies.poses[id.body];
+  const CachedPose<Dim>& at = bodies.poses[id.body];
   for (const Vector<Dim>& v : body.parts[id.part].vertices) {
     const Vector<Dim> x = at.axes * v;
     box.low = box.low.cwiseMin(x);
@@ -109,13 +109,13 @@ struct ThinSpans {
 constexpr std::size_t most_sampled = 32;
 
 template <int Dim>
-void find_thin_spans(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, double margin,
+void find_thin_spans(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies, double margin,
                      ThinSpans<Dim>& thin) {
   std::vector<TurnedPart<Dim>> sample;
   const std::size_t parts = model.parts.size(), sampled = std::min(parts, most_sampled);
   for (std::size_t i = 0; i < sampled; ++i) {
     const int part = static_cast<int>(parts * i / sampled);
-    sample.push_back({&model.polytope(part), state.bodies.poses[model.parts[part].body].axes});
+    sample.push_back({&model.polytope(part), bodies.poses[model.parts[part].body].axes});
   }
   const std::vector<Vector<Dim>> directions = thin_directions<Dim>(sample);
   thin.directions = directions.size();
@@ -123,7 +123,7 @@ void find_thin_spans(const Model<Dim>& model, const Settings& settings, const St
   if (directions.empty()) return;
   each_on_threads(settings.threads, parts, [&](int part) {
     const int body = model.parts[part].body;
-    const CachedPose<Dim>& at = state.bodies.poses[body];
+    const CachedPose<Dim>& at = bodies.poses[body];
     const Vector<Dim> centroid = at.reference + at.displacement;
     const double reach = margin + coordinate_rounding * (model.bodies[body].radius + centroid.norm());
     for (std::size_t k = 0; k < directions.size(); ++k) {
@@ -145,11 +145,11 @@ double radius_of(const Model<Dim>& model, int part) {
 }
 
 template <int Dim>
-Nearness nearness_of(const Model<Dim>& model, const State<Dim>& state, int a, int b) {
-  return nearness(pair_of(model, state, a, b, QueryLevel::decision), radius_of(model, a), radius_of(model, b));
+Nearness nearness_of(const Model<Dim>& model, const BodiesState<Dim>& bodies, int a, int b) {
+  return nearness(pair_of(model, bodies, a, b, QueryLevel::decision), radius_of(model, a), radius_of(model, b));
 }
 
-// places that State::contacts.subs has for each contact
+// places that ContactsState::subs has for each contact
 template <int Dim>
 std::size_t most_cells(const Model<Dim>& model, const ContactSettings& settings) {
   int most = 0;
@@ -160,12 +160,11 @@ std::size_t most_cells(const Model<Dim>& model, const ContactSettings& settings)
 
 // whether a body may have left its half of the skin
 template <int Dim>
-bool outdated(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, double skin) {
-  if (state.bodies.listed_at.size() != model.bodies.size()) return true;
+bool outdated(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies, double skin) {
+  if (bodies.listed_at.size() != model.bodies.size()) return true;
   std::atomic<bool> left = false;
   each_on_threads(settings.threads, model.bodies.size(), [&](int b) {
-    if (!model.bodies[b].immobile() &&
-        moved(model.bodies[b], state.bodies.listed_at[b], state.bodies.motions[b]) > 0.5 * skin)
+    if (!model.bodies[b].immobile() && moved(model.bodies[b], bodies.listed_at[b], bodies.motions[b]) > 0.5 * skin)
       left.store(true, std::memory_order_relaxed);
   });
   return left;
@@ -206,18 +205,18 @@ std::size_t most_candidates(std::size_t parts) {
 
 // adds what each body has moved since the last step; rounded upwards, so that it bounds
 template <int Dim>
-void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  if (state.bodies.path_bounds.size() != model.bodies.size()) {
-    note_placements(state, state.bodies.counted_at);
-    state.bodies.path_bounds.assign(state.bodies.motions.size(), 0);
+void count_travels(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies) {
+  if (bodies.path_bounds.size() != model.bodies.size()) {
+    note_placements(bodies, bodies.counted_at);
+    bodies.path_bounds.assign(bodies.motions.size(), 0);
   }
-  each_on_threads(settings.threads, state.bodies.path_bounds.size(), [&](int b) {
+  each_on_threads(settings.threads, bodies.path_bounds.size(), [&](int b) {
     if (model.bodies[b].immobile()) return;
-    const Motion<Dim>& now = state.bodies.motions[b];
-    double& travel = state.bodies.path_bounds[b];
-    const double way = moved(model.bodies[b], state.bodies.counted_at[b], now);
+    const Motion<Dim>& now = bodies.motions[b];
+    double& travel = bodies.path_bounds[b];
+    const double way = moved(model.bodies[b], bodies.counted_at[b], now);
     if (way > 0) travel = (travel + upwards * way) * upwards;
-    state.bodies.counted_at[b] = {now.displacement, now.rotation};
+    bodies.counted_at[b] = {now.displacement, now.rotation};
   });
 }
 
@@ -229,18 +228,18 @@ double closed_gap(const Model<Dim>& model) {
 }
 
 template <int Dim>
-bool is_near(const Model<Dim>& model, const State<Dim>& state, double gap, Contact<Dim>& c) {
+bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap, Contact<Dim>& c) {
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-  const double way = travelled(model, state, c);
+  const double way = travelled(model, bodies, c);
   if (way < c.near_until && !c.bond_due) return c.status != ContactStatus::apart;
-  const Box<Dim> a = bounds(model, state, c.part_a, 0), b = bounds(model, state, c.part_b, 0);
+  const Box<Dim> a = bounds(model, bodies, c.part_a, 0), b = bounds(model, bodies, c.part_b, 0);
   const double depth = (a.high.cwiseMin(b.high) - a.low.cwiseMax(b.low)).minCoeff();
   const double size = std::max({a.low.cwiseAbs().maxCoeff(), a.high.cwiseAbs().maxCoeff(), b.low.cwiseAbs().maxCoeff(),
                                 b.high.cwiseAbs().maxCoeff()});
   double lasts = std::abs(depth) - rounding * size;
   bool near = meet(a, b), closed = -depth <= gap;
   if (near && !c.touching()) {
-    const Nearness faces = nearness_of(model, state, c.part_a, c.part_b);
+    const Nearness faces = nearness_of(model, bodies, c.part_a, c.part_b);
     near = closed = faces.near;  // faces that keep parts apart do so by far more than the gap
     lasts = near ? std::min(lasts, faces.lasts) : faces.lasts;
   }
@@ -250,11 +249,12 @@ bool is_near(const Model<Dim>& model, const State<Dim>& state, double gap, Conta
 }
 
 template <int Dim>
-void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
+                     ContactsState<Dim>& contacts, Counters& counters) {
   // no less than what a joint may open before it is bonded
   const double skin = std::max(settings.contact.skin * smallest_size(model), closed_gap(model));
-  if (!outdated(model, settings, state, skin)) {
-    if (state.contacts.by_body.first.empty()) list_by_body(model, state.contacts);  // read from a checkpoint
+  if (!outdated(model, settings, bodies, skin)) {
+    if (contacts.by_body.first.empty()) list_by_body(model, contacts);  // read from a checkpoint
     return;
   }
 
@@ -271,16 +271,16 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   std::vector<Contact<Dim>>& renewed = own_renewed;
   std::vector<SubContact<Dim>>& renewed_subs = own_subs;
   std::vector<int>& origin = own_origin;  // of each pair: its place in the old list, or -1
-  cache_poses(model, settings.threads, state.bodies);
+  cache_poses(model, settings.threads, bodies);
   boxes.resize(model.parts.size());
   each_on_threads(settings.threads, boxes.size(),
-                  [&](int part) { boxes[part] = bounds(model, state, part, candidate_reach * skin); });
-  find_thin_spans(model, settings, state, candidate_reach * skin, spans);
+                  [&](int part) { boxes[part] = bounds(model, bodies, part, candidate_reach * skin); });
+  find_thin_spans(model, settings, bodies, candidate_reach * skin, spans);
   std::atomic<std::size_t> count = 0;
   const std::size_t most = most_candidates(boxes.size());
   const auto wanted = [&](int a, int b) {
     if (count.load(std::memory_order_relaxed) > most || !spans.meet(a, b)) return false;
-    const bool near = may_come_near(pair_of(model, state, a, b, QueryLevel::decision), radius_of(model, a),
+    const bool near = may_come_near(pair_of(model, bodies, a, b, QueryLevel::decision), radius_of(model, a),
                                     radius_of(model, b), candidate_reach * skin);
     if (near) count.fetch_add(1, std::memory_order_relaxed);
     return near;
@@ -291,38 +291,38 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Di
   // standing candidates keep their record: both lists are in ascending order
   const std::size_t stride = most_cells(model, settings.contact);
   origin.assign(pairs.size(), -1);
-  auto old = state.contacts.list.begin();
+  auto old = contacts.list.begin();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    while (old != state.contacts.list.end() && std::pair(old->part_a, old->part_b) < pairs[i])
+    while (old != contacts.list.end() && std::pair(old->part_a, old->part_b) < pairs[i])
       ++old;
-    if (old != state.contacts.list.end() && std::pair(old->part_a, old->part_b) == pairs[i])
-      origin[i] = static_cast<int>(old - state.contacts.list.begin());
+    if (old != contacts.list.end() && std::pair(old->part_a, old->part_b) == pairs[i])
+      origin[i] = static_cast<int>(old - contacts.list.begin());
   }
   renewed.resize(pairs.size());
   renewed_subs.assign(pairs.size() * stride, {});
   each_on_threads(settings.threads, pairs.size(), [&](int i) {
     if (origin[i] >= 0) {
-      renewed[i] = state.contacts.list[origin[i]];
-      std::ranges::copy(subs_of(state.contacts, origin[i]),
-                        renewed_subs.begin() + i * static_cast<std::ptrdiff_t>(stride));
+      renewed[i] = contacts.list[origin[i]];
+      std::ranges::copy(subs_of(contacts, origin[i]), renewed_subs.begin() + i * static_cast<std::ptrdiff_t>(stride));
       return;
     }
     renewed[i] = {};
     renewed[i].part_a = pairs[i].first;
     renewed[i].part_b = pairs[i].second;
   });
-  std::swap(state.contacts.list, renewed);
-  std::swap(state.contacts.subs, renewed_subs);
-  list_by_body(model, state.contacts);
-  note_placements(state, state.bodies.listed_at);
-  ++state.counters.neighbour_builds;
+  std::swap(contacts.list, renewed);
+  std::swap(contacts.subs, renewed_subs);
+  list_by_body(model, contacts);
+  note_placements(bodies, bodies.listed_at);
+  ++counters.neighbour_builds;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                      \
-  template void find_neighbours<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
-  template void count_travels<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);   \
-  template double closed_gap<Dim>(const Model<Dim>&);                                  \
-  template bool is_near<Dim>(const Model<Dim>&, const State<Dim>&, double, Contact<Dim>&);
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                \
+  template void find_neighbours<Dim>(const Model<Dim>&, const Settings&, BodiesState<Dim>&, ContactsState<Dim>&, \
+                                     Counters&);                                                                 \
+  template void count_travels<Dim>(const Model<Dim>&, const Settings&, BodiesState<Dim>&);                       \
+  template double closed_gap<Dim>(const Model<Dim>&);                                                            \
+  template bool is_near<Dim>(const Model<Dim>&, const BodiesState<Dim>&, double, Contact<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

@@ -7,8 +7,10 @@
 
 #include "core/base/settings.hpp"
 #include "core/contact/particles.hpp"
+#include "core/model/bodies_state.hpp"
+#include "core/model/contacts_state.hpp"
+#include "core/model/ledger.hpp"
 #include "core/model/model.hpp"
-#include "core/model/state.hpp"
 
 namespace voussoir {
 
@@ -24,24 +26,24 @@ std::size_t most_candidates(std::size_t parts);
 // Candidate pairs, listed again when a body may have moved out of its skin: all that may come near each other until
 // then. Throws TooManyNeighbours before it asks for memory for them.
 template <int Dim>
-void find_neighbours(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
+                     ContactsState<Dim>& contacts, Counters& counters);
 
 // adds what each body has moved since the last step; rounded upwards, so that it bounds
 template <int Dim>
-void count_travels(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+void count_travels(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies);
 
 // m, of the bodies of a contact together
 template <int Dim>
-double travelled(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
-  return state.bodies.path_bounds[model.parts[c.part_a].body] + state.bodies.path_bounds[model.parts[c.part_b].body];
+double travelled(const Model<Dim>& model, const BodiesState<Dim>& bodies, const Contact<Dim>& c) {
+  return bodies.path_bounds[model.parts[c.part_a].body] + bodies.path_bounds[model.parts[c.part_b].body];
 }
 
 // two parts as the kernel sees them, where their bodies stand
 template <int Dim>
-void set_pair(const Model<Dim>& model, const State<Dim>& state, int part_a, int part_b, QueryLevel level,
+void set_pair(const Model<Dim>& model, const BodiesState<Dim>& bodies, int part_a, int part_b, QueryLevel level,
               Pair<Dim>& pair) {
-  const CachedPose<Dim>&at_a = state.bodies.poses[model.parts[part_a].body],
-        &at_b = state.bodies.poses[model.parts[part_b].body];
+  const CachedPose<Dim>&at_a = bodies.poses[model.parts[part_a].body], &at_b = bodies.poses[model.parts[part_b].body];
   pair.a = &model.polytope(part_a);
   pair.b = &model.polytope(part_b);
   pair.axes = at_a.axes;
@@ -51,9 +53,9 @@ void set_pair(const Model<Dim>& model, const State<Dim>& state, int part_a, int 
 }
 
 template <int Dim>
-Pair<Dim> pair_of(const Model<Dim>& model, const State<Dim>& state, int part_a, int part_b, QueryLevel level) {
+Pair<Dim> pair_of(const Model<Dim>& model, const BodiesState<Dim>& bodies, int part_a, int part_b, QueryLevel level) {
   Pair<Dim> pair;
-  set_pair(model, state, part_a, part_b, level, pair);
+  set_pair(model, bodies, part_a, part_b, level, pair);
   return pair;
 }
 
@@ -81,6 +83,6 @@ double closed_gap(const Model<Dim>& model);
 // (contact/nearness). Looked at only when its bodies have moved by as much as decided it, and at every step where a
 // bond is due: it is no more when the pair is farther apart than `gap`, closed_gap.
 template <int Dim>
-bool is_near(const Model<Dim>& model, const State<Dim>& state, double gap, Contact<Dim>& c);
+bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap, Contact<Dim>& c);
 
 }  // namespace voussoir

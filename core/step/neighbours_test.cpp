@@ -11,6 +11,7 @@
 
 #include "core/contact/broad_phase.hpp"
 #include "core/contact/nearness.hpp"
+#include "core/model/state.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir {
@@ -51,7 +52,7 @@ Pairs pairs_of(const State<Dim>& state) {
 template <int Dim>
 State<Dim> listed(const Model<Dim>& model, const Settings& settings = {}) {
   State<Dim> state = initial_state(model);
-  find_neighbours(model, settings, state);
+  find_neighbours(model, settings, state.bodies, state.contacts, state.counters);
   return state;
 }
 
@@ -121,7 +122,7 @@ Pairs touching_pairs(const Model<Dim>& model, State<Dim> state) {
   for (int a = 0; a < static_cast<int>(model.parts.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(model.parts.size()); ++b) {
       if (!may_touch(model, a, b)) continue;
-      const Pair<Dim> pair = pair_of(model, state, a, b, QueryLevel::decision);
+      const Pair<Dim> pair = pair_of(model, state.bodies, a, b, QueryLevel::decision);
       Contact<Dim> contact;
       Contact<Dim>* const place = &contact;
       KernelCounters counters;
@@ -174,10 +175,10 @@ void expect_none_missed(std::uint64_t seed, bool clumps) {
     for (Motion<Dim>& m : state.bodies.motions)
       m.rotation = shapes::orientation<Dim>(random);
     again.bodies.motions = state.bodies.motions;
-    find_neighbours(model, settings, state);
+    find_neighbours(model, settings, state.bodies, state.contacts, state.counters);
     const Pairs pairs = pairs_of(state);
     settings.threads = 3;
-    find_neighbours(model, settings, again);
+    find_neighbours(model, settings, again.bodies, again.contacts, again.counters);
     EXPECT_TRUE(pairs_of(again) == pairs);
 
     const std::set<std::pair<int, int>> known(pairs.begin(), pairs.end());
@@ -239,7 +240,7 @@ void expect_that_it_lasts(std::uint64_t seed) {
         shapes::uniform(random, 0, 1) * (radius_a + radius_b) * shapes::direction<Dim>(random);
     const auto seen = [&](State<Dim>& at) {
       cache_poses(model, 1, at.bodies);
-      return pair_of(model, at, 0, 1, QueryLevel::decision);
+      return pair_of(model, at.bodies, 0, 1, QueryLevel::decision);
     };
     const auto moved = [&](double way_a, double way_b) {
       State<Dim> later = state;
@@ -276,7 +277,7 @@ TEST(Neighbours, WhatItsVerticesDoNotTellIsNear) {
   State<3> state = initial_state(model);
   state.bodies.motions[1].displacement = {100, 0, 0};
   cache_poses(model, 1, state.bodies);
-  const Pair<3> pair = pair_of(model, state, 0, 1, QueryLevel::decision);
+  const Pair<3> pair = pair_of(model, state.bodies, 0, 1, QueryLevel::decision);
   EXPECT_TRUE(nearness(pair, model.bodies[0].radius, model.bodies[1].radius).near);
   EXPECT_TRUE(may_come_near(pair, model.bodies[0].radius, model.bodies[1].radius, 0.1));
 }

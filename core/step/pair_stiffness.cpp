@@ -43,12 +43,6 @@ double size_of(const Model<Dim>& model, int a, int b) {
   return is_free(model, b) ? std::min(size_a, size_b) : size_a;
 }
 
-template <int Dim>
-std::span<const JointState<Dim>> sub_histories_of(const State<Dim>& state, int contact) {
-  const std::size_t stride = sub_stride(state.contacts);
-  return std::span(state.increment.sub_histories).subspan(contact * stride, stride);
-}
-
 void add(Counters& total, const KernelCounters& k) {
   total.contact_evaluations += k.evaluations;
   total.cold_starts += k.cold_starts;
@@ -99,8 +93,8 @@ struct MovedContacts {
   std::vector<Contact<Dim>*> places;
   std::vector<std::size_t> of_kernel;  // places in `contacts`
 
-  void find(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
-            std::span<const PairStiffness<Dim>> batch, KernelCounters& counters) {
+  void find(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
+            const ContactsState<Dim>& candidates, std::span<const PairStiffness<Dim>> batch, KernelCounters& counters) {
     pairs.clear();
     asked.clear();
     contacts.clear();
@@ -108,26 +102,26 @@ struct MovedContacts {
     places.clear();
     of_kernel.clear();
     for (const PairStiffness<Dim>& p : batch)
-      move(model, settings, state, p);
+      move(model, settings, bodies, candidates.list[p.contact], p);
     for (const std::size_t k : of_kernel)
       places.push_back(&contacts[k]);
     resolve_pairs<Dim>(model, settings.contact, asked, places, counters);
   }
 
  private:
-  void move(const Model<Dim>& model, const Settings& settings, const State<Dim>& state, const PairStiffness<Dim>& p) {
-    const Contact<Dim>& c = state.contacts.list[p.contact];
+  void move(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies, const Contact<Dim>& c,
+            const PairStiffness<Dim>& p) {
     const double width = Dim == 3 ? std::sqrt(c.geometry.area) : c.geometry.area;
     const double size = size_of(model, p.body_a, p.body_b);
     const double way = std::max(of_overlap * c.geometry.overlap, of_size * size);
-    const Pair<Dim> here = pair_of(model, state, c.part_a, c.part_b, QueryLevel::area);
+    const Pair<Dim> here = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
     ContactSensitivity<Dim> sensitivity;
     const bool whole = is_integrated(settings.contact, model.properties[c.properties]);  // pressed again, by whom asks
     const bool closed_form = !whole && c.proof.kind != ProofKind::least_point && has_sensitivity(settings.contact) &&
                              find_sensitivity<Dim>(here, settings.contact, c, sensitivity);
     for (int f = 0; f < freedoms<Dim>; ++f) {
       steps.push_back(f < Dim ? way : way / std::max(width, least_width * size));
-      pairs.push_back(moved(here, state.bodies.poses[p.body_b], f, steps.back()));
+      pairs.push_back(moved(here, bodies.poses[p.body_b], f, steps.back()));
       contacts.push_back(c);
       if (f >= Dim && !turns(model, p.body_a) && !turns(model, p.body_b)) continue;  // held: what it says is not used
       if (closed_form) {
@@ -142,29 +136,29 @@ struct MovedContacts {
 
 // of contacts [first, last) of the list
 template <int Dim>
-void difference(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
-                std::span<PairStiffness<Dim>> batch, KernelCounters& counters) {
+void difference(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
+                const JointStep& joint_step, const BodiesState<Dim>& bodies, const ContactsState<Dim>& contacts,
+                const JointHistories<Dim>& histories, std::span<PairStiffness<Dim>> batch, KernelCounters& counters) {
   constexpr int F = freedoms<Dim>;
   static thread_local MovedContacts<Dim> after;
   static thread_local std::vector<SubContact<Dim>> cells;
   static thread_local IntegratedContact<Dim> pressed;
   static thread_local HalfSpaces<Dim> planes;
-  after.find(model, settings, state, batch, counters);
+  after.find(model, settings, bodies, contacts, batch, counters);
 
-  cells.resize(sub_stride(state.contacts));
+  cells.resize(sub_stride(contacts));
   for (std::size_t i = 0; i < batch.size(); ++i) {
     PairStiffness<Dim>& p = batch[i];
-    const Contact<Dim>& c = state.contacts.list[p.contact];
-    const JointState<Dim>& history = state.increment.histories[p.contact].history;
-    const std::span<const JointState<Dim>> sub_histories = sub_histories_of(state, p.contact);
-    const CachedPose<Dim>&a = state.bodies.poses[p.body_a], &b = state.bodies.poses[p.body_b];
+    const Contact<Dim>& c = contacts.list[p.contact];
+    const JointState<Dim>& history = histories.contacts[p.contact].history;
+    const std::span<const JointState<Dim>> sub_histories = subs_of(histories, p.contact);
+    const CachedPose<Dim>&a = bodies.poses[p.body_a], &b = bodies.poses[p.body_b];
     const bool whole = is_integrated(settings.contact, model.properties[c.properties]);
     const int along = model.properties[c.properties].sub_contacts, count = whole ? 0 : sub_contact_count<Dim>(along);
     p.apart = between(a, b);
     const PairMotion<Dim> now{p.apart, b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
-    p.wrench =
-        joint_wrench<Dim>(model, settings, state, c, subs_of(state.contacts, static_cast<std::size_t>(p.contact)),
-                          whole ? &state.contacts.faces[p.contact] : nullptr, now, history, sub_histories);
+    p.wrench = joint_wrench<Dim>(model, schedule, joint_step, c, subs_of(contacts, static_cast<std::size_t>(p.contact)),
+                                 whole ? &contacts.faces[p.contact] : nullptr, now, history, sub_histories);
     for (int f = 0; f < F; ++f) {
       Contact<Dim>& then_contact = after.contacts[i * F + f];
       const double step = after.steps[i * F + f];
@@ -177,8 +171,8 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
       const PairMotion<Dim> then{now.between + way, now.drift + way, a.spin, spin, now.inverse_mass};
       std::span<SubContact<Dim>> subs;
       if (then_contact.touching() && count > 0) {
-        const std::size_t first = p.contact * sub_stride(state.contacts);
-        std::copy_n(state.contacts.subs.begin() + static_cast<std::ptrdiff_t>(first), count, cells.begin());
+        const std::size_t first = p.contact * sub_stride(contacts);
+        std::copy_n(contacts.subs.begin() + static_cast<std::ptrdiff_t>(first), count, cells.begin());
         then_contact.divided_face = c.divided_face;
         divide<Dim>(after.pairs[i * F + f], along, then_contact, std::span(cells).first(count));
         subs = std::span(cells).first(then_contact.cells);
@@ -187,7 +181,7 @@ void difference(const Model<Dim>& model, const Settings& settings, const State<D
         find_nearest_faces<Dim>(after.pairs[i * F + f], then_contact, planes);
         integrate_contact<Dim>(after.pairs[i * F + f], planes, then_contact, pressed);
       }
-      const PairWrench<Dim> wrench = joint_wrench<Dim>(model, settings, state, then_contact, subs,
+      const PairWrench<Dim> wrench = joint_wrench<Dim>(model, schedule, joint_step, then_contact, subs,
                                                        whole ? &pressed : nullptr, then, history, sub_histories);
       p.stiffness.col(f) = (p.wrench - wrench) / step;
     }
@@ -234,11 +228,13 @@ JointState<Dim> unloaded(const Vector<Dim>& normal, const Vector<Dim>& point, do
 }  // namespace
 
 template <int Dim>
-void find_pair_stiffness(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  std::vector<PairStiffness<Dim>>& list = state.increment.stiffness;
+void find_pair_stiffness(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
+                         const JointStep& joint_step, const BodiesState<Dim>& bodies,
+                         const ContactsState<Dim>& contacts, const JointHistories<Dim>& histories, Counters& counters,
+                         std::vector<PairStiffness<Dim>>& list) {
   list.clear();
-  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
-    const Contact<Dim>& c = state.contacts.list[i];
+  for (std::size_t i = 0; i < contacts.list.size(); ++i) {
+    const Contact<Dim>& c = contacts.list[i];
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
     if (!c.touching() || (!is_free(model, a) && !is_free(model, b))) continue;
     PairStiffness<Dim> pair;
@@ -248,31 +244,33 @@ void find_pair_stiffness(const Model<Dim>& model, const Settings& settings, Stat
     list.push_back(pair);
   }
   const int batches = (static_cast<int>(list.size()) + together - 1) / together;
-  std::vector<KernelCounters> counters(batches);
+  std::vector<KernelCounters> costs(batches);
   on_threads(settings.threads, batches, [&](int i) {
     const std::size_t first = static_cast<std::size_t>(i) * together;
-    difference<Dim>(model, settings, state,
-                    std::span(list).subspan(first, std::min<std::size_t>(together, list.size() - first)), counters[i]);
+    difference<Dim>(model, settings, schedule, joint_step, bodies, contacts, histories,
+                    std::span(list).subspan(first, std::min<std::size_t>(together, list.size() - first)), costs[i]);
   });
-  for (const KernelCounters& k : counters)
-    add(state.counters, k);
+  for (const KernelCounters& k : costs)
+    add(counters, k);
 }
 
 template <int Dim>
-void find_closed_joints(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+void find_closed_joints(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
+                        const ContactsState<Dim>& contacts, JointHistories<Dim>& histories, Counters& counters,
+                        std::vector<PairStiffness<Dim>>& all_closed) {
   std::vector<Pair<Dim>> pairs;
   std::vector<Contact<Dim>> copies;
   std::vector<int> chosen;
-  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
-    const Contact<Dim>& c = state.contacts.list[i];
+  for (std::size_t i = 0; i < contacts.list.size(); ++i) {
+    const Contact<Dim>& c = contacts.list[i];
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
     if (c.touching() || c.unanswered() || c.status == ContactStatus::apart ||
         (!is_free(model, a) && !is_free(model, b)))
       continue;
-    if (!state.increment.histories[i].history.normal.isZero(0)) continue;
+    if (!histories.contacts[i].history.normal.isZero(0)) continue;
     const double probe = probe_of_size * size_of(model, a, b);
     if (c.status == ContactStatus::separated && c.proof.margin > probe) continue;
-    Pair<Dim> pair = pair_of(model, state, c.part_a, c.part_b, QueryLevel::area);
+    Pair<Dim> pair = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
     Vector<Dim> axis =
         c.proof.kind == ProofKind::separating_axis ? Vector<Dim>(c.proof.axis) : Vector<Dim>(Vector<Dim>::Zero());
     if (axis.isZero(0)) axis = (pair.offset + pair.rotation * pair.b->centre - pair.a->centre).normalized();
@@ -286,11 +284,11 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
   std::vector<Contact<Dim>*> places;
   for (Contact<Dim>& c : copies)
     places.push_back(&c);
-  KernelCounters counters;
-  resolve_pairs<Dim>(model, settings.contact, pairs, places, counters);
-  add(state.counters, counters);
+  KernelCounters cost;
+  resolve_pairs<Dim>(model, settings.contact, pairs, places, cost);
+  add(counters, cost);
 
-  const std::size_t stride = sub_stride(state.contacts);
+  const std::size_t stride = sub_stride(contacts);
   std::vector<SubContact<Dim>> cells(stride);
   for (std::size_t j = 0; j < chosen.size(); ++j) {
     Contact<Dim>& c = copies[j];
@@ -302,13 +300,13 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
     closed.contact = chosen[j];
     closed.body_a = model.parts[c.part_a].body;
     closed.body_b = model.parts[c.part_b].body;
-    closed.apart = between(state.bodies.poses[closed.body_a], state.bodies.poses[closed.body_b]);
+    closed.apart = between(bodies.poses[closed.body_a], bodies.poses[closed.body_b]);
     const Vector<Dim>& n = c.geometry.normal;
     const auto stand = [&](JointState<Dim>& history, const Vector<Dim>& point, double area) {
       history = unloaded<Dim>(n, point, area);
       add_point<Dim>(properties, n, point - closed.apart, area, closed.stiffness);
     };
-    JointState<Dim>& history = state.increment.histories[closed.contact].history;
+    JointState<Dim>& history = histories.contacts[closed.contact].history;
     const int count = sub_contact_count<Dim>(properties.sub_contacts);
     if (is_integrated(settings.contact, properties)) {
       IntegratedContact<Dim> face;
@@ -325,19 +323,23 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, State
       std::fill(cells.begin(), cells.end(), SubContact<Dim>{});
       divide<Dim>(pairs[j], properties.sub_contacts, c, std::span(cells).first(count));
       history = unloaded<Dim>(n, c.geometry.point, c.geometry.area);
-      state.increment.histories[closed.contact].divided_face = c.divided_face;
+      histories.contacts[closed.contact].divided_face = c.divided_face;
       for (int k = 0; k < count; ++k)
         if (cells[k].area > 0)
-          stand(state.increment.sub_histories[closed.contact * stride + k], cells[k].point,
+          stand(histories.subs[closed.contact * stride + k], cells[k].point,
                 properties.constant_stiffness ? cells[k].area / c.geometry.area : cells[k].area);
     }
-    state.increment.closed.push_back(closed);
+    all_closed.push_back(closed);
   }
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                          \
-  template void find_pair_stiffness<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
-  template void find_closed_joints<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                  \
+  template void find_pair_stiffness<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const JointStep&,    \
+                                         const BodiesState<Dim>&, const ContactsState<Dim>&,                       \
+                                         const JointHistories<Dim>&, Counters&, std::vector<PairStiffness<Dim>>&); \
+  template void find_closed_joints<Dim>(const Model<Dim>&, const Settings&, const BodiesState<Dim>&,               \
+                                        const ContactsState<Dim>&, JointHistories<Dim>&, Counters&,                \
+                                        std::vector<PairStiffness<Dim>>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

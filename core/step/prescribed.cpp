@@ -32,12 +32,12 @@ Load<Dim> apply_prescribed_motion(const Body<Dim>& body, const PrescribedMotion<
 }
 
 template <int Dim>
-void stop_held(const Model<Dim>& model, State<Dim>& state) {
+void stop_held(const Model<Dim>& model, std::vector<Motion<Dim>>& motions) {
   auto prescribed = model.prescribed.begin();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
     const PrescribedMotion<Dim>* forced = body.prescribed ? &*prescribed++ : nullptr;
-    Motion<Dim>& motion = state.bodies.motions[b];
+    Motion<Dim>& motion = motions[b];
     for (int k = 0; k < Dim; ++k)
       if ((body.fixed || !body.free_translation[k]) && !(forced && forced->translation[k])) motion.velocity[k] = 0;
     const bool turns = !body.fixed && std::find(body.free_rotation.begin(), body.free_rotation.end(), true) !=
@@ -49,7 +49,7 @@ void stop_held(const Model<Dim>& model, State<Dim>& state) {
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                   \
   template Load<Dim> apply_prescribed_motion<Dim>(const Body<Dim>&, const PrescribedMotion<Dim>&, const Load<Dim>&, \
                                                   double, StepTimes, Motion<Dim>&, Kick<Dim>&);                     \
-  template void stop_held<Dim>(const Model<Dim>&, State<Dim>&);
+  template void stop_held<Dim>(const Model<Dim>&, std::vector<Motion<Dim>>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

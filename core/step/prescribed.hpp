@@ -18,6 +18,6 @@ Load<Dim> apply_prescribed_motion(const Body<Dim>& body, const PrescribedMotion<
 
 // When a run begins: stops whatever is held and not forced, also what a motion that has ended left moving.
 template <int Dim>
-void stop_held(const Model<Dim>& model, State<Dim>& state);
+void stop_held(const Model<Dim>& model, std::vector<Motion<Dim>>& motions);
 
 }  // namespace voussoir

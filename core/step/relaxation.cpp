@@ -29,20 +29,11 @@ constexpr double least_damping = 1e-3;
 // block of the case overhang turned by 0.16 % too little, with twenty by 0.04 %, with ten by 0.01 %.
 constexpr int steps_between_renewals = 10;
 
-template <int Dim>
-void stop_bodies(State<Dim>& state) {
-  for (Motion<Dim>& m : state.bodies.motions) {
-    m.velocity.setZero();
-    m.angular_momentum.setZero();
-  }
-}
-
 // what relaxation and motion do not share: the time step, and the energy that stopping takes
-template <int Dim>
-void change_ways(State<Dim>& state) {
-  state.time_step.frequency.clear();
-  state.time_step.allowed = 0;
-  if (state.ledger.energy.phase == LedgerPhase::running) state.ledger.energy.phase = LedgerPhase::model_changed;
+void change_ways(EnergyLedger& energy, TimeStep& time_step) {
+  time_step.frequency.clear();
+  time_step.allowed = 0;
+  if (energy.phase == LedgerPhase::running) energy.phase = LedgerPhase::model_changed;
 }
 
 template <int Dim>
@@ -55,21 +46,22 @@ double fraction_of_own_limit(const Body<Dim>& body) {
 // The inertia with which a body's limit 2/ω times its fraction is the common step, stiffness having grown by the area
 // margin. A body keeps its own until one of its contacts outgrows its rating; at every tenth step all are renewed.
 template <int Dim>
-void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  if (state.relaxation.until_renewal-- == 0) state.time_step.frequency.clear();
-  if (state.time_step.frequency.empty()) state.relaxation.until_renewal = steps_between_renewals;
-  const auto renewed = renew_time_step(model, settings, {.viscous_ratio = 0}, state);
+void scale_inertia(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
+                   const LoadsState<Dim>& loads, ContactsState<Dim>& contacts, TimeStep& time_step,
+                   Relaxation<Dim>& relaxation) {
+  if (relaxation.until_renewal-- == 0) time_step.frequency.clear();
+  if (time_step.frequency.empty()) relaxation.until_renewal = steps_between_renewals;
+  const auto renewed = renew_time_step(model, settings, {.viscous_ratio = 0}, bodies, loads, contacts, time_step);
   if (!renewed) return;
-  if (state.time_step.allowed == 0)
-    state.time_step.allowed =
+  if (time_step.allowed == 0)
+    time_step.allowed =
         settings.time.step.value_or(std::isfinite(renewed->limit) ? fraction_of_limit * renewed->limit : 0);
-  demand_time_step(state);
+  demand_time_step(time_step);
   // a body that was not looked at has its frequency still, and so the same inertia to the bit
-  state.relaxation.inertia.assign(model.bodies.size(), 1);
+  relaxation.inertia.assign(model.bodies.size(), 1);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const double to_limit =
-        0.5 * state.time_step.allowed * state.time_step.frequency[b] / fraction_of_own_limit(model.bodies[b]);
-    if (to_limit > 0) state.relaxation.inertia[b] = area_margin * to_limit * to_limit;
+    const double to_limit = 0.5 * time_step.allowed * time_step.frequency[b] / fraction_of_own_limit(model.bodies[b]);
+    if (to_limit > 0) relaxation.inertia[b] = area_margin * to_limit * to_limit;
   }
 }
 
@@ -77,22 +69,21 @@ void scale_inertia(const Model<Dim>& model, const Settings& settings, State<Dim>
 // lost over the last step, but for what water that rises or falls has imposed; what excavated rock still holds is
 // imposed. Sums in the order of the bodies.
 template <int Dim>
-double critical_damping(const Model<Dim>& model, State<Dim>& state) {
-  Relaxation<Dim>& r = state.relaxation;
+double critical_damping(const Model<Dim>& model, const Schedule& schedule, const BodiesState<Dim>& bodies,
+                        const LoadsState<Dim>& loads, double dt, Relaxation<Dim>& r) {
   const bool first = r.contact_load.size() != model.bodies.size();
   r.contact_load.resize(model.bodies.size());
   double stiffness = 0, inertia = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].fixed) continue;
-    const Motion<Dim>& m = state.bodies.motions[b];
+    const Motion<Dim>& m = bodies.motions[b];
     const Spin<Dim> spin = angular_velocity(model.bodies[b], m);
-    Load<Dim> now{state.loads.total[b].force - weight(model, state.schedule, b), state.loads.total[b].moment};
-    if (const std::vector<Load<Dim>>& held = state.loads.by_source[Source::let_off]; !held.empty()) {
+    Load<Dim> now{loads.total[b].force - weight(model, schedule, b), loads.total[b].moment};
+    if (const std::vector<Load<Dim>>& held = loads.by_source[Source::let_off]; !held.empty()) {
       now.force -= held[b].force;
       now.moment -= held[b].moment;
     }
-    const bool counts =
-        state.bodies.left_behind.empty() || !state.bodies.left_behind[b];  // else what falls would end all damping
+    const bool counts = bodies.left_behind.empty() || !bodies.left_behind[b];  // else what falls would end all damping
     if (!first && counts) {
       stiffness -= m.velocity.dot(now.force - r.contact_load[b].force);
       stiffness -= spin.dot(now.moment - r.contact_load[b].moment);
@@ -103,8 +94,7 @@ double critical_damping(const Model<Dim>& model, State<Dim>& state) {
                                  m.angular_momentum.dot(m.angular_momentum.cwiseQuotient(model.bodies[b].inertia)));
     r.contact_load[b] = now;
   }
-  const double dt = state.time_step.allowed, least = least_damping / dt,
-               most = 4 / dt;  // 2 ω at the limit of stability
+  const double least = least_damping / dt, most = 4 / dt;  // 2 ω at the limit of stability
   if (!(stiffness > 0 && inertia > 0)) return least;
   return std::clamp(2 * std::sqrt(stiffness / (inertia * dt)), least, most);
 }
@@ -131,8 +121,8 @@ bool ends_relaxed(const StagePlan& stage, const DampingSettings& damping) {
 
 template <int Dim>
 void begin_relaxation(State<Dim>& state) {
-  stop_bodies(state);
-  change_ways(state);
+  stop(state.bodies.motions);
+  change_ways(state.ledger.energy, state.time_step);
   for (const Source of_motion : {Source::local_damping, Source::prescribed_motion})
     state.loads.by_source[of_motion].clear();
   state.relaxation = {};
@@ -142,50 +132,53 @@ void begin_relaxation(State<Dim>& state) {
 
 template <int Dim>
 void end_relaxation(State<Dim>& state) {
-  stop_bodies(state);
+  stop(state.bodies.motions);
   state.loads.by_source[Source::relaxation].clear();
-  change_ways(state);
+  change_ways(state.ledger.energy, state.time_step);
   state.relaxation = {};
   state.increment = {};
   state.relaxation.rested = true;
 }
 
 template <int Dim>
-void begin_motion(State<Dim>& state) {
-  if (!state.relaxation.rested) return;
-  state.relaxation.rested = false;
-  state.time_step.length = 0;
+void begin_motion(TimeStep& time_step, Relaxation<Dim>& relaxation) {
+  if (!relaxation.rested) return;
+  relaxation.rested = false;
+  time_step.length = 0;
 }
 
 template <int Dim>
-void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
-  Relaxation<Dim>& r = state.relaxation;
-  scale_inertia(model, settings, state);
-  const double dt = state.time_step.allowed, half = 0.5 * dt * critical_damping(model, state);
+void relax_bodies(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
+                  ContactsState<Dim>& contacts, LoadsState<Dim>& loads, Schedule& schedule, Ledger& ledger,
+                  TimeStep& time_step, Relaxation<Dim>& relaxation) {
+  scale_inertia(model, settings, bodies, loads, contacts, time_step, relaxation);
+  const double dt = time_step.allowed;
+  const double half = 0.5 * dt * critical_damping(model, schedule, bodies, loads, dt, relaxation);
 
   // the kick is central: damping acts at the mean of the velocities before and after it
   static thread_local std::vector<KickRule> rules;
   rules.clear();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const double fraction = at_rest(state.bodies.motions[b]) ? nudge : 1;
-    rules.push_back({.keeps = (1 - half) / (1 + half), .gain = fraction / (r.inertia[b] * (1 + half))});
+    const double fraction = at_rest(bodies.motions[b]) ? nudge : 1;
+    rules.push_back({.keeps = (1 - half) / (1 + half), .gain = fraction / (relaxation.inertia[b] * (1 + half))});
   }
-  const auto& kicks = advance_bodies<Dim>(model, settings.threads, rules, {dt, dt}, state);
-  std::vector<Load<Dim>>& taken = state.loads.by_source[Source::relaxation];  // all that the loads do
+  const auto& kicks = advance_bodies<Dim>(model, settings.threads, rules, {dt, dt}, loads.total, bodies.motions);
+  std::vector<Load<Dim>>& taken = loads.by_source[Source::relaxation];  // all that the loads do
   taken.resize(model.bodies.size());
   each_on_threads(settings.threads, taken.size(), [&](int b) {
-    taken[b] = {-state.loads.total[b].force, -state.loads.total[b].moment};
+    taken[b] = {-loads.total[b].force, -loads.total[b].moment};
   });
-  add_work(model, settings.threads, kicks, state);
-  state.time_step.length = dt;
-  state.schedule.time += dt;
+  add_work(model, settings.threads, kicks, loads, relaxation, ledger.energy);
+  time_step.length = dt;
+  schedule.time += dt;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                   \
-  template void begin_relaxation<Dim>(State<Dim>&); \
-  template void end_relaxation<Dim>(State<Dim>&);   \
-  template void begin_motion<Dim>(State<Dim>&);     \
-  template void relax_bodies<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
+  template void begin_relaxation<Dim>(State<Dim>&);                                                           \
+  template void end_relaxation<Dim>(State<Dim>&);                                                             \
+  template void begin_motion<Dim>(TimeStep&, Relaxation<Dim>&);                                               \
+  template void relax_bodies<Dim>(const Model<Dim>&, const Settings&, BodiesState<Dim>&, ContactsState<Dim>&, \
+                                  LoadsState<Dim>&, Schedule&, Ledger&, TimeStep&, Relaxation<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

@@ -29,22 +29,24 @@ bool begins_relaxing(const StagePlan& stage, const DampingSettings& damping);
 // in true motion.
 bool ends_relaxed(const StagePlan& stage, const DampingSettings& damping);
 
-// stops all bodies; from here on the step relaxes
+// Stops all bodies; from here on the step relaxes. Changes all but contacts, supports, schedule and counters.
 template <int Dim>
 void begin_relaxation(State<Dim>& state);
 
-// stops all bodies; from here on the step moves them again
+// Stops all bodies; from here on the step moves them again. Changes the same.
 template <int Dim>
 void end_relaxation(State<Dim>& state);
 
 // to be called before a run that moves bodies: after a relaxation they start from rest, half a step is not ahead
 template <int Dim>
-void begin_motion(State<Dim>& state);
+void begin_motion(TimeStep& time_step, Relaxation<Dim>& relaxation);
 
 // One step of relaxation under the loads found: the last of the step's stages. The time step is settings.time.step, or
 // else near the limit of the first step's contacts; later ones change the fictitious inertia alone. Throws
 // std::domain_error when nothing determines the step.
 template <int Dim>
-void relax_bodies(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+void relax_bodies(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
+                  ContactsState<Dim>& contacts, LoadsState<Dim>& loads, Schedule& schedule, Ledger& ledger,
+                  TimeStep& time_step, Relaxation<Dim>& relaxation);
 
 }  // namespace voussoir

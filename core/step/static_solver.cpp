@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/solvers/block_solver.hpp"
-#include "core/step/bolt_forces.hpp"
 #include "core/step/integrate.hpp"
-#include "core/step/lining_forces.hpp"
+#include "core/step/joint_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
 #include "core/step/pair_stiffness.hpp"
@@ -75,17 +75,26 @@ constexpr int most_polishing = 4;
 template <int Dim>
 struct Newton {
   static constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
-  using Increment = StaticIncrement<Dim>;
-  using Trial = typename Increment::Trial;
+  using Trial = typename StaticIncrement<Dim>::Trial;
 
   const Model<Dim>& model;
   const Settings& settings;
   State<Dim>& state;
-  Increment& n;
+  StaticIncrement<Dim>& increment;
+  StaticBase<Dim>& base;
+  StaticProgress& progress;
+  StaticSystem<Dim>& system;
   Unknowns<Dim> unknowns;
 
   Newton(const Model<Dim>& m, const Settings& s, State<Dim>& now)
-      : model(m), settings(s), state(now), n(now.increment), unknowns(m) {}
+      : model(m),
+        settings(s),
+        state(now),
+        increment(now.increment),
+        base(increment.base),
+        progress(increment.progress),
+        system(increment.system),
+        unknowns(m) {}
 
   Eigen::VectorXd numbers(const std::vector<double>& list) const {
     return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
@@ -93,8 +102,8 @@ struct Newton {
   static void keep(const Eigen::VectorXd& x, std::vector<double>& list) { list.assign(x.data(), x.data() + x.size()); }
 
   void set_trial_at(const Eigen::VectorXd& q, Trial trial) {
-    n.trial = trial;
-    set_trial(model, unknowns, q, state);
+    increment.trial = trial;
+    set_trial(model, unknowns, base, q, state.bodies, state.contacts, state.supports, state.ledger, state.time_step);
   }
 
   Eigen::VectorXd residual_now() const {
@@ -115,17 +124,17 @@ struct Newton {
   // what loads other than the contacts add, by body
   std::vector<typename PairStiffness<Dim>::Block> stiffness_of_loads() const {
     std::vector<typename PairStiffness<Dim>::Block> blocks = load_stiffness(model, state);
-    if (blocks.empty()) return n.of_water;
-    for (std::size_t b = 0; b < n.of_water.size(); ++b)
-      blocks[b] += n.of_water[b];
+    if (blocks.empty()) return system.of_water;
+    for (std::size_t b = 0; b < system.of_water.size(); ++b)
+      blocks[b] += system.of_water[b];
     return blocks;
   }
 
   BlockMatrix<F> tangent(double regularisation) const {
     std::vector<const PairStiffness<Dim>*> pairs;
-    for (const PairStiffness<Dim>& p : n.stiffness)
+    for (const PairStiffness<Dim>& p : system.stiffness)
       pairs.push_back(&p);
-    for (const PairStiffness<Dim>& p : n.closed)
+    for (const PairStiffness<Dim>& p : system.closed)
       if (!state.contacts.list[p.contact].touching()) pairs.push_back(&p);
     const Eigen::VectorXd& free = unknowns.free;
     BlockMatrix<F> k = tangent_of<Dim>(settings.threads, pairs, stiffness_of_loads(), unknowns.place, free);
@@ -135,14 +144,24 @@ struct Newton {
     return k;
   }
 
+  void find_stiffness() {
+    std::vector<PairStiffness<Dim>> pairs;
+    find_pair_stiffness(model, settings, state.schedule, joint_step(settings, state.time_step, state.relaxation),
+                        state.bodies, state.contacts, base.histories, state.counters, pairs);
+    for (const StepSupport<Dim>& row : step_supports<Dim>)
+      row.add_pairs(model, settings, state, pairs);
+    system.stiffness = std::move(pairs);
+    find_water_stiffness(model, settings, state.schedule, state.bodies, system.of_water);
+  }
+
   // A step along which the residual drives; where the tangent gives none, more regularisation.
   Eigen::VectorXd next_step(const Eigen::VectorXd& residual) {
     for (int tries = 0; tries < most_tries; ++tries) {
       const LinearAnswer answer =
-          solve_blocks(tangent(n.regularisation), residual, linear_tolerance, linear_limit, settings.threads);
+          solve_blocks(tangent(progress.regularisation), residual, linear_tolerance, linear_limit, settings.threads);
       state.counters.linear_iterations += answer.iterations;
       if (answer.residual <= most_unsolved && residual.dot(answer.x) > 0) return answer.x;
-      n.regularisation = std::max(8 * n.regularisation, 1e-6);
+      progress.regularisation = std::max(8 * progress.regularisation, 1e-6);
     }
     return residual.cwiseQuotient(unknowns.scale);
   }
@@ -151,37 +170,38 @@ struct Newton {
 
   // of the residual's work along the last step: 1 before it, 0 where the step ends at its least energy
   double work_left(const Eigen::VectorXd& residual) const {
-    const Eigen::VectorXd change = numbers(n.change);
-    return residual.dot(change) / numbers(n.residual).dot(change);
+    const Eigen::VectorXd change = numbers(progress.change);
+    return residual.dot(change) / numbers(progress.residual).dot(change);
   }
 
-  bool lingers() const { return n.iteration >= lingering_after; }
+  bool lingers() const { return progress.iteration >= lingering_after; }
 
   bool is_acceptable(const Eigen::VectorXd& residual, double now) {
     if (lingers()) return is_acceptable_lingering(residual, now);
-    const double largest =
-        *std::max_element(n.merits.end() - std::min<std::ptrdiff_t>(3, std::ssize(n.merits)), n.merits.end());
+    const double largest = *std::max_element(
+        progress.merits.end() - std::min<std::ptrdiff_t>(3, std::ssize(progress.merits)), progress.merits.end());
     const double left = work_left(residual);
     if (!std::isfinite(now) || !(now <= may_rise * largest || (left > 0 && now <= may_double * largest))) return false;
     // the better the residual falls, the less is needed
-    const double last = n.merits.back();
-    n.flat = n.overshoot <= 1 && left <= 0.5 && now > 0.7 * last ? n.flat + 1 : 0;
-    const double fall = n.overshoot > 1 ? 0.5 : left > 0.5 ? 0.1 : std::clamp(now / last, 0.02, 0.5);
-    n.regularisation *= n.tries > 0 ? std::max(fall, after_refusal) : fall;
-    if (n.regularisation < least_regularisation) n.regularisation = 0;
+    const double last = progress.merits.back();
+    progress.flat = progress.overshoot <= 1 && left <= 0.5 && now > 0.7 * last ? progress.flat + 1 : 0;
+    const double fall = progress.overshoot > 1 ? 0.5 : left > 0.5 ? 0.1 : std::clamp(now / last, 0.02, 0.5);
+    progress.regularisation *= progress.tries > 0 ? std::max(fall, after_refusal) : fall;
+    if (progress.regularisation < least_regularisation) progress.regularisation = 0;
     // contacts that open and close in turn: a short step breaks the ring
-    if (n.flat > 0) {
-      n.regularisation = std::max(0.1, 4 * n.regularisation);
-      n.flat = 0;
+    if (progress.flat > 0) {
+      progress.regularisation = std::max(0.1, 4 * progress.regularisation);
+      progress.flat = 0;
     }
     return true;
   }
 
   bool is_acceptable_lingering(const Eigen::VectorXd& residual, double now) {
     if (!std::isfinite(now) || !(work_left(residual) >= may_drive_back)) return false;
-    if (n.tries == 0) n.regularisation *= n.overshoot > 1 ? 0.5 : 0.1;
-    if (n.tries > 1) n.regularisation = std::max(8 * n.regularisation, 1e-6);  // a kink: a step that is short pays
-    if (n.regularisation < least_regularisation) n.regularisation = 0;
+    if (progress.tries == 0) progress.regularisation *= progress.overshoot > 1 ? 0.5 : 0.1;
+    if (progress.tries > 1)
+      progress.regularisation = std::max(8 * progress.regularisation, 1e-6);  // a kink: a step that is short pays
+    if (progress.regularisation < least_regularisation) progress.regularisation = 0;
     return true;
   }
 
@@ -191,7 +211,7 @@ struct Newton {
       if (!state.contacts.list[i].touching()) continue;
       const double force = state.contacts.list[i].force.norm();
       all += force;
-      if (n.histories[i].history.normal.isZero(0)) of_new += force;
+      if (base.histories.contacts[i].history.normal.isZero(0)) of_new += force;
     }
     return all > 0 ? of_new / all : 0;
   }
@@ -201,9 +221,9 @@ struct Newton {
   // Of the loads over the increment so far, by the mean of those at its ends: exact for what is linear. All of it
   // counts as taken out, as under relaxation.
   void add_work() {
-    const Eigen::VectorXd q = numbers(n.accepted);
+    const Eigen::VectorXd q = numbers(progress.accepted);
     for (std::size_t i = 0; i < load_count; ++i) {
-      const std::vector<Load<Dim>>&then = n.loads_begin.values[i], &now = state.loads.by_source.values[i];
+      const std::vector<Load<Dim>>&then = base.loads.values[i], &now = state.loads.by_source.values[i];
       double work = 0;
       for (std::size_t k = 0; k < unknowns.count(); ++k) {
         const auto along = [&](const Load<Dim>& l) {
@@ -219,41 +239,49 @@ struct Newton {
     balance(state.ledger.energy);
   }
 
+  void take_base() {
+    stop(state.bodies.motions);
+    cache_poses(model, settings.threads, state.bodies);  // they stand still
+    base = base_of(state);
+    progress.accepted.assign(static_cast<std::size_t>(unknowns.free.size()), 0);
+    progress.since_commit = 0;
+  }
+
   // what the accepted trial, which has just been evaluated, has come to is the new base
   void commit() {
     add_work();
-    take_base(model, settings, unknowns, state);
-    n.loads_begin = state.loads.by_source;
+    take_base();
   }
 
   // ---- one evaluation -----------------------------------------------------------------------------------------------
 
   bool rests() {
     const double ratio = unbalanced_ratio(model, settings.threads, state) / settings.equilibrium.unbalanced;
-    return ratio <= of_unbalanced || (ratio <= 0.5 && ++n.polished > most_polishing);
+    return ratio <= of_unbalanced || (ratio <= 0.5 && ++progress.polished > most_polishing);
   }
 
   void start_increment() {
-    n.iteration = n.tries = n.flat = n.polished = 0;
-    n.regularisation = first_regularisation;
-    n.merits.clear();
-    n.closed.clear();
-    find_closed_joints(model, settings, state);
+    progress.iteration = progress.tries = progress.flat = progress.polished = 0;
+    progress.regularisation = first_regularisation;
+    progress.merits.clear();
+    system.closed.clear();
+    find_closed_joints(model, settings, state.bodies, state.contacts, base.histories, state.counters, system.closed);
     // origins of the ledger's balances, where they are new
-    const EnergyFlows before = n.ledger.energy.flows;
+    const EnergyFlows before = base.ledger.energy.flows;
     state.ledger.energy.kinetic = 0;
     balance(state.ledger.energy);
-    n.ledger.energy = state.ledger.energy;
-    n.ledger.energy.flows = before;
-    n.loads_begin = state.loads.by_source;
+    base.ledger.energy = state.ledger.energy;
+    base.ledger.energy.flows = before;
+    base.loads = state.loads.by_source;
   }
 
   void end_increment() {
     commit();
-    if (n.increments_left == 0) return leave();
-    --n.increments_left;
-    state.schedule.time = n.increments_left == 0 ? n.ends : state.schedule.time + n.increment_time;
-    set_trial_at(numbers(n.accepted), Trial::start);
+    if (increment.increments_left == 0) return leave();
+    --increment.increments_left;
+    state.schedule.time =
+        increment.increments_left == 0 ? increment.ends : state.schedule.time + increment.increment_time;
+    set_trial_at(numbers(progress.accepted), Trial::start);
   }
 
   // relaxation continues from the base
@@ -267,68 +295,67 @@ struct Newton {
 
   // A broken bond lets go at once of what it carried: how, is relaxation's to find.
   bool breaks_bonds() const {
-    const long long expected = n.whole_bonds + state.ledger.bonds.made - n.ledger.bonds.made;
+    const long long expected = base.whole_bonds + state.ledger.bonds.made - base.ledger.bonds.made;
     return expected > 0 && whole_bonds(state.contacts) < expected;
   }
 
   // Back on the step to where a line through its work at both ends says that none is left.
   void shorten_lingering(const Eigen::VectorXd& residual) {
     const double left = work_left(residual), factor = std::isfinite(left) ? 1 / (1 - left) : 0;
-    keep(std::clamp(factor, most_shortening, 0.5) * numbers(n.change), n.change);
-    set_trial_at(numbers(n.accepted) + numbers(n.change), n.tries >= most_tries ? Trial::forced : Trial::step);
+    keep(std::clamp(factor, most_shortening, 0.5) * numbers(progress.change), progress.change);
+    set_trial_at(numbers(progress.accepted) + numbers(progress.change),
+                 progress.tries >= most_tries ? Trial::forced : Trial::step);
   }
 
   void reject(const Eigen::VectorXd& residual, bool breaks) {
     ++state.counters.static_rejections;
-    ++n.tries;
+    ++progress.tries;
     if (lingers() && !breaks) return shorten_lingering(residual);
-    n.regularisation = std::max(8 * n.regularisation, 1e-6);
-    const bool forced = n.tries >= most_tries;
-    if (forced && breaks) return set_trial_at(numbers(n.accepted), Trial::last);
-    if (forced) n.regularisation = first_regularisation;
+    progress.regularisation = std::max(8 * progress.regularisation, 1e-6);
+    const bool forced = progress.tries >= most_tries;
+    if (forced && breaks) return set_trial_at(numbers(progress.accepted), Trial::last);
+    if (forced) progress.regularisation = first_regularisation;
     step_from_accepted(forced ? Trial::forced : Trial::step);
   }
 
   void step_from_accepted(Trial trial) {
-    Eigen::VectorXd dq = next_step(numbers(n.residual));
-    n.overshoot = shorten(model, unknowns, state, dq);
-    keep(dq, n.change);
-    set_trial_at(numbers(n.accepted) + dq, trial);
+    Eigen::VectorXd dq = next_step(numbers(progress.residual));
+    progress.overshoot = shorten(model, unknowns, state, dq);
+    keep(dq, progress.change);
+    set_trial_at(numbers(progress.accepted) + dq, trial);
   }
 
   void accept(const Eigen::VectorXd& residual, double now, bool forced) {
-    if (n.trial != Trial::start) {
-      keep(numbers(n.accepted) + numbers(n.change), n.accepted);
-      ++n.iteration;
+    if (increment.trial != Trial::start) {
+      keep(numbers(progress.accepted) + numbers(progress.change), progress.accepted);
+      ++progress.iteration;
       ++state.counters.static_iterations;
     }
-    keep(residual, n.residual);
-    n.merits.push_back(now);
-    n.tries = 0;
+    keep(residual, progress.residual);
+    progress.merits.push_back(now);
+    progress.tries = 0;
     if (rests()) return end_increment();
-    if (n.iteration >= iteration_limit) return give_up();
-    if (forced || ++n.since_commit >= most_since_commit || fraction_in_new_contacts() > most_in_new_contacts) commit();
-    const double reached = static_cast<double>(n.stiffness.size());
-    find_pair_stiffness(model, settings, state);
-    for (const StepSupport<Dim>& row : step_supports<Dim>)
-      row.add_pairs(model, settings, state, n.stiffness);
-    const bool reached_all = static_cast<double>(n.stiffness.size()) < still_reaching * reached;
-    if (n.iteration >= closed_iterations && reached_all) n.closed.clear();
-    find_water_stiffness(model, settings, state);
+    if (progress.iteration >= iteration_limit) return give_up();
+    if (forced || ++progress.since_commit >= most_since_commit || fraction_in_new_contacts() > most_in_new_contacts)
+      commit();
+    const double reached = static_cast<double>(system.stiffness.size());
+    find_stiffness();
+    const bool reached_all = static_cast<double>(system.stiffness.size()) < still_reaching * reached;
+    if (progress.iteration >= closed_iterations && reached_all) system.closed.clear();
     step_from_accepted(Trial::step);
   }
 
   void iterate() {
-    follow_list(state);
-    if (n.trial == Trial::waiting) {
-      state.schedule.time += n.increment_time;
-      return set_trial_at(numbers(n.accepted), Trial::start);
+    follow_list(state.contacts, state.counters.neighbour_builds, base, system.closed);
+    if (increment.trial == Trial::waiting) {
+      state.schedule.time += increment.increment_time;
+      return set_trial_at(numbers(progress.accepted), Trial::start);
     }
     const EnergyFlows before = state.ledger.energy.flows;
-    add_ramps(model, settings, state);
+    add_ramps(model, settings, state.bodies, state.loads, state.schedule, state.ledger.energy, state.relaxation);
     for (const Source ramp : {Source::gravity_ramp, Source::water_change})
-      n.ledger.energy.flows[ramp] += state.ledger.energy.flows[ramp] - before[ramp];
-    const Trial trial = n.trial;
+      base.ledger.energy.flows[ramp] += state.ledger.energy.flows[ramp] - before[ramp];
+    const Trial trial = increment.trial;
     if (trial == Trial::start) start_increment();
     const bool breaks = breaks_bonds();
     if (trial == Trial::last || (trial == Trial::start && breaks)) return give_up();
@@ -355,7 +382,7 @@ void begin_newton(const Model<Dim>& model, const Settings& settings, double ramp
   state.increment = {};
   StaticIncrement<Dim>& n = state.increment;
   n.under_way = true;
-  take_base(model, settings, Unknowns<Dim>(model), state);
+  Newton<Dim>(model, settings, state).take_base();
   if (!(ramp > 0)) return;
   n.trial = StaticIncrement<Dim>::Trial::waiting;
   n.increments_left = settings.damping.increments - 1;
@@ -370,8 +397,8 @@ void iterate(const Model<Dim>& model, const Settings& settings, State<Dim>& stat
 
 template <int Dim>
 std::string progress_of_newton(const State<Dim>& state) {
-  const StaticIncrement<Dim>& n = state.increment;
-  if (!n.under_way || n.merits.empty()) return {};
+  const StaticProgress& n = state.increment.progress;
+  if (!state.increment.under_way || n.merits.empty()) return {};
   return fmt::format("Newton iteration {}, residual {:.1e} of the first, lambda {:.1e}", n.iteration,
                      n.merits.front() > 0 ? n.merits.back() / n.merits.front() : 0, n.regularisation);
 }
@@ -382,16 +409,16 @@ double memory_of_newton(const State<Dim>& state) {
   constexpr double blocks_of_a_pair = Dim == 2 ? 60 : 10;
   using Pair = PairStiffness<Dim>;
   return static_cast<double>(state.contacts.list.size()) *
-             (sizeof(BaseHistory<Dim>) + sizeof(Pair) + blocks_of_a_pair * sizeof(typename Pair::Block)) +
+             (sizeof(ContactHistory<Dim>) + sizeof(Pair) + blocks_of_a_pair * sizeof(typename Pair::Block)) +
          static_cast<double>(state.contacts.subs.size() * sizeof(JointState<Dim>));
 }
 
 template <int Dim>
-std::vector<Vector<Dim>> accepted_displacements(const Model<Dim>& model, const State<Dim>& state) {
+std::vector<Vector<Dim>> accepted_displacements(const Model<Dim>& model, const StaticIncrement<Dim>& increment) {
   std::vector<Vector<Dim>> displacements;
-  const double* q = state.increment.accepted.data();  // of the free bodies, in their order
+  const double* q = increment.progress.accepted.data();  // of the free bodies, in their order
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    displacements.push_back(state.increment.base[b].displacement);
+    displacements.push_back(increment.base.motions[b].displacement);
     if (model.bodies[b].fixed || !model.bodies[b].present) continue;
     displacements.back() += Eigen::Map<const Vector<Dim>>(q);
     q += freedoms<Dim>;
@@ -405,7 +432,7 @@ std::vector<Vector<Dim>> accepted_displacements(const Model<Dim>& model, const S
   template void iterate<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);              \
   template std::string progress_of_newton<Dim>(const State<Dim>&);                          \
   template double memory_of_newton<Dim>(const State<Dim>&);                                 \
-  template std::vector<Vector<Dim>> accepted_displacements<Dim>(const Model<Dim>&, const State<Dim>&);
+  template std::vector<Vector<Dim>> accepted_displacements<Dim>(const Model<Dim>&, const StaticIncrement<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

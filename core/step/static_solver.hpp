@@ -36,7 +36,8 @@ bool newton_applies(const Model<Dim>& model);
 template <int Dim>
 void begin_newton(const Model<Dim>& model, const Settings& settings, double ramp, State<Dim>& state);
 
-// The loads at a trial have been found: judges it and sets the bodies to the next one. Where all increments have come
+// The loads at a trial have been found: judges it and sets the bodies to the next one, and all else but candidates and
+// settings to what it was at the base: of the state, nearly everything. Where all increments have come
 // to rest, or one does not within its iterations, State::increment is over and relaxation goes on from there.
 template <int Dim>
 void iterate(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
@@ -52,6 +53,6 @@ double memory_of_newton(const State<Dim>& state);
 
 // m, by body: at the last trial that was accepted
 template <int Dim>
-std::vector<Vector<Dim>> accepted_displacements(const Model<Dim>& model, const State<Dim>& state);
+std::vector<Vector<Dim>> accepted_displacements(const Model<Dim>& model, const StaticIncrement<Dim>& increment);
 
 }  // namespace voussoir

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
+#include <vector>
 
 namespace voussoir {
 
@@ -36,92 +35,56 @@ Unknowns<Dim>::Unknowns(const Model<Dim>& model) : place(model.bodies.size(), -1
 }
 
 template <int Dim>
-void take_base(const Model<Dim>& model, const Settings& settings, const Unknowns<Dim>& unknowns, State<Dim>& state) {
-  for (Motion<Dim>& m : state.bodies.motions) {
-    m.velocity.setZero();
-    m.angular_momentum.setZero();
-  }
-  StaticIncrement<Dim>& n = state.increment;
-  n.base = state.bodies.motions;
-  n.supports = state.supports;
-  n.ledger = state.ledger;
-  n.whole_bonds = whole_bonds(state.contacts);
-  n.histories.clear();
-  for (const Contact<Dim>& c : state.contacts.list)
-    n.histories.push_back({c.part_a, c.part_b, c.divided_face, c.bond_due, c.history});
-  n.sub_histories.clear();
-  for (const SubContact<Dim>& s : state.contacts.subs)
-    n.sub_histories.push_back(s.history);
-  n.listed = state.counters.neighbour_builds;
-  n.accepted.assign(static_cast<std::size_t>(unknowns.free.size()), 0);
-  n.since_commit = 0;
-  cache_poses(model, settings.threads, state.bodies);  // they stand still
+StaticBase<Dim> base_of(const State<Dim>& state) {
+  return {.motions = state.bodies.motions,
+          .histories = histories_of(state.contacts),
+          .supports = state.supports,
+          .ledger = state.ledger,
+          .loads = state.loads.by_source,
+          .whole_bonds = whole_bonds(state.contacts),
+          .listed = state.counters.neighbour_builds};
 }
 
 template <int Dim>
-void follow_list(State<Dim>& state) {
-  StaticIncrement<Dim>& n = state.increment;
-  if (n.listed == state.counters.neighbour_builds) return;
-  n.listed = state.counters.neighbour_builds;
-  const std::vector<BaseHistory<Dim>> old = std::move(n.histories);
-  const std::vector<JointState<Dim>> old_subs = std::move(n.sub_histories);
-  const std::size_t cells = old.empty() ? 0 : old_subs.size() / old.size(), stride = sub_stride(state.contacts);
-  n.histories.assign(state.contacts.list.size(), {});
-  n.sub_histories.assign(state.contacts.subs.size(), {});
-  std::map<int, int> moved;  // places of contacts, old to new
-  std::size_t from = 0;
-  for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {  // both lists ascend
-    const std::pair key(state.contacts.list[i].part_a, state.contacts.list[i].part_b);
-    n.histories[i].part_a = key.first;
-    n.histories[i].part_b = key.second;
-    while (from < old.size() && std::pair(old[from].part_a, old[from].part_b) < key)
-      ++from;
-    if (from == old.size() || std::pair(old[from].part_a, old[from].part_b) != key) continue;
-    n.histories[i] = old[from];
-    for (std::size_t k = 0; k < std::min(cells, stride); ++k)
-      n.sub_histories[i * stride + k] = old_subs[from * cells + k];
-    moved[static_cast<int>(from)] = static_cast<int>(i);
-  }
-  std::vector<PairStiffness<Dim>> closed;
-  for (PairStiffness<Dim>& c : n.closed)
-    if (const auto to = moved.find(c.contact); to != moved.end()) {
-      c.contact = to->second;
-      closed.push_back(c);
-    }
-  n.closed = std::move(closed);
+void follow_list(const ContactsState<Dim>& contacts, long long listed, StaticBase<Dim>& base,
+                 std::vector<PairStiffness<Dim>>& closed) {
+  if (base.listed == listed) return;
+  base.listed = listed;
+  const std::vector<int> places = follow_list(contacts, base.histories);
+  for (PairStiffness<Dim>& pair : closed)
+    pair.contact = places[pair.contact];
+  std::erase_if(closed, [](const PairStiffness<Dim>& pair) { return pair.contact < 0; });
 }
 
 template <int Dim>
-void set_trial(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const Eigen::VectorXd& q, State<Dim>& state) {
+void set_trial(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const StaticBase<Dim>& base,
+               const Eigen::VectorXd& q, BodiesState<Dim>& bodies, ContactsState<Dim>& contacts,
+               SupportsState<Dim>& supports, Ledger& ledger, TimeStep& time_step) {
   constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
-  const StaticIncrement<Dim>& n = state.increment;
   for (std::size_t i = 0; i < unknowns.count(); ++i) {
     const int b = unknowns.bodies[i];
-    Motion<Dim>& m = state.bodies.motions[b];
+    Motion<Dim>& m = bodies.motions[b];
     const Vector<Dim> way = q.segment<Dim>(F * i);
     const Spin<Dim> turn = q.segment<S>(F * i + Dim);
-    m.displacement = n.base[b].displacement + way;
-    m.rotation = turned(n.base[b].rotation, turn);
+    m.displacement = base.motions[b].displacement + way;
+    m.rotation = turned(base.motions[b].rotation, turn);
     m.velocity = way;  // per time step of one
     m.angular_momentum = angular_momentum(model.bodies[b], m.rotation, turn);
   }
-  for (std::size_t i = 0; i < n.histories.size(); ++i) {
-    state.contacts.list[i].history = n.histories[i].history;
-    state.contacts.list[i].divided_face = n.histories[i].divided_face;
-    state.contacts.list[i].bond_due = n.histories[i].bond_due;
-  }
-  for (std::size_t i = 0; i < n.sub_histories.size(); ++i)
-    state.contacts.subs[i].history = n.sub_histories[i];
-  state.supports = n.supports;
-  state.ledger = n.ledger;
-  state.time_step.length = 1;
+  set_histories(base.histories, contacts);
+  supports = base.supports;
+  ledger = base.ledger;
+  time_step.length = 1;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                      \
-  template struct Unknowns<Dim>;                                                                       \
-  template void take_base<Dim>(const Model<Dim>&, const Settings&, const Unknowns<Dim>&, State<Dim>&); \
-  template void follow_list<Dim>(State<Dim>&);                                                         \
-  template void set_trial<Dim>(const Model<Dim>&, const Unknowns<Dim>&, const Eigen::VectorXd&, State<Dim>&);
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                   \
+  template struct Unknowns<Dim>;                                                                                    \
+  template StaticBase<Dim> base_of<Dim>(const State<Dim>&);                                                         \
+  template void follow_list<Dim>(const ContactsState<Dim>&, long long, StaticBase<Dim>&,                            \
+                                 std::vector<PairStiffness<Dim>>&);                                                 \
+  template void set_trial<Dim>(const Model<Dim>&, const Unknowns<Dim>&, const StaticBase<Dim>&,                     \
+                               const Eigen::VectorXd&, BodiesState<Dim>&, ContactsState<Dim>&, SupportsState<Dim>&, \
+                               Ledger&, TimeStep&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

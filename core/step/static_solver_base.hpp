@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "core/base/settings.hpp"
 #include "core/model/model.hpp"
 #include "core/model/state.hpp"
 
@@ -22,17 +21,21 @@ struct Unknowns {
   std::size_t count() const { return bodies.size(); }
 };
 
-// The state as it stands, its histories included, becomes the base; nothing has moved from it yet.
+// The state, whose bodies are at rest, as a base: nothing has moved from it yet.
 template <int Dim>
-void take_base(const Model<Dim>& model, const Settings& settings, const Unknowns<Dim>& unknowns, State<Dim>& state);
+StaticBase<Dim> base_of(const State<Dim>& state);
 
-// Puts the base's histories in the order of the contacts, where they have been listed again since.
+// Puts the base's histories in the order of the contacts if they have been listed again since; `listed`:
+// Counters::neighbour_builds. Of closed joints stay those that are still listed.
 template <int Dim>
-void follow_list(State<Dim>& state);
+void follow_list(const ContactsState<Dim>& contacts, long long listed, StaticBase<Dim>& base,
+                 std::vector<PairStiffness<Dim>>& closed);
 
-// Sets bodies at base + q and histories as the base's, ready to be evaluated: the velocities are q per time step of
+// Sets bodies at base + q and all else as the base has it, ready to be evaluated: the velocities are q per time step of
 // one.
 template <int Dim>
-void set_trial(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const Eigen::VectorXd& q, State<Dim>& state);
+void set_trial(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const StaticBase<Dim>& base,
+               const Eigen::VectorXd& q, BodiesState<Dim>& bodies, ContactsState<Dim>& contacts,
+               SupportsState<Dim>& supports, Ledger& ledger, TimeStep& time_step);
 
 }  // namespace voussoir

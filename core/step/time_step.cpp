@@ -192,12 +192,12 @@ double rocking(const Contact<Dim>& c) {
 
 // stiffer than it was rated, or new to the rating
 template <int Dim>
-bool outgrown(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c) {
+bool outgrown(const Model<Dim>& model, const ContactsState<Dim>& contacts, const Contact<Dim>& c) {
   if (c.status == ContactStatus::apart) return false;
   if (c.area_rated < 0) return true;
   if (model.particles && c.touching() && rocking(c) > c.area_rated) return true;
   return c.touching() && c.geometry.area * stiffening<Dim>(model.properties[c.properties], c,
-                                                           subs_of(state.contacts, &c - state.contacts.list.data())) >
+                                                           subs_of(contacts, &c - contacts.list.data())) >
                              c.area_rated;
 }
 
@@ -223,8 +223,9 @@ struct BodiesToUpdate {
 // updated rates the contact again.
 template <int Dim>
 void add_contact(const Model<Dim>& model, const ContactSettings& settings, const BodiesToUpdate& updated,
-                 State<Dim>& state, int place, int body, Stiffness<Dim>& stiffness, double& impact) {
-  Contact<Dim>& c = state.contacts.list[place];
+                 const BodiesState<Dim>& bodies, int place, int body, ContactsState<Dim>& contacts,
+                 Stiffness<Dim>& stiffness, double& impact) {
+  Contact<Dim>& c = contacts.list[place];
   if (c.status == ContactStatus::apart) return;
   const int ia = model.parts[c.part_a].body, ib = model.parts[c.part_b].body;
   const bool fixed_a = model.bodies[ia].fixed, fixed_b = model.bodies[ib].fixed;
@@ -243,9 +244,9 @@ void add_contact(const Model<Dim>& model, const ContactSettings& settings, const
     return;
   }
   const JointProperties& p = model.properties[c.properties];
-  const auto subs = subs_of(std::as_const(state.contacts), static_cast<std::size_t>(place));
+  const auto subs = subs_of(std::as_const(contacts), static_cast<std::size_t>(place));
   rate(std::max(c.geometry.area * stiffening<Dim>(p, c, subs), rocking(c)));
-  const Vector<Dim> apart = between(state.bodies.poses[ia], state.bodies.poses[ib]);
+  const Vector<Dim> apart = between(bodies.poses[ia], bodies.poses[ib]);
   // `gyration2` times the area: what the cell about its own point adds to rocking and spin, at most
   const auto add_cell = [&](const Vector<Dim>& point, double overlap, double area, double gyration2) {
     const Tangent now = tangent(p, overlap);
@@ -255,7 +256,7 @@ void add_contact(const Model<Dim>& model, const ContactSettings& settings, const
       stiffness(i, i) += turning;
   };
   if (is_integrated(settings, p))
-    return add_cell(c.geometry.point, c.geometry.overlap, c.geometry.area, state.contacts.faces[place].gyration2);
+    return add_cell(c.geometry.point, c.geometry.overlap, c.geometry.area, contacts.faces[place].gyration2);
   if (c.cells == 0)
     return add_cell(c.geometry.point, c.geometry.overlap, p.constant_stiffness ? 1 : c.geometry.area, rocking(c));
   const double unit = p.constant_stiffness ? c.geometry.area : 1;
@@ -266,23 +267,24 @@ void add_contact(const Model<Dim>& model, const ContactSettings& settings, const
 // the estimate, renewed for these bodies
 template <int Dim>
 TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
-                          const BodiesToUpdate& updated, State<Dim>& state) {
-  state.time_step.frequency.resize(model.bodies.size(), 0);
+                          const BodiesToUpdate& updated, const BodiesState<Dim>& bodies, const LoadsState<Dim>& loads,
+                          ContactsState<Dim>& contacts, TimeStep& time_step) {
+  time_step.frequency.resize(model.bodies.size(), 0);
   each_on_threads(settings.threads, updated.bodies.size(), [&](int i) {
     const int body = updated.bodies[i];
     Stiffness<Dim> stiffness = Stiffness<Dim>::Zero();
     double impact = 0;  // N/m that may act at the radius
-    for (const int place : contacts_of(state.contacts, body))
-      add_contact(model, settings.contact, updated, state, place, body, stiffness, impact);
-    const Motion<Dim>& motion = state.bodies.motions[body];
-    const bool rests = motion.velocity.isZero(0) && motion.angular_momentum.isZero(0) && !state.loads.total.empty();
-    const double force = rests ? state.loads.total[body].force.norm() : 0;
-    state.time_step.frequency[body] =
+    for (const int place : contacts_of(contacts, body))
+      add_contact(model, settings.contact, updated, bodies, place, body, contacts, stiffness, impact);
+    const Motion<Dim>& motion = bodies.motions[body];
+    const bool rests = motion.velocity.isZero(0) && motion.angular_momentum.isZero(0) && !loads.total.empty();
+    const double force = rests ? loads.total[body].force.norm() : 0;
+    time_step.frequency[body] =
         std::sqrt(stiffest(model, body, motion.rotation, stiffness, impact,
-                           state.loads.stiffened.empty() ? BodyStiffness() : state.loads.stiffened[body], force));
+                           loads.stiffened.empty() ? BodyStiffness() : loads.stiffened[body], force));
   });
   double largest = 0;
-  for (const double frequency : state.time_step.frequency)
+  for (const double frequency : time_step.frequency)
     largest = std::max(largest, frequency);
 
   TimeStepEstimate estimate;
@@ -299,49 +301,54 @@ TimeStepEstimate estimate(const Model<Dim>& model, const Settings& settings, con
 
 template <int Dim>
 TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
-                                    State<Dim>& state) {
+                                    const BodiesState<Dim>& bodies, const LoadsState<Dim>& loads,
+                                    ContactsState<Dim>& contacts, TimeStep& time_step) {
   static thread_local BodiesToUpdate updated;
   updated.begin(model.bodies.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     updated.add(model, static_cast<int>(b));
-  state.time_step.frequency.clear();
-  return estimate(model, settings, damping, updated, state);
+  time_step.frequency.clear();
+  return estimate(model, settings, damping, updated, bodies, loads, contacts, time_step);
 }
 
 template <int Dim>
 std::optional<TimeStepEstimate> renew_time_step(const Model<Dim>& model, const Settings& settings,
-                                                const DampingSettings& damping, State<Dim>& state) {
-  if (state.time_step.frequency.empty()) return estimate_time_step(model, settings, damping, state);
+                                                const DampingSettings& damping, const BodiesState<Dim>& bodies,
+                                                const LoadsState<Dim>& loads, ContactsState<Dim>& contacts,
+                                                TimeStep& time_step) {
+  if (time_step.frequency.empty())
+    return estimate_time_step(model, settings, damping, bodies, loads, contacts, time_step);
   static thread_local std::vector<char> own_grown;
   static thread_local BodiesToUpdate updated;
   std::vector<char>& grown = own_grown;  // by contact: this thread's, filled by all
-  grown.resize(state.contacts.list.size());
+  grown.resize(contacts.list.size());
   each_on_threads(settings.threads, grown.size(),
-                  [&](int i) { grown[i] = outgrown(model, state, state.contacts.list[i]); });
+                  [&](int i) { grown[i] = outgrown(model, contacts, contacts.list[i]); });
   updated.begin(model.bodies.size());
   for (std::size_t i = 0; i < grown.size(); ++i) {
     if (!grown[i]) continue;
-    updated.add(model, model.parts[state.contacts.list[i].part_a].body);
-    updated.add(model, model.parts[state.contacts.list[i].part_b].body);
+    updated.add(model, model.parts[contacts.list[i].part_a].body);
+    updated.add(model, model.parts[contacts.list[i].part_b].body);
   }
   if (updated.bodies.empty()) return {};
-  return estimate(model, settings, damping, updated, state);
+  return estimate(model, settings, damping, updated, bodies, loads, contacts, time_step);
 }
 
-template <int Dim>
-void demand_time_step(const State<Dim>& state) {
-  if (!(state.time_step.allowed > 0))
+void demand_time_step(const TimeStep& time_step) {
+  if (!(time_step.allowed > 0))
     throw std::domain_error(
         "no contact and no joint property determines the time step: state time.step_s in the scene");
 }
 
-template void demand_time_step<2>(const State<2>&);
-template void demand_time_step<3>(const State<3>&);
-template TimeStepEstimate estimate_time_step<2>(const Model<2>&, const Settings&, const DampingSettings&, State<2>&);
-template TimeStepEstimate estimate_time_step<3>(const Model<3>&, const Settings&, const DampingSettings&, State<3>&);
-template std::optional<TimeStepEstimate> renew_time_step<2>(const Model<2>&, const Settings&, const DampingSettings&,
-                                                            State<2>&);
-template std::optional<TimeStepEstimate> renew_time_step<3>(const Model<3>&, const Settings&, const DampingSettings&,
-                                                            State<3>&);
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                  \
+  template TimeStepEstimate estimate_time_step<Dim>(const Model<Dim>&, const Settings&, const DampingSettings&,    \
+                                                    const BodiesState<Dim>&, const LoadsState<Dim>&,               \
+                                                    ContactsState<Dim>&, TimeStep&);                               \
+  template std::optional<TimeStepEstimate> renew_time_step<Dim>(                                                   \
+      const Model<Dim>&, const Settings&, const DampingSettings&, const BodiesState<Dim>&, const LoadsState<Dim>&, \
+      ContactsState<Dim>&, TimeStep&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
 
 }  // namespace voussoir

@@ -25,21 +25,23 @@ inline constexpr int steps_between_looks = 100;
 // both bodies are free: between 1/√2 and 1 of the true limit. λ_max is taken by a bound: where several modes of a body
 // are equally stiff, the limit comes out shorter by up to 3 %, mostly by less than 0.1 %. Contacts that touch count
 // with their area; pairs that are near each other (contact/nearness) but do not touch, with the smaller of the two
-// parts' largest faces at the lever arm of the body's radius, so that a first impact is safe. Notes in the state each
-// contact's rated area and each body's stiffest frequency.
+// parts' largest faces at the lever arm of the body's radius, so that a first impact is safe. Notes each contact's
+// rated area and each body's stiffest frequency.
 template <int Dim>
 TimeStepEstimate estimate_time_step(const Model<Dim>& model, const Settings& settings, const DampingSettings& damping,
-                                    State<Dim>& state);
+                                    const BodiesState<Dim>& bodies, const LoadsState<Dim>& loads,
+                                    ContactsState<Dim>& contacts, TimeStep& time_step);
 
 // The same, again only for bodies at a contact that is stiffer than it was rated, or new; the others keep their
 // frequency. In a pile some contact grows at nearly every step, but few do. Nothing when none has grown; every body
 // when there is no estimate yet.
 template <int Dim>
 std::optional<TimeStepEstimate> renew_time_step(const Model<Dim>& model, const Settings& settings,
-                                                const DampingSettings& damping, State<Dim>& state);
+                                                const DampingSettings& damping, const BodiesState<Dim>& bodies,
+                                                const LoadsState<Dim>& loads, ContactsState<Dim>& contacts,
+                                                TimeStep& time_step);
 
 // throws std::domain_error when nothing has determined the step allowed
-template <int Dim>
-void demand_time_step(const State<Dim>& state);
+void demand_time_step(const TimeStep& time_step);
 
 }  // namespace voussoir

@@ -14,17 +14,17 @@ struct Work {
 }  // namespace
 
 template <int Dim>
-void add_work(const Model<Dim>& model, int threads, const std::vector<Kick<Dim>>& kicks, State<Dim>& state) {
-  EnergyLedger& energy = state.ledger.energy;
+void add_work(const Model<Dim>& model, int threads, const std::vector<Kick<Dim>>& kicks, const LoadsState<Dim>& loads,
+              const Relaxation<Dim>& relaxation, EnergyLedger& energy) {
   const auto work = [&](int b, Work& sum) {
     if (model.bodies[b].immobile()) return;
     const Kick<Dim>& kick = kicks[b];
     sum.kinetic += kick.kinetic;
     for (std::size_t i = 0; i < load_count; ++i) {
-      const std::vector<Load<Dim>>& loads = state.loads.by_source.values[i];
-      if (loads.empty()) continue;
-      sum.before[i] += loads[b].force.dot(kick.path_before) + loads[b].moment.dot(kick.turn_before);
-      sum.after[i] += loads[b].force.dot(kick.path_after) + loads[b].moment.dot(kick.turn_after);
+      const std::vector<Load<Dim>>& acting = loads.by_source.values[i];
+      if (acting.empty()) continue;
+      sum.before[i] += acting[b].force.dot(kick.path_before) + acting[b].moment.dot(kick.turn_before);
+      sum.after[i] += acting[b].force.dot(kick.path_after) + acting[b].moment.dot(kick.turn_after);
     }
   };
   Work all;
@@ -39,13 +39,15 @@ void add_work(const Model<Dim>& model, int threads, const std::vector<Kick<Dim>>
     for (std::size_t i = 0; i < load_count; ++i)
       energy.flows.values[i] += source_table[i].motion * halves[i];
   };
-  energy.kinetic = state.relaxation.under_way ? 0 : all.kinetic;
+  energy.kinetic = relaxation.under_way ? 0 : all.kinetic;
   add(all.before);
   balance(energy);
   add(all.after);
 }
 
-template void add_work<2>(const Model<2>&, int, const std::vector<Kick<2>>&, State<2>&);
-template void add_work<3>(const Model<3>&, int, const std::vector<Kick<3>>&, State<3>&);
+template void add_work<2>(const Model<2>&, int, const std::vector<Kick<2>>&, const LoadsState<2>&, const Relaxation<2>&,
+                          EnergyLedger&);
+template void add_work<3>(const Model<3>&, int, const std::vector<Kick<3>>&, const LoadsState<3>&, const Relaxation<3>&,
+                          EnergyLedger&);
 
 }  // namespace voussoir

@@ -9,9 +9,11 @@
 
 namespace voussoir {
 
-// Adds to the ledger what each source in State::loads.by_source did along the kicks: force times path plus moment times
-// turn. The balance is checked between the halves, at the time of the positions.
+// Adds to the ledger what each source in LoadsState::by_source did along the kicks: force times path plus moment times
+// turn. The balance is checked between the halves, at the time of the positions. Under relaxation there is no kinetic
+// energy.
 template <int Dim>
-void add_work(const Model<Dim>& model, int threads, const std::vector<Kick<Dim>>& kicks, State<Dim>& state);
+void add_work(const Model<Dim>& model, int threads, const std::vector<Kick<Dim>>& kicks, const LoadsState<Dim>& loads,
+              const Relaxation<Dim>& relaxation, EnergyLedger& energy);
 
 }  // namespace voussoir

@@ -65,7 +65,7 @@ struct Cast {
       : scene(scene_of(text)) {
     model = apply(scene.model, scene.stages.front().change);
     state = scene.state;
-    add_bodies(model, state);
+    add_bodies(model, state.bodies, state.contacts, state.loads, state.time_step);
     install_linings(model, scene.stages.front().change.install, state);
     cache_poses(model, 1, state.bodies);
   }
