@@ -203,8 +203,8 @@ void print_monitors(const Prepared<Dim>& prepared) {
             ? "lining " + prepared.model.linings[monitor.subject].properties.name +
                   (monitor.node < 0 ? "" : fmt::format(" at node {}", monitor.node + 1))
         : quantity == Quantity::convergence ? fmt::format("{} points of a wall", monitor.wall.size())
-        : monitor.over != Over::one
-            ? fmt::format("{} blocks, {}", monitor.group.size(), monitor.over == Over::sum ? "sum" : "mean")
+        : monitor.over != Aggregate::one
+            ? fmt::format("{} blocks, {}", monitor.group.size(), monitor.over == Aggregate::sum ? "sum" : "mean")
             : fmt::format("block {}", monitor.subject);
     print_line(label, fmt::format("{}: {} of {}", monitor.name, monitor.followed.word, subject));
     label = "";

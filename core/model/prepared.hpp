@@ -54,7 +54,7 @@ inline std::vector<Monitored> monitored_quantities() {
 }
 
 // what a monitor of several bodies tells of them
-enum class Over { one, sum, mean };
+enum class Aggregate { one, sum, mean };
 
 // those that can be counted from the end of a stage
 inline bool counts_from_stage(Quantity quantity) {
@@ -73,10 +73,10 @@ struct WallPoint {
 struct Monitor {
   std::string name;
   Monitored followed{"displacement", Quantity::displacement};
-  int subject = 0;  // body, or joint for contact_force and whole_bonds, or water for level, or Model::bolt_properties,
-                    // or Model::linings
-  int points = 0;   // of a level: how many its table has; 0: a pressure
-  Over over{};      // of bodies
+  int subject = 0;   // body, or joint for contact_force and whole_bonds, or water for level, or Model::bolt_properties,
+                     // or Model::linings
+  int points = 0;    // of a level: how many its table has; 0: a pressure
+  Aggregate over{};  // of bodies
   std::vector<int> group{};       // where it is over several: the bodies, ascending
   int since = -1;                 // the stage, from 0, from whose end motion is counted; -1: from the start
   std::vector<WallPoint> wall{};  // of convergence

@@ -121,7 +121,7 @@ template <int Dim>
 void append_bodies(std::vector<double>& values, const Monitor& monitor, const Model<Dim>& model,
                    const State<Dim>& state, const std::vector<StageEnd<Dim>>& ends) {
   Components sum = value_of(monitor, monitor.subject, model, state, ends);
-  if (monitor.over != Over::one) {
+  if (monitor.over != Aggregate::one) {
     sum.setZero();
     double count = 0;
     for (const int body : monitor.group) {
@@ -129,7 +129,7 @@ void append_bodies(std::vector<double>& values, const Monitor& monitor, const Mo
       sum += value_of(monitor, body, model, state, ends);
       ++count;
     }
-    if (monitor.over == Over::mean && count > 0) sum /= count;
+    if (monitor.over == Aggregate::mean && count > 0) sum /= count;
   }
   values.insert(values.end(), sum.data(), sum.data() + sum.size());
 }
@@ -158,11 +158,11 @@ void append_convergence(std::vector<double>& values, const Monitor& monitor, con
   double sum = 0;
   for (const WallPoint& wall : monitor.wall) {
     const double value = convergence(wall, monitor.since, model, state, ends);
-    if (monitor.over == Over::one) values.push_back(value);
+    if (monitor.over == Aggregate::one) values.push_back(value);
     sum += value;
   }
-  if (monitor.over == Over::one) return;
-  values.push_back(monitor.over == Over::mean ? sum / static_cast<double>(monitor.wall.size()) : sum);
+  if (monitor.over == Aggregate::one) return;
+  values.push_back(monitor.over == Aggregate::mean ? sum / static_cast<double>(monitor.wall.size()) : sum);
 }
 
 // elevations of the file; of a plane that above the model's origin
@@ -207,7 +207,7 @@ template <int Dim>
 std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
   std::vector<Column> columns;
   for (Monitor m : monitors) {
-    if (m.over != Over::one) m.name += m.over == Over::sum ? "_sum" : "_mean";
+    if (m.over != Aggregate::one) m.name += m.over == Aggregate::sum ? "_sum" : "_mean";
     switch (m.followed.quantity) {
       case Quantity::displacement:
         append_vector<Dim>(columns, m.name + "_displacement", "m");
@@ -247,8 +247,8 @@ std::vector<Column> monitor_columns(const std::vector<Monitor>& monitors) {
           columns.push_back({m.name + "_level" + (m.points > 1 ? fmt::format("_{}", k) : ""), "m"});
         break;
       case Quantity::convergence:
-        if (m.wall.size() < 2 || m.over != Over::one) columns.push_back({m.name + "_convergence", "m"});
-        for (std::size_t k = 1; m.over == Over::one && m.wall.size() > 1 && k <= m.wall.size(); ++k)
+        if (m.wall.size() < 2 || m.over != Aggregate::one) columns.push_back({m.name + "_convergence", "m"});
+        for (std::size_t k = 1; m.over == Aggregate::one && m.wall.size() > 1 && k <= m.wall.size(); ++k)
           columns.push_back({fmt::format("{}_convergence_{}", m.name, k), "m"});
         break;
       default:

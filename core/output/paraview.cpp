@@ -232,15 +232,15 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
 
 template <int Dim>
 PolyData force_lines(const Model<Dim>& model, const State<Dim>& state, double time) {
-  struct Carried {
+  struct ForceLine {
     Vector<Dim> force = Vector<Dim>::Zero();
     double normal = 0, shear = 0;
     int contacts = 0;
   };
-  std::map<std::pair<int, int>, Carried> pairs;
+  std::map<std::pair<int, int>, ForceLine> pairs;
   for (const Contact<Dim>& contact : state.contacts.list) {
     if (!contact.touching()) continue;
-    Carried& carried = pairs[{model.parts[contact.part_a].body, model.parts[contact.part_b].body}];
+    ForceLine& carried = pairs[{model.parts[contact.part_a].body, model.parts[contact.part_b].body}];
     const double normal = contact.force.dot(contact.geometry.normal);
     carried.force += contact.force;
     carried.normal += normal;

@@ -203,7 +203,7 @@ std::string new_shapes(const Model<Dim>& model, std::vector<ShownBody>& shown) {
 
 // what a contact carries as a whole
 template <int Dim>
-struct Carried {
+struct ContactResultant {
   Vector<Dim> point, force;  // m from the centroid of the first body; N on the second
   double normal = 0, overlap = 0;
   double friction = 0;  // fraction of what friction could carry; 0 where nothing presses
@@ -221,9 +221,9 @@ double coefficient(const Model<Dim>& model, const State<Dim>& state, const Conta
 }
 
 template <int Dim>
-Carried<Dim> carried_by(const Model<Dim>& model, const State<Dim>& state, std::size_t place) {
+ContactResultant<Dim> carried_by(const Model<Dim>& model, const State<Dim>& state, std::size_t place) {
   const Contact<Dim>& c = state.contacts.list[place];
-  Carried<Dim> all{c.geometry.point, c.force, c.force.dot(c.geometry.normal), c.geometry.overlap, 0};
+  ContactResultant<Dim> all{c.geometry.point, c.force, c.force.dot(c.geometry.normal), c.geometry.overlap, 0};
 
   // where the resultant of sub-contacts acts
   Vector<Dim> moment = Vector<Dim>::Zero();
@@ -276,7 +276,7 @@ void put_contacts(Record& record, ViewSeries& series, const Model<Dim>& model, c
 
   std::array<std::vector<float>, 2 * Dim + 3> columns;
   for (const auto& [number, place] : touching) {
-    const Carried<Dim> c = carried_by(model, state, place);
+    const ContactResultant<Dim> c = carried_by(model, state, place);
     for (int k = 0; k < Dim; ++k) {
       columns[k].push_back(short_single(c.point[k]));
       columns[Dim + k].push_back(short_single(c.force[k]));

@@ -130,10 +130,10 @@ std::optional<StageOutcome> execute(const ReducePlan& reduction, const StageInFo
     if (std::optional<StageOutcome> ended = falls_from_begin(stage, with_forces(stage, state, false), results))
       return ended;
   const SearchedQuantity sought = sought_by(reduction);
-  const TrialHook<Dim> on_trial = [&](const State<Dim>& moved, double level, Trial outcome) {
-    if (outcome == Trial::stable) note_stable(stage, moved, progress, sought.number(level), sought.unit);
+  const TrialHook<Dim> on_trial = [&](const State<Dim>& moved, double level, SearchTrial outcome) {
+    if (outcome == SearchTrial::stable) note_stable(stage, moved, progress, sought.number(level), sought.unit);
     if (continuous) return;
-    const State<Dim> now = with_forces(stage, moved, outcome == Trial::broken);
+    const State<Dim> now = with_forces(stage, moved, outcome == SearchTrial::broken);
     const int number = progress.reduction.trial + 1;
     const bool detour = is_detour(reduction.method, progress.reduction.trial, outcome);
     results.history.rows.push_back(row_of(stage, now, progress.ends, detour ? number : 0));

@@ -35,17 +35,17 @@ constexpr long long relaxation_round = 50, motion_round = 10;
 // known), so a quarter of it covers what the extrapolation leaves
 constexpr double extrapolation_margin = 0.25;
 
-Trial judge(StopReason reason) {
+SearchTrial judge(StopReason reason) {
   switch (reason) {
     case StopReason::equilibrium:
-      return Trial::stable;
+      return SearchTrial::stable;
     case StopReason::moved_away:
-      return Trial::failed;
+      return SearchTrial::failed;
     case StopReason::no_contact_answer:
     case StopReason::not_finite:
-      return Trial::broken;
+      return SearchTrial::broken;
     default:
-      return Trial::undecided;
+      return SearchTrial::undecided;
   }
 }
 
@@ -156,7 +156,7 @@ struct Search {
     return true;
   }
 
-  Trial run_turn(const Attempt& attempt) {
+  SearchTrial run_turn(const Attempt& attempt) {
     RunGoal goal;
     goal.rest = !attempt.falls;
     goal.moved_away = failure_displacement;
@@ -180,24 +180,24 @@ struct Search {
   double level_of(const Attempt& attempt) const { return attempt.falls ? level_in_force() : attempt.target; }
 
   // nothing: interrupted, or a numerical failure
-  std::optional<Trial> carry_out(const Attempt& attempt) {
+  std::optional<SearchTrial> carry_out(const Attempt& attempt) {
     if (!progress.run.under_way) begin(attempt);
-    Trial outcome = run_turn(attempt);
+    SearchTrial outcome = run_turn(attempt);
     while (takes_turn(attempt))
       outcome = run_turn(attempt);
     if (report.last.reason == StopReason::interrupted) return {};
     if (on_trial) on_trial(state, level_of(attempt), outcome);
-    if (outcome != Trial::broken) return outcome;
+    if (outcome != SearchTrial::broken) return outcome;
     report.message = report.last.detail;
     return {};
   }
 
   // Stable or failed, and the bracket drawn up to it; nothing: the search is over.
-  std::optional<Trial> decide(const Attempt& attempt) {
-    const std::optional<Trial> outcome = carry_out(attempt);
+  std::optional<SearchTrial> decide(const Attempt& attempt) {
+    const std::optional<SearchTrial> outcome = carry_out(attempt);
     if (!outcome) return {};
     const double level = level_of(attempt);
-    if (outcome == Trial::undecided) {
+    if (outcome == SearchTrial::undecided) {
       if (plan.method == ReductionMethod::bisection && attempt.number > 1 && !progress.avoids) {
         progress.avoids = true;
         progress.undecided = level;
@@ -206,12 +206,12 @@ struct Search {
       give_up_undecided(attempt, level);
       return {};
     }
-    if (outcome == Trial::failed && attempt.number == 0) {
+    if (outcome == SearchTrial::failed && attempt.number == 0) {
       report.message = fmt::format("fails already at from_{} = {:.6g}: start {}", levels.name,
                                    levels.from / levels.unit, levels.start);
       return {};
     }
-    if (outcome == Trial::failed) {
+    if (outcome == SearchTrial::failed) {
       progress.failed = level;
       return outcome;
     }
@@ -224,10 +224,10 @@ struct Search {
     return {};
   }
 
-  std::optional<Trial> rest_at(int number, double level, bool from_base = false) {
+  std::optional<SearchTrial> rest_at(int number, double level, bool from_base = false) {
     return decide({.number = number, .target = level, .from_base = from_base});
   }
-  std::optional<Trial> fall(int number, double rate) {
+  std::optional<SearchTrial> fall(int number, double rate) {
     return decide({.number = number, .target = plan.to, .falls = true, .rate = rate});
   }
 
@@ -329,10 +329,10 @@ struct Search {
 
   void go_by_steps() {
     for (int n = progress.trial;; ++n) {
-      const std::optional<Trial> outcome =
+      const std::optional<SearchTrial> outcome =
           rest_at(n, levels.safer(levels.from + levels.direction * n * levels.step, levels.to));
-      if (outcome == Trial::failed) close_bracket();
-      if (outcome != Trial::stable) return;
+      if (outcome == SearchTrial::failed) close_bracket();
+      if (outcome != SearchTrial::stable) return;
     }
   }
   std::string steps_rule() const {
@@ -373,10 +373,11 @@ struct Search {
   // where there is no rest, the slower fall begins where the faster did; false: the search is over
   bool come_nearer() {
     const double friction = std::min(plan.from, progress.failed_faster + nearer_by_lags * largest_lag(plan.rate));
-    const std::optional<Trial> outcome = carry_out({.number = coming_nearer, .target = friction, .from_base = true});
+    const std::optional<SearchTrial> outcome =
+        carry_out({.number = coming_nearer, .target = friction, .from_base = true});
     if (!outcome) return false;
-    if (outcome != Trial::stable) go_back_to_base();
-    progress.stable = outcome == Trial::stable ? friction : plan.from;
+    if (outcome != SearchTrial::stable) go_back_to_base();
+    progress.stable = outcome == SearchTrial::stable ? friction : plan.from;
     return true;
   }
 
@@ -435,15 +436,15 @@ bool of_rates(ReductionMethod method) {
 
 }  // namespace
 
-bool is_detour(ReductionMethod method, int trial, Trial outcome) {
+bool is_detour(ReductionMethod method, int trial, SearchTrial outcome) {
   switch (method) {
     case ReductionMethod::bisection:
     case ReductionMethod::steps:
-      return outcome != Trial::stable;
+      return outcome != SearchTrial::stable;
     case ReductionMethod::rate:
       return false;
     case ReductionMethod::two_rates:
-      return trial == faster_fall || (trial == coming_nearer && outcome != Trial::stable);
+      return trial == faster_fall || (trial == coming_nearer && outcome != SearchTrial::stable);
   }
   return false;
 }

@@ -10,7 +10,7 @@
 
 namespace voussoir {
 
-enum class Trial { stable, failed, undecided, broken };  // broken: a numerical failure
+enum class SearchTrial { stable, failed, undecided, broken };  // broken: a numerical failure
 
 struct ReductionReport {
   bool bracketed = false;         // both a stable and a failed level are known; `critical` lies between
@@ -44,11 +44,11 @@ struct ReductionProgress {
 
 // Whether a trial, counted from 0, is a detour: what it did is taken back, or was only to show that it fails. The
 // others are the path to the answer, whose time never goes back.
-bool is_detour(ReductionMethod method, int trial, Trial outcome);
+bool is_detour(ReductionMethod method, int trial, SearchTrial outcome);
 
 // what happened at a level; called at the end of each trial, with the state it left
 template <int Dim>
-using TrialHook = std::function<void(const State<Dim>&, double level, Trial outcome)>;
+using TrialHook = std::function<void(const State<Dim>&, double level, SearchTrial outcome)>;
 
 // the joint properties whose strength a plan lowers: places in Model::properties, ascending
 template <int Dim>

@@ -170,8 +170,9 @@ TEST(Reduction, ALevelThatNoTrialDecidesIsAvoided) {
     progress.avoids = true;
     progress.undecided = level * degree;
     std::vector<double> tried;
-    const ReductionReport report = reduce<2>(model, {}, plan, state, progress, {},
-                                             [&](const State<2>&, double at, Trial) { tried.push_back(at / degree); });
+    const ReductionReport report =
+        reduce<2>(model, {}, plan, state, progress, {},
+                  [&](const State<2>&, double at, SearchTrial) { tried.push_back(at / degree); });
     ASSERT_TRUE(report.bracketed) << report.message;
     EXPECT_TRUE(report.message.empty()) << report.message;
     EXPECT_NEAR(tried.front(), level == 30.5 ? 32.75 : 32.35, 1e-9) << "half way to the farther end";

@@ -360,7 +360,7 @@ void add_lining_monitors(const MonitorSpec& spec, const Model<Dim>& model, std::
 template <int Dim>
 std::vector<int> bodies_of(const Scene& scene, const Model<Dim>& model, const MonitorSpec& spec) {
   const std::vector<int> bodies = chosen_some<Dim>(scene, model, spec.body);
-  if (bodies.size() != 1 && spec.over == Over::one)
+  if (bodies.size() != 1 && spec.over == Aggregate::one)
     refuse(*spec.body.subject.node, spec.body.subject.path,
            "chooses " + std::to_string(bodies.size()) +
                " blocks but must choose exactly one; add sides of more joints or a point inside, or write over = "
@@ -410,7 +410,7 @@ std::vector<Monitor> find_monitors(const Scene& scene, const Prepared<Dim>& prep
     for (const Monitored& followed : spec.quantities)
       monitors.push_back({spec.name, followed, subject < 0 ? bodies.front() : subject,
                           followed.quantity == Quantity::level ? levels_of<Dim>(model.waters[subject]) : 0, spec.over,
-                          spec.over == Over::one ? std::vector<int>() : bodies, since});
+                          spec.over == Aggregate::one ? std::vector<int>() : bodies, since});
   }
   return monitors;
 }

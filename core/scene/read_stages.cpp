@@ -330,7 +330,7 @@ MonitorSpec read_monitor(const Subject& table) {
                        : stated == "excavation" ? "an excavation"
                                                 : fmt::format("a {}", stated)));
   check_angles_and_since(table, monitor);
-  if (!stated.empty() && stated != "excavation" && monitor.over != Over::one)
+  if (!stated.empty() && stated != "excavation" && monitor.over != Aggregate::one)
     refuse(table, "over", "tells of blocks, and this monitor follows none; remove it");
   if (stated.empty() && !chooses(monitor.body.selector))
     refuse(table, "above",

@@ -239,7 +239,7 @@ struct MonitorSpec {
   std::string excavation;          // of convergence
   std::vector<double> angles;      // deg, of convergence and lining_force
   std::string since, since_start;  // a stage from whose end, or start, it counts; empty: from the start
-  Over over{};
+  Aggregate over{};
   std::vector<Monitored> quantities;
 };
 

@@ -71,7 +71,7 @@ struct Tally {
 
 // Contacts that are to be resolved together, and, pressed already, those whose faces lie on each other as before.
 template <int Dim>
-struct Waiting {
+struct PendingPairs {
   int count = 0;
   std::array<Pair<Dim>, pairs_together> pairs;
   std::array<Contact<Dim>*, pairs_together> contacts;
@@ -99,26 +99,26 @@ struct Waiting {
 // what they turn out to be
 template <int Dim>
 void resolve(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies, double gap,
-             const Waiting<Dim>& waiting, ContactsState<Dim>& contacts, Tally& tally) {
-  const std::span resolved = std::span(waiting.contacts).first(waiting.count);
-  resolve_pairs<Dim>(model, settings.contact, std::span(waiting.pairs).first(waiting.count), resolved, tally.kernel);
+             const PendingPairs<Dim>& pending, ContactsState<Dim>& contacts, Tally& tally) {
+  const std::span resolved = std::span(pending.contacts).first(pending.count);
+  resolve_pairs<Dim>(model, settings.contact, std::span(pending.pairs).first(pending.count), resolved, tally.kernel);
   const std::size_t stride = sub_stride(contacts);
   static thread_local HalfSpaces<Dim> planes;
-  for (int i = 0; i < waiting.count; ++i) {
+  for (int i = 0; i < pending.count; ++i) {
     Contact<Dim>* const c = resolved[i];
     const std::size_t place = c - contacts.list.data();
     const long long bonds = c->bond_due ? whole_bonds(contacts, place) : 0;
     if (c->touching()) {
-      const bool whole = choose_joint(model, settings.contact, waiting.pairs[i], *c, planes);
+      const bool whole = choose_joint(model, settings.contact, pending.pairs[i], *c, planes);
       const int along = model.properties[c->properties].sub_contacts;
       if (whole) [[unlikely]] {
         c->cells = 0;
-        if (!integrate_contact<Dim>(waiting.pairs[i], planes, *c, contacts.faces[place])) {
+        if (!integrate_contact<Dim>(pending.pairs[i], planes, *c, contacts.faces[place])) {
           c->status = ContactStatus::no_face;
           ++tally.unconverged;
         }
       } else if (const int cells = sub_contact_count<Dim>(along); cells > 0) {
-        divide<Dim>(waiting.pairs[i], along, *c, std::span(contacts.subs).subspan(place * stride, cells));
+        divide<Dim>(pending.pairs[i], along, *c, std::span(contacts.subs).subspan(place * stride, cells));
       } else {
         c->cells = 0;
       }
@@ -127,7 +127,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
     }
     if (c->unanswered()) ++tally.unconverged;
     if (bonds > 0 || (c->status == ContactStatus::separated && c->proof.margin > gap)) c->bond_due = false;
-    if (waiting.touched[i]) {
+    if (pending.touched[i]) {
       c->near_until = 0;  // only its boxes were looked at
       if (!is_near(model, bodies, gap, *c)) {
         set_apart(*c);
@@ -145,11 +145,11 @@ template <int Dim>
 void find_contacts_of(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
                       QueryLevel level, double gap, int group, const FoundContacts<Dim>& found,
                       ContactsState<Dim>& contacts, Tally& tally) {
-  static thread_local Waiting<Dim> waiting;
+  static thread_local PendingPairs<Dim> pending;
   const auto resolve_waiting = [&] {
-    resolve(model, settings, bodies, gap, waiting, contacts, tally);
-    if (found) found(group, std::span(waiting.all).first(waiting.looked_at));
-    waiting.count = waiting.looked_at = 0;
+    resolve(model, settings, bodies, gap, pending, contacts, tally);
+    if (found) found(group, std::span(pending.all).first(pending.looked_at));
+    pending.count = pending.looked_at = 0;
   };
   const std::size_t first = group * summed_together, last = std::min(first + summed_together, contacts.list.size());
   for (std::size_t i = first; i < last; ++i) {
@@ -164,10 +164,10 @@ void find_contacts_of(const Model<Dim>& model, const Settings& settings, const B
       ++tally.kernel.motion_skips;
       continue;
     }
-    waiting.add(model, settings, bodies, level, contacts, c, tally.kernel);
-    if (waiting.looked_at == pairs_together) resolve_waiting();
+    pending.add(model, settings, bodies, level, contacts, c, tally.kernel);
+    if (pending.looked_at == pairs_together) resolve_waiting();
   }
-  if (waiting.looked_at > 0) resolve_waiting();
+  if (pending.looked_at > 0) resolve_waiting();
 }
 
 void add(Counters& total, const Tally& tally) {

@@ -24,7 +24,7 @@ KeyTable monitor_keys() {
      .example = "[\"displacement\", \"rotation\"]", .required = true,
      .meaning = "contact_force: resultant over the contacts of a joint, which `joint` names; whole_bonds: how many of its bonds are whole; level: of the water that `water` names; bolt_force: the largest and the mean force of the springs of the bolts that `bolts` names, of one bolt, and how many have yielded and broken; lining_force: of the lining that `lining` names thrust (compression positive), shear force and moment (sagging positive) at the node next to each of angles_deg, or without it the largest of each and the largest use of its strength; convergence: how far the wall of the opening that `excavation` names has moved inwards; the others: of one block that a "
          "selector chooses; …_load: what acts on it from one source, applied_load by stage.force, water_load by water; velocities are those of half a step before"},
-    {.key = "over", .members = {one_of(&MonitorSpec::over, {{"one", Over::one}, {"sum", Over::sum}, {"mean", Over::mean}})},
+    {.key = "over", .members = {one_of(&MonitorSpec::over, {{"one", Aggregate::one}, {"sum", Aggregate::sum}, {"mean", Aggregate::mean}})},
      .example = "\"mean\"",
      .meaning = "of the blocks that the selector chooses; one: it chooses exactly one; sum, mean: over all that are not "
          "excavated, those apart that an excavation parts from them"},
