@@ -111,7 +111,7 @@ Example<3> wedge(Random& random) {
 }
 
 struct Verdict {
-  Trial outcome = Trial::broken;
+  SearchTrial outcome = SearchTrial::broken;
   bool without_newton = false;  // it left the decision, in whole or in part, to others
 };
 
@@ -130,7 +130,7 @@ Verdict verdict(const Model<Dim>& model, double tangent, Statics statics) {
   plan.tolerance = plan.from;  // one trial
   ReductionProgress<Dim> progress;
   Verdict verdict;
-  const TrialHook<Dim> on_trial = [&](const State<Dim>&, double friction, Trial outcome) {
+  const TrialHook<Dim> on_trial = [&](const State<Dim>&, double friction, SearchTrial outcome) {
     if (friction == plan.to) verdict.outcome = outcome;
   };
   reduce<Dim>(model, settings, plan, state, progress, {}, on_trial);
@@ -149,12 +149,12 @@ void judge(const Example<Dim>& example, const std::string& what, Tally& tally) {
     const double tangent = (1 + margin) * example.critical;
     const Verdict by_newton = verdict(example.model, tangent, Statics::newton);
     tally.undecided_by_newton += by_newton.without_newton;
-    const Trial expected = std::abs(margin) < 0.02 ? verdict(example.model, tangent, Statics::adaptive).outcome
-                           : margin > 0            ? Trial::stable
-                                                   : Trial::failed;
+    const SearchTrial expected = std::abs(margin) < 0.02 ? verdict(example.model, tangent, Statics::adaptive).outcome
+                           : margin > 0            ? SearchTrial::stable
+                                                   : SearchTrial::failed;
     EXPECT_EQ(by_newton.outcome, expected)
         << what << " " << tally.examples << " at " << 1 + margin << " of its friction";
-    EXPECT_TRUE(by_newton.outcome == Trial::stable || by_newton.outcome == Trial::failed) << what;
+    EXPECT_TRUE(by_newton.outcome == SearchTrial::stable || by_newton.outcome == SearchTrial::failed) << what;
   }
 }
 
