@@ -9,8 +9,6 @@
 #include <tuple>
 #include <utility>
 
-#include "reference/tunnel/polygons.hpp"
-
 namespace voussoir::reference::network {
 namespace {
 

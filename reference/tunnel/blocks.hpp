@@ -23,6 +23,14 @@ std::vector<Polygon> cut(const Polygon& whole, const std::vector<Line>& lines, d
 std::vector<Line> persistent_sets(const std::vector<double>& angles, const std::vector<double>& shifts, double spacing,
                                   double reach);
 
+// Every piece a block.
+inline std::vector<Block> one_each(const std::vector<Polygon>& pieces) {
+  std::vector<Block> blocks;
+  for (const Polygon& piece : pieces)
+    blocks.push_back({{piece}});
+  return blocks;
+}
+
 // Every piece a block; what lies inside the convex outline is gone. A piece across the outline becomes a block of
 // convex parts, or several where it falls apart.
 std::vector<Block> take_out(const std::vector<Polygon>& pieces, const Polygon& outline, double thinnest);

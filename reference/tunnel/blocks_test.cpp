@@ -7,8 +7,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "reference/tunnel/polygons.hpp"
-
 using namespace voussoir::reference::network;
 
 namespace {

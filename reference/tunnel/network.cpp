@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "reference/tunnel/polygons.hpp"
-
 namespace voussoir::reference::network {
 namespace {
 

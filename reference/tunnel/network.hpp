@@ -20,10 +20,10 @@
 #include <array>
 #include <vector>
 
+#include "reference/tunnel/polygons.hpp"
+
 namespace voussoir::reference::network {
 
-using Point = std::array<double, 2>;     // m, or N where it is a force
-using Polygon = std::vector<Point>;      // convex, counter-clockwise, m
 using Freedoms = std::array<double, 3>;  // x, y, turn: m and rad, or N and N m about the centroid (at a node: there)
 
 // One rigid body of one or more convex parts. What is held takes `imposed`; the ground is a block with all three held.

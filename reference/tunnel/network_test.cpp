@@ -9,7 +9,6 @@
 #include <string>
 
 #include "reference/tunnel/blocks.hpp"
-#include "reference/tunnel/polygons.hpp"
 #include "reference/tunnel/ring_moment.hpp"
 
 using namespace voussoir::reference::network;

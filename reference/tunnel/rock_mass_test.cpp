@@ -7,7 +7,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "reference/tunnel/polygons.hpp"
 #include "text/angle.hpp"
 
 using namespace voussoir::reference::network;
