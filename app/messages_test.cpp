@@ -2,7 +2,7 @@
 #include <random>
 #include <regex>
 
-#include "app/testing/program.hpp"
+#include "app/testing/checked_scene.hpp"
 #include "core/model/body_title.hpp"
 #include "core/output/bolt_output.hpp"
 #include "core/scene/scene.hpp"
@@ -15,26 +15,12 @@ namespace {
 using namespace program;
 
 const std::string plane =
-    "dimension = 2\ngravity = [0, -10]\ndensity = 2000\n"
+    head_in_plane +
     "joint_properties = [{ name = \"rock\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]\n";
 const std::string halves = plane +
                            "domain = { box = { min = [0, 0], max = [40, 40] } }\n"
                            "joints = [{ name = \"bed\", dip = 0, point = [0, 20] }]\nfix = [{ below = [\"bed\"] }]\n";
-const std::string settle = "[[stage]]\nname = \"rest\"\nkind = \"settle\"\n";
-
-class Messages : public Program {
- protected:
-  std::string check(const std::string& scene, const std::string& more = "") const {
-    write("scene.toml", scene);
-    const Ended ended = run("check scene.toml " + more);
-    EXPECT_EQ(ended.code, 0) << ended.err << scene;
-    return ended.out;
-  }
-  void refuses(const std::string& scene, const std::string& part) const {
-    write("scene.toml", scene);
-    expect_one_line(run("check scene.toml"), 2, part);
-  }
-};
+class Messages : public CheckedScene {};
 
 bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -58,14 +44,14 @@ TEST_F(Messages, HelpPromisesNoListWhereEachValueNeedsItsOption) {
     for (const std::string& line : lines_of(help.out))
       EXPECT_FALSE(line.starts_with("  --") && holds(line, "...")) << command << ": " << line;
   }
-  write("scene.toml", halves + settle);
+  write("scene.toml", halves + settle_stage);
   EXPECT_TRUE(holds(run("check scene.toml --set density=2500 --set title='\"two\"'").out, "two (2-D)"));
   EXPECT_EQ(run("check scene.toml --set density=2500 title=two").code, 2);
 }
 
 TEST_F(Messages, LimitAnalysisIsQuietWhenAsked) {
   if (!is_built_in("glpk")) GTEST_SKIP() << "built without GLPK";
-  write("scene.toml", halves + settle);
+  write("scene.toml", halves + settle_stage);
   const std::string dipping =
       "limit scene.toml --set joints.bed.dip=20 --set joints.bed.dip_direction=90 --out l --overwrite";
   EXPECT_FALSE(run(dipping).out.empty());
@@ -79,29 +65,30 @@ TEST_F(Messages, ListsThatAreTooLongAreToldWhatTheyAre) {
   for (int k = 0; k < 1000; ++k)
     points += fmt::format("[{}, 30], ", k);
   const std::string water = "[[water]]\nname = \"lake\"\ntable = [" + points + "]\n";
-  write("scene.toml", halves + settle + water);
+  write("scene.toml", halves + settle_stage + water);
   const Ended ended = run("check scene.toml");
   expect_one_line(ended, 2, "water.lake.table");
   EXPECT_FALSE(holds(ended.err, "block")) << ended.err;
   EXPECT_TRUE(holds(ended.err, "leave out points")) << ended.err;
-  refuses(plane + settle + "[[blocks]]\nname = \"a\"\nvertices = [" + points + "]\n", "divide the block into parts");
+  refused(plane + settle_stage + "[[blocks]]\nname = \"a\"\nvertices = [" + points + "]\n",
+          "divide the block into parts");
 }
 
 TEST_F(Messages, MissingGravityIsNoWrongDensity) {
   const std::string water = "[[water]]\nname = \"lake\"\nlevel = 39\nunit_weight = 9810\n";
   const std::string out =
-      check(halves.substr(0, halves.find("gravity")) + halves.substr(halves.find("density")) + settle + water);
+      check(halves.substr(0, halves.find("gravity")) + halves.substr(halves.find("density")) + settle_stage + water);
   EXPECT_TRUE(holds(out, "water lifts it by")) << out;
   EXPECT_TRUE(holds(out, "state gravity")) << out;
   EXPECT_FALSE(holds(out, "is the density")) << out;
-  EXPECT_TRUE(holds(check(halves + settle + water, "--set density=500"), "is the density"));
+  EXPECT_TRUE(holds(check(halves + settle_stage + water, "--set density=500"), "is the density"));
 }
 
 TEST_F(Messages, TimeStepsAreStatedOnce) {
-  refuses(halves + settle + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "time.fraction");
-  refuses(halves + settle + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "stands beside step_s");
-  check(halves + settle + "[time]\nstep_s = 1e-4\n");
-  check(halves + settle + "[time]\nfraction = 0.1\n");
+  refused(halves + settle_stage + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "time.fraction");
+  refused(halves + settle_stage + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "stands beside step_s");
+  check(halves + settle_stage + "[time]\nstep_s = 1e-4\n");
+  check(halves + settle_stage + "[time]\nfraction = 0.1\n");
 }
 
 // what no double can hold is refused, whatever it is stated as; a search for it would not end
@@ -123,7 +110,7 @@ TEST_F(Messages, TolerancesThatNoDoubleHoldsAreRefused) {
       {angle + "tolerance_deg = 0.1\n", "accuracy.error", "[accuracy]\nerror = \"{:.3e} deg\"\n"},
       {angle + "tolerance_deg = 0.1\n", "accuracy.error", "[accuracy]\nerror = \"{:.3e} %\"\n"}};
   for (const Key& key : keys) {
-    refuses(halves + key.scene + fmt::format(fmt::runtime(key.text), std::pow(10, -below(random))), key.name);
+    refused(halves + key.scene + fmt::format(fmt::runtime(key.text), std::pow(10, -below(random))), key.name);
     check(halves + key.scene + fmt::format(fmt::runtime(key.text), std::pow(10, -above(random))));
   }
 }
@@ -175,7 +162,7 @@ TEST_F(Messages, BoltsOnTopOfEachOtherAreCounted) {
           fmt::format("[[bolts]]\nname = \"b{}\"\nstiffness = 1e8\nfrom = [{}, {}]\nto = [{}, {}]\n", k, x, y, u, v);
       install += fmt::format("{}\"b{}\"", k ? ", " : "", k);
     }
-    const std::string out = check(halves + settle + "install = [" + install + "]\n" + bolts);
+    const std::string out = check(halves + settle_stage + "install = [" + install + "]\n" + bolts);
     const auto count = [&](const std::string& what) {
       int found = 0;
       for (const std::string& line : lines_of(out))
@@ -194,9 +181,9 @@ TEST_F(Messages, FansOfMoreThanAWholeTurnAreRefused) {
         "from_deg = {}, to_deg = {}, spacing_deg = 30 }}\n",
         from, to);
   };
-  const std::string scene = halves + settle + "install = [\"roof\"]\n";
-  refuses(scene + fan(-10, 360), "to_deg");
-  refuses(scene + fan(-360, 360), "whole turn");
+  const std::string scene = halves + settle_stage + "install = [\"roof\"]\n";
+  refused(scene + fan(-10, 360), "to_deg");
+  refused(scene + fan(-360, 360), "whole turn");
   EXPECT_FALSE(holds(check(scene + fan(-180, 150)), "on top"));
   EXPECT_TRUE(holds(check(scene + fan(0, 360)), "1 of 13 lie on top of another bolt"));
 }
@@ -242,7 +229,7 @@ TEST(BoltLines, GoFromCollarToToe) {
     const Vector<2> collar(at(random), 1), toe(at(random), 39);
     scene += fmt::format("[[bolts]]\nname = \"b\"\nfrom = [{}, {}]\nto = [{}, {}]\n{}", collar[0], collar[1], toe[0],
                          toe[1], kinds[trial % 3]);
-    scene += settle + "install = [\"b\"]\n";
+    scene += settle_stage + "install = [\"b\"]\n";
     const Prepared<2> prepared = prepare<2>(parse_scene(scene, "scene.toml", {}));
     State<2> state = prepared.state;
     install_bolts(prepared.model, {"b"}, state);
@@ -301,15 +288,15 @@ TEST(BodyTitle, NamesWhatTheSceneNames) {
 }
 
 TEST_F(Messages, NumbersOfBlocksHaveNamesBeside) {
-  const std::string out = check(halves + settle);
+  const std::string out = check(halves + settle_stage);
   EXPECT_TRUE(holds(out, "block 0 (of joint bed)")) << out;
-  const std::string falls = check(plane + "domain = { box = { min = [0, 0], max = [1, 1] } }\n" + settle);
+  const std::string falls = check(plane + "domain = { box = { min = [0, 0], max = [1, 1] } }\n" + settle_stage);
   EXPECT_TRUE(std::regex_search(falls, std::regex(R"(block 0 \(at \(0\.5, 0\.5\) m\) has no neighbour)"))) << falls;
 }
 
 TEST_F(Messages, AStudysWarningsNameTheirRows) {
   write("scene.toml",
-        halves + settle + "[[monitors]]\nname = \"top\"\nquantities = [\"displacement\"]\nabove = [\"bed\"]\n");
+        halves + settle_stage + "[[monitors]]\nname = \"top\"\nquantities = [\"displacement\"]\nabove = [\"bed\"]\n");
   write("study.toml",
         "scene = \"scene.toml\"\nquantity = \"top_displacement_y\"\n[[sweep]]\nname = \"density\"\nkey = \"density\"\n"
         "values = [2000, 20000, 30000]\n");
@@ -320,7 +307,7 @@ TEST_F(Messages, AStudysWarningsNameTheirRows) {
 }
 
 TEST_F(Messages, AUnitOfOneIsNotPrinted) {
-  write("scene.toml", halves + settle +
+  write("scene.toml", halves + settle_stage +
                           "[[stage]]\nname = \"c\"\nkind = \"reduce\"\nsearch = \"factor\"\nfrom_factor = 0.2\n"
                           "to_factor = 3\ntolerance_factor = 0.1\n");
   write("study.toml",

@@ -1,7 +1,7 @@
-// What `voussoir check` prints and warns of, what `voussoir docs` documents, and repairs that name the mistake.
+// What `voussoir check` prints and warns of.
 #include <array>
 
-#include "app/testing/program.hpp"
+#include "app/testing/checked_scene.hpp"
 
 namespace voussoir {
 namespace {
@@ -9,27 +9,10 @@ namespace {
 using namespace program;
 
 const std::string ground =
-    "dimension = 2\ngravity = [0, -10]\ndensity = 2000\n"
-    "[[blocks]]\nname = \"ground\"\nbox = { min = [-5, -1], max = [15, 0] }\nfixed = true\n";
+    head_in_plane + "[[blocks]]\nname = \"ground\"\nbox = { min = [-5, -1], max = [15, 0] }\nfixed = true\n";
 
-const std::string rock =
-    "[[joint_properties]]\nname = \"rock\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e8\nfriction_deg = 30\n";
-
-const std::string settle = "[[stage]]\nname = \"rest\"\nkind = \"settle\"\n";
-
-std::string box(const std::string& name, double x, double y, double size = 1) {
-  return fmt::format("[[blocks]]\nname = \"{}\"\nbox = {{ min = [{}, {}], max = [{}, {}] }}\n", name, x, y, x + size,
-                     y + size);
-}
-
-class Check : public Program {
+class Check : public CheckedScene {
  protected:
-  std::string check(const std::string& scene, const std::string& more = "") const {
-    write("scene.toml", scene);
-    const Ended ended = run("check scene.toml " + more);
-    EXPECT_EQ(ended.code, 0) << ended.err << scene;
-    return ended.out;
-  }
   void says(const std::string& scene, const std::string& part) const {
     const std::string out = check(scene);
     EXPECT_NE(out.find(part), std::string::npos) << part << "\n" << out;
@@ -43,7 +26,7 @@ class Check : public Program {
 // ---- what is active -----------------------------------------------------------------------------------------------
 
 TEST_F(Check, PrintsWhatAStageForcesUponTheModel) {
-  const std::string scene = ground + box("stone", 0, 0) + rock +
+  const std::string scene = ground + box("stone", 0, 0) + rock_properties +
                             "[[stage]]\nname = \"shake\"\nkind = \"run\"\nduration_s = 1\nbond = true\n"
                             "[[stage.move]]\nbodies = [\"ground\"]\nvelocity = [0.1, 0]\ntranslation = [\"x\"]\n"
                             "frequency_hz = 2\n"
@@ -54,33 +37,33 @@ TEST_F(Check, PrintsWhatAStageForcesUponTheModel) {
   says(scene, "stress (xx, yy, xy) = (50000, 0, 0) Pa on outer faces");
   says(scene, "force 'jack' = (5000, 0) N/m on blocks at (0, 0.5) m, turning with them");
   says(scene, "turning with them; bonds closed joints that have tension or cohesion; damping");
-  says(ground + box("stone", 0, 0) + rock + settle, "bonds, prescribed motion, boundary stress");
+  says(ground + box("stone", 0, 0) + rock_properties + settle_stage, "bonds, prescribed motion, boundary stress");
 }
 
 TEST_F(Check, PrintsLawsStrengthsAndSubContacts) {
-  const std::string scene = ground + box("stone", 0, 0) + rock +
+  const std::string scene = ground + box("stone", 0, 0) + rock_properties +
                             "sub_contacts = 3\nnormal_law = \"linear\"\nnormal_growth = 7e4\nshear_law = \"power\"\n"
                             "shear_exponent = 0.7\nfriction_law = \"softening\"\nsoftening_drop = 0.06\n"
                             "softening_slip_m = 0.35\ntension = 7e4\ncohesion = 8e5\n" +
-                            settle;
+                            settle_stage;
   for (const char* part :
        {"3 points a face", "normal stiffness + 70000/m", "(normal stress / 1 Pa)^0.7", "softens by 0.06 within 0.35 m",
         "tension 70000 Pa where bonded", "cohesion 800000 Pa where bonded"})
     says(scene, part);
-  says(ground + box("stone", 0, 0) + rock + settle, "one point a face");
+  says(ground + box("stone", 0, 0) + rock_properties + settle_stage, "one point a face");
 }
 
 TEST_F(Check, PrintsHowEachJointIsCarried) {
   const std::string whole = "[contact]\nface = \"integrated\"\n";
-  const std::string stone = ground + box("stone", 0, 0) + rock;
-  says(stone + whole + settle, "each contact as a whole, integrated");
-  says(stone + "sub_contacts = 3\n" + whole + settle, "integrated (sub_contacts = 3 is not used)");
-  silent(stone + settle, "as a whole");
+  const std::string stone = ground + box("stone", 0, 0) + rock_properties;
+  says(stone + whole + settle_stage, "each contact as a whole, integrated");
+  says(stone + "sub_contacts = 3\n" + whole + settle_stage, "integrated (sub_contacts = 3 is not used)");
+  silent(stone + settle_stage, "as a whole");
   const auto beside = [&](const std::string& laws) {
     return stone +
            "[[joint_properties]]\nname = \"other\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e8\nfriction_deg = "
            "30\n" +
-           laws + whole + settle;
+           laws + whole + settle_stage;
   };
   says(beside("cohesion = 1e5\n"), "not integrated: it can be bonded");
   says(beside("constant_stiffness = true\n"), "not integrated: constant_stiffness knows no area");
@@ -89,26 +72,30 @@ TEST_F(Check, PrintsHowEachJointIsCarried) {
 
 TEST_F(Check, PrintsWhatLiesInWater) {
   const std::string lake = "[[water]]\nname = \"lake\"\n";
-  const std::string scene = ground + box("stone", 0, 0) + rock + lake + "level = 0.25\n" + settle;
+  const std::string scene = ground + box("stone", 0, 0) + rock_properties + lake + "level = 0.25\n" + settle_stage;
   says(scene, "lake: 9810 N/m³ on all faces; 0.25 m² of the free blocks lie below it, 25 %");
   says(scene, "lifts the free blocks by 2452.5 N/m, 12.26 % of their weight");
   says(scene + "water = [{ name = \"lake\", level = 0.5, rate = 0.1 }]\n", "water 'lake' changes within 2.5 s");
   silent(scene, "wets none");
-  says(ground + box("stone", 0, 0) + rock + lake + "level = -2\n" + settle, "water.lake.level = -2: lies below every");
-  says(ground + box("stone", 0, 0) + rock + lake + "level = 300\n" + settle, "299 m above every block");
-  says(ground + box("stone", 0, 0) + "density = 900\n" + rock + lake + "level = 3\n" + settle, "it floats");
-  says(ground + box("stone", 0, 0) + rock + lake + "pressure = 5000\nfaces = \"outer\"\n" + settle,
+  says(ground + box("stone", 0, 0) + rock_properties + lake + "level = -2\n" + settle_stage,
+       "water.lake.level = -2: lies below every");
+  says(ground + box("stone", 0, 0) + rock_properties + lake + "level = 300\n" + settle_stage,
+       "299 m above every block");
+  says(ground + box("stone", 0, 0) + "density = 900\n" + rock_properties + lake + "level = 3\n" + settle_stage,
+       "it floats");
+  says(ground + box("stone", 0, 0) + rock_properties + lake + "pressure = 5000\nfaces = \"outer\"\n" + settle_stage,
        "lake: 5000 Pa on the faces of 0 joints and outside");
-  says(ground + box("stone", 0, 0) + rock + settle, "applied forces, water");
+  says(ground + box("stone", 0, 0) + rock_properties + settle_stage, "applied forces, water");
 }
 
 TEST_F(Check, PrintsTheShareOfReliefLoadsThatIsLeft) {
   const std::string dug =
-      "dimension = 2\ngravity = [0, -10]\ndensity = 2000\ndomain = { box = { min = [0, 0], max = [6, 3] } }\n" + rock +
+      "dimension = 2\ngravity = [0, -10]\ndensity = 2000\ndomain = { box = { min = [0, 0], max = [6, 3] } }\n" +
+      rock_properties +
       "[[joints]]\nname = \"floor\"\ndip = 0\npoint = [0, 1]\n[[joints]]\nname = \"bed\"\ndip = 0\npoint = [0, 2]\n"
       "[[fix]]\nbelow = \"floor\"\n[[excavations]]\nname = \"pit\"\noutline = true\n"
       "box = { min = [2, 1], max = [4, 2] }\n" +
-      settle + "[[stage]]\nname = \"dig\"\nkind = \"settle\"\nexcavate = \"pit\"\n";
+      settle_stage + "[[stage]]\nname = \"dig\"\nkind = \"settle\"\nexcavate = \"pit\"\n";
   const std::string let_off = "let_off = { share = 0.4, duration_s = 1 }\n";
   says(dug + let_off, "let_off: a share of 0.4 still acts after the last stage, since stage dig");
   silent(dug + let_off + "[[stage]]\nname = \"off\"\nkind = \"settle\"\nlet_off = { share = 0, duration_s = 1 }\n",
@@ -123,8 +110,8 @@ TEST_F(Check, PrintsTheShareOfReliefLoadsThatIsLeft) {
 
 // Every ramp of a stage is counted, and warned of when its limits end it before.
 TEST_F(Check, CountsEveryRampAndWarnsOfLimitsThatNoneCanReach) {
-  const std::string stone = ground + box("stone", 0, 0) + rock + "[[water]]\nname = \"lake\"\nlevel = 0.1\n" +
-                            "[time]\nstep_s = 1e-4\n" + settle;
+  const std::string stone = ground + box("stone", 0, 0) + rock_properties +
+                            "[[water]]\nname = \"lake\"\nlevel = 0.1\n" + "[time]\nstep_s = 1e-4\n" + settle_stage;
   const auto rises = [&](const std::string& seconds) {
     return "water = [{ name = \"lake\", level = 0.3, duration_s = " + seconds + " }]\n";
   };
@@ -145,7 +132,7 @@ TEST_F(Check, SaysThatATableOfJointsWithoutSizesIsEndless) {
   const std::string scene =
       "dimension = 2\ngravity = [0, -10]\ndensity = 2000\njoints_file = \"joints.csv\"\n"
       "domain = { box = { min = [0, 0], max = [10, 10] } }\nfix = [{ side = \"bottom\" }]\n" +
-      rock + settle;
+      rock_properties + settle_stage;
   std::string endless = "name,x_m,y_m,dip_deg,dip_direction_deg\n",
               ended = "name,x_m,y_m,dip_deg,dip_direction_deg,shape,length_m\n";
   for (int k = 1; k <= 50; ++k) {
@@ -167,10 +154,10 @@ TEST_F(Check, SaysThatATableOfJointsWithoutSizesIsEndless) {
 
 // Where a table slopes, a block that slides leaves its water before the displacement that counts as failure.
 TEST_F(Check, WarnsWhereASearchLetsBlocksLeaveTheirWater) {
-  const std::string search = settle +
+  const std::string search = settle_stage +
                              "[[stage]]\nname = \"reduce\"\nkind = \"reduce\"\nfrom_deg = 30\nto_deg = 1\n"
                              "tolerance_deg = 0.1\n";
-  const std::string wet = ground + box("stone", 0, 0) + rock + "[[water]]\nname = \"lake\"\n";
+  const std::string wet = ground + box("stone", 0, 0) + rock_properties + "[[water]]\nname = \"lake\"\n";
   const char* const warning = "stage.reduce: before block stone has moved by 0.05 m and counts as failed";
   says(wet + "table = [[0, 0.5], [1, 0]]\n" + search, warning);
   silent(wet + "table = [[0, 0.5], [1, 0]]\n" + search + "failure_displacement = 0.0005\n", "counts as failed");
@@ -182,14 +169,16 @@ TEST_F(Check, WarnsWhereASearchLetsBlocksLeaveTheirWater) {
 TEST_F(Check, WarnsOfBlocksThatNothingHolds) {
   // two on one another, in the air
   const std::string pair = box("lower", 0, 3) + box("upper", 0, 4);
-  says(ground + pair + rock + settle, "2 blocks, lower the first, are near one another, but no chain");
-  silent(ground + pair + box("leg 1", 0, 0) + box("leg 2", 0, 1) + box("leg 3", 0, 2) + rock + settle, "no chain");
-  silent(ground + pair + rock + settle + "[[restrain]]\nall = true\ntranslation = [\"y\"]\n", "no chain");
-  says(ground + box("alone", 0, 3) + rock + settle, "block alone has no neighbour");
+  says(ground + pair + rock_properties + settle_stage, "2 blocks, lower the first, are near one another, but no chain");
+  silent(ground + pair + box("leg 1", 0, 0) + box("leg 2", 0, 1) + box("leg 3", 0, 2) + rock_properties + settle_stage,
+         "no chain");
+  silent(ground + pair + rock_properties + settle_stage + "[[restrain]]\nall = true\ntranslation = [\"y\"]\n",
+         "no chain");
+  says(ground + box("alone", 0, 3) + rock_properties + settle_stage, "block alone has no neighbour");
 }
 
 TEST_F(Check, WarnsWhereNothingWillMove) {
-  const std::string space = "dimension = 2\ndensity = 2000\n" + rock + box("ship", 0, 0) +
+  const std::string space = "dimension = 2\ndensity = 2000\n" + rock_properties + box("ship", 0, 0) +
                             "[[stage]]\nname = \"fly\"\nkind = \"run\"\nduration_s = 1\n";
   says(space, "nothing will move");
   silent(space +
@@ -199,31 +188,33 @@ TEST_F(Check, WarnsWhereNothingWillMove) {
 }
 
 TEST_F(Check, WarnsOfBlocksInOnePlace) {
-  says(ground + box("one", 0, 0) + box("two", 0, 0) + rock + settle, "blocks one and two lie in one another");
-  says(ground + box("one", 0, 0) + box("two", 0.4, 0.4, 0.2) + rock + settle, "lie in one another");
-  silent(ground + box("one", 0, 0) + box("two", 1, 0) + rock + settle, "lie in one another");
+  says(ground + box("one", 0, 0) + box("two", 0, 0) + rock_properties + settle_stage,
+       "blocks one and two lie in one another");
+  says(ground + box("one", 0, 0) + box("two", 0.4, 0.4, 0.2) + rock_properties + settle_stage, "lie in one another");
+  silent(ground + box("one", 0, 0) + box("two", 1, 0) + rock_properties + settle_stage, "lie in one another");
 }
 
 TEST_F(Check, WarnsWhenAStageRemovesTheLastFreeBlock) {
-  const std::string two = ground + box("one", 0, 0) + box("two", 1, 0) + rock + settle;
+  const std::string two = ground + box("one", 0, 0) + box("two", 1, 0) + rock_properties + settle_stage;
   says(two + "remove = [{ bodies = [\"one\", \"two\"] }]\n", "stage.rest removes the last free block");
   says(two + "fix = [{ bodies = [\"one\", \"two\"] }]\n", "stage.rest fixes the last free block");
   silent(two + "remove = [{ bodies = [\"one\"] }]\n", "last free block");
 }
 
 TEST_F(Check, WarnsOfPilesOnOnePointAFace) {
-  const std::string pile = ground + box("one", 0, 0) + box("two", 0, 0.99999) + box("three", 0, 1.99998) + rock;
-  says(pile + settle, "3 free blocks rest on one another on one point a face");
-  says(pile + settle, "set contact.face = \"integrated\", or joint_properties.");
-  silent(pile + "[contact]\nface = \"integrated\"\n" + settle, "one another on one point");
-  silent(pile + "sub_contacts = 2\n" + settle, "one another on one point");
-  silent(pile + settle + "[[restrain]]\nall = true\nrotation = true\n", "one another on one point");
+  const std::string pile =
+      ground + box("one", 0, 0) + box("two", 0, 0.99999) + box("three", 0, 1.99998) + rock_properties;
+  says(pile + settle_stage, "3 free blocks rest on one another on one point a face");
+  says(pile + settle_stage, "set contact.face = \"integrated\", or joint_properties.");
+  silent(pile + "[contact]\nface = \"integrated\"\n" + settle_stage, "one another on one point");
+  silent(pile + "sub_contacts = 2\n" + settle_stage, "one another on one point");
+  silent(pile + settle_stage + "[[restrain]]\nall = true\nrotation = true\n", "one another on one point");
 }
 
 // ---- numbers ------------------------------------------------------------------------------------------------------
 
 TEST_F(Check, WarnsOfDashpotsWithLongSteps) {
-  const std::string scene = ground + box("stone", 0, 0) + rock +
+  const std::string scene = ground + box("stone", 0, 0) + rock_properties +
                             "[[stage]]\nname = \"fall\"\nkind = \"run\"\nduration_s = 1\n[damping]\nlocal = 0\n"
                             "viscous_ratio = 0.2\n[time]\nfraction = ";
   says(scene + "0.2\n", "the restitution of impacts some 8 % off");
@@ -234,11 +225,11 @@ TEST_F(Check, WarnsOfRampsThatActAsABlow) {
   std::string tower = ground;
   for (int k = 0; k < 20; ++k)
     tower += box(fmt::format("b{}", k), 0, k * 1.0);
-  const std::string ramped = settle + "damping = { statics = \"local\" }\ngravity_ramp_s = ";
+  const std::string ramped = settle_stage + "damping = { statics = \"local\" }\ngravity_ramp_s = ";
   // one block swings in 9 ms, twenty on one another in 13 times as long
-  says(tower + rock + ramped + "0.1\n", "it acts as a blow");
-  silent(tower + rock + ramped + "0.5\n", "it acts as a blow");
-  silent(ground + box("stone", 0, 0) + rock + ramped + "0.1\n", "it acts as a blow");
+  says(tower + rock_properties + ramped + "0.1\n", "it acts as a blow");
+  silent(tower + rock_properties + ramped + "0.5\n", "it acts as a blow");
+  silent(ground + box("stone", 0, 0) + rock_properties + ramped + "0.1\n", "it acts as a blow");
 }
 
 TEST_F(Check, IsSilentAboutOrdinaryDirectionsAndSpeeds) {
@@ -246,26 +237,27 @@ TEST_F(Check, IsSilentAboutOrdinaryDirectionsAndSpeeds) {
       "dimension = 3\ngravity = [0, 0, -10]\ndensity = 2000\ndomain = { box = { min = [-1, -1, -1], max = [1, 1, 1] } "
       "}\n"
       "[[joints]]\nname = \"A\"\ndip = 40\npoint = [0, 0, 0]\n" +
-      rock + "[[fix]]\nbelow = [\"A\"]\n" + settle;
+      rock_properties + "[[fix]]\nbelow = [\"A\"]\n" + settle_stage;
   const auto with_direction = [&](const std::string& direction) {
     return std::string(block).replace(block.find("point = [0, 0, 0]"), 0, "dip_direction = " + direction + "\n");
   };
   silent(with_direction("4.8"), "warning:");
   says(with_direction("4.71238898"), ": is 270 deg in radians");
-  silent(ground + box("stone", 0, 0) + "velocity = [1e-6, 0]\n" + rock +
+  silent(ground + box("stone", 0, 0) + "velocity = [1e-6, 0]\n" + rock_properties +
              "[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = 1\n[time]\nfraction = 0.1\n[damping]\nlocal = 0\n",
          "is unusual");
 }
 
 TEST_F(Check, IsSilentAboutWhatIsWell) {
   // a frame interval beside a stage whose time is its own
-  silent(ground + box("stone", 0, 0) + rock + settle + "[output]\nframe_interval_s = 20\n", "frame_interval_s");
+  silent(ground + box("stone", 0, 0) + rock_properties + settle_stage + "[output]\nframe_interval_s = 20\n",
+         "frame_interval_s");
   // properties that no face has
   const std::string swapped =
       "[[joint_properties]]\nname = \"spare\"\nnormal_stiffness = 1e8\nshear_stiffness = 1e9\nfriction_deg = 30\n";
-  const std::string named = std::string(rock).replace(rock.find("\"rock\""), 6, "\"default\"");
-  silent(ground + box("stone", 0, 0) + named + swapped + settle, "warning:");
-  says(ground + box("stone", 0, 0) + named + swapped + settle,
+  const std::string named = std::string(rock_properties).replace(rock_properties.find("\"rock\""), 6, "\"default\"");
+  silent(ground + box("stone", 0, 0) + named + swapped + settle_stage, "warning:");
+  says(ground + box("stone", 0, 0) + named + swapped + settle_stage,
        "spare: normal 1e+08, shear 1e+09 Pa/m, friction 30 deg; of no face");
   // the first of a regular series of joints
   std::string joints =
@@ -273,15 +265,15 @@ TEST_F(Check, IsSilentAboutWhatIsWell) {
   for (int k = 1; k <= 4; ++k)
     joints +=
         fmt::format("[[joints]]\nname = \"j{0}\"\ndip = 90\ndip_direction = 90\npoint = [{1}, 0]\n", k, 5 * k - 4.95);
-  joints += rock + "[[fix]]\nabove = [\"j1\"]\n" + settle;
+  joints += rock_properties + "[[fix]]\nabove = [\"j1\"]\n" + settle_stage;
   silent(joints, "was it given in km");
   says(std::string(joints).replace(joints.find("point = [5.05"), 13, "point = [6.05"), "was it given in km");
 }
 
 TEST_F(Check, CountsJointsThatMissTheDomain) {
   const std::string domain =
-      "dimension = 2\ngravity = [0, -10]\ndensity = 2000\ndomain = { box = { min = [0, 0], max = [4, 4] } }\n" + rock +
-      settle;
+      "dimension = 2\ngravity = [0, -10]\ndensity = 2000\ndomain = { box = { min = [0, 0], max = [4, 4] } }\n" +
+      rock_properties + settle_stage;
   const auto level = [](const std::string& name, double height, const std::string& more = "") {
     return fmt::format("[[joints]]\nname = \"{}\"\ndip = 0\npoint = [2, {}]\n{}", name, height, more);
   };
@@ -298,7 +290,7 @@ TEST_F(Check, CountsJointsThatMissTheDomain) {
 
 TEST_F(Check, ListsTheWorstBlocks) {
   const std::string scene = ground + box("one", 0, 0) + box("small", 2, 0, 0.125) + box("middle", 4, 0, 0.5) +
-                            box("two", 6, 0, 2) + rock + settle;
+                            box("two", 6, 0, 2) + rock_properties + settle_stage;
   says(scene, "smallest area: small 0.01562 m², middle 0.25 m², one 1 m²\n");
   says(scene, "shortest edge: small 0.125 m, middle 0.5 m, one 1 m\n");
   says(scene, "largest aspect ratio of the box along the axes: ground 20, ");
@@ -306,7 +298,7 @@ TEST_F(Check, ListsTheWorstBlocks) {
   const std::string cube =
       "dimension = 3\ndensity = 2000\ndomain = { box = { min = [0, 0, 0], max = [2, 2, 2] } }\n"
       "[[joints]]\nname = \"bed\"\ndip = 0\npoint = [0, 0, 0.25]\n" +
-      rock + "[[fix]]\nbelow = [\"bed\"]\n" + settle;
+      rock_properties + "[[fix]]\nbelow = [\"bed\"]\n" + settle_stage;
   says(cube, "smallest volume: block 0 (of joint bed) 1 m³, block 1 (of joint bed) 7 m³\n");
   says(cube, "shortest edge: block 0 (of joint bed) 0.25 m, block 1 (of joint bed) 1.75 m\n");
   says(cube, "aspect ratio of the box along the axes: block 0 (of joint bed) 8, block 1 (of joint bed) 1.143\n");
@@ -318,7 +310,7 @@ TEST_F(Check, CallsNoPartOfAWeldedBlockASliver) {
       "dimension = 2\ngravity = [0, -10]\ndensity = 2000\ndomain = { box = { min = [0, 0], max = [4, 4] } }\n"
       "[[joints]]\nname = \"bed\"\ndip = 0\npoint = [0, 2]\n"
       "[[joints]]\nname = \"weld\"\ndip = 90\ndip_direction = 90\npoint = [0.002, 0]\nkind = \"construction\"\n" +
-      rock + "[[fix]]\nbelow = [\"bed\"]\n" + settle;
+      rock_properties + "[[fix]]\nbelow = [\"bed\"]\n" + settle_stage;
   silent(scene, "sliver");
   silent(scene, "wrong unit");
 }
@@ -335,7 +327,7 @@ TEST_F(Check, JudgesStressesInSitu) {
   const auto pressed = [](double friction, double k0, double surface) {
     return "dimension = 2\ngravity = [0, -10]\ndensity = 2000\ndomain = { box = { min = [-4, -4], max = [4, 4] } }\n"
            "[[joints]]\nname = \"j\"\ndip = 30\ndip_direction = 90\npoint = [0, 0]\n" +
-           rock +
+           rock_properties +
            fmt::format(
                "[[fix]]\nside = [\"bottom\"]\n[[stage]]\nname = \"press\"\nkind = \"settle\"\n"
                "friction_deg = {}\nboundary = [{{ side = [\"left\", \"right\"], in_situ = {{ surface = {}, k0 "
@@ -351,7 +343,7 @@ TEST_F(Check, JudgesStressesInSitu) {
 
 // The steps that check announces beside those that are taken.
 TEST_F(Check, PromisesStepsThatAreTaken) {
-  const std::string scene = ground + box("stone", 0, 0) + rock +
+  const std::string scene = ground + box("stone", 0, 0) + rock_properties +
                             "[[stage]]\nname = \"rest\"\nkind = \"settle\"\ngravity_ramp_s = 0.2\n"
                             "[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = 0.5\n[time]\nfraction = 0.1\n";
   const std::string out = check(scene);
@@ -370,92 +362,6 @@ TEST_F(Check, PromisesStepsThatAreTaken) {
   }
 }
 
-// ---- repairs ------------------------------------------------------------------------------------------------------
-
-class Repair : public Program {
- protected:
-  void refused_table(const std::string& table, const std::string& part) const {
-    write("a.csv", table);
-    write("scene.toml",
-          "dimension = 3\ndensity = 2000\njoints_file = \"a.csv\"\ndomain = { box = { min = [0, 0, 0], max = [1, 1, 1] "
-          "} }\n" +
-              rock + settle);
-    expect_one_line(run("check scene.toml"), 2, part);
-  }
-  void refused(const std::string& scene, const std::string& part) const {
-    write("scene.toml", scene);
-    expect_one_line(run("check scene.toml"), 2, part);
-  }
-};
-
-std::string utf_16(const std::string& text) {
-  std::string wide = "\xFF\xFE";
-  for (const char character : text)
-    wide += {character, '\0'};
-  return wide;
-}
-
-TEST_F(Repair, OfTablesNamesTheMistake) {
-  const std::string header = "dip_deg,dip_direction_deg,x_m,y_m,z_m\n", row = "30,90,0,0,0\n";
-  refused_table("# joints of the east wall\n" + header + row, "a.csv:1: a comment");
-  refused_table(header + "# the first\n" + row, "a.csv:2: a comment");
-  refused_table(row + row, "a.csv:1: the header is missing");
-  refused_table("dip_deg;dip_direction_deg;x_m;y_m;z_m\n30;90;0;0;0\n",
-                "a.csv:1:8: columns are separated by semicolons");
-  refused_table("dip_deg\tdip_direction_deg\tx_m\ty_m\tz_m\n", "columns are separated by tabs");
-  refused_table(header + "30,5,90,0,0,0\n", "write 3.5, not 3,5");
-  refused_table(header + "\"30,5\",90,0,0,0\n", "write the decimals with a point");
-  refused_table(utf_16(header + row), "is written in UTF-16; save it as UTF-8");
-  refused_table(utf_16(header + row).substr(2), "is written in UTF-16");
-  refused_table(header + "30,90,0,0\n", "has 4 cells where the header has 5; leave a cell empty but keep its comma");
-}
-
-TEST_F(Repair, OfScenesNamesTheMistake) {
-  refused("dimension = 2\ndensity = 2,5\n", "scene.toml:2: not valid TOML");
-  refused("dimension = 2\ndensity = 2,5\n", "decimals are written with a point: 2.5, not 2,5");
-  refused("dimension = 3\ngravity = [0, 0, -9,81]\n", "gravity = [0, 0, -9.81]; decimals are written with a point");
-  refused("dimension = 3\n// gravity\n", "a comment begins with #, not with //");
-  refused("dimension = 3;\n", "a line ends without a semicolon");
-  refused(utf_16("dimension = 3\n"), "is written in UTF-16; save it as UTF-8");
-}
-
-TEST_F(Repair, OfAFolderThatMustNotBeEnteredSaysSo) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root enters every folder";
-  fs::create_directories(folder_ / "closed");
-  write("closed/scene.toml", ground + rock + settle);
-  fs::permissions(folder_ / "closed", fs::perms::none);
-  expect_one_line(run("check closed/scene.toml"), 2, "those of the folders on the way to it");
-  fs::permissions(folder_ / "closed", fs::perms::owner_all);
-}
-
-// ---- docs ---------------------------------------------------------------------------------------------------------
-
-TEST_F(Check, DocsHoldEveryColumnOfTheHistoryWithItsMeaning) {
-  const std::string docs = run("docs").out;
-  ASSERT_EQ(run("run " + cubes_ + "--out out").code, 0);
-  std::string header = lines_of(read(folder_ / "out/history.csv")).front();
-  std::istringstream columns(header);
-  for (std::string column; std::getline(columns, column, ',');) {
-    // a monitor's name stands for `m`
-    if (column.starts_with("top_")) column.replace(0, 3, "m");
-    EXPECT_NE(docs.find("`" + column + "`"), std::string::npos) << column;
-  }
-  const std::size_t begin = docs.find("# history.csv");
-  ASSERT_NE(begin, std::string::npos);
-  for (const std::string& line : lines_of(docs.substr(begin)))
-    EXPECT_EQ(line.find("|  |"), std::string::npos) << "a column without a meaning: " << line;
-  for (const char* part : {"| `trial` |", "| `friction_rock_deg` |", "`m_normal_force_N`", "`m_mobilised_friction_deg`",
-                           "`m_angular_velocity_x_rad_per_s`", "from 15 deg on"})
-    EXPECT_NE(docs.find(part), std::string::npos) << part;
-}
-
-TEST_F(Check, DocsHoldTheKeysOfStudies) {
-  const std::string docs = run("docs").out;
-  for (const char* row : {"| the top of the file | `quantity` |", "| history | `take` |", "| sweep | `values` |",
-                          "| extrapolate | `power` |"})
-    EXPECT_NE(docs.find(row), std::string::npos) << row;
-}
-
 // ---- accuracy -----------------------------------------------------------------------------------------------------
 
 TEST_F(Check, AResultBelowTheAnglesThatALevelPromisesIsDoubted) {
@@ -465,8 +371,8 @@ TEST_F(Check, AResultBelowTheAnglesThatALevelPromisesIsDoubted) {
                "domain = {{ box = {{ min = [-1, -1], max = [1, 1] }} }}\n"
                "joints = [{{ name = \"A\", dip = {}, dip_direction = 90, point = [0, 0] }}]\n",
                dip) +
-           rock + "[[fix]]\nbelow = [\"A\"]\n[[restrain]]\nabove = [\"A\"]\nrotation = true\n" + settle +
-           "[[stage]]\nname = \"critical\"\nkind = \"reduce\"\nfrom_deg = 40\nto_deg = 2\n";
+           rock_properties + "[[fix]]\nbelow = [\"A\"]\n[[restrain]]\nabove = [\"A\"]\nrotation = true\n" +
+           settle_stage + "[[stage]]\nname = \"critical\"\nkind = \"reduce\"\nfrom_deg = 40\nto_deg = 2\n";
   };
   for (const int dip : {10, 25}) {
     write("scene.toml", scene(dip));

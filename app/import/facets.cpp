@@ -172,9 +172,9 @@ class FacetsReader {
     const Vector<3> unit = stated[2] < 0 ? Vector<3>(-stated / length) : Vector<3>(stated / length);
     const Word *dip = find("Dip"), *direction = find("Dip dir.");
     if (!dip || !direction) return unit;
-    const Vector<3> told =
+    const Vector<3> by_angles =
         upward_normal_3d(coordinate_of(*dip, "Dip") * degree, coordinate_of(*direction, "Dip dir.") * degree);
-    if (told.cross(unit).norm() > std::sin(another_rounded_plane))
+    if (by_angles.cross(unit).norm() > std::sin(another_rounded_plane))
       throw FileFault(dip->line, dip->column,
                       "Dip and Dip dir. are those of another plane than the normal; are the two columns exchanged?");
     return unit;

@@ -12,8 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using program::expect_one_line;
-
 // tunnel.toml: the stages stress, dig, support and slip; bolts `early` are put in before stress, `roof` after dig
 class Begin : public program::Program {
  protected:
@@ -21,15 +19,15 @@ class Begin : public program::Program {
   std::string found(const std::string& where) const {
     nlohmann::json json = results(where);
     json.erase("timing");
-    return json.dump() + program::read(folder_ / where / "history.csv") + program::read(folder_ / where / "bolts.csv");
+    return json.dump() + read(folder_ / where / "history.csv") + read(folder_ / where / "bolts.csv");
   }
   void run_well(const std::string& arguments) const {
-    const program::Ended ended = run(arguments);
+    const Ended ended = run(arguments);
     ASSERT_EQ(ended.code, 0) << arguments << ": " << ended.err;
     EXPECT_EQ(ended.err, "") << arguments;
   }
   std::string scene_without(const std::string& part) const {
-    std::string text = program::read(program::scenes / "tunnel.toml");
+    std::string text = read(program::scenes / "tunnel.toml");
     const auto at = text.find(part);
     EXPECT_NE(at, std::string::npos) << part;
     return text.erase(at, part.size());
@@ -68,7 +66,7 @@ TEST_F(Begin, ManySupportsShareOneGeneration) {
       "[[bolts]]\nname = \"anchors\"\nfrom = [6.5, 2]\nto = [6.5, 6]\nstiffness = 1e7\n"
       "[[stage]]\nname = \"last\"\nkind = \"settle\"\ninstall = [\"anchors\"]\n"
       "[[joint_properties]]\nname = \"liner\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e8\nfriction_deg = 20\n";
-  std::string text = program::read(program::scenes / "tunnel.toml");
+  std::string text = read(program::scenes / "tunnel.toml");
   const std::string one_line_tables =
       text.substr(text.find("joint_properties = ["), text.find("\njoints = ") - text.find("joint_properties = ["));
   text.replace(text.find(one_line_tables), one_line_tables.size(), "");
@@ -81,7 +79,7 @@ TEST_F(Begin, ManySupportsShareOneGeneration) {
   run_well("run more.toml --out whole --overwrite");
   run_well("run more.toml --out begun --overwrite --begin generation");
   EXPECT_EQ(found("begun"), found("whole"));
-  EXPECT_NE(program::read(folder_ / "begun/bolts.csv").find("anchors"), std::string::npos);
+  EXPECT_NE(read(folder_ / "begun/bolts.csv").find("anchors"), std::string::npos);
 }
 
 TEST_F(Begin, RowsOfMonitorsThatTheOtherDidNotFollowAreEmptyUntilThere) {
@@ -92,8 +90,8 @@ TEST_F(Begin, RowsOfMonitorsThatTheOtherDidNotFollowAreEmptyUntilThere) {
   run_well("run " + tunnel_ + "--out begun --begin generation");
   EXPECT_EQ(results("begun")["state_hash"], results("whole")["state_hash"]);
   EXPECT_EQ(results("begun")["values"], results("whole")["values"]);
-  const auto begun = program::lines_of(program::read(folder_ / "begun/history.csv")),
-             whole = program::lines_of(program::read(folder_ / "whole/history.csv"));
+  const auto begun = program::lines_of(read(folder_ / "begun/history.csv")),
+             whole = program::lines_of(read(folder_ / "whole/history.csv"));
   ASSERT_EQ(begun.size(), whole.size());
   EXPECT_EQ(begun[0], whole[0]);
   EXPECT_TRUE(begun[1].ends_with(",,,")) << begun[1];
@@ -139,7 +137,7 @@ TEST_F(Begin, AGenerationThatWasKilledKeepsItsEndToo) {
 TEST_F(Begin, AnotherSceneIsRefusedWithWhatDiffers) {
   run_well("run " + tunnel_ + "--out generation --until dig");
   const auto refused = [&](const std::string& changes, const std::string& part) {
-    const program::Ended ended = run("run " + tunnel_ + changes + " --out bad --begin generation");
+    const Ended ended = run("run " + tunnel_ + changes + " --out bad --begin generation");
     expect_one_line(ended, 2, part);
     EXPECT_NE(ended.err.find("--until"), std::string::npos) << ended.err;
     EXPECT_FALSE(fs::exists(folder_ / "bad"));
@@ -155,7 +153,7 @@ TEST_F(Begin, AnotherSceneIsRefusedWithWhatDiffers) {
   refused("--set excavations.tunnel.cylinder.radius=1.1", "excavations.tunnel.cylinder.radius = 1.1: is 1");
 
   // without a stage that takes it out the tunnel is there from the start
-  const std::string text = program::read(program::scenes / "tunnel.toml");
+  const std::string text = read(program::scenes / "tunnel.toml");
   write("open.toml",
         text.substr(0, text.find("[[bolts]]\nname = \"roof\"")) +
             "[[stage]]\nname = \"stress\"\nkind = \"settle\"\ngravity_ramp_s = 0.1\ninstall = [\"early\"]\n");
@@ -192,7 +190,7 @@ TEST_F(Begin, AFolderThatCannotServeIsRefusedWithARepair) {
   ::close(lock);
 
   const fs::path state = folder_ / "generation/end_state";
-  const std::string good = program::read(state);
+  const std::string good = read(state);
   std::string damaged = good;
   damaged[damaged.size() / 2] ^= 1;
   std::ofstream(state) << damaged;
@@ -215,14 +213,14 @@ TEST_F(Begin, AStudyMakesTheGenerationOnce) {
       "scene = \"tunnel.toml\"\nquantity = \"crown_convergence_1\"\n"
       "[[sweep]]\nname = \"bolts\"\nkey = \"bolts.roof.stiffness\"\nvalues = [1e6, 1e8]\n"
       "[[sweep]]\nname = \"rock\"\nkey = \"density\"\nvalues = [2100]\n";
-  write("tunnel.toml", program::read(program::scenes / "tunnel.toml"));
+  write("tunnel.toml", read(program::scenes / "tunnel.toml"));
   write("apart.toml", sweeps);
   write("shared.toml", "begin = \"dig\"\n" + sweeps);
   run_well("study apart.toml --out apart --jobs 1");
   run_well("study shared.toml --out shared --jobs 1");
   const auto table = [&](const std::string& where) {
     std::string text;
-    for (const std::string& row : program::lines_of(program::read(folder_ / where / "study.csv")))
+    for (const std::string& row : program::lines_of(read(folder_ / where / "study.csv")))
       text += row.substr(0, row.rfind(',')) + "\n";
     return text;
   };
@@ -232,12 +230,12 @@ TEST_F(Begin, AStudyMakesTheGenerationOnce) {
   };
   EXPECT_EQ(folders("apart"), 4);
   EXPECT_EQ(folders("shared"), 4 + 2) << "one generation for each density";
-  const program::Ended again = run("study shared.toml --out shared");
+  const Ended again = run("study shared.toml --out shared");
   EXPECT_NE(again.out.find("4 different runs, 4 of them kept from before"), std::string::npos) << again.out;
 
   write("short.toml", "set = [\"stage.dig.step_limit=5\"]\nbegin = \"dig\"\n" + sweeps);
   EXPECT_EQ(run("study short.toml --out short").code, 1);
-  EXPECT_NE(program::read(folder_ / "short/study.csv").find("did not reach its goal"), std::string::npos);
+  EXPECT_NE(read(folder_ / "short/study.csv").find("did not reach its goal"), std::string::npos);
   write("nowhere.toml", "begin = \"digg\"\n" + sweeps);
   expect_one_line(run("study nowhere.toml --out nowhere"), 2, "did you mean 'dig'");
 }

@@ -9,8 +9,6 @@
 namespace voussoir {
 namespace {
 
-using program::expect_one_line;
-
 const std::string incline = R"(dimension = 2
 density = 2000
 gravity = [0, -10]
@@ -47,7 +45,7 @@ tolerance_deg = 0.1
 class Budget : public program::Program {
  protected:
   void run_well(const std::string& arguments) const {
-    const program::Ended ended = run(arguments);
+    const Ended ended = run(arguments);
     ASSERT_EQ(ended.code, 0) << arguments << ": " << ended.err;
   }
   nlohmann::json value(const std::string& where, const std::string& name) const {
@@ -115,7 +113,7 @@ TEST_F(Budget, OfTwoSearchesCoversBoth) {
 
 TEST_F(Budget, WithoutOneTheBarIsNamedForWhatItIs) {
   write("plane.toml", incline + search);
-  const program::Ended ended = run("run plane.toml --out b");
+  const Ended ended = run("run plane.toml --out b");
   EXPECT_NE(ended.out.find("the bracket alone"), std::string::npos) << ended.out;
   const nlohmann::json angle = value("b", "critical_friction");
   EXPECT_EQ(angle["covers"], "bracket");

@@ -9,6 +9,7 @@
 #include "app/view/page.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/history_csv.hpp"
+#include "core/output/support_table.hpp"
 
 namespace voussoir {
 namespace {

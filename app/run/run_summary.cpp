@@ -23,9 +23,10 @@ std::string value_text(const Value& value) {
 }
 
 void print_budget(const Value& value) {
-  constexpr double told = 0.01;  // of the bar; results.json has all
+  constexpr double least_printed = 0.01;  // of the bar; results.json has all
   for (const BudgetLine& line : value.budget) {
-    if (!line.sensitivity && !(std::abs(line.left) >= told * value.error_bar.value_or(0) && line.left != 0)) continue;
+    if (!line.sensitivity && !(std::abs(line.left) >= least_printed * value.error_bar.value_or(0) && line.left != 0))
+      continue;
     fmt::print("      {:+.2g}{} with {}, {}: {}\n", line.shift, value.unit == "1" ? "" : " " + value.unit, line.varied,
                line.change, line.sensitivity ? "measured, no error" : fmt::format("{:+.2g} is left", line.left));
   }

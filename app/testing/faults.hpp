@@ -70,13 +70,6 @@ inline void expect_equal(const Contents& found, const Contents& wanted, const st
   EXPECT_EQ(differences, "") << what;
 }
 
-inline void expect_one_line(const Ended& ended, int code, const std::string& part, const std::string& what = "") {
-  EXPECT_EQ(ended.signal, 0) << what << ended.err;
-  EXPECT_EQ(ended.code, code) << what << ended.err;
-  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << what << ended.err;
-  EXPECT_NE(ended.err.find(part), std::string::npos) << what << ended.err;
-}
-
 // none is half-written, whatever else is missing
 inline void expect_whole_files(const std::filesystem::path& folder, const Contents& complete, const std::string& what) {
   for (const auto& [name, text] : contents_of(folder)) {

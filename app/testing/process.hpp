@@ -3,10 +3,12 @@
 
 #include <fcntl.h>
 #include <grp.h>
+#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -40,6 +42,14 @@ struct Ended {
   int signal = 0;  // that ended it, then there is no code
   std::string out, err;
 };
+
+// it ended by itself, with this exit code and one line on stderr that holds the part
+inline void expect_one_line(const Ended& ended, int code, const std::string& part, const std::string& what = "") {
+  EXPECT_EQ(ended.signal, 0) << what << ended.err;
+  EXPECT_EQ(ended.code, code) << what << ended.err;
+  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << what << ended.err;
+  EXPECT_NE(ended.err.find(part), std::string::npos) << what << ended.err;
+}
 
 inline constexpr int cannot_start = 126;  // exit code of a child that could not become the program
 

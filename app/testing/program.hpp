@@ -3,16 +3,12 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/base/run_scene.hpp"
+#include "app/testing/process.hpp"
 
 namespace voussoir::program {
 
@@ -27,11 +23,6 @@ inline bool is_built_in(const std::string& part) {
   return true;
 }
 
-inline std::string read(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 inline std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream stream(text);
   std::vector<std::string> lines;
@@ -39,11 +30,6 @@ inline std::vector<std::string> lines_of(const std::string& text) {
     lines.push_back(line);
   return lines;
 }
-
-struct Ended {
-  int code = -1;
-  std::string out, err;
-};
 
 // every test works in an empty folder of its own
 class Program : public ::testing::Test {
@@ -60,8 +46,9 @@ class Program : public ::testing::Test {
         fmt::format("cd '{}' && {}'{}' {} >../{}.out 2>../{}.err </dev/null", folder_.string(), before,
                     VOUSSOIR_PROGRAM, arguments, folder_.filename().string(), folder_.filename().string());
     const int status = std::system(command.c_str());
-    Ended ended{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder_.string() + ".out"),
-                read(folder_.string() + ".err")};
+    Ended ended{.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+                .out = read(folder_.string() + ".out"),
+                .err = read(folder_.string() + ".err")};
     fs::remove(folder_.string() + ".out");
     fs::remove(folder_.string() + ".err");
     return ended;
@@ -79,11 +66,5 @@ class Program : public ::testing::Test {
   const std::string squares_ = "'" + (scenes / "two_squares.toml").string() + "' ";
   const fs::path folder_ = fs::temp_directory_path() / fmt::format("voussoir_cli_{}", ::getpid());
 };
-
-inline void expect_one_line(const Ended& ended, int code, const std::string& part) {
-  EXPECT_EQ(ended.code, code) << ended.err;
-  EXPECT_EQ(lines_of(ended.err).size(), 1u) << ended.err;
-  EXPECT_NE(ended.err.find(part), std::string::npos) << ended.err;
-}
 
 }  // namespace voussoir::program

@@ -1,0 +1,150 @@
+// `voussoir limit`: answers with their proofs and drawings, factors of safety and of loads.
+#include <cmath>
+#include <numbers>
+
+#include "app/testing/program.hpp"
+
+namespace voussoir {
+namespace {
+
+using namespace program;
+
+TEST_F(Program, LimitAnswersProvesAndDraws) {
+  const std::string slump = "'" + (fs::path(VOUSSOIR_SOURCE_DIR) / "cases/slump/scene.toml").string() + "' ";
+  if (!is_built_in("glpk")) return expect_one_line(run("limit " + slump), 2, "-DVOUSSOIR_WITH_GLPK=ON");
+  const Ended ended = run("limit " + slump + "--out out");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  for (const char* part : {"critical_friction 15.335", "7 of 21 free blocks move", "associated flow", "gap between"})
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+  for (const char* name : {"limit.svg", "blocks.vtp", "mechanism.vtp", "forces.vtp"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+  const nlohmann::json json = results("out");
+  EXPECT_NEAR(json["values"]["critical_friction"]["value"].get<double>(), 15.335, 0.001);
+  EXPECT_EQ(json["mechanism"]["moving"].size(), 7u);
+  EXPECT_EQ(json["interfaces"].size(), 42u);
+  expect_one_line(run("limit " + slump + "--out out"), 2, "--overwrite");
+
+  // a load's factor, and questions that have no answer
+  const std::string weaker = slump + "--set joint_properties.rock.friction_deg=20 --overwrite --out out ";
+  EXPECT_EQ(run("limit " + weaker + "--load left").code, 0);
+  EXPECT_GT(results("out")["values"]["collapse_factor"]["value"], 0);
+  const Ended any = run("limit " + squares_ + "--out any");
+  EXPECT_EQ(any.code, 0);
+  EXPECT_NE(any.out.find("stand without friction"), std::string::npos) << any.out;
+  EXPECT_EQ(results("any")["status"], "done");
+  EXPECT_EQ(results("any")["values"]["critical_friction"]["value"], 0);
+  const std::string changed = "--overwrite --out any --set stage.settle.friction_deg=10";
+  expect_one_line(run("limit " + squares_ + changed), 0, "before its first stage");
+
+  // a block that leans out over its base topples however rough it is: other words, another value, another code
+  write("leaning.toml",
+        "dimension = 2\ngravity = [0, -10]\ndensity = 2000\n"
+        "blocks = [{ name = \"base\", box = { min = [0, -1], max = [1, 0] }, fixed = true },\n"
+        "          { name = \"leaning\", vertices = [[0, 0], [1, 0], [4, 3], [3, 3]] }]\n"
+        "joint_properties = [{ name = \"r\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]\n"
+        "stage = [{ name = \"s\", kind = \"settle\" }]\n");
+  const Ended none = run("limit leaning.toml --out none");
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.out.find("no friction up to 89 degrees is enough"), std::string::npos) << none.out;
+  EXPECT_EQ(results("none")["status"], "incomplete");
+  EXPECT_FALSE(results("none")["values"].contains("critical_friction"));
+  EXPECT_NEAR(results("none")["values"]["friction_not_enough"]["value"].get<double>(), 89, 1e-9);
+  expect_one_line(run("limit " + cubes_ + "--out bad"), 2, "dimension = 3");
+  expect_one_line(run("limit " + slump + "--friction roc --out bad"), 2, "there are: rock");
+  EXPECT_FALSE(fs::exists(folder_ / "bad"));
+}
+
+// with friction alone the factor of safety is the ratio of the tangents; cohesion adds to it where it is asked for
+TEST_F(Program, LimitFindsTheFactorOfSafety) {
+  if (!is_built_in("glpk")) GTEST_SKIP();
+  const std::string slump = "'" + (fs::path(VOUSSOIR_SOURCE_DIR) / "cases/slump/scene.toml").string() +
+                            "' --set joint_properties.rock.friction_deg=30 --overwrite --out out ";
+  const auto factor = [&](const std::string& options) {
+    const Ended ended = run("limit " + slump + "--factor " + options);
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_NE(ended.out.find("factor_of_safety "), std::string::npos) << ended.out;
+    const nlohmann::json value = results("out")["values"]["factor_of_safety"];
+    EXPECT_LT(value["error_bar"].get<double>(), 1e-6);
+    return value["value"].get<double>();
+  };
+  const double degree = std::numbers::pi / 180, friction = factor("");
+  EXPECT_NEAR(friction, std::tan(30 * degree) / std::tan(15.335 * degree), 1e-3);
+  EXPECT_EQ(factor("--joint rock"), friction);
+  EXPECT_EQ(factor("--set joint_properties.rock.cohesion=1e4"), friction) << "left out unless asked for";
+  EXPECT_GT(factor("--cohesion --set joint_properties.rock.cohesion=1e4"), friction * 1.01);
+  expect_one_line(run("limit " + slump + "--factor --joint roc"), 2, "--joint roc: no joint_properties of this name");
+  expect_one_line(run("limit " + slump + "--factor --load left"), 2, "--load");
+  expect_one_line(run("limit " + slump + "--factor --friction rock"), 2, "--friction");
+  expect_one_line(run("limit " + slump + "--joint rock"), 2, "--factor");
+}
+
+// under water a block has its buoyant weight: it leaves friction's part of the factor, and raises that of cohesion
+TEST_F(Program, LimitCountsWater) {
+  if (!is_built_in("glpk")) GTEST_SKIP();
+  write("plane.toml", R"(
+dimension = 2
+gravity = [0, -10]
+density = 2000
+domain = { box = { min = [-2, -3], max = [2, 3] } }
+joints = [{ name = "A", dip = 20, dip_direction = 90, point = [0, -1] }]
+joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 40, cohesion = 1e3 }]
+water = [{ name = "lake", level = 5 }]
+fix = [{ below = ["A"] }]
+stage = [{ name = "settle", kind = "settle" }]
+)");
+  const double dip = 20 * std::numbers::pi / 180, friction = std::tan(2 * dip) / std::tan(dip);
+  const double weight = 4 * 4 * (2000 * 10 - 9810), cohesion = 1e3 * 4 / std::cos(dip) / (weight * std::sin(dip));
+  const auto factor = [&](const std::string& options) {
+    EXPECT_EQ(run("limit plane.toml --factor --overwrite --out out " + options).code, 0);
+    return results("out")["values"]["factor_of_safety"]["value"].get<double>();
+  };
+  EXPECT_NEAR(factor(""), friction, 1e-6);
+  EXPECT_NEAR(factor("--cohesion"), friction + cohesion, 1e-6);
+}
+
+TEST_F(Program, LimitFindsTheFactorOfAppliedForces) {
+  if (!is_built_in("glpk")) GTEST_SKIP();
+  // a column of 1 x 3 m and 75 kN/m, pushed at 2 m: it tips at 75 kN / 4
+  const std::string column =
+      "dimension = 2\ngravity = [0, -10]\ndensity = 2500\n"
+      "blocks = [{ name = \"ground\", box = { min = [-3, -1], max = [3, 0] }, fixed = true },\n"
+      "          { name = \"column\", box = { min = [-0.5, 0], max = [0.5, 3] } }]\n"
+      "joint_properties = [{ name = \"r\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]\n"
+      "[[stage]]\nname = \"settle\"\nkind = \"settle\"\n";
+  const std::string push =
+      "[[stage]]\nname = \"push\"\nkind = \"run\"\nduration_s = 1\n"
+      "[[stage.force]]\nname = \"rope\"\nbodies = [\"column\"]\nforce = [1e4, 0]\npoint = [0, 2]\n";
+  write("column.toml", column + push);
+  const Ended found = run("limit column.toml --load applied --out found");
+  EXPECT_EQ(found.code, 0) << found.err;
+  EXPECT_EQ(found.err, "") << "nothing is left out";
+  EXPECT_NE(found.out.find("multiple of the applied forces of stage 'push'"), std::string::npos) << found.out;
+  EXPECT_NEAR(results("found")["values"]["collapse_factor"]["value"].get<double>(), 75e3 / 4 / 1e4, 1e-9);
+
+  // what is left out, and what counts otherwise than in a run, is said
+  expect_one_line(run("limit column.toml --load right --out right"), 0,
+                  "forces of stage 'push' are left out: '--load applied'");
+  EXPECT_NEAR(results("right")["values"]["collapse_factor"]["value"].get<double>(), 1.0 / 3, 1e-9);
+  write("later.toml", column + push + "times_s = [0, 1]\nfactors = [0, 2]\n");
+  expect_one_line(run("limit later.toml --load applied --out later"), 0,
+                  "'rope' has a factor of time; it counts at a factor of 1");
+  EXPECT_NEAR(results("later")["values"]["collapse_factor"]["value"].get<double>(), 75e3 / 4 / 1e4, 1e-9);
+  write("two.toml", column + push +
+                        "[[stage]]\nname = \"more\"\nkind = \"settle\"\n[[stage.force]]\nname = \"rope\"\n"
+                        "bodies = [\"column\"]\nforce = [2e4, 0]\n");
+  expect_one_line(run("limit two.toml --load applied --out two"), 0,
+                  "of stage 'more' are left out; those of stage 'push'");
+  EXPECT_NEAR(results("two")["values"]["collapse_factor"]["value"].get<double>(), 75e3 / 4 / 1e4, 1e-9);
+
+  // no force, one that does nothing, one that cannot tip it
+  write("none.toml", column);
+  expect_one_line(run("limit none.toml --load applied --out bad"), 2, "no stage applies a force");
+  expect_one_line(run("limit column.toml --load applied --out bad --set stage.push.force.rope.force=[0,0]"), 2, "zero");
+  EXPECT_FALSE(fs::exists(folder_ / "bad"));
+  const Ended any = run("limit column.toml --load applied --out any --set stage.push.force.rope.force=[0,-1e4]");
+  EXPECT_EQ(any.code, 1);
+  EXPECT_NE(any.out.find("they press the blocks"), std::string::npos) << any.out;
+}
+
+}  // namespace
+}  // namespace voussoir
