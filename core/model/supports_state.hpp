@@ -1,6 +1,7 @@
 // The supports that stages have installed.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/model/bodies_state.hpp"
@@ -8,6 +9,20 @@
 #include "core/support/lining.hpp"
 
 namespace voussoir {
+
+// The kinds of supports. Each room that does something of its own with them has a table with a row for each:
+// support_table.hpp in core/scene, core/stage, core/step and core/output.
+enum class SupportKind { bolt, grouted_bolt, lining };
+inline constexpr std::size_t support_kinds = 3;
+
+// whether a table has a row for each kind, in their order
+template <class Table>
+constexpr bool has_each_kind(const Table& table) {
+  std::size_t next = 0;
+  for (const auto& row : table)
+    if (static_cast<std::size_t>(row.kind) != next++) return false;
+  return next == support_kinds;
+}
 
 template <int Dim>
 struct SupportsState {

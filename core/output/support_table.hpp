@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/model/supports_state.hpp"
 #include "core/output/bolt_output.hpp"
 #include "core/output/lining_output.hpp"
-#include "core/support/kinds.hpp"
 
 namespace voussoir {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "core/model/supports_state.hpp"
 #include "core/scene/bolts.hpp"
 #include "core/scene/linings.hpp"
-#include "core/support/kinds.hpp"
 
 namespace voussoir {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "core/model/supports_state.hpp"
 #include "core/stage/excavation.hpp"
 #include "core/stage/install_bolts.hpp"
 #include "core/stage/install_linings.hpp"
-#include "core/support/kinds.hpp"
 
 namespace voussoir {
 

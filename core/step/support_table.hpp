@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "core/base/settings.hpp"
+#include "core/model/supports_state.hpp"
 #include "core/step/bolt_forces.hpp"
 #include "core/step/lining_forces.hpp"
 #include "core/step/load_row.hpp"
 #include "core/step/support_questions.hpp"
-#include "core/support/kinds.hpp"
 
 namespace voussoir {
 
