@@ -1,6 +1,6 @@
 // The contact point against the fully converged analytic centre (113 bits, exact planes): rows A1-A6 of the catalogue
-// of extremes. A2, closed forms: here for A1's aspects, else solvers/centre_test (AnalyticCentre.OfASimplexIsItsCentroid,
-// OfABoxIsItsMiddleHoweverThin).
+// of extremes. A2, closed forms: here for A1's aspects, else solvers/centre_test
+// (AnalyticCentre.OfASimplexIsItsCentroid, OfABoxIsItsMiddleHoweverThin).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

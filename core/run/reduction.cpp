@@ -35,20 +35,6 @@ constexpr long long relaxation_round = 50, motion_round = 10;
 // known), so a quarter of it covers what the extrapolation leaves
 constexpr double extrapolation_margin = 0.25;
 
-SearchTrial judge(StopReason reason) {
-  switch (reason) {
-    case StopReason::equilibrium:
-      return SearchTrial::stable;
-    case StopReason::moved_away:
-      return SearchTrial::failed;
-    case StopReason::no_contact_answer:
-    case StopReason::not_finite:
-      return SearchTrial::broken;
-    default:
-      return SearchTrial::undecided;
-  }
-}
-
 // What a trial does: it seeks rest at a level, or the friction falls at constant rate from the last stable angle to
 // this one.
 struct Attempt {
@@ -173,7 +159,7 @@ struct Search {
     if (progress.true_motion) own.damping.statics = Statics::local;
     report.last = run(model, own, goal, schedule, state, progress.run, hooks);
     report.unbalanced = report.last.unbalanced;
-    return judge(report.last.reason);
+    return trial_of(report.last.reason);
   }
 
   // the level that the trial has come to

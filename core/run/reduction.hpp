@@ -6,11 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/run/run.hpp"
+#include "core/run/search_trial.hpp"
 
 namespace voussoir {
-
-enum class SearchTrial { stable, failed, undecided, broken };  // broken: a numerical failure
 
 struct ReductionReport {
   bool bracketed = false;         // both a stable and a failed level are known; `critical` lies between

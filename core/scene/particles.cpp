@@ -9,7 +9,6 @@
 #include "core/potential/particle.hpp"
 #include "core/potential/support.hpp"
 #include "core/potential/valid_shape.hpp"
-#include "core/scene/support_table.hpp"
 #include "core/slicing/block.hpp"
 
 namespace voussoir {
@@ -109,34 +108,6 @@ PotentialShape<Dim> seen_from(PotentialShape<Dim> shape, const Vector<Dim>& poin
   return shape;
 }
 
-// their contacts are points, and take the properties of faces that no joint made
-template <int Dim>
-void check_properties(const Scene& scene, const Model<Dim>& model) {
-  if (scene.properties.empty()) return;
-  const PropertiesSpec& spec = scene.properties[model.default_properties];
-  if (!spec.properties.constant_stiffness)
-    refuse(spec.subject, "constant_stiffness",
-           "serves contacts of potential particles, which are points without area; write constant_stiffness = true and "
-           "stiffnesses in N/m, or add joint_properties named default that have them");
-  if (spec.properties.sub_contacts > 1)
-    refuse(spec.subject, "sub_contacts",
-           "serves contacts of potential particles, which touch at one point; write 1, or add joint_properties named "
-           "default that have it");
-}
-
-template <int Dim>
-void check_stages(const Scene& scene, const Model<Dim>& model) {
-  for (const StageSpec& stage : scene.stages)
-    for (const SelectorSpec& spec : stage.chosen_by("boundary"))
-      for (const int b : select<Dim>(model, spec.selector))
-        if (std::any_of(model.bodies[b].parts.begin(), model.bodies[b].parts.end(), is_particle<Dim>))
-          refuse(
-              *spec.subject.node, spec.subject.path,
-              fmt::format("stresses block '{}', a potential particle, which has no faces; choose blocks of half-spaces "
-                          "alone, or put a force on it ([[stage.force]])",
-                          model.bodies[b].name));
-}
-
 }  // namespace
 
 void check_particle_keys(const BlockSpec& block) {
@@ -191,25 +162,6 @@ Polytope<Dim> finish_particle(const BlockSpec& block, Polytope<Dim> part) {
 }
 
 template <int Dim>
-void check_beside_particles(const Scene& scene, const Model<Dim>& model) {
-  if (!model.particles) return;
-  check_properties(scene, model);
-  const auto refuse_all = [](const auto& list, const char* table) {
-    if (!list.empty())
-      refuse(list.front().subject, "name",
-             fmt::format("{} know no potential particles: remove [[{}]], or shape = \"potential\" of the blocks", table,
-                         table));
-  };
-  refuse_all(scene.waters, "water");
-  for (const SceneSupport& row : scene_supports)
-    if (row.table) refuse_all(row.stated(scene), row.table);
-  if (scene.settings.contact.tolerance > 0)
-    refuse(*child({scene.tree.get(), ""}, "contact"), "tolerance",
-           "is a tolerance of half-spaces, which potential particles do not know; leave it out");
-  check_stages(scene, model);
-}
-
-template <int Dim>
 void add_inner_particles(const ContactSettings& settings, Model<Dim>& model) {
   if (!model.particles) return;
   for (Body<Dim>& body : model.bodies)
@@ -221,7 +173,6 @@ void add_inner_particles(const ContactSettings& settings, Model<Dim>& model) {
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                        \
   template Polytope<Dim> make_particle_part<Dim>(const BlockSpec&, HalfSpaces<Dim>, const Vector<Dim>&); \
   template Polytope<Dim> finish_particle<Dim>(const BlockSpec&, Polytope<Dim>);                          \
-  template void check_beside_particles<Dim>(const Scene&, const Model<Dim>&);                            \
   template void add_inner_particles<Dim>(const ContactSettings&, Model<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -18,10 +18,6 @@ Polytope<Dim> make_particle_part(const BlockSpec& block, HalfSpaces<Dim> planes,
 template <int Dim>
 Polytope<Dim> finish_particle(const BlockSpec& block, Polytope<Dim> part);
 
-// What a scene with particles may not state beside them: it throws SceneError.
-template <int Dim>
-void check_beside_particles(const Scene& scene, const Model<Dim>& model);
-
 // Gives the parts of half-spaces of a model with particles what they are to these.
 template <int Dim>
 void add_inner_particles(const ContactSettings& settings, Model<Dim>& model);

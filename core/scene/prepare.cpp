@@ -9,6 +9,7 @@
 #include "core/model/body_title.hpp"
 #include "core/model/water_surfaces.hpp"
 #include "core/potential/particle.hpp"
+#include "core/scene/beside_particles.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/domain_blocks.hpp"
 #include "core/scene/draw_joint_sets.hpp"

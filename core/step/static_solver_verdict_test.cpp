@@ -150,8 +150,8 @@ void judge(const Example<Dim>& example, const std::string& what, Tally& tally) {
     const Verdict by_newton = verdict(example.model, tangent, Statics::newton);
     tally.undecided_by_newton += by_newton.without_newton;
     const SearchTrial expected = std::abs(margin) < 0.02 ? verdict(example.model, tangent, Statics::adaptive).outcome
-                           : margin > 0            ? SearchTrial::stable
-                                                   : SearchTrial::failed;
+                                 : margin > 0            ? SearchTrial::stable
+                                                         : SearchTrial::failed;
     EXPECT_EQ(by_newton.outcome, expected)
         << what << " " << tally.examples << " at " << 1 + margin << " of its friction";
     EXPECT_TRUE(by_newton.outcome == SearchTrial::stable || by_newton.outcome == SearchTrial::failed) << what;

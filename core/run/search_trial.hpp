@@ -1,0 +1,12 @@
+// How a trial of a search ends.
+#pragma once
+
+#include "core/run/run.hpp"
+
+namespace voussoir {
+
+enum class SearchTrial { stable, failed, undecided, broken };  // broken: a numerical failure
+
+SearchTrial trial_of(StopReason reason);
+
+}  // namespace voussoir
