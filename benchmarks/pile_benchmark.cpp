@@ -96,7 +96,9 @@ void timed_step(const Pile& pile, State<3>& state, Times& times) {
                          joint_step(pile.settings, state.time_step, state.relaxation), state.bodies, state.contacts,
                          state.ledger, state.counters);
       },
-      [&] { sum_loads(pile.model, pile.settings, state); },
+      [&] {
+        sum_loads(pile.model, pile.settings, state.schedule, state.bodies, state.contacts, state.supports, state.loads);
+      },
       [&] {
         move_bodies(pile.model, pile.settings, state.counters, state.bodies, state.contacts, state.loads,
                     state.schedule, state.ledger, state.time_step, state.relaxation);

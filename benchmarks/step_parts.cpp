@@ -107,7 +107,11 @@ void time_parts(const char* name, Subject s) {
                            joint_step(s.settings, s.state.time_step, s.state.relaxation), s.state.bodies,
                            s.state.contacts, s.state.ledger, s.state.counters);
        }},
-      {"loads", [&] { sum_loads(s.model, s.settings, s.state); }},
+      {"loads",
+       [&] {
+         sum_loads(s.model, s.settings, s.state.schedule, s.state.bodies, s.state.contacts, s.state.supports,
+                   s.state.loads);
+       }},
       {"motion",
        [&] {
          move_bodies(s.model, s.settings, s.state.counters, s.state.bodies, s.state.contacts, s.state.loads,

@@ -9,8 +9,7 @@
 
 namespace voussoir {
 
-// What a line only reads of the state is named `now.part`; the parts that it changes are named alone. Supports and
-// loads are each found in a table whose rows read all of the state.
+// Parts of the state that a line only reads are named `now.part`; the parts that it changes are named alone.
 template <int Dim>
 void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const State<Dim>& now = state;
@@ -26,10 +25,10 @@ void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& 
 
   // forces of bolts where their anchors have gone, and of linings where their rock has
   for (const StepSupport<Dim>& row : step_supports<Dim>)
-    row.find_forces(model, settings, state);
+    row.find_forces(model, now.schedule, last, now.bodies, supports, ledger, counters);
 
   // what acts on each body: joint forces in the order of the contacts, then gravity
-  sum_loads(model, settings, state);
+  sum_loads(model, settings, now.schedule, now.bodies, now.contacts, now.supports, loads);
 }
 
 template <int Dim>

@@ -48,7 +48,8 @@ Assessment assess_prepared(const Prepared<Dim>& prepared, std::vector<std::strin
   }
   find_neighbours(model, prepared.settings, state.bodies, state.contacts, state.counters);
   find_contacts(model, prepared.settings, state.bodies, state.contacts, state.counters);
-  sum_loads(model, prepared.settings, state);  // water and forces determine the step, too
+  sum_loads(model, prepared.settings, state.schedule, state.bodies, state.contacts, state.supports,
+            state.loads);  // water and forces determine the step, too
   Assessment result{forecast(prepared, model, state), std::move(warnings)};
   judge(prepared, model, state, result.forecast, result.warnings);
   return result;

@@ -64,7 +64,7 @@ struct Pressed {
     find_contacts(model, settings, state.bodies, state.contacts, state.counters);
     apply_joint_laws(model, settings, state.schedule, joint_step(settings, state.time_step, state.relaxation),
                      state.bodies, state.contacts, state.ledger, state.counters);
-    sum_loads(model, settings, state);
+    sum_loads(model, settings, state.schedule, state.bodies, state.contacts, state.supports, state.loads);
     const Load<Dim>& load = state.loads.total[block];
     const Vector<Dim> from_face = matrix(state.bodies.motions[block].rotation) * (arm * Vector<Dim>::Unit(Dim - 1));
     return {load.force, load.moment + moment(from_face, load.force)};

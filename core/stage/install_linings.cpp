@@ -59,10 +59,10 @@ LiningState cast(const Model<2>& model, int index, State<2>& state) {
   cache_poses(model, 1, state.bodies);
   for (std::size_t i = 0; i < lined.contacts.size(); ++i) {
     LiningContact& contact = lined.contacts[i];
-    contact.rock = rock_opposite(lining, lined, static_cast<int>(i), state);
+    contact.rock = rock_opposite(lining, lined, static_cast<int>(i), state.bodies);
     if (contact.rock < 0) continue;
     const LiningRock& rock = lined.rock[contact.rock];
-    const Vector<2> at = seen_from_rock(rock, lining.first_body + static_cast<int>(i / 2), state);
+    const Vector<2> at = seen_from_rock(rock, lining.first_body + static_cast<int>(i / 2), state.bodies);
     contact.closure = rock.normal.dot(at);
     contact.place = perpendicular(rock.normal).dot(at);
   }
@@ -105,18 +105,18 @@ std::vector<LiningRock> rock_around(const Model<2>& model, const State<2>& state
   return found;
 }
 
-Vector<2> seen_from_rock(const LiningRock& rock, int node_body, const State<2>& state) {
-  const CachedPose<2>&block = state.bodies.poses[rock.body], &node = state.bodies.poses[node_body];
+Vector<2> seen_from_rock(const LiningRock& rock, int node_body, const BodiesState<2>& bodies) {
+  const CachedPose<2>&block = bodies.poses[rock.body], &node = bodies.poses[node_body];
   return block.axes.transpose() * between(block, node) - rock.corner;
 }
 
-int rock_opposite(const Lining& lining, const LiningState& lined, int half_node, const State<2>& state) {
+int rock_opposite(const Lining& lining, const LiningState& lined, int half_node, const BodiesState<2>& bodies) {
   const int n = half_node / 2, half = half_node % 2;
   const LiningNode& node = lining.nodes[n];
   if (!(node.half_length[half] > 0)) return -1;
   const auto outside = [&](int k) {
     const LiningRock& rock = lined.rock[k];
-    const Vector<2> at = seen_from_rock(rock, lining.first_body + n, state);
+    const Vector<2> at = seen_from_rock(rock, lining.first_body + n, bodies);
     return outside_by(rock, perpendicular(rock.normal).dot(at));
   };
   int found = lined.contacts[half_node].rock;

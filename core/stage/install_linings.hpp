@@ -37,9 +37,9 @@ void carry_linings(const Model<Dim>& before, const Model<Dim>& model, const Exca
 
 // Which face of the rock half a node is opposite to, as the poses of now say: the one it was, as long as the node is
 // within its ends, else the nearest, but none farther away than the half is long.
-int rock_opposite(const Lining& lining, const LiningState& lined, int half_node, const State<2>& state);
+int rock_opposite(const Lining& lining, const LiningState& lined, int half_node, const BodiesState<2>& bodies);
 
 // a node in a block's frame, against the corner of its side there, m
-Vector<2> seen_from_rock(const LiningRock& rock, int node_body, const State<2>& state);
+Vector<2> seen_from_rock(const LiningRock& rock, int node_body, const BodiesState<2>& bodies);
 
 }  // namespace voussoir

@@ -114,10 +114,15 @@ TEST(Linings, AreInstalledTogetherWithBolts) {
   EXPECT_LT(together.results.energy.relative_error(), 0.01);
 }
 
+void find_forces_of_linings(const Cast& cast, State<2>& state) {
+  find_lining_forces(cast.model, state.schedule, joint_step(cast.scene.settings, state.time_step, state.relaxation),
+                     state.bodies, state.supports, state.ledger, state.counters);
+}
+
 TEST(Linings, AreCastWithoutForce) {
   Cast cast;
   EXPECT_EQ(nodes_without_rock(cast.state.supports.linings.front()), 0);
-  find_lining_forces(cast.model, cast.scene.settings, cast.state);
+  find_forces_of_linings(cast, cast.state);
   for (const LiningContact& contact : cast.state.supports.linings.front().contacts) {
     EXPECT_LT(std::abs(contact.normal), 1e-3) << "rounding of some m at 1e9 N/m";
     EXPECT_EQ(contact.shear, 0);
@@ -158,7 +163,7 @@ TEST(Linings, FeelNoFlushJoint) {
     for (int k = 0; k < 2500; ++k, place += step) {
       state.bodies.motions[cast.body(n)].displacement = depth * side.normal + place * side.along();
       cache_poses(cast.model, 1, state.bodies);
-      find_lining_forces(cast.model, cast.scene.settings, state);
+      find_forces_of_linings(cast, state);
       if (contact.rock < 0) break;
       changed = changed || contact.rock != rock_before;
       const double stiffness = node.half_length[0];
@@ -184,15 +189,16 @@ TEST(Linings, HaveTheTangentOfTheirForces) {
   const auto loads_at = [&](const State<2>& at) {
     State<2> state = at;
     cache_poses(cast.model, 1, state.bodies);
-    find_lining_forces(cast.model, cast.scene.settings, state);
+    find_forces_of_linings(cast, state);
     std::vector<Load<2>> loads(cast.model.bodies.size());
-    lining_loads(cast.model, 1, state, loads);
+    lining_loads<2>(cast.model, 1, {state.schedule, state.bodies, state.contacts, state.supports, state.loads.relief},
+                    loads);
     return loads;
   };
   State<2> here = cast.state;
   here.increment.base.supports.linings = here.supports.linings;
   cache_poses(cast.model, 1, here.bodies);
-  find_lining_forces(cast.model, cast.scene.settings, here);
+  find_forces_of_linings(cast, here);
   std::vector<PairStiffness<2>> pairs;
   add_lining_pairs(cast.model, cast.scene.settings, here, pairs);
   std::vector<const PairStiffness<2>*> list;

@@ -13,8 +13,8 @@ struct Stretched {
   Vector<Dim> arm_a, arm_b;  // of the second anchor from each centroid
 
   template <class Spring>
-  Stretched(const State<Dim>& state, const Spring& spring) {
-    const CachedPose<Dim>&a = state.bodies.poses[spring.body_a], &b = state.bodies.poses[spring.body_b];
+  Stretched(const BodiesState<Dim>& bodies, const Spring& spring) {
+    const CachedPose<Dim>&a = bodies.poses[spring.body_a], &b = bodies.poses[spring.body_b];
     arm_b = b.axes * spring.place_b;
     arm_a = between(a, b) + arm_b;
     apart = arm_a - a.axes * spring.place_a;
@@ -23,14 +23,14 @@ struct Stretched {
 
 // how a force on the second body at a spring's second anchor, world axes, changes
 template <int Dim>
-PairStiffness<Dim> pair_of(const State<Dim>& state, int body_a, int body_b, const Vector<Dim>& arm_b,
+PairStiffness<Dim> pair_of(const BodiesState<Dim>& bodies, int body_a, int body_b, const Vector<Dim>& arm_b,
                            const Matrix<Dim>& k, const Vector<Dim>& force) {
   constexpr int S = spin_freedoms<Dim>;
   PairStiffness<Dim> pair;
   pair.contact = -1;
   pair.body_a = body_a;
   pair.body_b = body_b;
-  pair.apart = between(state.bodies.poses[body_a], state.bodies.poses[body_b]);
+  pair.apart = between(bodies.poses[body_a], bodies.poses[body_b]);
   pair.wrench.template head<Dim>() = force;
   pair.wrench.template tail<S>() = moment(arm_b, force);
   for (int f = 0; f < freedoms<Dim>; ++f) {

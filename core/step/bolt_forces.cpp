@@ -23,8 +23,8 @@ bool is_grouted(const Model<Dim>& model, const BoltSpring<Dim>& spring) {
 
 // of the joints of a bar
 template <int Dim>
-std::span<const BoltSpring<Dim>> joints_of(const State<Dim>& state, const GroutedBolt<Dim>& grouted) {
-  return std::span(state.supports.bolt_springs).subspan(grouted.first_spring, grouted.joints());
+std::span<const BoltSpring<Dim>> joints_of(const SupportsState<Dim>& supports, const GroutedBolt<Dim>& grouted) {
+  return std::span(supports.bolt_springs).subspan(grouted.first_spring, grouted.joints());
 }
 
 // the block of a stretch
@@ -35,8 +35,8 @@ int body_of(std::span<const BoltSpring<Dim>> joints, std::size_t stretch) {
 
 // in which a spring pulls on its first body, unit, world axes
 template <int Dim>
-Vector<Dim> direction_of(const State<Dim>& state, const BoltSpring<Dim>& spring, const Stretched<Dim>& at) {
-  const Vector<Dim> axis = state.bodies.poses[spring.body_a].axes * spring.axis;
+Vector<Dim> direction_of(const BodiesState<Dim>& bodies, const BoltSpring<Dim>& spring, const Stretched<Dim>& at) {
+  const Vector<Dim> axis = bodies.poses[spring.body_a].axes * spring.axis;
   const double distance = at.apart.norm();
   if (spring.length == 0 || !(distance > 0)) return axis;
   return (axis.dot(at.apart) < 0 ? -1 / distance : 1 / distance) * at.apart;
@@ -44,7 +44,8 @@ Vector<Dim> direction_of(const State<Dim>& state, const BoltSpring<Dim>& spring,
 
 // moves the rock along the bar by as far as its joints have opened
 template <int Dim>
-void find_bar_force(GroutedBolt<Dim>& grouted, State<Dim>& state) {
+void find_bar_force(const BodiesState<Dim>& bodies, GroutedBolt<Dim>& grouted, SupportsState<Dim>& supports,
+                    Ledger& ledger, Counters& counters) {
   static thread_local GroutWorkspace workspace;
   static thread_local std::vector<double> rock;
   const std::size_t nodes = grouted.stretch.size();
@@ -52,20 +53,20 @@ void find_bar_force(GroutedBolt<Dim>& grouted, State<Dim>& state) {
   double opened = 0;
   for (std::size_t i = 0; i < nodes; ++i) {
     if (i > 0 && grouted.stretch[i] != grouted.stretch[i - 1]) {
-      BoltSpring<Dim>& joint = state.supports.bolt_springs[grouted.first_spring + grouted.stretch[i - 1]];
-      const Stretched<Dim> at(state, joint);
-      joint.extension = direction_of(state, joint, at).dot(at.apart) - joint.length;
+      BoltSpring<Dim>& joint = supports.bolt_springs[grouted.first_spring + grouted.stretch[i - 1]];
+      const Stretched<Dim> at(bodies, joint);
+      joint.extension = direction_of(bodies, joint, at).dot(at.apart) - joint.length;
       opened += joint.extension;
     }
     rock[i] = opened;
   }
   const GroutStep step = move_rock(grouted.bar, rock, grouted.state, workspace);
-  if (!step.converged) ++state.counters.unconverged;
-  state.ledger.energy.elastic += step.stored;
-  state.ledger.energy.flows[Source::bolt_yield] += step.dissipated;
+  if (!step.converged) ++counters.unconverged;
+  ledger.energy.elastic += step.stored;
+  ledger.energy.flows[Source::bolt_yield] += step.dissipated;
   for (std::size_t i = 1; i < nodes; ++i) {
     if (grouted.stretch[i] == grouted.stretch[i - 1]) continue;
-    BoltSpring<Dim>& joint = state.supports.bolt_springs[grouted.first_spring + grouted.stretch[i - 1]];
+    BoltSpring<Dim>& joint = supports.bolt_springs[grouted.first_spring + grouted.stretch[i - 1]];
     joint.force = grouted.state.bar_force[i - 1];
     joint.plastic = grouted.state.plastic_stretch[i - 1];
   }
@@ -73,56 +74,58 @@ void find_bar_force(GroutedBolt<Dim>& grouted, State<Dim>& state) {
 
 // on the second body, world axes
 template <int Dim>
-Vector<Dim> force_of(const State<Dim>& state, const BoltSpring<Dim>& spring, const Stretched<Dim>& at) {
+Vector<Dim> force_of(const BodiesState<Dim>& bodies, const BoltSpring<Dim>& spring, const Stretched<Dim>& at) {
   if (spring.broken) return Vector<Dim>::Zero();
-  return -(spring.force * direction_of(state, spring, at) + state.bodies.poses[spring.body_a].axes * spring.shear);
+  return -(spring.force * direction_of(bodies, spring, at) + bodies.poses[spring.body_a].axes * spring.shear);
 }
 
 }  // namespace
 
 template <int Dim>
-bool has_springs(const Model<Dim>&, const State<Dim>& state) {
-  return !state.supports.bolt_springs.empty();
+bool has_springs(const Model<Dim>&, const LoadInputs<Dim>& now) {
+  return !now.supports.bolt_springs.empty();
 }
 
 template <int Dim>
-bool has_bars(const Model<Dim>&, const State<Dim>& state) {
-  return !state.supports.grouted.empty();
+bool has_bars(const Model<Dim>&, const LoadInputs<Dim>& now) {
+  return !now.supports.grouted.empty();
 }
 
 template <int Dim>
-void find_spring_forces(const Model<Dim>& model, const Settings&, State<Dim>& state) {
-  for (BoltSpring<Dim>& spring : state.supports.bolt_springs) {
+void find_spring_forces(const Model<Dim>& model, const Schedule&, const JointStep&, const BodiesState<Dim>& bodies,
+                        SupportsState<Dim>& supports, Ledger& ledger, Counters&) {
+  for (BoltSpring<Dim>& spring : supports.bolt_springs) {
     if (is_grouted(model, spring)) continue;
-    const Stretched<Dim> at(state, spring);
-    const Vector<Dim> apart = state.bodies.poses[spring.body_a].axes.transpose() * at.apart;
+    const Stretched<Dim> at(bodies, spring);
+    const Vector<Dim> apart = bodies.poses[spring.body_a].axes.transpose() * at.apart;
     const BoltAnswer<Dim> answer = bolt_answer<Dim>(properties_of(model, spring), apart, spring);
-    state.ledger.energy.elastic += answer.elastic;
-    state.ledger.energy.flows[Source::bolt_yield] += answer.lost;
+    ledger.energy.elastic += answer.elastic;
+    ledger.energy.flows[Source::bolt_yield] += answer.lost;
   }
 }
 
 template <int Dim>
-void find_bar_forces(const Model<Dim>&, const Settings&, State<Dim>& state) {
-  for (GroutedBolt<Dim>& grouted : state.supports.grouted)
-    find_bar_force(grouted, state);
+void find_bar_forces(const Model<Dim>&, const Schedule&, const JointStep&, const BodiesState<Dim>& bodies,
+                     SupportsState<Dim>& supports, Ledger& ledger, Counters& counters) {
+  for (GroutedBolt<Dim>& grouted : supports.grouted)
+    find_bar_force(bodies, grouted, supports, ledger, counters);
 }
 
 template <int Dim>
-void bolt_loads(const Model<Dim>&, int, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
-  for (const BoltSpring<Dim>& spring : state.supports.bolt_springs) {
-    const Stretched<Dim> at(state, spring);
-    const Vector<Dim> force = force_of(state, spring, at);
+void bolt_loads(const Model<Dim>&, int, const LoadInputs<Dim>& now, std::vector<Load<Dim>>& loads) {
+  for (const BoltSpring<Dim>& spring : now.supports.bolt_springs) {
+    const Stretched<Dim> at(now.bodies, spring);
+    const Vector<Dim> force = force_of(now.bodies, spring, at);
     loads[spring.body_b] += {force, moment(at.arm_b, force)};
     loads[spring.body_a] += {-force, -moment(at.arm_a, force)};
   }
 }
 
 template <int Dim>
-void add_spring_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
-  for (const BoltSpring<Dim>& spring : state.supports.bolt_springs) {
+void add_spring_stiffness(const Model<Dim>& model, const LoadInputs<Dim>& now, std::vector<BodyStiffness>& stiffness) {
+  for (const BoltSpring<Dim>& spring : now.supports.bolt_springs) {
     if (is_grouted(model, spring)) continue;
-    const Stretched<Dim> at(state, spring);
+    const Stretched<Dim> at(now.bodies, spring);
     const bool one_is_fixed = model.bodies[spring.body_a].fixed || model.bodies[spring.body_b].fixed;
     const double k = (one_is_fixed ? 1 : 2) * stiffest<Dim>(properties_of(model, spring), spring);
     stiffness[spring.body_a].translation += k;
@@ -133,9 +136,9 @@ void add_spring_stiffness(const Model<Dim>& model, const State<Dim>& state, std:
 }
 
 template <int Dim>
-void add_bar_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
-  for (const GroutedBolt<Dim>& grouted : state.supports.grouted) {
-    const auto joints = joints_of(state, grouted);
+void add_bar_stiffness(const Model<Dim>& model, const LoadInputs<Dim>& now, std::vector<BodyStiffness>& stiffness) {
+  for (const GroutedBolt<Dim>& grouted : now.supports.grouted) {
+    const auto joints = joints_of(now.supports, grouted);
     std::size_t free = 0;
     for (std::size_t s = 0; s <= joints.size(); ++s)
       free += !model.bodies[body_of(joints, s)].fixed;
@@ -146,8 +149,8 @@ void add_bar_stiffness(const Model<Dim>& model, const State<Dim>& state, std::ve
         arm2 = std::max(arm2, arm);
         if (joint.length > 0) of_bar += std::abs(joint.force) / joint.length;
       };
-      if (s > 0) add_joint(joints[s - 1], Stretched<Dim>(state, joints[s - 1]).arm_b.squaredNorm());
-      if (s < joints.size()) add_joint(joints[s], Stretched<Dim>(state, joints[s]).arm_a.squaredNorm());
+      if (s > 0) add_joint(joints[s - 1], Stretched<Dim>(now.bodies, joints[s - 1]).arm_b.squaredNorm());
+      if (s < joints.size()) add_joint(joints[s], Stretched<Dim>(now.bodies, joints[s]).arm_a.squaredNorm());
       // what a row sums to, all signs positive; alone, the diagonal
       const double k = (free > 1 ? 2 : 1) * of_bar;
       BodyStiffness& of_body = stiffness[body_of(joints, s)];
@@ -160,11 +163,11 @@ void add_bar_stiffness(const Model<Dim>& model, const State<Dim>& state, std::ve
 namespace {
 
 template <int Dim>
-void add_pairs_of(const Model<Dim>& model, const State<Dim>& state, const GroutedBolt<Dim>& grouted,
-                  std::vector<PairStiffness<Dim>>& pairs) {
+void add_pairs_of(const Model<Dim>& model, const BodiesState<Dim>& bodies, const SupportsState<Dim>& supports,
+                  const GroutedBolt<Dim>& grouted, std::vector<PairStiffness<Dim>>& pairs) {
   GroutWorkspace workspace;
   std::vector<double> stiffness;
-  const auto joints = joints_of(state, grouted);
+  const auto joints = joints_of(supports, grouted);
   const std::size_t stretches = joints.size() + 1;
   condensed_stiffness(grouted.bar, grouted.state, grouted.stretch, static_cast<int>(stretches), workspace, stiffness);
   for (std::size_t p = 0; p < stretches; ++p)
@@ -173,16 +176,16 @@ void add_pairs_of(const Model<Dim>& model, const State<Dim>& state, const Groute
       const double k = -stiffness[p * stretches + q];
       if (a == b || (model.bodies[a].fixed && model.bodies[b].fixed) || (q > p + 1 && !(k > 0))) continue;
       const BoltSpring<Dim>& joint = joints[q - 1];
-      const Stretched<Dim> at(state, joint);
-      const Vector<Dim> way = direction_of(state, joint, at);
+      const Stretched<Dim> at(bodies, joint);
+      const Vector<Dim> way = direction_of(bodies, joint, at);
       const Matrix<Dim> along = way * way.transpose();
       Vector<Dim> force = Vector<Dim>::Zero();
       Matrix<Dim> stiffness_here = std::max(k, 0.0) * along;
       if (q == p + 1) {
-        force = force_of(state, joint, at);
+        force = force_of(bodies, joint, at);
         if (joint.length > 0) stiffness_here += joint.force / way.dot(at.apart) * (Matrix<Dim>::Identity() - along);
       }
-      pairs.push_back(pair_of<Dim>(state, a, b, at.arm_b, stiffness_here, force));
+      pairs.push_back(pair_of<Dim>(bodies, a, b, at.arm_b, stiffness_here, force));
     }
 }
 
@@ -194,12 +197,13 @@ void add_spring_pairs(const Model<Dim>& model, const Settings&, const State<Dim>
   for (const BoltSpring<Dim>& spring : state.supports.bolt_springs) {
     if (is_grouted(model, spring)) continue;
     if (spring.broken || (model.bodies[spring.body_a].fixed && model.bodies[spring.body_b].fixed)) continue;
-    const Stretched<Dim> at(state, spring);
+    const Stretched<Dim> at(state.bodies, spring);
     const CachedPose<Dim>& a = state.bodies.poses[spring.body_a];
     const Matrix<Dim> own =
         bolt_stiffness<Dim>(properties_of(model, spring), Vector<Dim>(a.axes.transpose() * at.apart), spring);
     const Matrix<Dim> k = a.axes * own * a.axes.transpose();
-    pairs.push_back(pair_of<Dim>(state, spring.body_a, spring.body_b, at.arm_b, k, force_of(state, spring, at)));
+    pairs.push_back(
+        pair_of<Dim>(state.bodies, spring.body_a, spring.body_b, at.arm_b, k, force_of(state.bodies, spring, at)));
   }
 }
 
@@ -207,7 +211,7 @@ template <int Dim>
 void add_bar_pairs(const Model<Dim>& model, const Settings&, const State<Dim>& state,
                    std::vector<PairStiffness<Dim>>& pairs) {
   for (const GroutedBolt<Dim>& grouted : state.supports.grouted)
-    add_pairs_of(model, state, grouted, pairs);
+    add_pairs_of(model, state.bodies, state.supports, grouted, pairs);
 }
 
 template <int Dim>
@@ -236,21 +240,23 @@ bool hangs_on_spring(const SupportsState<Dim>& supports, int body) {
   });
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
-  template bool has_springs<Dim>(const Model<Dim>&, const State<Dim>&);                                       \
-  template bool has_bars<Dim>(const Model<Dim>&, const State<Dim>&);                                          \
-  template void find_spring_forces<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);                     \
-  template void find_bar_forces<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);                        \
-  template void bolt_loads<Dim>(const Model<Dim>&, int, const State<Dim>&, std::vector<Load<Dim>>&);          \
-  template void add_spring_stiffness<Dim>(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&); \
-  template void add_bar_stiffness<Dim>(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&);    \
-  template void add_spring_pairs<Dim>(const Model<Dim>&, const Settings&, const State<Dim>&,                  \
-                                      std::vector<PairStiffness<Dim>>&);                                      \
-  template void add_bar_pairs<Dim>(const Model<Dim>&, const Settings&, const State<Dim>&,                     \
-                                   std::vector<PairStiffness<Dim>>&);                                         \
-  template void add_spring_forces<Dim>(const SupportsState<Dim>&, ForcesAtRest&);                             \
-  template void tie_springs<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);             \
-  template void tie_bars<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);                \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \
+  template bool has_springs<Dim>(const Model<Dim>&, const LoadInputs<Dim>&);                                           \
+  template bool has_bars<Dim>(const Model<Dim>&, const LoadInputs<Dim>&);                                              \
+  template void find_spring_forces<Dim>(const Model<Dim>&, const Schedule&, const JointStep&, const BodiesState<Dim>&, \
+                                        SupportsState<Dim>&, Ledger&, Counters&);                                      \
+  template void find_bar_forces<Dim>(const Model<Dim>&, const Schedule&, const JointStep&, const BodiesState<Dim>&,    \
+                                     SupportsState<Dim>&, Ledger&, Counters&);                                         \
+  template void bolt_loads<Dim>(const Model<Dim>&, int, const LoadInputs<Dim>&, std::vector<Load<Dim>>&);              \
+  template void add_spring_stiffness<Dim>(const Model<Dim>&, const LoadInputs<Dim>&, std::vector<BodyStiffness>&);     \
+  template void add_bar_stiffness<Dim>(const Model<Dim>&, const LoadInputs<Dim>&, std::vector<BodyStiffness>&);        \
+  template void add_spring_pairs<Dim>(const Model<Dim>&, const Settings&, const State<Dim>&,                           \
+                                      std::vector<PairStiffness<Dim>>&);                                               \
+  template void add_bar_pairs<Dim>(const Model<Dim>&, const Settings&, const State<Dim>&,                              \
+                                   std::vector<PairStiffness<Dim>>&);                                                  \
+  template void add_spring_forces<Dim>(const SupportsState<Dim>&, ForcesAtRest&);                                      \
+  template void tie_springs<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);                      \
+  template void tie_bars<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);                         \
   template bool hangs_on_spring<Dim>(const SupportsState<Dim>&, int);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -7,31 +7,36 @@
 #include "core/base/settings.hpp"
 #include "core/model/model.hpp"
 #include "core/model/state.hpp"
+#include "core/step/joint_forces.hpp"
+#include "core/step/load_row.hpp"
 #include "core/step/support_questions.hpp"
 
 namespace voussoir {
 
 template <int Dim>
-bool has_springs(const Model<Dim>& model, const State<Dim>& state);
+bool has_springs(const Model<Dim>& model, const LoadInputs<Dim>& now);
 template <int Dim>
-bool has_bars(const Model<Dim>& model, const State<Dim>& state);
+bool has_bars(const Model<Dim>& model, const LoadInputs<Dim>& now);
 
 // The forces of springs that are no joints of a bar.
 template <int Dim>
-void find_spring_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+void find_spring_forces(const Model<Dim>& model, const Schedule& schedule, const JointStep& last,
+                        const BodiesState<Dim>& bodies, SupportsState<Dim>& supports, Ledger& ledger,
+                        Counters& counters);
 
 // Those of grouted bars and of the springs that are their joints. A bar without equilibrium counts as unconverged.
 template <int Dim>
-void find_bar_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+void find_bar_forces(const Model<Dim>& model, const Schedule& schedule, const JointStep& last,
+                     const BodiesState<Dim>& bodies, SupportsState<Dim>& supports, Ledger& ledger, Counters& counters);
 
 // of all springs, joints of bars among them
 template <int Dim>
-void bolt_loads(const Model<Dim>& model, int threads, const State<Dim>& state, std::vector<Load<Dim>>& loads);
+void bolt_loads(const Model<Dim>& model, int threads, const LoadInputs<Dim>& now, std::vector<Load<Dim>>& loads);
 
 template <int Dim>
-void add_spring_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness);
+void add_spring_stiffness(const Model<Dim>& model, const LoadInputs<Dim>& now, std::vector<BodyStiffness>& stiffness);
 template <int Dim>
-void add_bar_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness);
+void add_bar_stiffness(const Model<Dim>& model, const LoadInputs<Dim>& now, std::vector<BodyStiffness>& stiffness);
 
 // a pair for each unbroken spring with a free body
 template <int Dim>

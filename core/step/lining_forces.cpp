@@ -21,43 +21,42 @@ struct AtRock {
   Vector<2> from_block;  // m, of the node from the block's centroid
   LiningMotion motion;
 
-  AtRock(const LiningRock& rock, int node, const State<2>& state)
-      : normal(state.bodies.poses[rock.body].axes * rock.normal),
+  // `seconds`: of the step that led here
+  AtRock(const LiningRock& rock, int node, const BodiesState<2>& bodies, double seconds = 0)
+      : normal(bodies.poses[rock.body].axes * rock.normal),
         along(perpendicular(normal)),
-        from_block(between(state.bodies.poses[rock.body], state.bodies.poses[node])) {
-    const Vector<2> at = seen_from_rock(rock, node, state);
+        from_block(between(bodies.poses[rock.body], bodies.poses[node])) {
+    const Vector<2> at = seen_from_rock(rock, node, bodies);
     motion.closure = rock.normal.dot(at);
     motion.place = rock.normal[0] * at[1] - rock.normal[1] * at[0];
-    motion.seconds = state.time_step.length;
+    motion.seconds = seconds;
   }
   Vector<2> force(const LiningContact& c) const { return -c.normal * normal + c.shear * along; }  // on the node
 };
 
-LiningJoint joint_of(const Model<2>& model, const Settings& settings, const State<2>& state, const Lining& lining,
+LiningJoint joint_of(const Model<2>& model, const Schedule& schedule, double viscous_ratio, const Lining& lining,
                      double length, double inverse_mass) {
   const int p = lining.interface_properties;
   const JointProperties& properties = model.properties[p];
-  const double xi = settings.damping.viscous_ratio;
-  const bool damps = xi > 0 && inverse_mass > 0 && !state.relaxation.under_way;
-  return {properties, state.schedule.friction[p],
-          state.schedule.strength_factor.empty() ? 1 : state.schedule.strength_factor[p],
-          damps ? 2 * xi * std::sqrt(properties.normal_stiffness * length / inverse_mass) : 0};
+  const bool damps = viscous_ratio > 0 && inverse_mass > 0;
+  return {properties, schedule.friction[p], schedule.strength_factor.empty() ? 1 : schedule.strength_factor[p],
+          damps ? 2 * viscous_ratio * std::sqrt(properties.normal_stiffness * length / inverse_mass) : 0};
 }
 
 // calls what(a, b, beam, strain) for every beam of a lining, a and b its nodes' bodies
 template <class Work>
-void each_beam(const Lining& lining, const State<2>& state, const Work& work) {
+void each_beam(const Lining& lining, const BodiesState<2>& bodies, const Work& work) {
   for (int k = 0; k < lining.beams(); ++k) {
     const int a = lining.first_body + k, b = lining.first_body + lining.next(k);
     const Beam beam = lining.beam(k);
-    work(a, b, beam, beam_strain(beam, moved_node(state.bodies, a), moved_node(state.bodies, b)));
+    work(a, b, beam, beam_strain(beam, moved_node(bodies, a), moved_node(bodies, b)));
   }
 }
 
 // calls what(contact, half's length, rock, body of the node) for every half node that has rock opposite
-template <class State, class Work>
-void each_at_rock(const Model<2>& model, State& state, const Work& work) {
-  for (auto& lined : state.supports.linings) {
+template <class Supports, class Work>
+void each_at_rock(const Model<2>& model, Supports& supports, const Work& work) {
+  for (auto& lined : supports.linings) {
     const Lining& lining = model.linings[lined.lining];
     for (std::size_t i = 0; i < lined.contacts.size(); ++i)
       if (auto& contact = lined.contacts[i]; contact.rock >= 0)
@@ -68,28 +67,28 @@ void each_at_rock(const Model<2>& model, State& state, const Work& work) {
 
 // Where a node has left its block's face, the next one takes over what the interface remembers; with none opposite,
 // nothing holds it any more.
-void follow_rock(const Model<2>& model, State<2>& state) {
-  for (LiningState& lined : state.supports.linings) {
+void follow_rock(const Model<2>& model, const BodiesState<2>& bodies, SupportsState<2>& supports, Ledger& ledger) {
+  for (LiningState& lined : supports.linings) {
     const Lining& lining = model.linings[lined.lining];
     for (std::size_t i = 0; i < lined.contacts.size(); ++i) {
       LiningContact& contact = lined.contacts[i];
-      const int rock = rock_opposite(lining, lined, static_cast<int>(i), state);
+      const int rock = rock_opposite(lining, lined, static_cast<int>(i), bodies);
       if (rock == contact.rock) continue;
       const JointProperties& p = model.properties[lining.interface_properties];
       const double length = lining.nodes[i / 2].half_length[i % 2];
       if (rock < 0) {
         if (p.shear_stiffness > 0)
-          state.ledger.energy.flows[Source::lining_slip] +=
+          ledger.energy.flows[Source::lining_slip] +=
               0.5 * contact.shear * contact.shear / (p.shear_stiffness * length);
         contact = {.closure = contact.closure, .place = contact.place};
         continue;
       }
       const int node = lining.first_body + static_cast<int>(i / 2);
-      const LiningMotion now = AtRock(lined.rock[rock], node, state).motion;
+      const LiningMotion now = AtRock(lined.rock[rock], node, bodies).motion;
       // what it has moved since the last step, as the block it comes from sees it
       double closed = 0, slipped = 0;
       if (contact.rock >= 0) {
-        const LiningMotion last = AtRock(lined.rock[contact.rock], node, state).motion;
+        const LiningMotion last = AtRock(lined.rock[contact.rock], node, bodies).motion;
         closed = last.closure - contact.closure;
         slipped = last.place - contact.place;
       }
@@ -100,13 +99,13 @@ void follow_rock(const Model<2>& model, State<2>& state) {
   }
 }
 
-void add_pair(int body_a, int body_b, const State<2>& state, const FixedMatrix<3, 3>& stiffness,
+void add_pair(int body_a, int body_b, const BodiesState<2>& bodies, const FixedMatrix<3, 3>& stiffness,
               const FixedMatrix<3, 1>& wrench, std::vector<PairStiffness<2>>& pairs) {
   PairStiffness<2> pair;
   pair.contact = -1;
   pair.body_a = body_a;
   pair.body_b = body_b;
-  pair.apart = between(state.bodies.poses[body_a], state.bodies.poses[body_b]);
+  pair.apart = between(bodies.poses[body_a], bodies.poses[body_b]);
   pair.stiffness = stiffness;
   pair.wrench = wrench;
   pairs.push_back(pair);
@@ -114,9 +113,9 @@ void add_pair(int body_a, int body_b, const State<2>& state, const FixedMatrix<3
 
 void add_beam_pairs(const Model<2>& model, const State<2>& state, std::vector<PairStiffness<2>>& pairs) {
   for (const LiningState& lined : state.supports.linings)
-    each_beam(model.linings[lined.lining], state, [&](int a, int b, const Beam& beam, const BeamStrain& strain) {
+    each_beam(model.linings[lined.lining], state.bodies, [&](int a, int b, const Beam& beam, const BeamStrain& strain) {
       const BeamForces forces = beam_forces(beam, strain);
-      add_pair(a, b, state, beam_tangent(beam, strain).bottomRightCorner<3, 3>(),
+      add_pair(a, b, state.bodies, beam_tangent(beam, strain).bottomRightCorner<3, 3>(),
                {forces.force[1][0], forces.force[1][1], forces.moment[1]}, pairs);
     });
 }
@@ -124,40 +123,41 @@ void add_beam_pairs(const Model<2>& model, const State<2>& state, std::vector<Pa
 }  // namespace
 
 template <int Dim>
-void find_lining_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
+void find_lining_forces(const Model<Dim>& model, const Schedule& schedule, const JointStep& last,
+                        const BodiesState<Dim>& bodies, SupportsState<Dim>& supports, Ledger& ledger, Counters&) {
   if constexpr (Dim == 2) {
-    if (state.supports.linings.empty()) return;
-    follow_rock(model, state);
-    each_at_rock(model, state,
+    if (supports.linings.empty()) return;
+    follow_rock(model, bodies, supports, ledger);
+    each_at_rock(model, supports,
                  [&](const Lining& lining, LiningContact& contact, double length, const LiningRock& rock, int node) {
-                   const AtRock at(rock, node, state);
-                   const double inverse_mass =
-                       state.bodies.poses[rock.body].inverse_mass + state.bodies.poses[node].inverse_mass;
-                   const LiningJoint joint = joint_of(model, settings, state, lining, length, inverse_mass);
+                   const AtRock at(rock, node, bodies, last.length);
+                   const double inverse_mass = bodies.poses[rock.body].inverse_mass + bodies.poses[node].inverse_mass;
+                   const LiningJoint joint =
+                       joint_of(model, schedule, last.viscous_ratio, lining, length, inverse_mass);
                    const LiningAnswer answer = interface_answer(joint, length, at.motion, contact);
-                   state.ledger.energy.elastic += answer.elastic;
-                   state.ledger.energy.flows[Source::lining_slip] += answer.friction;
-                   state.ledger.energy.flows[Source::dashpots] += answer.dashpots;
+                   ledger.energy.elastic += answer.elastic;
+                   ledger.energy.flows[Source::lining_slip] += answer.friction;
+                   ledger.energy.flows[Source::dashpots] += answer.dashpots;
                  });
-    for (const LiningState& lined : state.supports.linings)
-      each_beam(model.linings[lined.lining], state, [&](int, int, const Beam& beam, const BeamStrain& strain) {
-        state.ledger.energy.elastic += beam_forces(beam, strain).energy;
+    for (const LiningState& lined : supports.linings)
+      each_beam(model.linings[lined.lining], bodies, [&](int, int, const Beam& beam, const BeamStrain& strain) {
+        ledger.energy.elastic += beam_forces(beam, strain).energy;
       });
   }
 }
 
 template <int Dim>
-void lining_loads(const Model<Dim>& model, int, const State<Dim>& state, std::vector<Load<Dim>>& loads) {
+void lining_loads(const Model<Dim>& model, int, const LoadInputs<Dim>& now, std::vector<Load<Dim>>& loads) {
   if constexpr (Dim == 2) {
-    for (const LiningState& lined : state.supports.linings)
-      each_beam(model.linings[lined.lining], state, [&](int a, int b, const Beam& beam, const BeamStrain& strain) {
+    for (const LiningState& lined : now.supports.linings)
+      each_beam(model.linings[lined.lining], now.bodies, [&](int a, int b, const Beam& beam, const BeamStrain& strain) {
         const BeamForces forces = beam_forces(beam, strain);
         loads[a] += {forces.force[0], Spin<2>(forces.moment[0])};
         loads[b] += {forces.force[1], Spin<2>(forces.moment[1])};
       });
-    each_at_rock(model, state,
+    each_at_rock(model, now.supports,
                  [&](const Lining&, const LiningContact& contact, double, const LiningRock& rock, int node) {
-                   const AtRock at(rock, node, state);
+                   const AtRock at(rock, node, now.bodies);
                    const Vector<2> force = at.force(contact);
                    loads[node] += {force, Spin<2>::Zero()};
                    loads[rock.body] += {-force, -moment(at.from_block, force)};
@@ -166,28 +166,28 @@ void lining_loads(const Model<Dim>& model, int, const State<Dim>& state, std::ve
 }
 
 template <int Dim>
-void add_lining_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness) {
+void add_lining_stiffness(const Model<Dim>& model, const LoadInputs<Dim>& now, std::vector<BodyStiffness>& stiffness) {
   if constexpr (Dim == 2) {
-    for (const LiningState& lined : state.supports.linings) {
+    for (const LiningState& lined : now.supports.linings) {
       const Lining& lining = model.linings[lined.lining];
       for (std::size_t n = 0; n < lining.nodes.size(); ++n)
         stiffness[lining.first_body + n].translation += lining.nodes[n].mass * lining.nodes[n].square_frequency;
     }
-    each_at_rock(
-        model, state, [&](const Lining& lining, const LiningContact&, double length, const LiningRock& rock, int node) {
-          const JointProperties& p = model.properties[lining.interface_properties];
-          const double k =
-              (model.bodies[rock.body].fixed ? 1 : 2) * length * std::max(p.normal_stiffness, p.shear_stiffness);
-          stiffness[node].translation += k;
-          stiffness[rock.body].translation += k;
-          stiffness[rock.body].rotation +=
-              k * between(state.bodies.poses[rock.body], state.bodies.poses[node]).squaredNorm();
-        });
+    each_at_rock(model, now.supports,
+                 [&](const Lining& lining, const LiningContact&, double length, const LiningRock& rock, int node) {
+                   const JointProperties& p = model.properties[lining.interface_properties];
+                   const double k = (model.bodies[rock.body].fixed ? 1 : 2) * length *
+                                    std::max(p.normal_stiffness, p.shear_stiffness);
+                   stiffness[node].translation += k;
+                   stiffness[rock.body].translation += k;
+                   stiffness[rock.body].rotation +=
+                       k * between(now.bodies.poses[rock.body], now.bodies.poses[node]).squaredNorm();
+                 });
   }
 }
 
 template <int Dim>
-void add_lining_pairs(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
+void add_lining_pairs(const Model<Dim>& model, const Settings&, const State<Dim>& state,
                       std::vector<PairStiffness<Dim>>& pairs) {
   if constexpr (Dim == 2) {
     add_beam_pairs(model, state, pairs);
@@ -200,8 +200,8 @@ void add_lining_pairs(const Model<Dim>& model, const Settings& settings, const S
         if (contact.rock < 0 || contact.closure < -closed_within * length) continue;
         const LiningRock& rock = lined.rock[contact.rock];
         const int node = lining.first_body + static_cast<int>(i / 2);
-        const AtRock at(rock, node, state);
-        const LiningJoint joint = joint_of(model, settings, state, lining, length, 0);
+        const AtRock at(rock, node, state.bodies, state.time_step.length);
+        const LiningJoint joint = joint_of(model, state.schedule, 0, lining, length, 0);
         // from where the increment began; at a block it came to since, from there
         const LiningContact begin = base.contacts[i].rock == contact.rock ? base.contacts[i] : contact;
         const auto force_at = [&](double closer, double farther) {
@@ -218,15 +218,15 @@ void add_lining_pairs(const Model<Dim>& model, const Settings& settings, const S
         stiffness.topLeftCorner<2, 2>() = ((here - force_at(h, 0)) / h) * at.normal.transpose() +
                                           ((here - force_at(0, h)) / h) * at.along.transpose();
         const Vector<2> now = at.force(contact);
-        add_pair(rock.body, node, state, stiffness, {now[0], now[1], 0}, pairs);
+        add_pair(rock.body, node, state.bodies, stiffness, {now[0], now[1], 0}, pairs);
       }
     }
   }
 }
 
 template <int Dim>
-bool has_linings(const Model<Dim>&, const State<Dim>& state) {
-  return !state.supports.linings.empty();
+bool has_linings(const Model<Dim>&, const LoadInputs<Dim>& now) {
+  return !now.supports.linings.empty();
 }
 
 template <int Dim>
@@ -280,17 +280,18 @@ std::string loose_lining(const Model<Dim>& model, const SupportsState<Dim>& supp
   return {};
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
-  template bool has_linings<Dim>(const Model<Dim>&, const State<Dim>&);                                       \
-  template void find_lining_forces<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);                     \
-  template void lining_loads<Dim>(const Model<Dim>&, int, const State<Dim>&, std::vector<Load<Dim>>&);        \
-  template void add_lining_stiffness<Dim>(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&); \
-  template void add_lining_pairs<Dim>(const Model<Dim>&, const Settings&, const State<Dim>&,                  \
-                                      std::vector<PairStiffness<Dim>>&);                                      \
-  template void add_interface_forces<Dim>(const SupportsState<Dim>&, ForcesAtRest&);                          \
-  template void tie_linings<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);             \
-  template void tell_touching_nodes<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);     \
-  template void scale_nodes<Dim>(const Model<Dim>&, const std::vector<int>&, Eigen::VectorXd&);               \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \
+  template bool has_linings<Dim>(const Model<Dim>&, const LoadInputs<Dim>&);                                           \
+  template void find_lining_forces<Dim>(const Model<Dim>&, const Schedule&, const JointStep&, const BodiesState<Dim>&, \
+                                        SupportsState<Dim>&, Ledger&, Counters&);                                      \
+  template void lining_loads<Dim>(const Model<Dim>&, int, const LoadInputs<Dim>&, std::vector<Load<Dim>>&);            \
+  template void add_lining_stiffness<Dim>(const Model<Dim>&, const LoadInputs<Dim>&, std::vector<BodyStiffness>&);     \
+  template void add_lining_pairs<Dim>(const Model<Dim>&, const Settings&, const State<Dim>&,                           \
+                                      std::vector<PairStiffness<Dim>>&);                                               \
+  template void add_interface_forces<Dim>(const SupportsState<Dim>&, ForcesAtRest&);                                   \
+  template void tie_linings<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);                      \
+  template void tell_touching_nodes<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);              \
+  template void scale_nodes<Dim>(const Model<Dim>&, const std::vector<int>&, Eigen::VectorXd&);                        \
   template std::string loose_lining<Dim>(const Model<Dim>&, const SupportsState<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

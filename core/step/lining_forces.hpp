@@ -8,22 +8,26 @@
 #include "core/base/settings.hpp"
 #include "core/model/model.hpp"
 #include "core/model/state.hpp"
+#include "core/step/joint_forces.hpp"
+#include "core/step/load_row.hpp"
 #include "core/step/support_questions.hpp"
 
 namespace voussoir {
 
 template <int Dim>
-bool has_linings(const Model<Dim>& model, const State<Dim>& state);
+bool has_linings(const Model<Dim>& model, const LoadInputs<Dim>& now);
 
 // of beams and of the interface of every node
 template <int Dim>
-void find_lining_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+void find_lining_forces(const Model<Dim>& model, const Schedule& schedule, const JointStep& last,
+                        const BodiesState<Dim>& bodies, SupportsState<Dim>& supports, Ledger& ledger,
+                        Counters& counters);
 
 template <int Dim>
-void lining_loads(const Model<Dim>& model, int threads, const State<Dim>& state, std::vector<Load<Dim>>& loads);
+void lining_loads(const Model<Dim>& model, int threads, const LoadInputs<Dim>& now, std::vector<Load<Dim>>& loads);
 
 template <int Dim>
-void add_lining_stiffness(const Model<Dim>& model, const State<Dim>& state, std::vector<BodyStiffness>& stiffness);
+void add_lining_stiffness(const Model<Dim>& model, const LoadInputs<Dim>& now, std::vector<BodyStiffness>& stiffness);
 
 // a pair for each beam and for each half node at rock
 template <int Dim>

@@ -8,16 +8,26 @@
 
 namespace voussoir {
 
+// what loads depend on, of one state
+template <int Dim>
+struct LoadInputs {
+  const Schedule& schedule;
+  const BodiesState<Dim>& bodies;
+  const ContactsState<Dim>& contacts;
+  const SupportsState<Dim>& supports;
+  const std::vector<ReliefLoad<Dim>>& relief;
+};
+
 // A load: whether there is any, what it does to the bodies, whose loads are zero before, and, where it changes with the
 // body's pose, by how much at most (for the time step) and how (for Newton's method).
 template <int Dim>
 struct LoadRow {
   using Block = typename PairStiffness<Dim>::Block;
   Source source;
-  bool (*acts)(const Model<Dim>&, const State<Dim>&);
-  void (*find)(const Model<Dim>&, int threads, const State<Dim>&, std::vector<Load<Dim>>&);
-  void (*stiffen)(const Model<Dim>&, const State<Dim>&, std::vector<BodyStiffness>&) = nullptr;
-  void (*add_tangent)(const Model<Dim>&, const State<Dim>&, std::vector<Block>&) = nullptr;
+  bool (*acts)(const Model<Dim>&, const LoadInputs<Dim>&);
+  void (*find)(const Model<Dim>&, int threads, const LoadInputs<Dim>&, std::vector<Load<Dim>>&);
+  void (*stiffen)(const Model<Dim>&, const LoadInputs<Dim>&, std::vector<BodyStiffness>&) = nullptr;
+  void (*add_tangent)(const Model<Dim>&, const LoadInputs<Dim>&, std::vector<Block>&) = nullptr;
 };
 
 }  // namespace voussoir

@@ -200,7 +200,8 @@ TEST(Newton, KnowsHowLoadsChangeWithThePose) {
     State<3> turned_state = state;
     turned_state.bodies.motions[block].rotation = turned(state.bodies.motions[block].rotation, turn);
     cache_poses(model, 1, turned_state.bodies);
-    sum_loads(model, Settings(), turned_state);
+    sum_loads(model, Settings(), turned_state.schedule, turned_state.bodies, turned_state.contacts,
+              turned_state.supports, turned_state.loads);
     Eigen::Matrix<double, 6, 1> load;
     load << turned_state.loads.total[block].force, turned_state.loads.total[block].moment;
     return load;

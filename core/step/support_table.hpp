@@ -20,7 +20,8 @@ struct StepSupport {
   SupportKind kind;
   // Forces and histories at the poses of now, which must be cached; the ledger gets the energy that they hold, which it
   // must already have of the contacts, and what was lost.
-  void (*find_forces)(const Model<Dim>&, const Settings&, State<Dim>&);
+  void (*find_forces)(const Model<Dim>&, const Schedule&, const JointStep&, const BodiesState<Dim>&,
+                      SupportsState<Dim>&, Ledger&, Counters&);
   // what they do to the bodies, and at most stiffen each by; `find` is empty where the bodies get it by another row
   LoadRow<Dim> load;
   // adds pairs without contact (-1) to what Newton's method solves; the state is that of a trial

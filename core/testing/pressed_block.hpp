@@ -47,7 +47,7 @@ struct Block {
     find_contacts(model, settings, state.bodies, state.contacts, state.counters);
     apply_joint_laws(model, settings, state.schedule, joint_step(settings, state.time_step, state.relaxation),
                      state.bodies, state.contacts, state.ledger, state.counters);
-    sum_loads(model, settings, state);
+    sum_loads(model, settings, state.schedule, state.bodies, state.contacts, state.supports, state.loads);
   }
 
   Vector<Dim> load() const { return state.loads.total[block].force; }
