@@ -4,9 +4,11 @@ PRESET ?= release
 BUILD  := $(if $(filter release,$(PRESET)),build,build-$(PRESET))
 JOBS   ?= $(shell nproc)
 
-.PHONY: help history packages configure build test test-long coverage reports benchmark deb run format clean
+.PHONY: help history build program test test-long coverage reports benchmark deb run format clean
 
 help:
+	@echo "make run                 the program alone, and the tutorial's slope: a factor of safety and a page to look at"
+	@echo "                         (SCENE=file for another scene, OUT=folder SET='key=value …')"
 	@echo "make test                verify: build and run every test (PRESET=dev|asan|tsan for other builds)"
 	@echo "make test-long           the long tests"
 	@echo "make history             test, and keep the values as those of this version: verification/history"
@@ -15,17 +17,21 @@ help:
 	@echo "make benchmark           time the kernels and their peers, and twenty thousand falling blocks, an hour of two cores"
 	@echo "                         (VOUSSOIR_FALL_BLOCKS=2000: minutes; VOUSSOIR_BENCHMARK=quick: the contact kernel, a minute)"
 	@echo "make deb                 Debian packages, without Ipopt: build-packages/*.deb"
-	@echo "make run SCENE=file      run one scene (OUT=folder SET='key=value …')"
 
-packages:
-	@cmake/install_packages.sh
+# $(call configure,options): what is there of a build stays
+configure = cmake --preset $(PRESET) $(1) > configure.log 2>&1 || { cat configure.log; rm -f configure.log; exit 1; }; \
+  mv configure.log $(BUILD)/configure.log; echo "configured preset $(PRESET) in $(BUILD) (log: $(BUILD)/configure.log)"
+ALL_ON    := -DVOUSSOIR_BUILD_TESTS=ON -DVOUSSOIR_BUILD_BENCHMARKS=ON -DVOUSSOIR_WITH_PYTHON=ON
 
-configure: packages
-	@cmake --preset $(PRESET) > configure.log 2>&1 || { cat configure.log; rm -f configure.log; exit 1; }
-	@mv configure.log $(BUILD)/configure.log
-	@echo "configured preset $(PRESET) in $(BUILD) (log: $(BUILD)/configure.log)"
+# the program alone; a build with tests keeps them
+program:
+	@cmake/install_packages.sh program
+	@$(call configure,$(if $(wildcard $(BUILD)/CMakeCache.txt),,$(subst =ON,=OFF,$(ALL_ON))))
+	@cmake --build $(BUILD) --parallel $(JOBS) --target voussoir
 
-build: configure
+build:
+	@cmake/install_packages.sh program tests benchmarks
+	@$(call configure,$(ALL_ON))
 	@cmake --build $(BUILD) --parallel $(JOBS)
 
 test: build
@@ -37,25 +43,26 @@ history: test
 test-long: build
 	@cd $(BUILD) && ctest -C Long -L long --output-on-failure --parallel $(JOBS)
 
-coverage: packages
-	@command -v gcovr >/dev/null || cmake/install_packages.sh gcovr
+coverage:
+	@cmake/install_packages.sh program tests benchmarks coverage
 	@cmake/coverage.sh $(CURDIR) $(CURDIR)/build-coverage $(JOBS)
 
 reports: build
 	@cmake --build $(BUILD) --parallel $(JOBS) --target benchmarks
 	@cmake/make_reports.sh $(BUILD) $(JOBS)
 
-benchmark: configure
+benchmark:
+	@cmake/install_packages.sh program benchmarks
+	@$(call configure,-DVOUSSOIR_BUILD_BENCHMARKS=ON $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DVOUSSOIR_BUILD_TESTS=OFF))
 	@cmake --build $(BUILD) --parallel $(JOBS) --target benchmarks
 	@cmake/run_benchmarks.sh $(BUILD)
 
-deb: packages
-	@cmake/install_packages.sh dpkg-dev file lintian
+deb:
+	@cmake/install_packages.sh program packaging
 	@cmake/make_packages.sh $(CURDIR)/build-packages $(JOBS)
 
-run: build
-	@test -n "$(SCENE)" || { echo "make run: name a scene, e.g. make run SCENE=cases/wedge/scene.toml"; exit 2; }
-	@$(BUILD)/app/voussoir run $(SCENE) $(if $(OUT),--out $(OUT)) $(foreach s,$(SET),--set $(s))
+run: program
+	@cmake/run_scene.sh $(BUILD) "$(SCENE)" "$(OUT)" $(SET)
 
 format:
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i

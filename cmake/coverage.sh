@@ -3,7 +3,7 @@
 # read input or decide contacts lies below the least share.
 set -euo pipefail
 source=$1 build=$2 jobs=$3
-rooms=(scene geometry contact law)
+rooms=(scene geometry contact joint_laws)
 least=95  # % of lines
 tests=(unit_blocks unit_law_and_motion unit_contact unit_scene)
 

@@ -1,7 +1,7 @@
-// node build.mjs MODULES ASSET: bundles src/ with what MODULES holds and writes the pieces of a page as a C++ file; the
-// script also as viewer.js beside it, whose size is tested.
+// node build.mjs MODULES ASSET: bundles src/ with three.js of MODULES and writes the pieces of a page as a C++ file; the
+// script also as viewer.js beside it, whose size is tested, and the licence of three.js.
 import { createRequire } from 'node:module';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { copyFileSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
@@ -24,6 +24,7 @@ const bundle = esbuild.buildSync({
 });
 const script = bundle.outputFiles[0].text;
 writeFileSync(join(dirname(asset), 'viewer.js'), script);
+copyFileSync(join(modules, 'node_modules/three/LICENSE'), join(dirname(asset), 'LICENSE.three'));
 const packed = gzipSync(script, { level: 9 }).toString('base64');
 
 // what unpacks the script, and runs it as an element's text: the policy below allows that and no request at all
@@ -53,11 +54,12 @@ const pieces = {
 const literal = (text) =>
   (text.match(/[^]{1,8000}/g) ?? ['']).map((part) => `R"~~~(${part})~~~"`).join('\n    ');
 const views = Object.entries(pieces).map(([name, text]) => `const std::string_view ${name} =\n    ${literal(text)};\n`);
-writeFileSync(asset, `#include "app/view/asset.hpp"
+writeFileSync(asset, `// Made by viewer/build.mjs of viewer/src and three.js; do not edit.
+// clang-format off
+#include "app/view/asset.hpp"
 
 namespace voussoir::viewer {
 
-const std::string_view missing;
 ${views.join('')}
 }  // namespace voussoir::viewer
 `);

@@ -67,11 +67,7 @@ void write_frames(WrittenSeries& written, const Progress<Dim>& progress, Watcher
 }
 
 void write_page(const fs::path& folder) {
-  if (const std::string missing = viewer_missing(); !missing.empty())
-    tell("voussoir: warning: {} is not written: {}; 'voussoir view {}' makes it where that is there\n", page_file,
-         missing, folder.string());
-  else
-    write_file(folder / page_file, view_page(folder / view_file));
+  write_file(folder / page_file, view_page(folder / view_file));
 }
 
 template void write_tables<2>(const fs::path&, const Progress<2>&);

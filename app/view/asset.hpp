@@ -1,12 +1,10 @@
-// What the build has made of viewer/: the pieces of a page, which stand around the data. Generated; see
-// viewer/CMakeLists.txt.
+// The pieces of a page around its data: viewer/bundle, made of viewer/src (viewer/README.md).
 #pragma once
 
 #include <string_view>
 
 namespace voussoir::viewer {
 
-extern const std::string_view missing;                  // why there is no viewer; empty: it is there
 extern const std::string_view script;                   // once a page: style and script
 extern const std::string_view before_page, after_page;  // around script and fragment
 // a fragment: the look, a poster with its type or none, the data, each in base64

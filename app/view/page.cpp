@@ -75,16 +75,7 @@ std::string view_bytes(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::string viewer_missing() {
-  return std::string(viewer::missing);
-}
-
-void require_viewer() {
-  if (!viewer::missing.empty()) throw BadInput(fmt::format("the viewer is not built in: {}", viewer::missing));
-}
-
 std::string viewer_script() {
-  require_viewer();
   return std::string(viewer::script);
 }
 
@@ -94,7 +85,6 @@ std::string_view picture_type(std::string_view bytes) {
 }
 
 std::string view_fragment(const std::filesystem::path& data, std::string_view poster, std::string_view look) {
-  require_viewer();
   std::string html(viewer::before_look);
   html += base64(look);
   if (!poster.empty())

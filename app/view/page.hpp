@@ -10,13 +10,8 @@ namespace voussoir {
 
 inline constexpr const char* page_file = "view.html";
 
-// why this program has no viewer; empty: it has
-std::string viewer_missing();
-// throws BadInput where it has none
-void require_viewer();
-
 // The whole page of a run's `view.bin`; frames that were being written when a program was killed are left out. Throws
-// BadInput where the file is none, or there is no viewer.
+// BadInput if the file is none.
 std::string view_page(const std::filesystem::path& data);
 
 // png or webp; empty for what is neither

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# view_test.sh NODE …: view_test.mjs where there is a node to run it.
-node=$1
-shift
+# with_node.sh NODE TEST …: runs TEST, a file beside this one, if there is a node to run it.
+node=$1 test=$2
+shift 2
 if [ ! -x "$node" ]; then
   echo "not tested: node is not installed (npm brings it)"
   [ "${VOUSSOIR_NO_SKIP:-}" = 1 ] && exit 1
   exit 77
 fi
-exec "$node" "$(dirname "$0")/view_test.mjs" "$@"
+exec "$node" "$(dirname "$0")/$test" "$@"

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# run_scene.sh BUILD SCENE OUT KEY=VALUE…: runs a scene with the program of BUILD. Without SCENE it is the tutorial's slope,
+# whose factor of safety is known, with the page of its blocks.
+set -euo pipefail
+program=$1/app/voussoir scene=$2 out=$3
+shift 3
+if [ -n "$scene" ]; then
+  exec "$program" run "$scene" ${out:+--out "$out"} "${@/#/--set=}"
+fi
+out=${out:-results/slope}
+"$program" run examples/tutorial/slope.toml --view --overwrite --out "$out" "${@/#/--set=}"
+found=$(sed -nE '/"factor_of_safety": \{/,/\}/ s/.*"value": ([0-9.]+).*/\1/p' "$out/results.json" | head -n 1)
+printf 'make run: a wedge on two joints, factor of safety %.4f; its closed form (examples/tutorial) is 1.0694. Took %d s.\n' "$found" "$SECONDS"
+echo "look at $out/view.html; the next step is examples/tutorial/README.md, your own scene is 'make run SCENE=file'"
