@@ -10,5 +10,5 @@ fi
 out=${out:-results/slope}
 "$program" run examples/tutorial/slope.toml --view --overwrite --out "$out" "${@/#/--set=}"
 found=$(sed -nE '/"factor_of_safety": \{/,/\}/ s/.*"value": ([0-9.]+).*/\1/p' "$out/results.json" | head -n 1)
-printf 'make run: a wedge on two joints, factor of safety %.4f; its closed form (examples/tutorial) is 1.0694. Took %d s.\n' "$found" "$SECONDS"
-echo "look at $out/view.html; the next step is examples/tutorial/README.md, your own scene is 'make run SCENE=file'"
+printf 'make run: a wedge on two joints, factor of safety %.4f; its closed form is 1.0694 (examples/tutorial/README.md)\n' "$found"
+echo "look at $out/view.html; this run took $SECONDS s; your own scene: 'make run SCENE=file'"

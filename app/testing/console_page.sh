@@ -21,7 +21,8 @@ else
 fi
 cd "$scratch" || exit 1
 rm -rf results  # of those who ran them there
-make() { voussoir run "${2#SCENE=}"; }  # make run SCENE=…: the program is built
+# make run, make run SCENE=…: the program is built
+make() { "$root/cmake/run_scene.sh" "$(dirname "$(dirname "$program")")" "$(sed s/^SCENE=// <<<"${2:-}")" ""; }
 PATH=$(dirname "$program"):$PATH
 
 faults=0 number=0 shown=0 next=0 commands="" printed=()
