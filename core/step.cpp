@@ -18,8 +18,8 @@ void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   // who may touch whom: bounding boxes with a skin, renewed only when a body has left it
   find_neighbours(model, settings, bodies, contacts, counters);
 
-  // who does: point, normal, overlap and area of each candidate pair, each in its own slot; and what its joint answers
-  // while all of it is at hand: overlap and slip to forces, histories renewed
+  // which of them do: point, normal, overlap and area of each candidate pair, each in its own slot; and the force of its
+  // joint from overlap and slip, its history renewed, while all of it is in the cache
   const JointStep last = joint_step(settings, now.time_step, now.relaxation);
   find_joint_forces(model, settings, now.schedule, last, bodies, contacts, ledger, counters);
 
