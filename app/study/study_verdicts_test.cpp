@@ -7,6 +7,7 @@
 
 #include "app/study/findings.hpp"
 #include "app/study/idle.hpp"
+#include "app/study/plan.hpp"
 #include "app/testing/planned_study.hpp"
 
 namespace voussoir {

@@ -199,7 +199,7 @@ TEST(AppliedForces, SetTheTimeStepOfABlockThatHangsFromOne) {
   State<2> state = pendulum.state;
   cache_poses(model, 1, state.bodies);
   list_by_body(model, state.contacts);
-  sum_loads(model, Settings(), state);
+  sum_loads(model, Settings(), state.schedule, state.bodies, state.contacts, state.supports, state.loads);
   Settings settings;
   EXPECT_NEAR(estimate_time_step(model, settings, {.viscous_ratio = 0}, state.bodies, state.loads, state.contacts,
                                  state.time_step)
@@ -211,7 +211,7 @@ TEST(AppliedForces, SetTheTimeStepOfABlockThatHangsFromOne) {
   ForcePlan jack = pendulum.hook();
   jack.turns_with_body = true;
   model = apply(pendulum.model, with({jack}));
-  sum_loads(model, settings, state);
+  sum_loads(model, settings, state.schedule, state.bodies, state.contacts, state.supports, state.loads);
   EXPECT_FALSE(std::isfinite(estimate_time_step(model, settings, {.viscous_ratio = 0}, state.bodies, state.loads,
                                                 state.contacts, state.time_step)
                                  .limit));
