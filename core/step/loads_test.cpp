@@ -62,7 +62,7 @@ Load<Dim> applied_to(int body, const Model<Dim>& model, const State<Dim>& state)
   State<Dim> now = state;
   cache_poses(model, 1, now.bodies);
   list_by_body(model, now.contacts);
-  sum_loads(model, Settings(), now);
+  sum_loads(model, Settings(), now.schedule, now.bodies, now.contacts, now.supports, now.loads);
   const std::vector<Load<Dim>>& loads = now.loads.by_source[Source::applied_forces];
   if (loads.empty()) return {};
   EXPECT_EQ(now.loads.total[body].force, loads[body].force) << "nothing else acts";
