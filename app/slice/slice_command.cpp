@@ -143,7 +143,6 @@ void write_blocks(const Prepared<Dim>& prepared, const SliceArguments& arguments
 }
 
 ExitCode slice_command(const SliceArguments& arguments) {
-  if (arguments.view) require_viewer();
   const LoadedScene loaded = load_blocks(arguments.scene.scene, arguments.scene.overrides);
   tell_remarks(*loaded.stated);
   if (loaded.dimension == 2 && (arguments.stl || arguments.obj))

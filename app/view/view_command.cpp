@@ -83,7 +83,6 @@ ExitCode write_script(const ViewArguments& arguments) {
 }
 
 ExitCode view_command(const ViewArguments& arguments) {
-  require_viewer();
   if (arguments.script) return write_script(arguments);
   if (arguments.folder.empty()) throw BadInput("name the folder of a run that was asked for --view");
   if (arguments.fragment && arguments.out.empty()) throw BadInput("--fragment needs --out, the file to write");

@@ -160,7 +160,7 @@ void draw_stack() {
   std::vector<std::vector<double>> forces(3);
   for (std::size_t i = 0; i < last.contacts.list.size(); ++i) {
     const int a = model.parts[last.contacts.list[i].part_a].body;
-    for (const SubContact<2>& sub : subs_of(last, i)) {
+    for (const SubContact<2>& sub : subs_of(last.contacts, i)) {
       if (!(sub.area > 0)) continue;
       const Vector<2> p = model.origin + model.bodies[a].reference + last.bodies.motions[a].displacement + sub.point;
       forces[0].push_back(p[0]);
