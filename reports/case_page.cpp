@@ -59,8 +59,12 @@ struct Page {
     if (target.starts_with("http") || target.starts_with("#")) return target;
     const fs::path path(target);
     if (path.extension() == ".toml" && !path.has_parent_path()) return fmt::format("#{}-{}", slug(name), slug(target));
-    if (path.filename() == "README.md" && target.starts_with("../"))
-      return "#" + slug(path.parent_path().filename().string());
+    if (target == "README.md") return "#" + slug(name);
+    if (target == "NOTES.md") return fmt::format("#{}-notes", slug(name));
+    if (path.parent_path().parent_path() != "..") return std::nullopt;
+    const std::string of_case = "#" + slug(path.parent_path().filename().string());
+    if (path.filename() == "README.md") return of_case;
+    if (path.filename() == "NOTES.md") return of_case + "-notes";
     return std::nullopt;
   }
 
@@ -83,6 +87,15 @@ std::string scene_files(const Page& page) {
                         escape(read_text(file)));
   }
   return text.empty() ? "" : "<h3>Scene</h3>\n" + text;
+}
+
+// measurements, trials and abandoned rules: closed until a reader asks for them
+std::string notes(Page& page) {
+  const fs::path file = page.case_folder() / "NOTES.md";
+  if (!fs::exists(file)) return "";
+  return fmt::format("<h3 id=\"{}-notes\">Notes</h3>\n<details class=\"notes\"><summary>{}</summary>\n{}</details>\n",
+                     slug(page.name), escape(markdown_title(read_text(file)).value_or("Notes")),
+                     page.render(read_text(file), 2, true));
 }
 
 // the blocks that can be turned, as make_views.py has left them
@@ -115,6 +128,7 @@ std::string case_page(const Folders& folders, const Verdicts& verdicts, const Ca
     text += page.render(read_text(readme), 1, true);
   else if (status.state != CaseState::not_modelled)
     text += page.say_missing("This case has no README.md.");
+  const std::string behind = notes(page);  // rendered here, so that a figure of the notes is shown once
 
   if (status.state != CaseState::not_modelled) {
     text += blocks(page);
@@ -135,7 +149,7 @@ std::string case_page(const Folders& folders, const Verdicts& verdicts, const Ca
     else if (fs::exists(page.case_folder() / "study.toml"))
       text += "<h3>Speed for accuracy</h3>\n" + page.say_missing("The study of this case has no result.");
   }
-  return text + scene_files(page) + "</section>\n";
+  return text + scene_files(page) + behind + "</section>\n";
 }
 
 }  // namespace voussoir::reports

@@ -1,5 +1,5 @@
 #pragma once
-// The page of one case: what its folder tells, the checks of the last run, its figures, its scenes and its study.
+// The page of one case: its README.md, the checks of the last run, its figures, its study, its scenes and its NOTES.md.
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -100,13 +100,14 @@ TEST(TextPage, LeadsToCasesAndTheirScenes) {
   const fs::path root = fs::path(testing::TempDir()) / "voussoir_text_page_test";
   write_atomically(root / "reports/water.md",
                    "# Of water\n\n## What acts\n\n[case](../cases/water/README.md), [scene](../cases/water/raft.toml), "
-                   "[elsewhere](../core/README.md)\n");
+                   "[notes](../cases/water/NOTES.md), [elsewhere](../core/README.md)\n");
   const std::string page = text_page({root, root / "build"}, "water", "of-water");
   EXPECT_TRUE(holds(page, "id=\"of-water\""));
   EXPECT_TRUE(holds(page, "<h2>Of water</h2>"));
   EXPECT_TRUE(holds(page, "<h3>What acts</h3>"));
   EXPECT_TRUE(holds(page, "href=\"#water\""));
   EXPECT_TRUE(holds(page, "href=\"#water-raft-toml\""));
+  EXPECT_TRUE(holds(page, "href=\"#water-notes\""));
   EXPECT_FALSE(holds(page, "core/README.md"));
 }
 
@@ -172,6 +173,36 @@ TEST(Views, NameEveryCaseOnce) {
       EXPECT_EQ(shown.erase(name) + without.erase(name), 1U) << name << " does not stand in reports/views.toml";
     }
   EXPECT_TRUE(shown.empty() && without.empty()) << "reports/views.toml names what is no case";
+}
+
+TEST(CasePage, ShowsTheNotesBehindTheCase) {
+  const fs::path root = fs::path(testing::TempDir()) / "voussoir_notes_test";
+  fs::remove_all(root);
+  const Folders folders{root, root / "build"};
+  write_atomically(root / "cases/wedge/README.md", "# Sliding wedge\n\n## Result\n\nIt slides ([notes](NOTES.md)).\n");
+  write_atomically(root / "cases/wedge/scene.toml", "a = 1\n");
+  write_atomically(root / "cases/wedge/trials.gp", "");
+  std::vector<std::string> missing;
+  const CaseStatus wedge{"wedge", CaseState::run};
+  EXPECT_FALSE(holds(case_page(folders, {}, wedge, missing), "id=\"wedge-notes\""));
+
+  write_atomically(root / "cases/wedge/NOTES.md",
+                   "# Wedge: notes\n\n## Trials\n\n![Trials.](trials.svg)\n\nOf [the case](README.md), "
+                   "[slump](../slump/README.md), [its notes](../slump/NOTES.md), [core](../../core/step/README.md).\n");
+  write_atomically(root / "build/reports/figures/trials.svg", svg);
+  const std::string page = case_page(folders, {}, wedge, missing);
+  EXPECT_TRUE(holds(page, "<h3 id=\"wedge-notes\">Notes</h3>"));
+  EXPECT_TRUE(holds(page, "<summary>Wedge: notes</summary>"));
+  EXPECT_TRUE(holds(page, "<h4>Trials</h4>"));
+  EXPECT_GT(page.find("wedge-notes\">Notes"), page.find("a = 1"));
+  EXPECT_TRUE(holds(page, "href=\"#wedge-notes\""));
+  EXPECT_TRUE(holds(page, "href=\"#wedge\""));
+  EXPECT_TRUE(holds(page, "href=\"#slump\""));
+  EXPECT_TRUE(holds(page, "href=\"#slump-notes\""));
+  EXPECT_FALSE(holds(page, "href=\"#step\""));
+  // the figure is shown once, where the notes name it
+  EXPECT_TRUE(holds(page, "<figcaption>Trials.</figcaption>"));
+  EXPECT_FALSE(holds(page, "<h3>Figures</h3>"));
 }
 
 TEST(KernelPage, ShowsTheRunAndNamesWhatIsMissing) {

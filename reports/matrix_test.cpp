@@ -145,6 +145,15 @@ TEST(Matrix, AnotherFormOfNameShows) {
   EXPECT_TRUE(holds(problems(read_matrix(copy.root)), "law_test.cpp:8: 'equation 4.8' is no name of an equation"));
 }
 
+// a case's notes are read as its README.md is
+TEST(Matrix, WrongNamesInNotesShow) {
+  const Copy copy;
+  write_atomically(copy.root / "cases/beam/NOTES.md", "# Beam: notes\n\nEq. 4.19, equation 4.8.\n");
+  const auto found = problems(read_matrix(copy.root));
+  EXPECT_TRUE(holds(found, "cases/beam/NOTES.md:3: the thesis has no Eq. 4.19"));
+  EXPECT_TRUE(holds(found, "cases/beam/NOTES.md:3: 'equation 4.8' is no name of an equation"));
+}
+
 TEST(Matrix, MoreThanFifteenWithoutTestShow) {
   const Copy copy;
   std::string text = read_text(copy.root / "reports/equations.toml");

@@ -16,6 +16,7 @@ std::string text_page(const Folders& folders, const std::string& name, const std
                           if (path.parent_path().parent_path() != "../cases") return {};
                           const std::string of_case = slug(path.parent_path().filename().string());
                           if (path.filename() == "README.md") return "#" + of_case;
+                          if (path.filename() == "NOTES.md") return fmt::format("#{}-notes", of_case);
                           return fmt::format("#{}-{}", of_case, slug(path.filename().string()));
                         },
                         [](const std::string&, const std::string&) -> std::optional<std::string> { return {}; }};

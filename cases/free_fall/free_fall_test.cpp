@@ -168,7 +168,7 @@ TEST(FreeFall, TheEnergyBalanceClosesWithTheSquareOfTheStep) {
       report.record({quantity, "1", Kind::limit, limit->source, 0, {limit->value, 0, Bound::at_most}, limit->because},
                     open, cost(fall.run));
     else
-      report.report(quantity, "1", open, "README.md, Limits", cost(fall.run));
+      report.report(quantity, "1", open, "NOTES.md, What the contacts leave open", cost(fall.run));
     return open;
   };
   const std::vector<std::string> multipliers{"contact.normal=multipliers", "contact.point=chebyshev"},

@@ -166,7 +166,7 @@ TEST(SlicingSettling, ThreeHundredBlocksRestByRelaxation) {
   check(report, ", 327 blocks by relaxation", record<3>("rock_mass.toml", {"damping.statics=\"adaptive\""}));
 }
 
-// counts of what coming to rest cost, so that it grows with the rock no faster than core/step/README.md says
+// counts of what coming to rest cost, so that it grows with the rock no faster than core/step/NOTES.md says
 void check_cost(CaseReport& report, const std::string& which, const RecordedRun<3>& settled, double most) {
   const State<3>& state = settled.last();
   const auto touching = std::count_if(state.contacts.list.begin(), state.contacts.list.end(),
@@ -175,7 +175,7 @@ void check_cost(CaseReport& report, const std::string& which, const RecordedRun<
   report.record({"settling: evaluations a touching pair" + which,
                  "1",
                  Kind::limit,
-                 "promise: core/step/README.md",
+                 "promise: core/step/NOTES.md",
                  0,
                  {most, 0, Bound::at_most},
                  "those measured, and half as much again: the order of rounding decides "

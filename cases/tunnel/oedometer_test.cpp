@@ -18,7 +18,7 @@ const Overrides coarse{"slicing.smallest_inscribed_radius=0.5"};
 const std::string thesis = "Boon (2013), table 5.3, Eqs 5.12 and 5.13",
                   network = "independent network of blocks so made, reference/tunnel";
 const std::string of_draws =
-    "seven draws of 0.25 m differ by a standard deviation of 5 %, by how long their longest blocks are (README)";
+    "seven draws of 0.25 m differ by a standard deviation of 5 %, by how long their longest blocks are (NOTES.md)";
 
 void report_both(CaseReport& report, const std::string& which, const Moduli& found, const std::string& note) {
   report.report("shear modulus, " + which, "Pa", found.shear, note, found.cost);

@@ -10,7 +10,7 @@
 
 namespace voussoir::cases {
 
-// a row of the table; its mechanisms as the issue of the table abbreviates them (README)
+// a row of the table; its mechanisms as the issue of the table abbreviates them (NOTES.md)
 struct OpeningRow {
   int number = 0;
   std::array<int, 3> dips{};  // deg, to the right; negative: to the left

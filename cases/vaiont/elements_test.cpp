@@ -37,7 +37,7 @@ Expected limit_analysis(const Ground& ground) {
   return {"rigid-block limit analysis of the same blocks", by_limit_analysis("dem.toml", settings_of(ground))};
 }
 
-// for many blocks, of which limit analysis takes a minute, and finds no answer at 40 m under water (README)
+// for many blocks, of which limit analysis takes a minute, and finds no answer at 40 m under water (NOTES.md)
 Expected closed_form(const Ground& ground) {
   constexpr double vertical = 90 * degree, rock = 40 * degree;
   reference::SectionLoads loads;

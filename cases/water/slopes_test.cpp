@@ -111,7 +111,7 @@ bool stands(double water, double tipped) {
 
 TEST(GravityBlock, TipsWhenTheWaterRises) {
   CaseReport report("water", {"water that tips a slender gravity block"});
-  constexpr double bracket = 0.01, tipped = 0.008;  // m, rad: see README
+  constexpr double bracket = 0.01, tipped = 0.008;  // m, rad: see NOTES.md
   double low = 9, high = 10;
   ASSERT_TRUE(stands(low, tipped));
   ASSERT_FALSE(stands(high, tipped));

@@ -147,7 +147,7 @@ void let_it_turn(CaseReport& report, const Carried& carried, double restrained) 
       std::hypot(value(scene, "wedge_rotation_x"), value(scene, "wedge_rotation_y"), value(scene, "wedge_rotation_z"));
   const std::string name = "critical friction, free rotation, " + carried.name;
   if (carried.name == on_points(1).name)
-    report.report(name, "deg", angle, "one point carries no moment: no target (cases/wedge/README.md)", cost(scene));
+    report.report(name, "deg", angle, "one point carries no moment: no target (cases/wedge/NOTES.md)", cost(scene));
   else
     report.record(
         angle_check(name, Kind::limit, "comparison: rigid wedge of six freedoms, four points a face", restrained - 0.15,

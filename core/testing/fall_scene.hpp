@@ -112,8 +112,8 @@ inline std::string fall_blocks(const FallPlan& plan) {
   return text + "]\n";
 }
 
-// The whole scene: two stages, `fall` without damping but that of the contacts, `rest` with local damping. README.md
-// gives the reasons for the numbers.
+// The whole scene: two stages, `fall` without damping but that of the contacts, `rest` with local damping. NOTES.md of
+// the case gives the reasons for the numbers.
 inline std::string fall_scene(const FallPlan& plan, const std::string& title) {
   return fmt::format(R"(# Made by core/testing/fall_scene.hpp, which a test compares with this file.
 title = "{}"
