@@ -36,6 +36,29 @@ std::vector<std::string> tables_of(const std::string& text) {
   return tables;
 }
 
+// the tables of lists that have one a line, in another order
+std::string with_lists_permuted(const std::string& text, Random& random) {
+  std::string result;
+  std::vector<std::string> list;
+  const auto close_list = [&] {
+    shapes::shuffle(list, random);
+    for (const std::string& line : list)
+      result += line;
+    list.clear();
+  };
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("  { ")) {
+      list.push_back(line + "\n");
+      continue;
+    }
+    close_list();
+    result += line + "\n";
+  }
+  close_list();
+  return result;
+}
+
 // the same tables in another order; stages follow one another in time and keep theirs
 std::string permuted(const std::string& text, Random& random) {
   std::vector<std::string> tables = tables_of(text);
@@ -44,7 +67,7 @@ std::string permuted(const std::string& text, Random& random) {
   const auto is_stage = [](const std::string& table) { return table.starts_with("[[stage]]"); };
   std::vector<std::string> stages;
   std::copy_if(tables.begin(), tables.end(), std::back_inserter(stages), is_stage);
-  std::string result = tables.front();
+  std::string result = with_lists_permuted(tables.front(), random);
   auto stage = stages.begin();
   for (const std::string& table : rest)
     result += is_stage(table) ? *stage++ : table;
