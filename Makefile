@@ -30,7 +30,7 @@ program:
 	@cmake --build $(BUILD) --parallel $(JOBS) --target voussoir
 
 build:
-	@cmake/install_packages.sh program tests benchmarks
+	@cmake/install_packages.sh program python tests benchmarks
 	@$(call configure,$(ALL_ON))
 	@cmake --build $(BUILD) --parallel $(JOBS)
 
@@ -44,7 +44,7 @@ test-long: build
 	@cd $(BUILD) && ctest -C Long -L long --output-on-failure --parallel $(JOBS)
 
 coverage:
-	@cmake/install_packages.sh program tests benchmarks coverage
+	@cmake/install_packages.sh program python tests benchmarks coverage
 	@cmake/coverage.sh $(CURDIR) $(CURDIR)/build-coverage $(JOBS)
 
 reports: build
@@ -58,7 +58,7 @@ benchmark:
 	@cmake/run_benchmarks.sh $(BUILD)
 
 deb:
-	@cmake/install_packages.sh program packaging
+	@cmake/install_packages.sh program python packaging
 	@cmake/make_packages.sh $(CURDIR)/build-packages $(JOBS)
 
 run: program
