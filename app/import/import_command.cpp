@@ -185,17 +185,17 @@ ExitCode import_command(const ImportArguments& arguments) {
                                printable(arguments.file.string()), largest_scene_file >> 20));
   const fs::path& out = arguments.out;
   const fs::path figure = fs::path(out).replace_filename(out.stem().string() + "_stereonet.svg");
-  const bool in_space = found.dimension == 3;
+  const bool has_stereonet = found.dimension == 3;
   claim_file(out, "import", {arguments.file}, arguments.overwrite);
-  if (in_space) claim_file(figure, "import", {arguments.file}, arguments.overwrite);
+  if (has_stereonet) claim_file(figure, "import", {arguments.file}, arguments.overwrite);
   write_file(out, table);
-  if (in_space) write_file(figure, stereonet(found, arguments.file));
+  if (has_stereonet) write_file(figure, stereonet(found, arguments.file));
   std::string report = fmt::format("joints: {}, {}-D\n", found.joints.size(), found.dimension) + box_text(found) +
                        out_of_plane_text(found) + dropped_text(found);
   for (const std::string& remark : found.remarks)
     report += remark + "\n";
   fmt::print("{}{}table: {}\n", report, sets_text(found), out.string());
-  if (in_space) fmt::print("stereonet: {}\n", figure.string());
+  if (has_stereonet) fmt::print("stereonet: {}\n", figure.string());
   for (const std::string& warning : found.warnings)
     tell("voussoir: warning: {}: {}\n", printable(arguments.file.string()), warning);
   return ExitCode::done;
