@@ -9,7 +9,7 @@
 namespace voussoir::benchmarks {
 namespace {
 
-// Debian's library was built with Eigen's defaults, the core with alignments of its own: they must agree
+// Debian's library was built with Eigen's defaults, and so is this file (benchmarks/CMakeLists.txt)
 static_assert(alignof(Eigen::Vector4d) == 16 && alignof(Eigen::Isometry3d) == 16);
 
 using Convex = fcl::Convex<double>;
@@ -20,8 +20,8 @@ std::shared_ptr<const Convex> convex(const Polytope<3>& part) {
     faces->push_back(static_cast<int>(loop.size()));
     faces->insert(faces->end(), loop.begin(), loop.end());
   }
-  return std::make_shared<const Convex>(std::make_shared<const std::vector<Vector<3>>>(part.vertices),
-                                        static_cast<int>(part.loops.size()), faces);
+  const auto vertices = std::make_shared<const std::vector<fcl::Vector3d>>(part.vertices.begin(), part.vertices.end());
+  return std::make_shared<const Convex>(vertices, static_cast<int>(part.loops.size()), faces);
 }
 
 struct Placed {
