@@ -41,10 +41,8 @@ void add_final_results(const StageInForce<Dim>& stage, Progress<Dim>& progress) 
 // stage after stage; false: interrupted
 template <int Dim>
 bool execute_all(const Prepared<Dim>& scene, Progress<Dim>& progress, const Watcher<Dim>& watcher) {
-  Model<Dim> model = scene.model;  // of the stage, and so the settings
+  Model<Dim> model = model_after(scene, progress.stage);  // of the stage, and so the settings
   Settings settings;
-  for (int s = 0; s < progress.stage; ++s)
-    model = apply(std::move(model), scene.stages[s].change);
   const int last = scene.last_stage.value_or(static_cast<int>(scene.stages.size()) - 1);
   while (progress.stage <= last) {
     enter_stage(scene, model, settings, progress);

@@ -1,7 +1,6 @@
 #include "core/run/snapshot.hpp"
 
-#include <utility>
-
+#include "core/run/stage_in_force.hpp"
 #include "core/step.hpp"
 
 namespace voussoir {
@@ -18,10 +17,7 @@ int stages_begun(const Progress<Dim>& progress) {
 
 template <int Dim>
 Model<Dim> model_of(const Prepared<Dim>& scene, const Progress<Dim>& progress) {
-  Model<Dim> model = scene.model;
-  for (int s = 0; s < stages_begun(progress); ++s)
-    model = apply(std::move(model), scene.stages[s].change);
-  return model;
+  return model_after(scene, stages_begun(progress));
 }
 
 template <int Dim>

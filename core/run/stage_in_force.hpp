@@ -19,6 +19,10 @@ struct StageInForce {
   const StagePlan& plan() const { return scene.stages[place]; }
 };
 
+// after the changes of the scene's first stages
+template <int Dim>
+Model<Dim> model_after(const Prepared<Dim>& scene, int stages);
+
 // "settle", "run", "reduce"
 const char* kind_of(const StagePlan& stage);
 

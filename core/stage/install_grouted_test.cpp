@@ -154,12 +154,9 @@ struct Bars {
       s.bodies.motions[body].rotation = turned(s.bodies.motions[body].rotation, turn);
     }
   }
-  LoadInputs<Dim> inputs(const State<Dim>& s) const {
-    return {s.schedule, s.bodies, s.contacts, s.supports, s.loads.relief};
-  }
   std::vector<Load<Dim>> loads(const State<Dim>& s) const {
     std::vector<Load<Dim>> all(scene.model.bodies.size());
-    bolt_loads<Dim>(scene.model, 1, inputs(s), all);
+    bolt_loads<Dim>(scene.model, 1, load_inputs(s), all);
     return all;
   }
 };
@@ -221,7 +218,7 @@ void expect_a_tangent() {
   add_bar_pairs(bars.scene.model, bars.scene.settings, bars.state, pairs);
   ASSERT_EQ(pairs.size(), 6u) << "each of four blocks with each other one";
   std::vector<BodyStiffness> bounds(4);
-  add_bar_stiffness<Dim>(bars.scene.model, bars.inputs(bars.state), bounds);
+  add_bar_stiffness<Dim>(bars.scene.model, load_inputs(bars.state), bounds);
   const std::vector<Load<Dim>> before = bars.loads(bars.state);
   constexpr double step = 1e-7;
   for (int b = 0; b < 4; ++b)

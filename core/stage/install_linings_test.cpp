@@ -191,8 +191,7 @@ TEST(Linings, HaveTheTangentOfTheirForces) {
     cache_poses(cast.model, 1, state.bodies);
     find_forces_of_linings(cast, state);
     std::vector<Load<2>> loads(cast.model.bodies.size());
-    lining_loads<2>(cast.model, 1, {state.schedule, state.bodies, state.contacts, state.supports, state.loads.relief},
-                    loads);
+    lining_loads<2>(cast.model, 1, load_inputs(state), loads);
     return loads;
   };
   State<2> here = cast.state;

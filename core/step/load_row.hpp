@@ -18,6 +18,11 @@ struct LoadInputs {
   const std::vector<ReliefLoad<Dim>>& relief;
 };
 
+template <int Dim>
+LoadInputs<Dim> load_inputs(const State<Dim>& state) {
+  return {state.schedule, state.bodies, state.contacts, state.supports, state.loads.relief};
+}
+
 // A load: whether there is any, what it does to the bodies, whose loads are zero before, and, where it changes with the
 // body's pose, by how much at most (for the time step) and how (for Newton's method).
 template <int Dim>

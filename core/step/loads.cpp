@@ -193,7 +193,7 @@ void sum_loads(const Model<Dim>& model, const Settings& settings, const Schedule
 
 template <int Dim>
 std::vector<typename PairStiffness<Dim>::Block> load_stiffness(const Model<Dim>& model, const State<Dim>& state) {
-  const LoadInputs<Dim> now{state.schedule, state.bodies, state.contacts, state.supports, state.loads.relief};
+  const LoadInputs<Dim> now = load_inputs(state);
   std::vector<Block<Dim>> stiffness;
   for (const LoadRow<Dim>& row : load_table<Dim>) {
     if (!row.add_tangent || !row.acts(model, now)) continue;
