@@ -139,6 +139,9 @@ enum class ReductionMethod { bisection, steps, rate, two_rates };
 // what a reduction searches: a friction angle, or the factor by which tan φ and cohesion are divided
 enum class Searched { friction, factor };
 
+// when a trial has failed: by the strength that its own motion requires, or by displacement alone
+enum class FailureCriterion { required_strength, displacement };
+
 // from where to where the factor is raised, by bisection or in steps
 struct FactorPlan {
   double from = 0, to = 0;  // start (stable) and end of the search
@@ -159,9 +162,10 @@ struct ReducePlan {
   double slower_rate = 0;               // rad/s, two_rates: the slower
   double failure_displacement = 0;      // m: a body that has moved this far since the search began (rates:
                                         // since the fall began) has failed; 0: a tenth of the smallest inscribed radius
-  double failure_fraction = 0;          // of the free mass that must have moved so far; 0: any body
-  long long ramp_steps = 500;           // steps over which a trial lowers the friction; few: inertia breaks the path
-  long long step_limit = 1'000'000;     // for one trial
+  FailureCriterion criterion = FailureCriterion::displacement;
+  double failure_fraction = 0;       // of the free mass that must have moved so far; 0: any body
+  long long ramp_steps = 500;        // steps over which a trial lowers the friction; few: inertia breaks the path
+  long long step_limit = 1'000'000;  // for one trial
 };
 
 // a choice of bodies: all that satisfy every condition given; sides refer to a joint's upward normal

@@ -246,8 +246,8 @@ void visit_fields(Either<StaticSystem> auto& s, auto&& visit) {
 }
 
 void visit_fields(Either<StaticIncrement> auto& n, auto&& visit) {
-  auto& [under_way, trial, increments_left, increment_time, ends, base, progress, system] = n;
-  visit(Saved{}, under_way, trial, increments_left, increment_time, ends, base, progress, system);
+  auto& [under_way, trial, increments_left, increment_time, ends, elastic, began, base, progress, system] = n;
+  visit(Saved{}, under_way, trial, increments_left, increment_time, ends, elastic, began, base, progress, system);
 }
 
 void visit_fields(Either<State> auto& s, auto&& visit) {

@@ -84,6 +84,10 @@ struct StaticIncrement {
   int increments_left = 0;    // after this one
   double increment_time = 0;  // s: by how much the schedules go on with each
   double ends = 0;            // s: where the last one puts them
+  // m, by body: the elastic displacement (core/step/elastic_displacement.hpp), by which slip since the base and steps
+  // are measured, and where the bodies were when the solver began; none if the increments alone bound the slip
+  std::vector<double> elastic;
+  std::vector<Vector<Dim>> began;
   StaticBase<Dim> base;
   StaticProgress progress;
   StaticSystem<Dim> system;

@@ -75,11 +75,42 @@ void visit_fields(Either<RunProgress> auto& r, auto&& visit) {
   visit(Saved{}, under_way, steps, at_rest, unconverged, begin);
 }
 
+void visit_fields(Just<WatchPlan> auto& w, auto&& visit) {
+  auto& [searched, properties, elastic, moved_away, tolerance] = w;
+  visit(Saved{}, searched, properties, elastic, moved_away, tolerance);
+}
+
+void visit_fields(Just<RequiredStrength> auto& r, auto&& visit) {
+  auto& [displacement, strength] = r;
+  visit(Saved{}, displacement, strength);
+}
+
+void visit_fields(Either<TrialWatch> auto& t, auto&& visit) {
+  auto& [begin, first, last, bolts, bonds, target, looks, required, elastic, lost, straight, turns, broke] = t;
+  visit(Saved{}, begin, first, last, bolts, bonds, target, looks, required, elastic, lost, straight, turns, broke);
+}
+
+void visit_fields(Either<FailureWatch> auto& w, auto&& visit) {
+  auto& [plan, trial] = w;
+  visit(Saved{}, plan, trial);
+}
+
+void visit_fields(Just<TrialEstimate> auto& e, auto&& visit) {
+  auto& [level, critical, taken_out] = e;
+  visit(Saved{}, level, critical, taken_out);
+}
+
+void visit_fields(Just<StableTrial> auto& t, auto&& visit) {
+  auto& [level, displacement, of_failure] = t;
+  visit(Saved{}, level, displacement, of_failure);
+}
+
 void visit_fields(Either<ReductionProgress> auto& r, auto&& visit) {
   auto& [trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced, true_motion,
-         trial_steps, avoids, undecided, run, begin, base] = r;
+         trial_steps, avoids, undecided, run, begin, base, failed_from, watch, estimates, stable_trials, turned] = r;
   visit(Saved{}, trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced,
-        true_motion, trial_steps, avoids, undecided, run, begin, base);
+        true_motion, trial_steps, avoids, undecided, run, begin, base, failed_from, watch, estimates, stable_trials,
+        turned);
 }
 
 void visit_fields(Just<StageRecord> auto& r, auto&& visit) {

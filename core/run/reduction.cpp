@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 
+#include "core/run/search_levels.hpp"
+#include "core/step/elastic_displacement.hpp"
 #include "core/step/relaxation.hpp"
 #include "text/angle.hpp"
 
@@ -35,6 +38,25 @@ constexpr long long relaxation_round = 50, motion_round = 10;
 // known), so a quarter of it covers what the extrapolation leaves
 constexpr double extrapolation_margin = 0.25;
 
+// An estimate counts if its trial was at a strength within this fraction of it: where the normal force depends on the
+// strength, one from a trial far below errs.
+constexpr double nearest_trial = 0.03;
+
+// Of what the extrapolation to no displacement changed: the bar of the criterion.
+constexpr double of_taken_out = 0.1;
+
+// Brackets between a failed level and the base that it was tried from, beyond which it is tried once more.
+constexpr double far_base = 4;
+
+// m: of a body's largest part; splinters that construction joints hold to it are no measure
+template <int Dim>
+double inscribed_radius(const Body<Dim>& body) {
+  double radius = body.size;
+  for (const Polytope<Dim>& part : body.parts)
+    radius = std::max(radius, part.inscribed_radius);
+  return radius;
+}
+
 // What a trial does: it seeks rest at a level, or the friction falls at constant rate from the last stable angle to
 // this one.
 struct Attempt {
@@ -44,30 +66,6 @@ struct Attempt {
   bool falls = false;
   double rate = 0;  // rad/s, of a fall
 };
-
-// What is searched, on the way from a stable to a failed level, and how messages name it: a friction angle falls, a
-// factor grows.
-struct Levels {
-  double from, to, tolerance, step;  // rad or 1
-  double direction;                  // of failure
-  double unit;                       // of a level in words
-  const char *symbol, *name;         // of that unit; of the keys
-  const char *start, *end;           // repairs of a search in the wrong place
-  const char *towards, *one;
-
-  // "33.4 deg"
-  std::string text(double level) const { return fmt::format("{:.6g}{}", level / unit, symbol); }
-  // the one of two that is nearer to stability
-  double safer(double a, double b) const { return direction < 0 ? std::max(a, b) : std::min(a, b); }
-};
-
-Levels levels_of(const ReducePlan& plan) {
-  if (plan.searched == Searched::friction)
-    return {plan.from, plan.to, plan.tolerance, plan.step, -1,     degree,
-            " deg",    "deg",   "higher",       "lower",   "down", "angle"};
-  const FactorPlan& f = plan.factor;
-  return {f.from, f.to, f.tolerance, f.step, 1, 1, "", "factor", "lower", "higher", "up", "factor"};
-}
 
 // The ways of searching stand at the end, each in one place. A way goes through its trials by their numbers, so that an
 // interrupted search, called again with its progress, continues in the trial that was under way.
@@ -81,7 +79,7 @@ struct Search {
   State<Dim>& state;
   ReductionProgress<Dim>& progress;
   std::vector<int> properties;
-  double failure_displacement;
+  double failure_displacement;  // m
   Levels levels;
   ReductionReport report;
 
@@ -100,6 +98,7 @@ struct Search {
     progress.true_motion = false;
     progress.trial_steps = 0;
     progress.run.begin = attempt.falls ? std::vector<Vector<Dim>>{} : progress.begin;
+    if (watches()) begin_watch(state, attempt.target, progress.watch);
     progress.target = attempt.target;
     state.schedule.started = state.schedule.time;
     if (attempt.falls) {
@@ -118,6 +117,93 @@ struct Search {
       progress.level_rate = fall / ramp;
     else
       set_strength(model, plan.searched, properties, progress.target, state.schedule);
+  }
+
+  // ---- the strength that a motion requires --------------------------------------------------------------------------
+
+  bool watches() const { return !progress.watch.plan.elastic.empty(); }
+
+  // from the first stable state on, where the rule is proved for this kind of search and no displacement is stated
+  void begin_watching() {
+    if (plan.failure_displacement > 0 || plan.criterion == FailureCriterion::displacement ||
+        !not_watched(model, plan, state.supports).empty())
+      return;
+    WatchPlan& watch = progress.watch.plan;
+    watch.searched = plan.searched;
+    watch.properties = properties;
+    watch.elastic = elastic_displacements(model, settings, progress.base);
+    for (const Body<Dim>& body : model.bodies)
+      watch.moved_away.push_back(default_failure_fraction * inscribed_radius(body));
+    watch.tolerance =
+        std::abs(levels.strength(levels.from) - levels.strength(levels.from + levels.direction * levels.tolerance));
+  }
+
+  // what a trial that has ended adds to what is known of the critical strength
+  void note_trial(double level, SearchTrial outcome) {
+    if (!watches()) return;
+    const TrialWatch<Dim>& trial = progress.watch.trial;
+    if (outcome == SearchTrial::stable) {
+      const MovingBodies moving =
+          moving_bodies(moved_since(model, progress.begin, placements(state.bodies)), progress.watch.plan.moved_away);
+      const StableTrial rested{.level = levels.strength(level),
+                               .displacement = moving.farthest,
+                               .of_failure = moving.farthest / moving.most_of};
+      progress.stable_trials.push_back(rested);
+    } else if (outcome == SearchTrial::failed) {
+      progress.turned = trial.turns;
+      if (const std::optional<RequiredStrength> critical = extrapolated(trial))
+        progress.estimates.push_back({.level = levels.strength(level),
+                                      .critical = critical->strength,
+                                      .taken_out = std::abs(critical->strength - trial.required.back().strength)});
+    }
+  }
+
+  // the last estimate as a level, if it comes from a trial near it and does not contradict the bracket
+  std::optional<double> estimate() const {
+    if (progress.estimates.empty()) return {};
+    const TrialEstimate& last = progress.estimates.back();
+    if (!(last.critical > 0) || std::abs(last.level - last.critical) > nearest_trial * last.critical) return {};
+    const double level = levels.level_of(last.critical);
+    if (levels.direction * (level - progress.stable) < -levels.tolerance ||
+        levels.direction * (progress.failed - level) < -levels.tolerance)
+      return {};
+    return level;
+  }
+
+  // whether the last two estimates are one within half the tolerance
+  bool estimates_agree() const {
+    const std::size_t n = progress.estimates.size();
+    if (n < 2 || !estimate()) return false;
+    const TrialEstimate &last = progress.estimates[n - 1], &before = progress.estimates[n - 2];
+    const double apart = std::abs(levels.level_of(last.critical) - levels.level_of(before.critical));
+    const double from_level = std::abs(levels.level_of(last.critical) - levels.level_of(last.level));
+    return apart <= 0.5 * levels.tolerance + 0.1 * from_level;
+  }
+
+  // a trial is stable within half the tolerance of the estimate
+  bool is_certified() const {
+    const double beyond = 0.5 * (1 + 1e-9) * levels.tolerance;
+    return estimates_agree() && levels.direction * (*estimate() - progress.stable) <= beyond;
+  }
+
+  // The level of the next trial by the last estimate: a hundredth on the failed side, where its line is better; once
+  // two estimates agree, half a tolerance on the stable side. Nothing if these are outside the bracket.
+  std::optional<double> level_by_estimate() const {
+    const std::optional<double> at = estimate();
+    const auto inside = [&](double level) {
+      return levels.direction * (level - progress.stable) > 0 && levels.direction * (progress.failed - level) > 0;
+    };
+    if (!at || !inside(*at)) return {};
+    const double near = std::max(2 * levels.tolerance, 0.01 * *at);
+    const double beyond = *at + levels.direction * near, before = *at - levels.direction * 0.5 * levels.tolerance;
+    if (!estimates_agree() && inside(beyond) && std::abs(beyond - progress.failed) > 0.2 * near) return beyond;
+    return inside(before) ? std::optional(before) : std::nullopt;
+  }
+
+  // Newton's method: the failed end was found from a base far from it, whose chord of slip may have failed it
+  bool doubts_failed() const {
+    return watches() && settings.damping.statics == Statics::newton &&
+           std::abs(progress.failed - progress.failed_from) > far_base * bracket();
   }
 
   double level_in_force() const {
@@ -145,7 +231,10 @@ struct Search {
   SearchTrial run_turn(const Attempt& attempt) {
     RunGoal goal;
     goal.rest = !attempt.falls;
-    goal.moved_away = failure_displacement;
+    if (watches())
+      goal.moved_away_of = progress.watch.plan.moved_away;
+    else
+      goal.moved_away = failure_displacement;
     goal.moved_fraction = plan.failure_fraction;
     goal.step_limit = plan.step_limit - progress.trial_steps;
     if (relaxes_first(attempt)) goal.step_limit = std::min(*goal.step_limit, round());
@@ -157,7 +246,7 @@ struct Search {
                                .properties = properties};
     Settings own = settings;
     if (progress.true_motion) own.damping.statics = Statics::local;
-    report.last = run(model, own, goal, schedule, state, progress.run, hooks);
+    report.last = run(model, own, goal, schedule, state, progress.run, hooks, watches() ? &progress.watch : nullptr);
     report.unbalanced = report.last.unbalanced;
     return trial_of(report.last.reason);
   }
@@ -183,6 +272,15 @@ struct Search {
     const std::optional<SearchTrial> outcome = carry_out(attempt);
     if (!outcome) return {};
     const double level = level_of(attempt);
+    note_trial(level, *outcome);
+    if (std::getenv("DBG")) {
+      fmt::print(stderr, "T {} level {:.5f} {} steps {} reason {} el {:.3g} looks {} lost {} straight {} turns {}\n",
+                 attempt.number, level / levels.unit, int(*outcome), report.last.steps, int(report.last.reason),
+                 progress.watch.trial.elastic, progress.watch.trial.looks, progress.watch.trial.lost,
+                 progress.watch.trial.straight, progress.watch.trial.turns);
+      for (auto& r : progress.watch.trial.required)
+        fmt::print(stderr, "   u {:.4g} {:.6f}\n", r.displacement, std::atan(r.strength) / degree);
+    }
     if (outcome == SearchTrial::undecided) {
       if (plan.method == ReductionMethod::bisection && attempt.number > 1 && !progress.avoids) {
         progress.avoids = true;
@@ -199,8 +297,12 @@ struct Search {
     }
     if (outcome == SearchTrial::failed) {
       progress.failed = level;
+      progress.failed_from = progress.stable;
       return outcome;
     }
+    // a failed level that is stable from a nearer base: the bracket opens beyond it, to a level to be tried like it
+    if (attempt.number > 1 && levels.direction * (level - progress.failed) >= 0)
+      progress.failed = levels.safer(level + 2 * levels.direction * std::max(bracket(), levels.tolerance), levels.to);
     progress.stable = level;
     progress.unbalanced = report.last.unbalanced;
     if (plan.method != ReductionMethod::rate) progress.base = state;
@@ -228,6 +330,7 @@ struct Search {
   void close_bracket() {
     go_back_to_base();
     report.unbalanced = progress.unbalanced;
+    report.bracket = 0.5 * bracket();
     close(0.5 * (progress.stable + progress.failed), 0.5 * bracket());
   }
 
@@ -275,6 +378,10 @@ struct Search {
   }
 
   std::string failed_rule() const {
+    if (watches())
+      return "failed: the strength that the motion requires falls in a straight line after ten elastic displacements, "
+             "or a "
+             "body moved by a tenth of its inscribed radius";
     if (plan.failure_fraction == 0) return fmt::format("failed: a body moved more than {:.3g} m", failure_displacement);
     return fmt::format("failed: bodies of {:g} of the free mass moved more than {:.3g} m", plan.failure_fraction,
                        failure_displacement);
@@ -297,19 +404,57 @@ struct Search {
 
   void bisect() {
     if (progress.trial == 0 && !rest_at(0, levels.from)) return;
+    if (progress.trial == 0) begin_watching();
     if (progress.trial <= 1 && !rest_at(1, levels.to, true)) return;
-    for (int n = std::max(progress.trial, 2); bracket() > levels.tolerance; ++n)
-      if (!rest_at(n, next_level(), true)) return;
+    const int next = progress.run.under_way ? progress.trial : progress.trial + 1;
+    for (int n = std::max(next, 2); !is_certified() && (bracket() > levels.tolerance || doubts_failed()); ++n)
+      if (!rest_at(n, bracket() > levels.tolerance ? next_level() : progress.failed, true)) return;
     close_bracket();
+    if (watches()) close_by_estimate();
+  }
+  // the strength required, taken to no displacement, or of bodies that turn the fit through the stable trials
+  void close_by_estimate() {
+    if (std::getenv("DBG")) {
+      for (auto& t : progress.stable_trials)
+        fmt::print(stderr, "S {:.6f} {:.6g} {:.4g}\n", std::atan(t.level) / degree, t.displacement, t.of_failure);
+      for (auto& t : progress.estimates)
+        fmt::print(stderr, "E {:.6f} {:.6f} {:.3g}\n", std::atan(t.level) / degree, std::atan(t.critical) / degree,
+                   t.taken_out);
+      fmt::print(stderr, "turned {}\n", progress.turned);
+    }
+    const double half_bracket = report.error_bar;
+    if (const std::optional<double> critical = estimate()) {
+      const std::size_t n = progress.estimates.size();
+      const TrialEstimate& last = progress.estimates.back();
+      const double taken_out = std::abs(*critical - levels.level_of(last.critical - last.taken_out));
+      const double other =
+          n < 2 ? half_bracket : std::abs(*critical - levels.level_of(progress.estimates[n - 2].critical));
+      report.by = CriticalBy::required_strength;
+      close(*critical, of_taken_out * taken_out + other);
+    } else if (const std::optional<StableFit> fit =
+                   progress.turned ? fit_stable(progress.stable_trials) : std::nullopt) {
+      const double critical = levels.level_of(fit->critical), from_bracket = std::abs(critical - report.critical);
+      const double change = std::abs(critical - levels.level_of(fit->critical + fit->change));
+      if (!fit->of_three && change >= from_bracket) return;
+      report.by = CriticalBy::stable_fit;
+      close(critical, fit->of_three ? from_bracket : std::min(2 * change, from_bracket));
+    }
   }
   // half way, or where no trial decides the level there, half way from it to the farther end
   double next_level() {
+    if (const std::optional<double> level = level_by_estimate(); level && !progress.avoids) return *level;
     const double below = progress.undecided - progress.stable, above = progress.failed - progress.undecided;
     progress.avoids = progress.avoids && levels.direction * below > 0 && levels.direction * above > 0;
     if (!progress.avoids) return 0.5 * (progress.stable + progress.failed);
     return progress.undecided + 0.5 * (std::abs(below) > std::abs(above) ? -below : above);
   }
-  std::string bisection_rule() const { return "bisection from the last stable state; " + stable_and_failed_rule(); }
+  std::string bisection_rule() const {
+    std::string rule = "bisection from the last stable state; " + stable_and_failed_rule();
+    if (report.by == CriticalBy::required_strength) rule += "; result: the strength required at no displacement";
+    if (report.by == CriticalBy::stable_fit)
+      rule += "; result: the fit through the stable trials, s = s0 + b u^(-1/2) - a u, at no displacement";
+    return rule;
+  }
 
   // ---- steps: from rest to rest until one fails ---------------------------------------------------------------------
 

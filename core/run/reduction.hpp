@@ -6,18 +6,24 @@
 #include <string>
 #include <vector>
 
+#include "core/run/search_estimates.hpp"
 #include "core/run/search_trial.hpp"
 
 namespace voussoir {
+
+// how the critical level follows from the trials
+enum class CriticalBy { bracket, required_strength, stable_fit };
 
 struct ReductionReport {
   bool bracketed = false;         // both a stable and a failed level are known; `critical` lies between
   double stable = 0, failed = 0;  // rad or 1: the stable one nearest to failure, the failed one nearest to stability
   double critical = 0;            // same unit
   double error_bar = 0;           // same unit: what the search leaves open
-  std::string rule;               // the sign of failure
-  std::string message;            // why there is no answer, or none within the tolerance; empty: the search is complete
-  RunReport last;                 // the last run
+  double bracket = 0;             // same unit: half of it; 0 of searches at a rate
+  CriticalBy by = CriticalBy::bracket;
+  std::string rule;        // the sign of failure
+  std::string message;     // why there is no answer, or none within the tolerance; empty: the search is complete
+  RunReport last;          // the last run
   double unbalanced = -1;  // the equilibrium measure of the state that is left; negative where no rest was sought
 };
 
@@ -38,6 +44,11 @@ struct ReductionProgress {
   RunProgress<Dim> run;                   // of the trial under way
   std::vector<Vector<Dim>> begin;         // m: displacements when the search began
   State<Dim> base;                        // the last stable state
+  double failed_from = 0;                 // the stable level that the failed one was tried from
+  FailureWatch<Dim> watch;                // of the trial under way
+  std::vector<TrialEstimate> estimates;   // of failed trials
+  std::vector<StableTrial> stable_trials;
+  bool turned = false;  // bodies of the last failed trial turned
 };
 
 // Whether a trial, counted from 0, is a detour: what it did is taken back, or was only to show that it fails. The

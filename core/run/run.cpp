@@ -67,18 +67,38 @@ bool follow(const Model<Dim>& model, const RunSchedule& plan, Schedule& schedule
   return changing;
 }
 
+// where the bodies are; while the static solver is at work, at the last trial that it accepted
+template <int Dim>
+std::vector<Placement<Dim>> accepted_or_now(const Model<Dim>& model, const State<Dim>& state) {
+  return state.increment.under_way ? accepted_placements(model, state.increment) : placements(state.bodies);
+}
+
+bool ends_by_displacement(const RunGoal& goal) {
+  return goal.moved_away || !goal.moved_away_of.empty();
+}
+
+// Whether the bodies that move have come as far as any of them may, by its own measure: a splinter that rides on blocks
+// has failed with them, one that moves alone by itself.
+template <int Dim>
+bool has_moved_by_own_measure(const Model<Dim>& model, const std::vector<double>& moved_away,
+                              const std::vector<Vector<Dim>>& begin, const std::vector<Placement<Dim>>& placed) {
+  const MovingBodies moving = moving_bodies(moved_since(model, begin, placed), moved_away);
+  return moving.farthest > moving.most_of;
+}
+
 // Whether enough has moved away. Where one body is not enough, those that have are left behind.
 template <int Dim>
 bool has_moved_away(const Model<Dim>& model, const RunGoal& goal, const std::vector<Vector<Dim>>& begin,
                     const StaticIncrement<Dim>& increment, BodiesState<Dim>& bodies) {
   const bool trials = increment.under_way;  // one that is not yet judged is no motion
-  const std::vector<Vector<Dim>> accepted = trials ? accepted_displacements(model, increment) : begin;
+  const std::vector<Placement<Dim>> accepted =
+      trials ? accepted_placements(model, increment) : std::vector<Placement<Dim>>{};
   double moved = 0, free = 0;  // kg
   if (goal.moved_fraction > 0) bodies.left_behind.assign(model.bodies.size(), false);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].fixed) continue;
     free += model.bodies[b].mass;
-    const double way = ((trials ? accepted[b] : bodies.motions[b].displacement) - begin[b]).norm();
+    const double way = ((trials ? accepted[b].displacement : bodies.motions[b].displacement) - begin[b]).norm();
     if (!(way > *goal.moved_away)) continue;
     if (goal.moved_fraction == 0) return true;
     bodies.left_behind[b] = true;
@@ -228,7 +248,7 @@ RunProgress<Dim> begin_run(const RunGoal& goal, const Counters& counters, Bodies
   RunProgress<Dim> progress;
   progress.under_way = true;
   progress.unconverged = counters.unconverged;
-  if (goal.moved_away)
+  if (ends_by_displacement(goal))
     for (const Motion<Dim>& m : bodies.motions)
       progress.begin.push_back(m.displacement);
   return progress;
@@ -242,6 +262,8 @@ std::string describe(StopReason reason) {
       return "equilibrium";
     case StopReason::end_time:
       return "end time";
+    case StopReason::lost_equilibrium:
+      return "equilibrium lost";
     case StopReason::moved_away:
       return "failure displacement passed";
     case StopReason::step_limit:
@@ -269,7 +291,7 @@ std::string label_of(const Model<Dim>& model, int body) {
 
 template <int Dim>
 RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& goal, const RunSchedule& schedule,
-              State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks) {
+              State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks, FailureWatch<Dim>* watch) {
   const bool relaxing = relaxes(goal.rest, settings.damping);
   if (!progress.under_way) {
     std::vector<Vector<Dim>> stated = std::move(progress.begin);
@@ -295,13 +317,17 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
   const std::function<void(State<Dim>&)> with_forces = [&](State<Dim>& now) {
     if (progress.steps == 0) stop_bodies(model, relaxing, now);
     if (relaxing && begins_newton(model, settings, progress, changing, now))
-      begin_newton(model, settings, progress.steps == 0 ? ramp_of(schedule) : 0, now);
+      begin_newton(model, settings, progress.steps == 0 ? ramp_of(schedule) : 0,
+                   watch ? watch->plan.elastic : std::vector<double>{}, now);
+    // a trial of the static solver is looked at when it has been judged
+    if (watch && !now.increment.under_way) look(model, now, placements(now.bodies), progress.begin, *watch);
     if (hooks.with_forces) hooks.with_forces(now);
   };
   while (true) {
     if (hooks.pause && hooks.pause()) return stop(StopReason::interrupted);
     const bool tried = state.increment.under_way;
     step<Dim>(model, settings, state, with_forces);
+    if (watch && tried) look(model, state, accepted_or_now(model, state), progress.begin, *watch);
     const bool changed = std::exchange(changing, follow(model, schedule, state.schedule, state.loads.relief));
     ++progress.steps;
     report.unbalanced = goal.rest ? unbalanced_ratio(model, settings.threads, state) : -1;
@@ -318,13 +344,17 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     const bool settled = goal.rest && !changed && !evaluated && report.unbalanced <= settings.equilibrium.unbalanced;
     progress.at_rest = settled ? progress.at_rest + 1 : 0;
     if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
+    if (watch && watch->trial.lost) return stop(StopReason::lost_equilibrium);
     if (goal.moved_away && has_moved_away(model, goal, progress.begin, state.increment, state.bodies))
+      return stop(StopReason::moved_away);
+    if (!goal.moved_away_of.empty() &&
+        has_moved_by_own_measure(model, goal.moved_away_of, progress.begin, accepted_or_now(model, state)))
       return stop(StopReason::moved_away);
     if (goal.end_time && state.schedule.time >= *goal.end_time) return stop(StopReason::end_time);
     if (goal.rest && !evaluated && std::isinf(report.unbalanced))
       if (const std::string loose = loose_support(model, state); !loose.empty())
         return stop(StopReason::lining_loose, loose + ", and nothing else exerts a force");
-    if (goal.rest && !goal.moved_away && !may_return(schedule, changing) && !state.increment.under_way &&
+    if (goal.rest && !ends_by_displacement(goal) && !may_return(schedule, changing) && !state.increment.under_way &&
         progress.steps % steps_between_falls == 0)
       if (const int body = falling_free(model, state); body >= 0)
         return stop(StopReason::falls_free,
@@ -340,8 +370,8 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
 template std::string label_of<2>(const Model<2>&, int);
 template std::string label_of<3>(const Model<3>&, int);
 template RunReport run<2>(const Model<2>&, const Settings&, const RunGoal&, const RunSchedule&, State<2>&,
-                          RunProgress<2>&, const RunHooks<2>&);
+                          RunProgress<2>&, const RunHooks<2>&, FailureWatch<2>*);
 template RunReport run<3>(const Model<3>&, const Settings&, const RunGoal&, const RunSchedule&, State<3>&,
-                          RunProgress<3>&, const RunHooks<3>&);
+                          RunProgress<3>&, const RunHooks<3>&, FailureWatch<3>*);
 
 }  // namespace voussoir

@@ -9,12 +9,14 @@
 #include "core/base/settings.hpp"
 #include "core/model/model.hpp"
 #include "core/model/state.hpp"
+#include "core/run/failure_watch.hpp"
 
 namespace voussoir {
 
 enum class StopReason {
   equilibrium,
   end_time,
+  lost_equilibrium,  // of a trial of a search: the strength that its motion requires says so
   moved_away,
   step_limit,
   time_limit,
@@ -33,6 +35,7 @@ struct RunGoal {
   std::optional<double> time_limit = {};     // s: simulated time at which it is given up
   std::optional<long long> step_limit = {};  // of this run
   std::optional<double> moved_away = {};     // m: stop when a free body is this far from RunProgress::begin
+  std::vector<double> moved_away_of{};       // m, by body: the same, each by its own
   double moved_fraction = 0;                 // or when bodies of this fraction of the free mass are; 0: any body
 };
 
@@ -78,10 +81,12 @@ struct RunHooks {
   std::function<bool()> pause;
 };
 
-// Begins, or continues where `progress` says it is under way; the goal and the schedule must then be the same.
+// Begins, or continues where `progress` says it is under way; the goal and the schedule must then be the same. A watch
+// ends the run when it finds that equilibrium is lost.
 template <int Dim>
 RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& goal, const RunSchedule& schedule,
-              State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks = {});
+              State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks = {},
+              FailureWatch<Dim>* watch = nullptr);
 
 // from the begin, without hooks
 template <int Dim>

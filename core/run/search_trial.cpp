@@ -6,6 +6,7 @@ SearchTrial trial_of(StopReason reason) {
   switch (reason) {
     case StopReason::equilibrium:
       return SearchTrial::stable;
+    case StopReason::lost_equilibrium:
     case StopReason::moved_away:
       return SearchTrial::failed;
     case StopReason::no_contact_answer:

@@ -33,8 +33,10 @@ bool newton_applies(const Model<Dim>& model);
 
 // The bodies are at rest and relaxation has begun: from here on a step is an evaluation at a trial. `ramp` (s): how
 // long the schedules of gravity and friction continue, which the increments divide between them; 0 where they stand.
+// `elastic`: of a trial of a search, StaticIncrement::elastic.
 template <int Dim>
-void begin_newton(const Model<Dim>& model, const Settings& settings, double ramp, State<Dim>& state);
+void begin_newton(const Model<Dim>& model, const Settings& settings, double ramp, const std::vector<double>& elastic,
+                  State<Dim>& state);
 
 // The loads at a trial have been found: judges it and sets the bodies to the next one, and all else but candidates and
 // settings to what it was at the base: of the state, nearly everything. Where all increments have come
@@ -51,8 +53,8 @@ std::string progress_of_newton(const State<Dim>& state);
 template <int Dim>
 double memory_of_newton(const State<Dim>& state);
 
-// m, by body: at the last trial that was accepted
+// by body: at the last trial that was accepted
 template <int Dim>
-std::vector<Vector<Dim>> accepted_displacements(const Model<Dim>& model, const StaticIncrement<Dim>& increment);
+std::vector<Placement<Dim>> accepted_placements(const Model<Dim>& model, const StaticIncrement<Dim>& increment);
 
 }  // namespace voussoir

@@ -73,6 +73,12 @@ KeyTable stage_reduce_keys() {
      .meaning = "a block that has moved this far since the search began (rate, two_rates: since the fall began) has "
          "failed; 0: a tenth of the smallest inscribed radius of the free blocks",
      .breaks = "must exceed the elastic settlement; too large: trials take long", .mistake = "was it given in mm?"},
+    {.key = "failure_criterion", .members = {one_of(&ReducePlan::criterion,
+         {{"required_strength", FailureCriterion::required_strength}, {"displacement", FailureCriterion::displacement}})},
+     .example = "\"displacement\"", .when = {"kind", "reduce"},
+     .meaning = "required_strength: a trial has failed when the strength that its own motion requires falls in a straight "
+         "line after ten elastic displacements, and the result is this strength at no displacement (bisection; a stated "
+         "failure_displacement takes its place); displacement: when a block has moved by failure_displacement"},
     {.key = "failure_fraction", .members = {in(&ReducePlan::failure_fraction)}, .unit = "1", .range = {0, 1},
      .plausible = {.low = 0.005, .high = 0.9, .or_zero = true}, .example = "0.1", .when = {"kind", "reduce"},
      .meaning = "fraction of the mass of all free blocks that must have moved by failure_displacement: a loose stone then "

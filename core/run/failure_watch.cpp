@@ -1,0 +1,233 @@
+#include "core/run/failure_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voussoir {
+namespace {
+
+// elastic displacements after which what settling has locked in is spent: shear dies away as e^(-u/1.1 u_el)
+constexpr double until_elastic_is_spent = 10;
+
+// Straight: the slope over the last doubling is at least this much of the one before. A straight line gives 1, a block
+// that turns on its edge 0.35, what dies away exponentially less.
+constexpr double straight_from = 0.5;
+
+// or what the line still falls by over the whole way is this fraction of the search's tolerance
+constexpr double flat_fraction = 0.1;
+
+// of the strength: falling by more than this over one elastic displacement is elastic still; of the fall: what bolts
+// that load up may take
+constexpr double elastic_fall = 0.01, loading_share = 0.1;
+
+// bodies turn when a point of theirs moves by this much of the displacement through it
+constexpr double turning_share = 0.1;
+
+// bodies that move at least so far as this fraction of the one that moves most are those that fail
+constexpr double moving_share = 0.5;
+
+// displacements of the two looks of a line, at least this factor apart
+constexpr double apart = 1.15;
+
+// the motion between two looks, its power, and the resistance of the joints along it
+struct Work {
+  double most = 0;        // m
+  double power = 0;       // P, J
+  double resistance = 0;  // D, J
+};
+
+template <int Dim>
+struct Moved {
+  std::vector<Vector<Dim>> by;    // m, by body; 0 of one that is held
+  std::vector<Spin<Dim>> turned;  // rad
+};
+
+template <int Dim>
+Moved<Dim> moved_between(const Model<Dim>& model, const std::vector<Placement<Dim>>& from,
+                         const std::vector<Placement<Dim>>& to) {
+  Moved<Dim> moved;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    Vector<Dim> by = to[b].displacement - from[b].displacement;
+    Spin<Dim> turn = rotation_vector(to[b].rotation) - rotation_vector(from[b].rotation);
+    const Body<Dim>& body = model.bodies[b];
+    for (int k = 0; k < Dim; ++k)
+      if (body.fixed || !body.free_translation[k]) by[k] = 0;
+    for (int k = 0; k < spin_freedoms<Dim>; ++k)
+      if (body.fixed || !body.free_rotation[k]) turn[k] = 0;
+    moved.by.push_back(by);
+    moved.turned.push_back(turn);
+  }
+  return moved;
+}
+
+template <int Dim>
+Work work_of(const Model<Dim>& model, const State<Dim>& state, const WatchPlan& plan, const Moved<Dim>& moved) {
+  Work work;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    work.power += state.loads.total[b].force.dot(moved.by[b]) + state.loads.total[b].moment.dot(moved.turned[b]);
+    work.most = std::max(work.most, moved.by[b].norm());
+  }
+  for (const Contact<Dim>& c : state.contacts.list) {
+    if (!c.touching() || !std::ranges::binary_search(plan.properties, c.properties)) continue;
+    const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
+    const Vector<Dim>& arm_a = c.geometry.point;
+    const Vector<Dim> arm_b = arm_a - between(state.bodies.poses[a], state.bodies.poses[b]);
+    const Vector<Dim> slip = moved.by[b] + cross(moved.turned[b], arm_b) - moved.by[a] - cross(moved.turned[a], arm_a);
+    const Vector<Dim>& normal = c.geometry.normal;
+    const double pressed = std::max(0.0, c.force.dot(normal));
+    const double friction = plan.searched == Searched::factor ? std::tan(state.schedule.friction[c.properties]) : 1;
+    work.resistance += pressed * friction * (slip - slip.dot(normal) * normal).norm();
+  }
+  return work;
+}
+
+// tan φ or 1/F
+double strength_in_force(const WatchPlan& plan, const Schedule& schedule) {
+  const int first = plan.properties.front();
+  if (plan.searched == Searched::friction) return std::tan(schedule.friction[first]);
+  return schedule.strength_factor.empty() ? 1 : 1 / schedule.strength_factor[first];
+}
+
+template <int Dim>
+double required_by(const WatchPlan& plan, const Schedule& schedule, const Work& work) {
+  const double in_force = strength_in_force(plan, schedule), more = work.power / work.resistance;
+  return plan.searched == Searched::friction ? in_force + more : in_force * (1 + more);
+}
+
+template <int Dim>
+double forces_of_bolts(const Model<Dim>& model, const LoadsState<Dim>& loads) {
+  const std::vector<Load<Dim>>& of_bolts = loads.by_source[Source::bolts];
+  double sum = 0;
+  for (std::size_t b = 0; b < of_bolts.size(); ++b)
+    if (!model.bodies[b].fixed) sum += of_bolts[b].force.norm();
+  return sum;
+}
+
+double slope(const RequiredStrength& from, const RequiredStrength& to) {
+  return (from.strength - to.strength) / (to.displacement - from.displacement);
+}
+
+// Judges the line through the last three looks.
+template <int Dim>
+void judge(const Model<Dim>& model, const Moved<Dim>& since_begin, const Work& work, double moved, double loading,
+           double tolerance, TrialWatch<Dim>& trial) {
+  double turned = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    turned = std::max(turned, since_begin.turned[b].norm() * model.bodies[b].radius);
+  trial.turns = turned > turning_share * moved;
+  trial.straight = false;
+  const std::size_t n = trial.required.size();
+  if (n < 3) return;
+  const RequiredStrength &now = trial.required[n - 1], &before = trial.required[n - 2];
+  const double first = slope(trial.required[n - 3], before), second = slope(before, now);
+  const double flat = flat_fraction * tolerance, falls = second * moved;
+  const bool keeps_on = first <= 0 || second >= straight_from * first;
+  const bool elastic = second * trial.elastic > elastic_fall * now.strength ||
+                       (second > 0 && loading > loading_share * (before.strength - now.strength) * work.resistance);
+  const bool drives = work.power > 0 && now.strength > trial.target;
+  trial.straight = !trial.turns && ((first > 0 && second >= straight_from * first && second <= first / straight_from) ||
+                                    std::abs(falls) <= flat);
+  trial.lost = !trial.turns && drives && !elastic && (keeps_on || falls <= flat) &&
+               moved >= until_elastic_is_spent * trial.elastic;
+}
+
+}  // namespace
+
+MovingBodies moving_bodies(const std::vector<double>& moved, const std::vector<double>& values) {
+  MovingBodies moving{.farthest = moved.empty() ? 0 : std::ranges::max(moved)};
+  for (std::size_t b = 0; b < moved.size(); ++b)
+    if (moved[b] >= moving_share * moving.farthest) moving.most_of = std::max(moving.most_of, values[b]);
+  return moving;
+}
+
+template <int Dim>
+std::vector<double> moved_since(const Model<Dim>& model, const std::vector<Vector<Dim>>& displacements,
+                                const std::vector<Placement<Dim>>& placed) {
+  std::vector<double> moved;
+  for (std::size_t b = 0; b < placed.size(); ++b)
+    moved.push_back(model.bodies[b].fixed ? 0 : (placed[b].displacement - displacements[b]).norm());
+  return moved;
+}
+
+template <int Dim>
+std::vector<Placement<Dim>> placements(const BodiesState<Dim>& bodies) {
+  std::vector<Placement<Dim>> placed;
+  placed.reserve(bodies.motions.size());
+  for (const Motion<Dim>& m : bodies.motions)
+    placed.push_back({m.displacement, m.rotation});
+  return placed;
+}
+
+template <int Dim>
+void begin_watch(const State<Dim>& state, double level, FailureWatch<Dim>& watch) {
+  watch.trial = {};
+  watch.trial.first = watch.trial.last = placements(state.bodies);
+  for (const Motion<Dim>& m : state.bodies.motions)
+    watch.trial.begin.push_back(m.displacement);
+  watch.trial.bonds = whole_bonds(state.contacts);
+  watch.trial.target = watch.plan.searched == Searched::friction ? std::tan(level) : 1 / level;
+}
+
+template <int Dim>
+void look(const Model<Dim>& model, const State<Dim>& state, const std::vector<Placement<Dim>>& placed,
+          const std::vector<Vector<Dim>>& began, FailureWatch<Dim>& watch) {
+  TrialWatch<Dim>& trial = watch.trial;
+  const MovingBodies moving = moving_bodies(moved_since(model, trial.begin, placed), watch.plan.elastic);
+  const double moved = moving.farthest;
+  if (!(moved > 0)) return;
+  trial.elastic = moving.most_of;
+  if (!(trial.elastic > 0) || moved < std::ldexp(trial.elastic, trial.looks - 1)) return;
+
+  const Moved<Dim> since_last = moved_between(model, trial.last, placed);
+  const Work work = work_of(model, state, watch.plan, since_last);
+  const double displacement = std::ranges::max(moved_since(model, began, placed));
+  const double bolts = forces_of_bolts(model, state.loads);
+  const bool goes_on = trial.required.empty() || displacement > trial.required.back().displacement;
+  if (work.resistance > 0 && work.most > 0 && goes_on) {
+    trial.required.push_back({displacement, required_by<Dim>(watch.plan, state.schedule, work)});
+    trial.broke = trial.broke || whole_bonds(state.contacts) < trial.bonds;
+    judge(model, moved_between(model, trial.first, placed), work, moved, (bolts - trial.bolts) * work.most,
+          watch.plan.tolerance, trial);
+  }
+  trial.last = placed;
+  trial.bolts = bolts;
+  while (moved >= std::ldexp(trial.elastic, trial.looks - 1))
+    ++trial.looks;
+}
+
+template <int Dim>
+std::optional<RequiredStrength> extrapolated(const TrialWatch<Dim>& trial) {
+  const std::size_t n = trial.required.size();
+  if (n < 2 || !trial.straight || trial.broke) return {};
+  const RequiredStrength &first = trial.required[n - 2], &second = trial.required[n - 1];
+  if (!(second.displacement > apart * first.displacement)) return {};
+  return RequiredStrength{0, first.strength + slope(first, second) * first.displacement};
+}
+
+template <int Dim>
+std::string not_watched(const Model<Dim>& model, const ReducePlan& plan, const SupportsState<Dim>& supports) {
+  if (plan.method != ReductionMethod::bisection) return "the search does not bisect";
+  if (plan.failure_fraction > 0) return "a fraction of the blocks must fail";
+  if (!model.prescribed.empty()) return "bodies are driven";
+  if (model.particles) return "there are potential particles";
+  if (!supports.grouted.empty()) return "there are grouted bolts";
+  if (!supports.linings.empty()) return "there are linings";
+  for (const JointProperties& joint : model.properties)
+    if (joint.laws.friction != FrictionLaw::constant) return "friction depends on the slip";
+  return {};
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                   \
+  template std::vector<double> moved_since<Dim>(const Model<Dim>&, const std::vector<Vector<Dim>>&, \
+                                                const std::vector<Placement<Dim>>&);                \
+  template std::vector<Placement<Dim>> placements<Dim>(const BodiesState<Dim>&);                    \
+  template void begin_watch<Dim>(const State<Dim>&, double, FailureWatch<Dim>&);                    \
+  template void look<Dim>(const Model<Dim>&, const State<Dim>&, const std::vector<Placement<Dim>>&, \
+                          const std::vector<Vector<Dim>>&, FailureWatch<Dim>&);                     \
+  template std::optional<RequiredStrength> extrapolated<Dim>(const TrialWatch<Dim>&);               \
+  template std::string not_watched<Dim>(const Model<Dim>&, const ReducePlan&, const SupportsState<Dim>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

@@ -1,0 +1,97 @@
+// Whether a trial of a search has lost its equilibrium: by the strength that its own motion requires.
+//
+// Between two looks the bodies move by Δq (translations and turns) and end under the unbalanced loads R. With
+//
+//   P = Σ R·Δq,   D = Σ N |Δs|  (N: normal force of a contact, Δs: its slip within Δq; joints that are reduced)
+//
+// the same motion would be in balance at tan φ_req = tan φ + P/D; in a search for a factor F, at
+// 1/F_req = (1 + P/D)/F with D = Σ N tan φ |Δs|. In equilibrium P = 0. As a trial that fails moves on, the elastic
+// displacement of its joints and bolts is spent, φ_req falls ever more slowly and at last in a straight line, by which
+// loads change with the motion. The trial has failed then, and the line taken to no displacement is the critical
+// strength (cases/incline/NOTES.md has measurements).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/settings.hpp"
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
+
+namespace voussoir {
+
+// what a search watches, from its first stable state on
+struct WatchPlan {
+  Searched searched = Searched::friction;
+  std::vector<int> properties;     // those that are reduced, ascending
+  std::vector<double> elastic;     // m, by body (core/step/elastic_displacement.hpp); empty: nothing is watched
+  std::vector<double> moved_away;  // m, by body: bodies that moved so far have failed, whatever they require
+  double tolerance = 0;            // of the search, tan φ or 1/F
+};
+
+// tan φ, or 1/F, that the motion up to a displacement required; m, of the body that moved most since the search began
+struct RequiredStrength {
+  double displacement = 0, strength = 0;
+};
+
+// what one trial has shown so far
+template <int Dim>
+struct TrialWatch {
+  std::vector<Vector<Dim>> begin;           // m, by body: displacements when the trial began
+  std::vector<Placement<Dim>> first, last;  // by body: where the trial began; at the last look
+  double bolts = 0;                         // N: forces of bolts on bodies at the last look
+  long long bonds = 0;                      // whole at the begin
+  double target = 0;                        // tan φ or 1/F of the trial's level
+  int looks = 0;                            // half an elastic displacement, doubled so often, is the next look
+  std::vector<RequiredStrength> required;   // at each look
+  double elastic = 0;                       // m: of the bodies that move, at the last look
+  bool lost = false;                        // equilibrium
+  bool straight = false, turns = false, broke = false;  // at the last look: the line is straight; bodies turn; bonds
+                                                        // have broken
+};
+
+template <int Dim>
+struct FailureWatch {
+  WatchPlan plan;
+  TrialWatch<Dim> trial;
+};
+
+// What a trial at a level, rad or a factor, begins with.
+template <int Dim>
+void begin_watch(const State<Dim>& state, double level, FailureWatch<Dim>& watch);
+
+// Looks at bodies at these places under the loads and contacts that the state has of them; `began`: by body, where the
+// search began, m. Does nothing until the bodies have moved far enough for another look.
+template <int Dim>
+void look(const Model<Dim>& model, const State<Dim>& state, const std::vector<Placement<Dim>>& placed,
+          const std::vector<Vector<Dim>>& began, FailureWatch<Dim>& watch);
+
+// The bodies that move: those that have come at least half as far as the one that moved most.
+struct MovingBodies {
+  double farthest = 0;  // m
+  double most_of = 0;   // the largest of their values
+};
+
+// both by body; m
+MovingBodies moving_bodies(const std::vector<double>& moved, const std::vector<double>& values);
+
+// m, by body: how far it is from a displacement; 0 of one that is held
+template <int Dim>
+std::vector<double> moved_since(const Model<Dim>& model, const std::vector<Vector<Dim>>& displacements,
+                                const std::vector<Placement<Dim>>& placed);
+
+// where the bodies of a state are
+template <int Dim>
+std::vector<Placement<Dim>> placements(const BodiesState<Dim>& bodies);
+
+// The strength that the last two looks give at no displacement; nothing if they are too near each other or the line is
+// not straight.
+template <int Dim>
+std::optional<RequiredStrength> extrapolated(const TrialWatch<Dim>& trial);
+
+// Why a search of this kind is not judged by the strength that its motion requires, as a clause; empty: it is.
+template <int Dim>
+std::string not_watched(const Model<Dim>& model, const ReducePlan& plan, const SupportsState<Dim>& supports);
+
+}  // namespace voussoir
