@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 
 #include "core/run/search_levels.hpp"
@@ -273,14 +272,6 @@ struct Search {
     if (!outcome) return {};
     const double level = level_of(attempt);
     note_trial(level, *outcome);
-    if (std::getenv("DBG")) {
-      fmt::print(stderr, "T {} level {:.5f} {} steps {} reason {} el {:.3g} looks {} lost {} straight {} turns {}\n",
-                 attempt.number, level / levels.unit, int(*outcome), report.last.steps, int(report.last.reason),
-                 progress.watch.trial.elastic, progress.watch.trial.looks, progress.watch.trial.lost,
-                 progress.watch.trial.straight, progress.watch.trial.turns);
-      for (auto& r : progress.watch.trial.required)
-        fmt::print(stderr, "   u {:.4g} {:.6f}\n", r.displacement, std::atan(r.strength) / degree);
-    }
     if (outcome == SearchTrial::undecided) {
       if (plan.method == ReductionMethod::bisection && attempt.number > 1 && !progress.avoids) {
         progress.avoids = true;
@@ -414,14 +405,6 @@ struct Search {
   }
   // the strength required, taken to no displacement, or of bodies that turn the fit through the stable trials
   void close_by_estimate() {
-    if (std::getenv("DBG")) {
-      for (auto& t : progress.stable_trials)
-        fmt::print(stderr, "S {:.6f} {:.6g} {:.4g}\n", std::atan(t.level) / degree, t.displacement, t.of_failure);
-      for (auto& t : progress.estimates)
-        fmt::print(stderr, "E {:.6f} {:.6f} {:.3g}\n", std::atan(t.level) / degree, std::atan(t.critical) / degree,
-                   t.taken_out);
-      fmt::print(stderr, "turned {}\n", progress.turned);
-    }
     const double half_bracket = report.error_bar;
     if (const std::optional<double> critical = estimate()) {
       const std::size_t n = progress.estimates.size();
