@@ -1,5 +1,5 @@
-// One isotropic jointed mass: what bolts carry together and a ring, against a continuum with smeared bolts and an even
-// ring, both held at 7 a.
+// One isotropic jointed mass: total forces of bolts and of a ring, against a continuum with smeared bolts and a uniform
+// ring, both fixed at 7 a.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What the critical angle costs: bisection by relaxation and two extrapolated rates against the thesis' constant rate.
+// Cost of the critical angle: bisection by relaxation and two extrapolated rates against the thesis' constant rate.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,10 +17,10 @@ SoughtAngle closed_form() {
   reference::Wedge wedge;
   wedge.a = {40 * degree, 130 * degree};
   wedge.b = {60 * degree, 220 * degree};
-  return {
-      *reference::critical_friction(wedge) / degree, "Hoek & Bray (1974)",
-      "as demanded; the bracket leaves 0.02, the sliver below the edge 0.02; what the extrapolation leaves is in its "
-      "error bar"};
+  return {*reference::critical_friction(wedge) / degree, "Hoek & Bray (1974)",
+          "as demanded; the bracket is worth 0.02, the sliver below the edge 0.02; the error of the extrapolation is "
+          "in its "
+          "error bar"};
 }
 
 double error_of(const SceneRun& run) {
@@ -42,7 +42,7 @@ TEST(WedgeSaving, BisectionAndTwoRatesAgainstTheThesisRate) {
                 "500 steps of ramp, each a fifth as long as relaxation's", cost(local));
 }
 
-// a method's error against its cost as one knob turns
+// a method's error against its cost as one setting varies
 void sweep(const std::string& file, const std::string& scene, const std::vector<std::vector<std::string>>& settings) {
   std::vector<double> spent, error;
   for (const std::vector<std::string>& overrides : settings) {
