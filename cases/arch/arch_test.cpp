@@ -166,7 +166,7 @@ Bracket bracket(double joints, double apart, long long step_limit, const Carried
 }
 
 // closer, and on stiffer joints, whose arch takes long to reach equilibrium
-TEST(ArchLong, StandsAndFallsWithinTwoInAThousand) {
+TEST(ArchLong, IsStableAndFailsWithinTwoInAThousand) {
   bracket(1e10, 0.002, 300'000);
   bracket(1e11, 0.002, 600'000);
   bracket(1e12, 0.002, 2'000'000);
@@ -255,7 +255,7 @@ constexpr double near = 0.005;  // of the thickness: the distance from the limit
 
 // The limit on soft joints and on the scene's; the arch just above it against its equilibrium; the mechanism just
 // below.
-TEST(Arch, StandsAboveItsLimitAndFallsBelow) {
+TEST(Arch, IsStableAboveItsLimitAndFailsBelow) {
   const Bracket soft = bracket(soft_joints, near, 120'000), found = bracket(stiffness, near, 120'000);
   const Trial &standing = found.standing, &falling = found.falling;
   judge_rest(standing, near, {});
@@ -295,7 +295,7 @@ TEST(Arch, StandsAboveItsLimitAndFallsBelow) {
 }
 
 // the same with integrated face contacts
-TEST(Arch, StandsAboveItsLimitAndFallsBelowOnWholeFaces) {
+TEST(Arch, IsStableAboveItsLimitAndFailsBelowOnIntegratedFaces) {
   const Carried whole{", whole faces", {whole_faces}};
   judge_rest(bracket(stiffness, near, 120'000, whole).standing, near, whole);
 }

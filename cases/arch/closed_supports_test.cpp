@@ -72,7 +72,7 @@ void judge(const Setting& s) {
   }
 }
 
-TEST(ClosedSupports, RestOnFourHinges) {
+TEST(ClosedSupports, ReachEquilibriumOnFourHinges) {
   const auto row = [](const Setting& s) {
     return "thrust between closed supports, " + text(s.stiffness / 1e9) + " GPa/m, " + s.statics;
   };
@@ -98,7 +98,7 @@ TEST(ClosedSupports, RestOnFourHinges) {
   }
 }
 
-TEST(ClosedSupportsLong, RestByEverySetting) {
+TEST(ClosedSupportsLong, ReachEquilibriumByEverySetting) {
   const std::vector<std::vector<std::string>> more{
       {},
       {"stage.close.duration_s=1", "stage.close.move.1.velocity=[-0.02, 0]"},
@@ -113,7 +113,7 @@ TEST(ClosedSupportsLong, RestByEverySetting) {
 }
 
 // arches of any number of stones and thickness, whose supports close or separate
-TEST(ClosedSupportsLong, RestWhateverTheArch) {
+TEST(ClosedSupportsLong, ReachEquilibriumForEveryArch) {
   std::mt19937_64 random(1);
   const auto uniform = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;

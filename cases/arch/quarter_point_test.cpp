@@ -174,7 +174,7 @@ void judge_hinges(const Trial& fallen, CaseReport& report) {
   draw_points("quarter_hinges.csv", hinges);
 }
 
-TEST(QuarterPoint, CarriesInLimitAnalysisWhatTheThrustLineSays) {
+TEST(QuarterPoint, HasTheCollapseLoadOfTheThrustLineByLimitAnalysis) {
   CaseReport report("arch", {"point load, limit analysis"});
   report.record({"point load, limit analysis",
                  "N",
@@ -192,7 +192,7 @@ TEST(QuarterPoint, CarriesInLimitAnalysisWhatTheThrustLineSays) {
   report.report("stiffness from which joints cost less than 2 % of the point load", "Pa/m", stiff, elastic);
 }
 
-TEST(QuarterPoint, ComesDownAsItsJointsSay) {
+TEST(QuarterPoint, HasTheCollapseLoadOfElasticJoints) {
   CaseReport report("arch");
   const Found soft = judge_load(1e10, 1.0 / 256, report), stiff = judge_load(stated_stiffness, 1.0 / 128, report);
   judge_extrapolation(soft, stiff, report);
@@ -202,7 +202,7 @@ TEST(QuarterPoint, ComesDownAsItsJointsSay) {
 }
 
 // closer, and on joints whose arch takes long to reach equilibrium
-TEST(QuarterPointLong, ComesDownAsItsJointsSayMoreClosely) {
+TEST(QuarterPointLong, HasTheCollapseLoadOfElasticJointsMoreClosely) {
   CaseReport report("arch");
   judge_load(1e10, 1.0 / 2048, report);
   const Found soft = judge_load(stated_stiffness, 1.0 / 1024, report), stiff = judge_load(1e12, 1.0 / 128, report);
@@ -210,7 +210,7 @@ TEST(QuarterPointLong, ComesDownAsItsJointsSayMoreClosely) {
 }
 
 // the scene as committed
-TEST(QuarterPoint, RestsAsItsJointsArePressed) {
+TEST(QuarterPoint, HasTheEquilibriumOfElasticJoints) {
   CaseReport report("arch", {"drop under the point load", "thrust under the point load",
                              "where the thrust crosses the joints under the point load"});
   const reference::ArchJoints joints{stated_stiffness, stated_stiffness};

@@ -78,7 +78,7 @@ void check(CaseReport& report, const std::string& which, const SceneRun& run) {
                 found.tilt, cost(run));
 }
 
-TEST(EdgeContact, RestsWithoutFriction) {
+TEST(EdgeContact, HasEquilibriumWithoutFriction) {
   CaseReport report("edge_contact", {"overlap", "contact force", "sideways drift"});
   report.reference("upper_displacement_z", -overlap, "m");
   const SceneRun run = cases::run("scene.toml");
@@ -94,7 +94,7 @@ TEST(EdgeContact, RestsWithoutFriction) {
   write_csv("edge_contact", "closed_form.csv", {"overlap_mm"}, {{1e3 * overlap}});
 }
 
-TEST(EdgeContact, RestsWithFriction) {
+TEST(EdgeContact, HasEquilibriumWithFriction) {
   CaseReport report("edge_contact");
   check(report, ", friction 30 deg", cases::run("scene.toml", {"joint_properties.edge.friction_deg=30"}));
 }

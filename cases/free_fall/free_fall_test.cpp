@@ -214,7 +214,7 @@ TEST(FreeFallLong, EveryShapeFalls) {
 }
 
 // the shape whose blocks rock on a point
-TEST(FreeFallLong, DodecahedraRestOnWholeContacts) {
+TEST(FreeFallLong, DodecahedraComeToRestOnIntegratedContacts) {
   CaseReport report("free_fall");
   FallPlan plan;
   plan.kinds = {3};

@@ -66,7 +66,7 @@ Path path(const SceneRun& run, int stage, int dimension) {
 class InclineIn : public testing::TestWithParam<Variant> {};
 
 // Bisection finds the dip; below it the block slides with constant acceleration.
-TEST_P(InclineIn, SlidesAtTheDipAndAsNewtonSays) {
+TEST_P(InclineIn, SlidesAtTheDipByNewtonsLaw) {
   const Variant& v = GetParam();
   CaseReport report("incline", {"critical friction, " + v.name, "distance after 0.5 s, " + v.name});
   const SceneRun run = cases::run(v.scene);
@@ -118,7 +118,7 @@ TEST_P(InclineIn, SettlesElastically) {
 }
 
 // One degree above the dip the block does not move, damped or not.
-TEST_P(InclineIn, RestsAboveTheDip) {
+TEST_P(InclineIn, IsInEquilibriumAboveTheDip) {
   const Variant& v = GetParam();
   CaseReport report("incline");
   const SceneRun run = cases::run(v.scene, {"stage.slide.friction_deg=31"});

@@ -218,7 +218,7 @@ TEST(JointedBeam, DeviatesOnOnePointAsItsChainDoes) {
   }
 }
 
-TEST(JointedBeam, OfHalfBlocksIsLostAsTheChainIs) {
+TEST(JointedBeam, OfHalfBlocksFailsAsTheChainDoes) {
   CaseReport report("jointedbeam");
   const JointedBeam beam = half_block();
   const BeamRun run = run_beam(beam, "half.toml");

@@ -13,7 +13,7 @@ namespace {
 
 // Integrated face contacts are the distributed joint until parts of it slip. At 89 degrees cells of the chain still
 // slip at the edge of the pressure, by 5e-4 of the deflection; at 89.99 none does.
-TEST(JointedBeam, OnWholeFacesIsTheChainOfDistributedJointsThatDoNotSlip) {
+TEST(JointedBeam, OnIntegratedFacesIsTheChainOfDistributedJointsThatDoNotSlip) {
   CaseReport report("jointedbeam");
   JointedBeam beam = full_block();
   beam.joint.friction.angle = 89.99 * degree;

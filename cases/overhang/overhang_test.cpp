@@ -75,7 +75,7 @@ bool falls(const SceneRun& run, const Variant& v) {
 
 class Overhang : public testing::TestWithParam<Variant> {};
 
-TEST_P(Overhang, EndsWhereElasticJointsEndIt) {
+TEST_P(Overhang, HasTheLimitOfElasticJoints) {
   const Variant& v = GetParam();
   const std::string above = "stands just below the limit, " + v.name, below = "falls just above the limit, " + v.name,
                     turned = "turn of the top block, " + v.name;

@@ -137,7 +137,7 @@ TEST(PotentialParticles, TwentyFall) {
   check(report, "twenty", let_fall(twenty(), settings), Overlap::conservative);
 }
 
-TEST(PotentialParticlesLong, TwoHundredFallAndRest) {
+TEST(PotentialParticlesLong, TwoHundredFallAndComeToRest) {
   CaseReport report("potential_particles");
   for (const Overlap overlap : {Overlap::bracketed, Overlap::conservative})
     check(report, "two hundred", let_fall({}, settings_of(overlap, balanced_step)), overlap);
@@ -175,7 +175,7 @@ TEST(PotentialParticles, TheEnergyBalanceClosesWithTheSquareOfTheStep) {
   follow_the_step("twenty", {1, 0.5, 0.25});
 }
 
-TEST(PotentialParticlesLong, TheEnergyBalanceClosesWithTheSquareOfTheStepOnAndOn) {
+TEST(PotentialParticlesLong, TheEnergyBalanceClosesWithTheSquareOfSmallSteps) {
   follow_the_step("twenty, down to small steps", {1, 0.5, 0.25, 0.12, 0.05, 0.02});
 }
 

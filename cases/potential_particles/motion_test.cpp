@@ -51,7 +51,7 @@ TEST(PotentialParticles, ABallBouncesWithThePeriodOfItsSpring) {
       (tops.back() - tops.front()) / periods, cost(run));
 }
 
-TEST(PotentialParticles, ADampedImpactGivesBackWhatTheClosedFormDoes) {
+TEST(PotentialParticles, ADampedImpactHasTheRestitutionOfTheClosedForm) {
   CaseReport report("potential_particles");
   constexpr double damping_ratio = 0.2;
   const double expected = reference::bounce({ball_mass, ball_stiffness, damping_ratio, 1, 0}).restitution;

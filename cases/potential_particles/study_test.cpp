@@ -43,7 +43,7 @@ constexpr double beam_stiffness = 100e6, inscribed = 0.023;  // as problems.cpp 
 
 // --- k = 0, in closed form
 
-TEST(PotentialParticles, RoundedBlocksKeepTheirClosedForms) {
+TEST(PotentialParticles, RoundedBlocksMatchTheirClosedForms) {
   CaseReport report("potential_particles");
   const Trial wedge = sliding_wedge({0.1, 0.1});
   report.record({"wedge, r/size 0.1, k 0.1: critical friction",
@@ -111,7 +111,7 @@ double critical_sphericity(double radius) {
   return stands;
 }
 
-TEST(PotentialParticles, AColumnStandsAsLongAsItsFacesAreFlatEnough) {
+TEST(PotentialParticles, AColumnIsStableIfItsFacesAreFlatEnough) {
   CaseReport report("potential_particles");
   for (const double radius : {0.1, 0.3}) {
     const double critical = critical_sphericity(radius);
@@ -230,7 +230,7 @@ void write_standing_columns(const Grid& grid) {
 }
 
 // the short sibling: a coarse grid, without the pack
-TEST(PotentialParticles, RoundingChangesWhatItsBoundariesSay) {
+TEST(PotentialParticles, EffectOfRoundingIsWithinItsBoundaries) {
   CaseReport report("potential_particles");
   for (const Problem& problem : {wedge_problem(), beam_problem(), column_problem()}) {
     const Findings found = vary(problem, coarse);

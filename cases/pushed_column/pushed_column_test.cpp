@@ -176,7 +176,7 @@ TEST(PushedColumn, TipsInSpaceAsInThePlane) {
 }
 
 // the tipping force of a rotating push is 0.4 % above that of one that stays horizontal, at the same corner
-TEST(PushedColumn, TipsLaterUnderAForceThatTurnsWithIt) {
+TEST(PushedColumn, TipsLaterUnderAForceThatRotatesWithIt) {
   CaseReport report("pushed_column");
   for (const char* scene : {"scene.toml", "space.toml"})
     judge_tipping(scene, {.stiffness = 1e9, .turns = true}, report);
@@ -314,7 +314,7 @@ TEST(PushedColumn, LeansAsFarWhenItIsPushedSlowly) {
   EXPECT_FALSE(attempt("slow.toml", {push_of("slow.toml", beyond), "time.fraction=0.8"}).rests);
 }
 
-TEST(FreeBlocks, GoAsTheirForcesSay) {
+TEST(FreeBlocks, MoveByNewtonsLaws) {
   CaseReport report("pushed_column");
   const SceneRun free = run("free.toml");
   constexpr double duration = 1.6, step = 5e-4, mass = 2500, inertia = mass / 6;  // s, s, kg, kg m²

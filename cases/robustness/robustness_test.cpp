@@ -100,7 +100,7 @@ void check(CaseReport& report, const Atlas& atlas) {
   }
 }
 
-TEST(Robustness, NoAnswerIsWrongUnsaid) {
+TEST(Robustness, NoWrongResultIsUnreported) {
   CaseReport report("robustness", {"wrong answers, block", "wrong answers, decision"});
   const Grid g = grid(2, {4, 6, 12, 24, 40}, {0.3, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}, 2);
   const Atlas atlas = sweep(g);
@@ -112,7 +112,7 @@ TEST(Robustness, NoAnswerIsWrongUnsaid) {
 }
 
 // errors of the first maps, reduced: the mass of one block, density chosen so that it is about 1 kg
-TEST(Robustness, FoundBlocksStayMended) {
+TEST(Robustness, FoundErrorsStayCorrected) {
   CaseReport report("robustness");
   const std::vector<std::pair<std::string, double>> found{{"coplanar", 1 - 5e-10 / 8}, {"needle", 1}};
   for (const auto& [name, expected] : found) {

@@ -135,7 +135,7 @@ Rocking judge_impacts(CaseReport& report, const std::string& which, const std::v
   return r;
 }
 
-TEST(Rocking, LosesLessThanHousnerSays) {
+TEST(Rocking, LosesLessThanHousnersRestitution) {
   CaseReport report("rocking", {"restitution of the first impact", "restitution of the first impact, whole face"});
   const Rocking r = judge_impacts(report, "", {});
   judge_impacts(report, ", whole face", {whole_faces});

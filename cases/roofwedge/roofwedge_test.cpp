@@ -52,7 +52,7 @@ constexpr const char* why =
     "half the bracket is 0.0004; the wedge sinks by 3 micrometres into overlaps of 40, and the resulting change of its "
     "faces and stresses is worth less than 0.002";
 
-TEST(RoofWedge, FallsWhereJointRelaxationSays) {
+TEST(RoofWedge, FallsAtTheAngleOfJointRelaxation) {
   CaseReport report("roofwedge", {"critical friction"});
   struct {
     const char *name, *scene;
@@ -204,7 +204,7 @@ TEST(RoofWedge, FallsAtTheStressThatArrivesFromTheSides) {
   tell("the thesis' 10 MPa/m", press(applied, 1, thesis_stiffness));
 }
 
-TEST(RoofWedgeLong, FallsAtTheStressThatArrivesOnWholeFaces) {
+TEST(RoofWedgeLong, FallsAtTheStressThatArrivesOnIntegratedFaces) {
   CaseReport report("roofwedge");
   const SceneRun whole = press(applied, 1, stiffness, {"restrain.blocks.rotation=false", whole_faces});
   judge_pressure(report, ", blocks free to turn on whole faces", whole);
@@ -222,7 +222,7 @@ TEST(RoofWedge, FallsAtTenMetresPerSecondSquaredByTheSidesToo) {
 }
 
 // Without weight only the stress acts, however long it is applied.
-TEST(RoofWedge, DoesNotMindHowLongTheStressComesOn) {
+TEST(RoofWedge, DoesNotDependOnTheDurationOfTheStress) {
   CaseReport report("roofwedge");
   for (const double duration : {0.1, 2.0}) {
     const SceneRun run = press_for(duration, applied, 5);

@@ -65,7 +65,7 @@ double distance_at(const Path& path, double time) {
 
 class Shaking : public testing::TestWithParam<Variant> {};
 
-TEST_P(Shaking, SlipsAsNewmarkSays) {
+TEST_P(Shaking, SlipsByNewmarksDistance) {
   const Variant& v = GetParam();
   CaseReport report("shaking", {"first slip, " + v.name, "slip of three more cycles, " + v.name});
   const SceneRun scene = run(v.scene);

@@ -229,7 +229,7 @@ TEST(SlicingGrowthLong, ToAHundredThousandBlocks) {
   study(report, {"finite", "table_4_1.toml", {0.005, 0.015, 0.042, 0.09, 0.15}, 3});
 }
 
-TEST(SlicingGrowth, PersistentSetsMakeAsManyBlocksAsTheirPlanesSay) {
+TEST(SlicingGrowth, PersistentSetsMakeTheCountedNumberOfBlocks) {
   CaseReport report("slicing");
   const Pattern pattern = pattern_of("table_4_1_persistent.toml", 0.15);
   std::vector<reference::Plane3> planes;

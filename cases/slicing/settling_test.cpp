@@ -162,7 +162,7 @@ TEST(SlicingSettling, ACornerOfItComesToRest) {
   draw(settled);
 }
 
-TEST(SlicingSettling, ThreeHundredBlocksRestByRelaxation) {
+TEST(SlicingSettling, ThreeHundredBlocksReachEquilibriumByRelaxation) {
   CaseReport report("slicing");
   check(report, ", 327 blocks by relaxation", record<3>("rock_mass.toml", {"damping.statics=\"adaptive\""}));
 }
@@ -187,14 +187,14 @@ void check_cost(CaseReport& report, const std::string& which, const RecordedRun<
       static_cast<double>(counters.static_fallbacks), cost(settled.run));
 }
 
-TEST(SlicingSettling, ThreeHundredBlocksRestByNewtonsMethod) {
+TEST(SlicingSettling, ThreeHundredBlocksReachEquilibriumByNewtonsMethod) {
   CaseReport report("slicing");
   const RecordedRun<3> settled = record<3>("rock_mass.toml", {"damping.statics=\"newton\""});
   check(report, ", 327 blocks by Newton's method", settled);
   check_cost(report, ", 327 blocks by Newton's method", settled, 62);
 }
 
-TEST(SlicingSettlingLong, TwentyFiveHundredBlocksRestByNewtonsMethod) {
+TEST(SlicingSettlingLong, TwentyFiveHundredBlocksReachEquilibriumByNewtonsMethod) {
   CaseReport report("slicing");
   const RecordedRun<3> settled = record<3>("settling.toml", {"damping.statics=\"newton\""});
   check(report, ", 2500 blocks by Newton's method", settled);
@@ -209,7 +209,7 @@ TEST(SlicingSettlingLong, TwentyFiveHundredBlocksComeToRest) {
 }
 
 // on four points a face: one point resists no twist, and a block that spins on it does not come to rest (README)
-TEST(SlicingSettlingLong, TwentyFiveHundredBlocksRestByRelaxation) {
+TEST(SlicingSettlingLong, TwentyFiveHundredBlocksReachEquilibriumByRelaxation) {
   CaseReport report("slicing");
   check(report, ", 2500 blocks by relaxation",
         record<3>("settling.toml", {"damping.statics=\"adaptive\"", "joint_properties.rock.sub_contacts=2"}));

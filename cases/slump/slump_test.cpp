@@ -93,7 +93,7 @@ void draw(const LimitAnalysis& analysis, const reference::SlopeCollapse& collaps
       plastic.add(model, *outer.at(block.row), drawn_motion * Vector<2>(block.x, block.y), drawn_motion * block.turn);
 }
 
-TEST(Slump, IsLostWhereBlocksThatDoNotDilateLoseIt) {
+TEST(Slump, FailsAtTheAngleOfBlocksThatDoNotDilate) {
   CaseReport report("slump", {"critical friction, limit analysis", "blocks that move, limit analysis"});
   const LimitAnalysis analysis = by_limit_analysis();
   ASSERT_EQ(analysis.status, LimitStatus::found);
@@ -210,7 +210,7 @@ void draw_collapse(const Collapse<2>& collapse, const std::vector<CollapsedBlock
 }
 
 // a short search, so that every build can afford it
-TEST(Slump, IsLostByDistinctElements) {
+TEST(Slump, FailsByDistinctElements) {
   CaseReport report("slump", {"critical friction, DEM", "blocks that move, DEM", "blocks that turn backwards, DEM",
                               "turn of the outer layer, DEM"});
   const Collapse<2> collapse =
@@ -218,7 +218,7 @@ TEST(Slump, IsLostByDistinctElements) {
   draw_collapse(collapse, judge_collapse(report, "DEM", collapse));
 }
 
-TEST(Slump, IsLostByDistinctElementsOnWholeFaces) {
+TEST(Slump, FailsByDistinctElementsOnIntegratedFaces) {
   CaseReport report("slump", {"critical friction, DEM, whole faces"});
   judge_collapse(report, "DEM, whole faces",
                  run_to_collapse<2>("scene.toml",
@@ -253,31 +253,31 @@ std::vector<std::string> in_a_short_search(std::vector<std::string> overrides) {
   return overrides;
 }
 
-TEST(Slump, IsLostAtTenTimesTheStiffness) {
+TEST(Slump, FailsAtTenTimesTheStiffness) {
   judge_hard_search("ten times the stiffness", in_a_short_search(stiff));
 }
 
-TEST(Slump, IsLostByTheDefaultFailureDisplacement) {
+TEST(Slump, FailsByTheDefaultFailureDisplacement) {
   judge_hard_search("default failure displacement", in_a_short_search(default_displacement));
 }
 
-TEST(SlumpLong, IsLostAtTenTimesTheStiffnessByTheWholeSearch) {
+TEST(SlumpLong, FailsAtTenTimesTheStiffnessByTheWholeSearch) {
   std::vector<std::string> overrides = stiff;
   overrides.emplace_back("stage.critical.tolerance_deg=0.2");
   judge_hard_search("ten times the stiffness, whole search", overrides);
 }
 
-TEST(SlumpLong, IsLostByTheDefaultFailureDisplacementByTheWholeSearch) {
+TEST(SlumpLong, FailsByTheDefaultFailureDisplacementByTheWholeSearch) {
   judge_hard_search("default failure displacement, whole search", default_displacement);
 }
 
 // the scenes as committed
-TEST(SlumpLong, IsLostByTheWholeSearch) {
+TEST(SlumpLong, FailsByTheWholeSearch) {
   CaseReport report("slump");
   judge_collapse(report, "DEM, whole search", run_to_collapse<2>("scene.toml"));
 }
 
-TEST(SlumpLong, IsLostAsASliceInSpace) {
+TEST(SlumpLong, FailsAsASliceInSpace) {
   CaseReport report("slump");
   judge_collapse(report, "DEM, slice in space", run_to_collapse<3>("slice.toml"));
 }

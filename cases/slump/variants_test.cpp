@@ -220,7 +220,7 @@ void try_variants(CaseReport& report, const Choice& methods_of) {
   write_table(all);
 }
 
-TEST(SlumpVariants, AreLostAsBlocksThatDoNotDilate) {
+TEST(SlumpVariants, FailAsBlocksThatDoNotDilate) {
   CaseReport report("slump", {"critical friction, limit analysis, dip 70°", "critical friction, DEM, 1 layer"});
   try_variants(report, [](const Variant& v) {
     if (v.layers == 1) return Methods::three;
@@ -228,7 +228,7 @@ TEST(SlumpVariants, AreLostAsBlocksThatDoNotDilate) {
   });
 }
 
-TEST(SlumpVariantsLong, AreLostByDistinctElements) {
+TEST(SlumpVariantsLong, FailByDistinctElements) {
   CaseReport report("slump");
   try_variants(report, [](const Variant&) { return Methods::three; });
 }

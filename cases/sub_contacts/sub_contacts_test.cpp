@@ -212,7 +212,7 @@ double measure_whole(CaseReport& report) {
   return time;
 }
 
-TEST(SubContacts, AWholeFaceIsTheDistributedJoint) {
+TEST(SubContacts, AnIntegratedFaceIsTheDistributedJoint) {
   CaseReport report("sub_contacts", {"rocking stiffness, whole face in 2-D", "spin stiffness, whole face in 3-D"});
   const double strip = measure_whole<2>(report), square = measure_whole<3>(report);
   write_csv("sub_contacts", "whole.csv", {"along", "square", "strip"}, {{0.85, 19}, {square, square}, {strip, strip}});

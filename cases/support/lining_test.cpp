@@ -175,7 +175,7 @@ void check_invert(CaseReport& report, double shear_stiffness) {
                 rough.moment / fine.moment, cost(coarse));
 }
 
-TEST(Lining, AnInvertLiesInItsBed) {
+TEST(Lining, AnInvertOnItsElasticBed) {
   CaseReport report("support");
   for (const double shear_stiffness : {1e6, 1e4})
     check_invert(report, shear_stiffness);
@@ -210,7 +210,7 @@ TEST(Lining, APlateHangsFromItsInterface) {
                 bending / (weight * length * length), cost(run));
 }
 
-TEST(Lining, APlateFallsWhereItsInterfaceIsTooWeak) {
+TEST(Lining, APlateFallsIfItsInterfaceIsTooWeak) {
   CaseReport report("support");
   const auto ends = [](double of_weight) {
     return run_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "hung_lining.toml",

@@ -146,7 +146,7 @@ TEST(Support, ASlabHangsFromItsBolts) {
 }
 
 // Three bolts that yield at a total of a thousandth more than the weight hold it, at a thousandth less they do not.
-TEST(Support, ASlabFallsWhereItsBoltsYield) {
+TEST(Support, ASlabFallsIfItsBoltsYield) {
   CaseReport report("support");
   const auto ends = [](double of_weight) {
     const double yield = of_weight * 1.5 * 4 * 2500 * 9.81 / 3;
@@ -164,7 +164,7 @@ TEST(Support, ASlabFallsWhereItsBoltsYield) {
                 (holds.results.outcome == Outcome::done) + (falls.results.outcome == Outcome::done), cost(falls));
 }
 
-TEST(Support, JointsGiveWayUnderAPretension) {
+TEST(Support, JointsCloseUnderAPretension) {
   CaseReport report("support");
   const SceneRun run = cases::run("pretension.toml");
   const double expected = reference::pretension_left(100e3, 2e8, 1e9, 1);

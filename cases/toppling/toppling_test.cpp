@@ -308,7 +308,7 @@ SceneRun judge_columns(const std::string& which, const std::vector<std::string>&
   return done;
 }
 
-TEST(SteppedColumns, ColumnsOnASteppedBaseFallWhereLimitEquilibriumSays) {
+TEST(SteppedColumns, ColumnsOnASteppedBaseFallAtTheAngleOfLimitEquilibrium) {
   judge_columns("", {"stage.critical.from_deg=40", "stage.critical.to_deg=36", "stage.critical.tolerance_deg=0.51"});
 }
 

@@ -47,7 +47,7 @@ TEST(Draws, ReadBackAsWritten) {
   EXPECT_THROW(read_draws(unknown), FileFault);
 }
 
-TEST(Draws, AgreementIsCountedAndHeldAgainstChance) {
+TEST(Draws, AgreementIsCountedAndComparedWithChance) {
   const std::vector<DrawRow> rows{draw_row(as_published, 0, ""), draw_row(otherwise, 1, ""), draw_row(holds, 2, "")};
   const DrawsAgree found = draws_agree(rows, 1);
   EXPECT_EQ(found.draws, 3);

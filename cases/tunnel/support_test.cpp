@@ -122,7 +122,7 @@ void write_walls(const std::string& file, const std::vector<std::string>& names,
 // of three draws of 21 bolts, merged: their standard deviation, and that of their mean
 constexpr double published_mean = 0.030, published_deviation = 0.009, published_bolts = 63;
 
-TEST(Support, BoltsCarryWhatIsPublished) {
+TEST(Support, BoltsCarryThePublishedForces) {
   const std::string ratio =
       "mean over bolts of the largest force of each, sudden removal (published) over let off in steps to rest";
   CaseReport report("tunnel", {ratio});
@@ -147,7 +147,7 @@ TEST(Support, BoltsCarryWhatIsPublished) {
                 "compare figure 5.15, which has no printed numbers");
 }
 
-TEST(Support, AnchorsHardlyMatterAndBoltsMeetWhatIsLeft) {
+TEST(Support, AnchorsHardlyMatterAndBoltsMeetTheRemainingConvergence) {
   CaseReport report("tunnel");
   const SceneRun offset = run("bolts.toml", large_blocks);
   const SceneRun midway = run("bolts.toml", with(large_blocks, {R"(bolts.bolts.anchors="midway")"}));
@@ -178,7 +178,7 @@ TEST(Support, AnchorsHardlyMatterAndBoltsMeetWhatIsLeft) {
                 value(late, "bolts_mean_force") / value(offset, "bolts_mean_force"), cost(late));
 }
 
-TEST(Support, LiningStopsTheWall) {
+TEST(Support, LiningReducesTheConvergence) {
   CaseReport report("tunnel");
   double thrust = 0;
   for (const double stiffness : {1e8, 1e9}) {
@@ -218,7 +218,7 @@ TEST(Support, LiningStopsTheWall) {
 }
 
 // Eq. 5.14 with the shear moduli between which the thesis found its hoop forces.
-TEST(Support, LiningCarriesWhatIsPublished) {
+TEST(Support, LiningCarriesThePublishedForces) {
   CaseReport report("tunnel", {"mean hoop force, 0.3 m, K_L 1 GPa/m, against the softest rock"});
   const SceneRun lined = run("lining.toml");
   const auto rock = reference::network::spaced_joints_moduli(0.77, 5e9, 0.5e9, 0.2);  // m, Pa/m, 1: table 5.3

@@ -107,7 +107,7 @@ TEST(Supported, TheSameBlocksAsTheNetwork) {
 }
 
 // Half of the forces is released before the supports are installed: they get half.
-TEST(Supported, WhatIsLetOffBeforeIsNotTheirs) {
+TEST(Supported, ForcesReleasedBeforeAreNotCarriedBySupports) {
   CaseReport report("tunnel");
   const Increment all = twins(run_supported("same_blocks.toml"), 2).program;
   const SupportedRun run = run_supported("same_blocks.toml", {"stage.dig.let_off.share=0.885"});

@@ -50,7 +50,7 @@ void draw_fall(const SceneRun& found) {
 }
 
 // Bonds can only add strength; with all of them intact and ductile, and no softening, limit analysis has 16.56 degrees.
-TEST(VaiontCentral, LiesBetweenNoBondAndAllBondsAt80Metres) {
+TEST(VaiontCentral, IsBetweenNoBondAndAllBondsAt80Metres) {
   CaseReport report("vaiont", {"critical friction, central analysis, 80 m, the short way"});
   const SceneRun found = run("central_fast.toml", spacing(80) + Overrides{"stage.settle.remove=[]"});
   draw_fall(found);
@@ -72,7 +72,7 @@ TEST(VaiontCentral, LiesBetweenNoBondAndAllBondsAt80Metres) {
                 value(found, "critical_friction"));
 }
 
-TEST(VaiontCentralLong, TakesAThirdByTheShortWay) {
+TEST(VaiontCentralLong, TakesAThirdByTheShortPath) {
   CaseReport report("vaiont");
   const SceneRun slow = run("central.toml"), fast = run("central_fast.toml");
   report.report("critical friction, central analysis", "deg", value(slow, "critical_friction"),
@@ -96,14 +96,14 @@ TEST(VaiontCentralLong, TakesAThirdByTheShortWay) {
                     static_cast<double>(fast.results.counters.contact_evaluations));
 }
 
-TEST(VaiontCentralLong, IsNearWhatWasPublishedDry) {
+TEST(VaiontCentralLong, IsNearThePublishedAngleDry) {
   CaseReport report("vaiont");
   judge_published(report, "central analysis, dry, the short way", 18.8,
                   run("central_fast.toml", water_above_the_seat(0) + from(22)));
 }
 
 // 6.4.4, after Sitar et al. (2005): dry, no bonds, no softening
-TEST(VaiontCentralLong, IsNearWhatWasPublishedForSitar) {
+TEST(VaiontCentralLong, IsNearThePublishedAngleForSitar) {
   CaseReport report("vaiont");
   Overrides sitar{"stage.bond.bond=false", "joint_properties.rock.cohesion=0", "joint_properties.rock.tension=0",
                   "joint_properties.slide.softening_drop=1e-9"};

@@ -63,7 +63,7 @@ void judge(CaseReport& report, const Ground& ground, const Expected& expected, c
                 value(found, "critical_friction"), cost(found));
 }
 
-TEST(VaiontElements, NeedWhatLimitAnalysisSays) {
+TEST(VaiontElements, NeedTheFrictionOfLimitAnalysis) {
   CaseReport report("vaiont", {"critical friction, DEM, 80 m, dry, Newton"});
   report.reference("critical_friction", by_limit_analysis("dem.toml", {}), "deg");
   for (const double metres : {150, 80})
@@ -71,7 +71,7 @@ TEST(VaiontElements, NeedWhatLimitAnalysisSays) {
       judge(report, {metres, water}, limit_analysis({metres, water}), newton);
 }
 
-TEST(VaiontElementsLong, NeedWhatTheClosedFormSaysOfManyBlocks) {
+TEST(VaiontElementsLong, NeedTheFrictionOfTheClosedFormWithManyBlocks) {
   CaseReport report("vaiont");
   for (const double metres : {40, 20})
     for (const double water : {0, 90})
@@ -145,7 +145,7 @@ TEST(VaiontElementsLong, NeedTheSameAtTwoRates) {
 
 // Cross joints that dip into the slope: as the rock gets stiffer, the critical friction of distinct elements falls
 // towards that of limit analysis, since soft joints let the blocks move by metres before the slide fails.
-TEST(VaiontElements, NeedMoreOfSoftRockBehindLeaningJoints) {
+TEST(VaiontElements, NeedMoreInSoftRockBehindInclinedJoints) {
   CaseReport report("vaiont");
   const Overrides leaning{"joints.upper cross.dip=50", "joints.lower cross.dip=50", "joint_sets.cross.dip=50",
                           "stage.critical.failure_displacement=1"};

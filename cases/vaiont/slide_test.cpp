@@ -168,7 +168,7 @@ TEST(VaiontSlide, ShearsFirstAndOpensThen) {
 }
 
 // The remaining friction decides its speed; observed: 25 to 30 m/s.
-TEST(VaiontSlideLong, GoesAsItsFrictionLetsIt) {
+TEST(VaiontSlideLong, HasASpeedThatDependsOnItsFriction) {
   CaseReport report("vaiont");
   for (const double friction : {20.0, 15.0, 10.0, 5.0, 0.0}) {
     Overrides settings{"stage.slide.duration_s=40"};

@@ -181,7 +181,7 @@ TEST(VaiontInSpaceFalls, EastFirstThenWest) {
 // Four times the published rate, unless stated otherwise.
 const Overrides faster{"stage.critical.rate_deg_per_s=0.1"};
 
-TEST(VaiontInSpaceFallsLong, RateAndStepMoveTheFallThusMuch) {
+TEST(VaiontInSpaceFallsLong, RateAndStepChangeTheFall) {
   CaseReport report("vaiont");
   report_fall(report, ", 160 m, 0.1°/s", run("space_fall_160.toml", faster));
   report_fall(report, ", 160 m, 0.025°/s", run("space_fall_160.toml"));
@@ -243,7 +243,7 @@ void report_filling(CaseReport& report, double friction_deg, double duration_s, 
 }
 
 // four times as fast as published; at 35 degrees as published, without softening
-TEST(VaiontInSpaceFallsLong, RestsAfterTheReservoirHasFilled) {
+TEST(VaiontInSpaceFallsLong, ReachesEquilibriumAfterTheReservoirHasFilled) {
   CaseReport report("vaiont");
   report_filling(report, 26, 250);
   report_filling(report, 35, 50, {"joint_properties.slide.softening_drop=1e-9"});

@@ -63,7 +63,7 @@ double closed_form(const SectionLoads& loads, double cross = rock, double cross_
                                  cross_dip);
 }
 
-TEST(Vaiont, DryNeedsWhatTheBlocksBehindItsBendsNeed) {
+TEST(Vaiont, DryHasTheFrictionOfBlocksBehindMobilisedJoints) {
   CaseReport report("vaiont", {"critical friction, dry, 3 blocks", "critical friction, seat 1.8°, 3 blocks"});
   judge_angle(report, "dry", closed_form({}), {});
   judge_angle(report, "rock joints 30°", closed_form({}, 30 * degree), {"joint_properties.rock.friction_deg=30"});

@@ -117,7 +117,7 @@ TEST(FloatingBlock, FloatsUprightFromAWidth) {
   }
 }
 
-TEST(FloatingBlock, LollsWhereItIsTooNarrow) {
+TEST(FloatingBlock, LollsIfItIsTooNarrow) {
   CaseReport report("water");
   const double expected = angle_of_loll(tender) / degree;
   for (const std::string scene : {"tender.toml", "tender_space.toml"})

@@ -44,7 +44,7 @@ TEST(Wedge, BisectionFindsTheClosedForm) {
       value(scene, "critical_friction"), cost(scene));
 }
 
-TEST(Wedge, OnWholeFacesItIsTheSame) {
+TEST(Wedge, OnIntegratedFacesItIsTheSame) {
   CaseReport report("wedge");
   const SceneRun scene = run("scene.toml", {whole_faces});
   report.record(angle_check("critical friction, whole faces", Kind::exact, "Hoek & Bray (1974)",
@@ -159,7 +159,7 @@ void let_it_turn(CaseReport& report, const Carried& carried, double restrained) 
   report.report("tilt of the contact normal on B, " + carried.name, "deg", value(scene, "B_normal_tilt"), note);
 }
 
-TEST(Wedge, HoldsToALowerAngleWhereItMayTurn) {
+TEST(Wedge, IsStableToALowerAngleIfItMayRotate) {
   CaseReport report("wedge", {"critical friction, free rotation, 2 x 2 points a face",
                               "critical friction, free rotation, whole faces"});
   const double restrained = value(run("equal_stiffness.toml"), "critical_friction");
@@ -168,7 +168,7 @@ TEST(Wedge, HoldsToALowerAngleWhereItMayTurn) {
   let_it_turn(report, {"whole faces", whole_faces}, restrained);
 }
 
-TEST(WedgeLong, HoldsToALowerAngleWhereItMayTurnOnManyPoints) {
+TEST(WedgeLong, IsStableToALowerAngleIfItMayRotateOnManyPoints) {
   CaseReport report("wedge");
   const double restrained = value(run("equal_stiffness.toml"), "critical_friction");
   for (const int along : {3, 8, 16})
@@ -176,7 +176,7 @@ TEST(WedgeLong, HoldsToALowerAngleWhereItMayTurnOnManyPoints) {
 }
 
 // Position and orientation of the wedge must not matter.
-TEST(Wedge, TurnedAndMoved) {
+TEST(Wedge, RotatedAndMoved) {
   CaseReport report("wedge");
   const double here = value(run("scene.toml"), "critical_friction");
   for (const double turn : {37.0, 211.0}) {
