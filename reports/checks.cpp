@@ -154,8 +154,7 @@ std::string checks_markdown(const CheckSpreads& spreads) {
       "*Bias* is the mean of error over tolerance and *scatter* its standard deviation: 0 and 0.58 would be errors "
       "spread evenly over the tolerance; much less means that tolerances are wide compared with the errors, a bias "
       "near ±1 that the errors are always on one side. The ratio of computed to expected shows the same without "
-      "tolerances, "
-      "as a geometric mean with its scatter.\n\n"
+      "tolerances, as a geometric mean with its scatter.\n\n"
       "| | checks | passed | both sides | one side | to the last digit | bias, of the tolerance | scatter | computed "
       "over expected | scatter |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
   for (const GroupSpread& group : spreads.groups) {
