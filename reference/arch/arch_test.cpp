@@ -64,7 +64,7 @@ TEST(ElasticArch, TendsToTheRigidArchOnStiffJoints) {
   for (const double stiffness : {1e12, 1e13, 1e14}) {
     const double added = thinnest_elastic_arch(arch, {stiffness, stiffness}).thickness / rigid - 1;
     EXPECT_GT(added, 0);
-    // a tenth of the stiffness adds 10^(1/3) times as much; the next power of it is relative to the addition itself
+    // a tenth of the stiffness adds 10^(1/3) times as much; the next power is relatively as large as the addition
     if (last > 0) {
       EXPECT_NEAR(last / added, std::cbrt(10.0), 2 * last * std::cbrt(10.0));
     }
@@ -83,7 +83,7 @@ TEST(ElasticArch, HasTheThrustOfTheRigidArch) {
   const Arch arch{15, 5, 25e3};
   const ElasticArch limit = thinnest_elastic_arch(arch, {1e14, 1e14});
   const ThrustLine line = best_thrust_line(arch, minimum_thickness(arch));
-  EXPECT_NEAR(limit.thrust / line.thrust, 1, 0.005);  // 0.44 % thicker, and its hinges compress by as much
+  EXPECT_NEAR(limit.thrust / line.thrust, 1, 0.005);  // 0.44 % thicker, by the contact length of its hinges
   for (std::size_t k = 0; k < line.radius.size(); ++k)
     EXPECT_NEAR(limit.joints[k].crossing, line.radius[line.radius.size() - 1 - k] - arch.radius,
                 0.005 * limit.thickness);

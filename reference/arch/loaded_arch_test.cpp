@@ -130,7 +130,7 @@ TEST(ElasticLoad, ApproachesTheRigidLoadByTheCubeRootOfTheCompliance) {
     const ElasticLoad found = greatest_elastic_load(quarter, {stiffness, stiffness});
     const double lost = 1 - found.load / rigid;
     EXPECT_GT(lost, 0);
-    // the next power adds a part relative to the loss
+    // the next power is relatively as large as the loss
     if (last > 0) {
       EXPECT_NEAR(last / lost, std::cbrt(10.0), last * std::cbrt(10.0));
       // a line over k^-1/3 meets the rigid load where k is infinite, but for that part

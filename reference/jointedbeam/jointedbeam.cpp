@@ -275,7 +275,8 @@ double abutment_closure(const JointedBeam& beam, const BeamSteps& steps) {
   gsl_set_error_handler_off();
   const std::unique_ptr<gsl_root_fsolver, decltype(&gsl_root_fsolver_free)> solver(
       gsl_root_fsolver_alloc(gsl_root_fsolver_brent), gsl_root_fsolver_free);
-  // 0.4 of it gives less than the thrust: the stress of a joint grows at least in proportion to its closure
+  // 0.4 of it gives less than the thrust: the stress grows at least in proportion to the closure, by one law with its
+  // fourth power
   if (!solver || gsl_root_fsolver_set(solver.get(), &function, 0.4 * high, high) != GSL_SUCCESS)
     throw std::domain_error("jointed beam: the closure for this thrust is not bracketed");
   constexpr int most = 60;

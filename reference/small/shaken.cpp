@@ -28,8 +28,8 @@ struct Slip {
   }
 };
 
-// the first return to no slip; the relative velocity rises until the plane's acceleration has fallen to the limit, then
-// falls
+// the first time at which slip ends; the relative velocity rises until the plane's acceleration has fallen to the
+// limit, then falls
 double end_of(const Slip& slip, double fastest) {
   double step = 0.5 * std::numbers::pi / slip.plane.angular, low = fastest, high = low + step;
   while (slip.velocity(high) > 0)

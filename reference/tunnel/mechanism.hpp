@@ -20,9 +20,9 @@ struct BlockMotion {
 // A length of joint between two blocks before the opening was excavated.
 struct JointStretch {
   int first = 0, second = 0;  // places in the list of blocks
-  double nx = 0, ny = 0;      // place in the list of sets; -1: of no set
+  double nx = 0, ny = 0;      // unit normal from the first to the second
   double length = 0;          // m
-  int set = -1;               // place in the list of sets; -1: of none
+  int set = -1;               // place in the list of sets; -1: of no set
 };
 
 // mean trace of a joint set: dips by `dip` to the right or to the left

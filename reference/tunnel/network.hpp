@@ -3,8 +3,7 @@
 // detection. x right, y up, turns counter-clockwise; forces per metre of thickness.
 //
 // Against a joint of the program that stays closed, elastic and bonded, divided into n cells a face (sub_contacts = n):
-//   the same      normal stiffness: a cell of length l has the force kn l times the overlap at its middle, which acts
-//   at
+//   the same      normal stiffness: a cell of length l has the force kn l times the overlap at its middle, acting at
 //                 its centre of pressure: a couple kn l³/12 per radian about the middle. A spring that has
 //                 `spread` l²/12 has that couple, and the integrated face kn L³/12 whatever n is. With spread 0 two
 //                 points a face are softer in bending, kn L³/16.
