@@ -13,7 +13,7 @@ assert.equal(await browser.js("return document.querySelectorAll('canvas').length
 await browser.js("document.querySelector('.voussoir .poster').click()");
 await browser.until('picture', `${states('ready')} === 1`);
 assert.equal(await browser.js("return getComputedStyle(document.querySelector('.voussoir svg.overlay, .voussoir .overlay svg')).backgroundColor"),
-  'rgba(0, 0, 0, 0)', 'what lies over the blocks lets them be seen');
+  'rgba(0, 0, 0, 0)', 'the layer over the blocks is transparent');
 // the view shows the state that the list of views states
 assert.equal(await browser.js('return window.voussoir.views[0].look.forces'), 'arrows');
 await browser.quiet(manual);

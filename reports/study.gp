@@ -1,5 +1,5 @@
 # Work and precision of one case's study. draw.sh passes: points (csv), sweeps (names, as words), quantity, cost
-# ('contact evaluations' or 'steps', what the recommendation counts), default ('yes': the scene as it is has a result).
+# ('contact evaluations' or 'steps', the unit of the recommendation), default ('yes': the scene as it is has a result).
 set terminal svg size 760,880
 set datafile missing NaN
 set logscale xy

@@ -155,7 +155,7 @@ struct FolderGraph {
   }
 };
 
-// circles of files and folders in any folder of the repository, each reported once; tests include what they like
+// circles of files and folders in any folder of the repository, each reported once; tests may include any file
 void check_circles(const std::vector<SourceFile>& sources, std::vector<std::string>& found) {
   std::map<std::string, FolderGraph> graphs;
   for (const SourceFile& source : sources) {

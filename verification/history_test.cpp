@@ -119,14 +119,14 @@ TEST_F(History, RefusesInvalidHistories) {
   EXPECT_THROW(history_lines(failing, ""), std::runtime_error);
   const auto message = [](const std::string& name, const std::string& text) {
     write_atomically(folder / name, text);
-    std::string told;
+    std::string refusal;
     try {
       read_history(folder);
     } catch (const std::runtime_error& problem) {
-      told = problem.what();
+      refusal = problem.what();
     }
     fs::remove(folder / name);
-    return told;
+    return refusal;
   };
   EXPECT_NE(message("1.0.0.jsonl", history_lines(verdicts(30.0), "") + "{\"case\": 1}\n").find("1.0.0.jsonl:5:"),
             std::string::npos);

@@ -1,7 +1,7 @@
 #pragma once
 
 // A free-standing column on rigid ground, pushed sideways until it tips over its edge. SI units, radians, per metre of
-// width out of the plane. Column and ground are rigid; the joint between them has a stiffness per area, carries no
+// width out of the plane. Column and ground are rigid; the joint between them has a stiffness per area, transfers no
 // tension and does not slip.
 namespace voussoir::reference {
 

@@ -49,7 +49,7 @@ PlaneFailureForces forces_of(const PlaneFailure& slope) {
   f.crack_depth = slope.height - rise;
   require(f.crack_depth >= 0, "at the crack the joint must be below the top");
   require(slope.water_in_crack >= 0 && slope.water_in_crack <= f.crack_depth, "the crack does not hold so much water");
-  // under the face and the top, less what is below the joint
+  // under the face and the top, less the part below the joint
   f.weight =
       slope.unit_weight * (0.5 * crest * slope.height + slope.crack_distance * slope.height - 0.5 * crack * rise);
   f.uplift = 0.5 * water_unit_weight * slope.water_in_crack * f.joint_length;
