@@ -69,11 +69,11 @@ fi
 "$source/reports/make_views.py" --source "$source" --build "$build" --jobs "$jobs"
 settle $? "views of the cases"
 
-# all checks at one look
+# all checks at a glance
 rm -rf "$reports/checks"
 if [ -s "$reports/verdicts.json" ]; then
   "$build/reports/voussoir_study_report" checks --verdicts "$reports/verdicts.json" --out "$reports/checks" \
-      --style "$source/reports" || failures+=("checks at one look")
+      --style "$source/reports" || failures+=("checks at a glance")
 fi
 
 # the contact kernel is timed again when it or a peer's harness has changed; `make benchmark` times it at length

@@ -52,7 +52,7 @@ TEST(IsotropicMass, ModuliAndBack) {
   EXPECT_THROW(isotropic_stiffnesses({1e9, 0.5}, 1), std::invalid_argument);
 }
 
-// Hooke's law, Eqs 5.10 and 5.11. Any uniform stress on the rim: every spring carries it exactly, no block turns, and
+// Hooke's law, Eqs 5.10 and 5.11. Any uniform stress on the rim: every spring transfers it exactly, no block turns, and
 // blocks far apart move as the isotropic solid does, but for the jumps of fewer than two joints of each set.
 TEST(IsotropicMass, UniformStressIsExact) {
   const Tensor stress{{{1.3e6, -0.4e6}, {-0.4e6, 0.5e6}}};  // tension positive
@@ -94,8 +94,8 @@ TEST(IsotropicMass, UniformStressIsExact) {
   }
 }
 
-// Mean stress of a mass whose rim follows a strain along one axis: sum of place times force of what crosses the
-// boundary of the blocks inside, over their area. Compression positive.
+// Mean stress of a mass whose rim follows a strain along one axis: sum of place times force across the boundary of the
+// inner blocks, over their area. Compression positive.
 Point pressed_stress(double half, double kn, double ks, double strain, int along) {
   Network network;
   network.blocks = mass(1, half, {0.1, 0.4, 0.8});
@@ -124,7 +124,7 @@ Point pressed_stress(double half, double kn, double ks, double strain, int along
 }
 
 // Oedometer, along either axis: G = (s1 - s3)/2e, nu = s3/(s1 + s3), Eqs 5.12 and 5.13. The rim, blocks that follow the
-// strain by their centroids, cannot give as the mass does: an error of a spacing over the width, 1/57 for the larger
+// strain by their centroids, cannot deform as the mass does: an error of a spacing over the width, 1/57 for the larger
 // mass, that falls with the width.
 TEST(IsotropicMass, Oedometer) {
   const double kn = 5e9, ks = 0.5e9, strain = 1e-4;
@@ -208,8 +208,8 @@ TEST(IsotropicOpening, ApproachesTheSmearedForms) {
   }
 }
 
-// Least squares in s/a. What is left of the bolts is that they are 32 and not smeared: at s/a = 0.2 the ratio is 0.927,
-// 0.949, 0.961, 0.965 for 16, 32, 64, 128 bolts of the same stiffness together.
+// Least squares in s/a. The remaining deviation of the bolts is that they are 32 and not smeared: at s/a = 0.2 the
+// ratio is 0.927, 0.949, 0.961, 0.965 for 16, 32, 64, 128 bolts of the same total stiffness.
 TEST(IsotropicOpeningLong, ExtrapolatesToTheSmearedForms) {
   const std::array spacings{0.4, 0.2, 0.14};
   std::array<Ratios, 3> mean;
@@ -231,8 +231,8 @@ TEST(IsotropicOpeningLong, ExtrapolatesToTheSmearedForms) {
   }
 }
 
-// Support that meets only what is left of the convergence.
-TEST(IsotropicOpening, LetOffBeforeSupport) {
+// Support that is loaded by the remaining convergence only.
+TEST(IsotropicOpening, RelaxationBeforeSupport) {
   OpeningNetwork built = build(opening(0.4, 1));
   OpeningNetwork whole = built;
   let_off(whole.network.blocks, whole.wall, {0, 0, 1, pressure});
@@ -255,7 +255,7 @@ TEST(IsotropicOpening, LetOffBeforeSupport) {
   }
 }
 
-// Plain rock that is held at 7 a: the wall comes as far as the annulus of the closed form, and evenly.
+// Plain rock that is held at 7 a: the wall converges as far as in the closed form for an annulus, and evenly.
 TEST(IsotropicOpening, UnsupportedConvergence) {
   const IsotropicOpening stated = opening(0.2, 2);
   OpeningNetwork built = build(stated);
