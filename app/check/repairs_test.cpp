@@ -37,7 +37,7 @@ TEST_F(Repair, OfTablesNamesTheMistake) {
   refused_table(header + "\"30,5\",90,0,0,0\n", "write the decimals with a point");
   refused_table(utf_16(header + row), "is written in UTF-16; save it as UTF-8");
   refused_table(utf_16(header + row).substr(2), "is written in UTF-16");
-  refused_table(header + "30,90,0,0\n", "has 4 cells where the header has 5; leave a cell empty but keep its comma");
+  refused_table(header + "30,90,0,0\n", "has 4 cells, but the header has 5; leave a cell empty but keep its comma");
 }
 
 TEST_F(Repair, OfScenesNamesTheMistake) {

@@ -36,7 +36,7 @@ void wait_a_moment(const Condition& condition) {
     pause();
 }
 
-// the pieces that one thread begins with; others take of them when they have done theirs
+// the pieces that one thread begins with; others take some of them when theirs are done
 struct alignas(64) Part {
   std::atomic<int> next = 0;
   int last = 0;

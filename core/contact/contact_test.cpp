@@ -64,7 +64,7 @@ TEST(Decision, TouchingExactlyIsNoContact) {
         EXPECT_EQ(touch<2>(square, square, Vector<2>(x, y)).contact.status, ContactStatus::undecided);
       }
     }
-  // and the smallest overlap that counts is one
+  // and the smallest overlap that counts is a contact
   EXPECT_EQ(touch<3>(cube, cube, Vector<3>(0, 0, 1 - 1e-12)).contact.status, ContactStatus::touching);
   EXPECT_EQ(touch<3>(cube, cube, Vector<3>(0, 0, 1 + 1e-12)).contact.status, ContactStatus::separated);
 }
@@ -150,7 +150,7 @@ TEST(ClosedForm, AVertexOnAFace) {
     EXPECT_LT((g.normal - Vector<3>::UnitZ()).norm(), point_tolerance);
     EXPECT_NEAR(g.overlap, depth, point_tolerance * depth);
     EXPECT_LT(g.point.head<2>().norm(), point_tolerance);
-    // four flanks against one lid and five far planes: slack s of the lid where 1/s = 4/(depth - s), s = depth/5
+    // four flanks against one lid and five far planes: slack s of the lid by 1/s = 4/(depth - s), s = depth/5
     EXPECT_NEAR(g.point[2], 3 - depth / 5, 2 * depth * depth + point_tolerance * depth);
     EXPECT_NEAR(g.area, 2 * std::pow(3 - g.point[2] - depth, 2), area_tolerance * depth * depth + 1e-15);
   }
@@ -187,7 +187,7 @@ TEST(SectionArea, AgreesWithLasserresRecursion) {
 }
 
 // Eq. 3.36
-TEST(OverlapAlong, FindsTheEndsAndSaysWhenThereAreNone) {
+TEST(OverlapAlong, FindsTheEndsAndReportsWhenThereAreNone) {
   HalfSpaces<3> planes = shapes::cube<3>(1);
   for (const HalfSpace<3>& p : shapes::box<3>({-1, -1, 0.5}, {1, 1, 3}))
     planes.push_back(p);
@@ -216,7 +216,7 @@ TEST(ContactNormal, TurnsGraduallyAsAPointRoundsAnEdge) {
   const int steps = 4000;
   for (int i = 0; i <= steps; ++i) {
     const double angle = std::numbers::pi / 2 * i / steps;
-    // on a circle around the corner, deep enough to touch all the way
+    // on a circle around the corner, deep enough to touch throughout
     const Vector<2> offset =
         Vector<2>(1, 1) - Vector<2>(0.02, 0.02) + 0.1 * Vector<2>(std::cos(angle), std::sin(angle));
     const Outcome<2> r = touch<2>(large, small, Matrix<2>::Identity(), offset, {.potential_radius = 2});
@@ -257,7 +257,7 @@ void expect_symmetry(std::uint64_t seed, int pairs) {
     EXPECT_EQ(h.face_a, g.face_b);
     EXPECT_EQ(h.face_b, g.face_a);
 
-    // powers of two change the unit, and not one bit else
+    // powers of two change the unit, and no bit of anything else
     for (const double factor : {0x1p-10, 0x1p13}) {
       const ContactGeometry<Dim> s =
           touch<Dim>(shapes::scaled_block<Dim>(a, factor), shapes::scaled_block<Dim>(b, factor), turn, factor * offset)
@@ -308,7 +308,7 @@ TEST(ContactBetween, CubesFarFromTheOrigin) {
   EXPECT_EQ(contact_between<3>(cube, low, cube, high, QueryLevel::overlap).geometry.area, 0);
 }
 
-TEST(ContactBetween, RefusesWhatIsNoPlacement) {
+TEST(ContactBetween, RefusesInvalidPlacements) {
   const Polytope<2> square = unit_cube<2>();
   const Pose<2> here;
   Pose<2> nowhere, stretched, skewed;

@@ -1,4 +1,4 @@
-// Directions across parts that are thin: what boxes along the axes cannot tell of inclined slabs and columns.
+// Directions across parts that are thin: the shape of inclined slabs and columns that boxes along the axes do not show.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-// a part and how it is turned
+// a part and its orientation
 template <int Dim>
 struct TurnedPart {
   const Polytope<Dim>* part;

@@ -22,7 +22,7 @@ struct Schedule {
                                                           // step ends there
 };
 
-// Puts in force what a search is at: the friction angle, rad, of some joint properties, or the factor that divides
+// Applies the present value of a search: the friction angle, rad, of some joint properties, or the factor that divides
 // their tan φ and cohesion, both as the model states them.
 template <int Dim>
 void set_strength(const Model<Dim>& model, Searched searched, const std::vector<int>& properties, double level,

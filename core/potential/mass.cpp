@@ -15,7 +15,7 @@ namespace {
 const std::array<double, 3> gauss_points{-std::sqrt(0.6), 0, std::sqrt(0.6)};
 constexpr std::array<double, 3> gauss_weights{5.0 / 9, 8.0 / 9, 5.0 / 9};
 
-constexpr int first_cells = 4;  // each way
+constexpr int first_cells = 4;  // in each direction
 
 // Integrals in units of the half extents, from the centre: volume, first moments, second moments' lower triangle.
 template <int Dim>
@@ -90,7 +90,7 @@ template <int Dim>
 struct Enclosure {
   bool tight = false;   // the plane meets the rays of all corners
   bool smooth = false;  // every plane counts on all of the piece or on none of it: the distance is analytic
-  double width = 0;     // between the two, as a volume, times the farthest corner's distance² where that is more
+  double width = 0;     // between the two, as a volume, times the farthest corner's distance² if that is more
 };
 
 // volume between the centre and a plane through these distances along the rays of the corners

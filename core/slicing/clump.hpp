@@ -1,4 +1,4 @@
-// What happens to the parts that joints made: excavated, held together, or kept apart (Boon 2013, section 3.2.5).
+// The parts that joints made: excavated, held together, or kept apart (Boon 2013, section 3.2.5).
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-// where a part below and a part above a joint touch
+// the face in which a part below and a part above a joint touch
 struct SharedFace {
   int joint = 0;
   int below = 0, above = 0;  // parts
@@ -20,9 +20,9 @@ struct SharedFace {
 template <int Dim>
 std::vector<SharedFace> shared_faces(const std::vector<Polytope<Dim>>& parts, const std::vector<Cut<Dim>>& cuts);
 
-// The body of each part, numbered in the order of the parts. Parts are one body where they share a face of a
-// construction joint and, when `heal`, where the joint between them does not cover all of the face they share: Yu et
-// al. (2009), who cut by infinite planes where we cut by extents, so that far fewer parts have to be joined.
+// The body of each part, numbered in the order of the parts. Parts are one body if they share a face of a construction
+// joint and, with `heal`, if the joint between them does not cover all of the face they share: Yu et al. (2009), who
+// cut by infinite planes, not by extents as here, so that far fewer parts have to be joined.
 template <int Dim>
 std::vector<int> bodies_of(const std::vector<Polytope<Dim>>& parts, const std::vector<Cut<Dim>>& cuts, bool heal);
 

@@ -28,7 +28,7 @@ struct FeasibilityRequest {
       nullptr;  // planes whose normals contain 0 in their hull; null: a start is built
   // m: stop as soon as s is proven larger (the parts are separated)
   double stop_above = std::numeric_limits<double>::infinity();
-  double tolerance = 0;  // m: a plane violated by no more than this holds
+  double tolerance = 0;  // m: a plane violated by no more than this counts as satisfied
 };
 
 template <int Dim>

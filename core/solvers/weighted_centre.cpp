@@ -68,12 +68,12 @@ CentreResult<Dim> solve_weighted_centre(const HalfSpaces<Dim>& planes, std::span
     }
   }
 
-  // A slack changes by at most the decrement over the root of its weight, relative to itself: what is asked of the
-  // decrement's square is asked for the smallest of them.
+  // A slack changes by at most the decrement over the root of its weight, relative to itself: the bound on the
+  // decrement's square is applied to the smallest of them.
   const double least_weight = weights.empty() ? 1 : *std::min_element(weights.begin(), weights.end());
   Vector<Dim> moved = Vector<Dim>::Zero();
   Matrix<Dim> frame;
-  bool settled = false;  // near the centre the frame stays: a new one rounds again, which thin regions magnify
+  bool settled = false;  // near the centre the frame is kept: a new one rounds again, which thin regions magnify
   for (; result.iterations < request.limit; ++result.iterations) {
     if (!settled) {
       for (std::size_t i = 0; i < count; ++i)

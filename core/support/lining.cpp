@@ -131,7 +131,7 @@ LiningAnswer interface_answer(const LiningJoint& joint, double length, const Lin
   contact.place = motion.place;
   LiningAnswer answer;
   const double shear_stiffness = p.shear_stiffness * length;
-  if (motion.closure < 0 && !contact.bonded) {  // parted: what the shear spring held is lost
+  if (motion.closure < 0 && !contact.bonded) {  // parted: the energy of the shear spring is lost
     if (shear_stiffness > 0) answer.friction = 0.5 * contact.shear * contact.shear / shear_stiffness;
     contact.shear = contact.normal = contact.dashpot = 0;
     return answer;
@@ -142,7 +142,7 @@ LiningAnswer interface_answer(const LiningJoint& joint, double length, const Lin
   history.plastic_slip = contact.plastic_slip;
   history.shear_stiffness = contact.shear_stiffness;
   history.bonded = contact.bonded;
-  // it is cast without stress, which a joint with tensile strength has where it is closed by its offset
+  // it is cast without stress, which a joint with tensile strength has when it is closed by its offset
   JointKinematics<2> k;
   k.normal = {1, 0};
   k.overlap = motion.closure + (p.laws.bond ? p.tension / p.normal_stiffness : 0);
@@ -216,7 +216,7 @@ std::vector<double> smoothed_moments(const Lining& lining, const std::vector<Sec
   for (const LiningSide& side : lining.sides)
     radius += side.normal.dot(side.corner - centre) / static_cast<double>(sides);
 
-  // the sides' pressures, each at its middle over the angle that it takes up
+  // the sides' pressures, each at its middle over the angle that it covers
   struct Sector {
     double angle, width, pressure;
   };
