@@ -1,12 +1,12 @@
 // Tables of comma-separated values (RFC 4180) with a header row: the one reader, and the one writer of a cell.
 //
-// A row is one line: a quoted cell may hold commas and doubled quotes, but no line break. A text that a spreadsheet
+// A row is one line: a quoted cell may contain commas and doubled quotes, but no line break. A text that a spreadsheet
 // would compute, because it begins with = + - or @ and is no number, is written behind an apostrophe, which the reader
 // removes again; so every text comes back unchanged.
 //
 // Other readers of these tables: to gnuplot and numpy.loadtxt (quotechar='"') a # outside of quotes begins a comment,
-// so a text that holds one is quoted; gnuplot does not know doubled quotes, so a text is not quoted because of quotes
-// within it.
+// so a text that contains one is quoted; gnuplot does not know doubled quotes, so a text is not quoted because of
+// quotes within it.
 #pragma once
 
 #include <map>

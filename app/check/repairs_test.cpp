@@ -55,7 +55,7 @@ TEST_F(Repair, OfAFolderThatMustNotBeEnteredSaysSo) {
   write("closed/scene.toml",
         head_in_plane + rock_properties + box("ground", -5, -20, 20) + "fixed = true\n" + settle_stage);
   fs::permissions(folder_ / "closed", fs::perms::none);
-  expect_one_line(run("check closed/scene.toml"), 2, "those of the folders on the way to it");
+  expect_one_line(run("check closed/scene.toml"), 2, "those of the folders above it");
   fs::permissions(folder_ / "closed", fs::perms::owner_all);
 }
 

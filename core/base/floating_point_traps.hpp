@@ -9,7 +9,7 @@ namespace voussoir {
 
 void trap_floating_point_errors();
 
-// Suspends the traps for a scope and forgets what was raised in it: for outside libraries that divide by zero on
+// Suspends the traps for a scope and forgets what was raised in it: for external libraries that divide by zero on
 // purpose, and for tests that feed NaN.
 class WithoutTraps {
  public:

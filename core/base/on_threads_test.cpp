@@ -1,4 +1,4 @@
-// Work shared out among threads: every piece once, whatever they throw and wherever they are called from.
+// Work shared out among threads: every piece once, with any exceptions and from any caller.
 #include "core/base/on_threads.hpp"
 
 #include <gtest/gtest.h>

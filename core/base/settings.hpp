@@ -19,7 +19,7 @@ enum class ContactPoint { analytic_centre, centroid, chebyshev, central_path };
 enum class OverlapSearch { closed_form, bracketing };
 
 // Direction and depth of a contact. potential: from the rounded potentials at the point, measured along it, as
-// published. multipliers: of the program min s, or of its barrier where the point is on the central path, the gradient
+// published. multipliers: of the program min s, or of its barrier if the point is on the central path, the gradient
 // g = Σ λ a over one part's planes, and -s/|g|, at 4|g|² of a constant stiffness k: if the contact acts at the
 // program's or the barrier's own point, the force is that of the potential 2 k s²
 enum class ContactNormal { potential, multipliers };
@@ -61,7 +61,7 @@ enum class Statics { adaptive, local, newton };
 
 struct DampingSettings {
   // method by which a run reaches equilibrium. adaptive: dynamic relaxation with scaled inertia, in which time,
-  // velocities and dashpots have no meaning; local: the true motion under the damping below, the thesis's method, ten
+  // velocities and dashpots have no meaning; local: the true motion under the damping below, the thesis' method, ten
   // to a hundred times slower for many blocks, and right when the path to equilibrium is an event, like a fall. newton:
   // Newton-Raphson iteration on the joints' stiffness, whose result relaxation confirms
   Statics statics = Statics::adaptive;
@@ -80,7 +80,7 @@ struct DampingSettings {
 
 struct TimeSettings {
   // time step as a fraction of the limit 2/sqrt(lambda); one-sided contacts gain energy above 0.2 (0.1 without damping,
-  // which is what a scene's stages of kind run take unless it is stated)
+  // which a scene's stages of kind run take unless it is stated)
   static constexpr double most_damped = 0.2, most_undamped = 0.1;
   double fraction = most_damped;
 
@@ -111,7 +111,7 @@ struct Settings {
 struct GravityPlan {
   double ramp = 0;                // s
   double from = 0;                // factor at which a ramp begins
-  std::optional<double> to = {};  // where it ends; 1 if not given
+  std::optional<double> to = {};  // final factor; 1 if not given
 };
 
 // A water whose parameters change within a stage, linearly from their present values to the stated ones (model.hpp,
@@ -137,7 +137,7 @@ struct RunPlan {
 
 enum class ReductionMethod { bisection, steps, rate, two_rates };
 
-// what a reduction searches: a friction angle, or the factor by which tan φ and cohesion are divided
+// the quantity that a reduction searches: a friction angle, or the factor by which tan φ and cohesion are divided
 enum class Searched { friction, factor };
 
 // the range in which the factor is raised, by bisection or in steps
@@ -171,8 +171,8 @@ struct Selector {
   std::vector<std::string> names;             // bodies or joints' sides by name
   std::vector<std::string> above, below;      // joints
   std::optional<std::vector<double>> inside;  // m: a point in the body
-  std::vector<std::string> sides{};           // left, right, …: an outer face of the body lies in one of these sides
-  std::vector<double> low{}, high{};          // m: corners of a box that holds its centroid; empty: anywhere
+  std::vector<std::string> sides{};           // left, right, …: an outer face of the body is in one of these sides
+  std::vector<double> low{}, high{};          // m: corners of a box around its centroid; empty: anywhere
 };
 
 // a factor that varies with time: linear between the points of a table and constant beyond them, times a sine
@@ -213,7 +213,7 @@ struct ForcePlan {
   std::string name;
   Selector bodies;
   std::vector<double> force;     // N (2-D: N/m), on each body, as many entries as dimensions
-  std::vector<double> point;     // m: where it acts, world coordinates at the start; empty: at each body's centroid
+  std::vector<double> point;     // m: point of action, world coordinates at the start; empty: at each body's centroid
   bool turns_with_body = false;  // else it keeps its direction in space; its point always moves with the body
   TimeFactor factor;             // of the time since the stage began
   double last_factor = 1;        // when it ends

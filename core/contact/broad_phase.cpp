@@ -305,7 +305,7 @@ void overlapping_pairs(const std::vector<Box<Dim>>& boxes, int threads, const Pa
   choose_cells(boxes, s);
   choose_grids(boxes, s);
   fill_table(boxes, s);
-  // each box looks among its likes and among the larger
+  // each box searches among boxes of its size and larger ones
   const std::size_t groups = static_cast<std::size_t>(team(threads, s.table.size()));
   s.found.resize(std::max(s.found.size(), groups));
   for (Pairs& found : s.found)

@@ -11,7 +11,7 @@ namespace voussoir {
 
 template <int Dim>
 struct Box {
-  Vector<Dim> low, high;  // m; a box whose low lies above its high (an absent body's) meets none
+  Vector<Dim> low, high;  // m; a box whose low is above its high (an absent body's) meets none
   int body;               // parts of one body never meet
   bool fixed;             // nor do two fixed ones
 };

@@ -265,7 +265,7 @@ TEST(SectionArea, OfATouchingPlaneIsNothing) {
 }
 
 TEST(SectionArea, TurnsWithTheNormalNearACorner) {
-  // C5: a plane through a point near a corner, from lying on one face to lying on the next
+  // C5: a plane through a point near a corner, turned from one face to the next
   const HalfSpaces<3> cube = shapes::cube<3>(1);
   for (const double near : {0.3, 1e-3, 1e-9})
     for (int degrees = 0; degrees <= 90; ++degrees) {

@@ -91,7 +91,7 @@ void expect_converged(const CubePair<Dim>& cubes, const Outcome<Dim>& found, con
   const double radius = settings.potential_radius * std::min(cubes.a.inscribed_radius, cubes.b.inscribed_radius);
   auto best = exact::converged_contact(exact::planes_of(pair), static_cast<int>(cubes.a.faces.size()),
                                        static_cast<int>(cubes.b.faces.size()), exact::point_of(g.point), radius);
-  ASSERT_TRUE(best) << "the point lies outside";
+  ASSERT_TRUE(best) << "the point is outside";
   if constexpr (Dim == 2) best->section.area /= 2 * exact::lid_height(pair);
 
   const double size = cubes.a.radius + cubes.b.radius, overlap = to_double(best->overlap);
@@ -213,7 +213,7 @@ TEST(Centre, IsFoundFromNextToTheBoundary) {
 
 // ---- A5: continuity -------------------------------------------------------------------------------------------------
 
-// A cube goes over from a corner to an edge to a face on another one at equal depth; warm from step to step.
+// A cube turns from a corner to an edge to a face on another one at equal depth; warm from step to step.
 struct Jumps {
   double point = 0, normal = 0, overlap = 0, area = 0;
 };
@@ -224,7 +224,7 @@ Jumps largest_jumps(int steps) {
   Jumps jumps;
   Contact<3> last;
   for (int i = 0; i <= steps; ++i) {
-    // first one tilt goes to 0 and beyond, then the other
+    // first one tilt passes through 0, then the other
     const double way = 2.0 * i / steps;
     const double first = 0.2 * std::max(0.0, 1 - way), second = 0.15 * std::min(1.0, 2 - way);
     const Matrix<3> turn =

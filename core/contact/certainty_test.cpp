@@ -15,7 +15,7 @@ namespace {
 using families::Tally;
 using shapes::Random;
 
-// cddlib works in processes of its own; the machine that judges changes has two cores
+// cddlib works in processes of its own; the machine that checks changes has two cores
 constexpr int processes = 2;
 
 constexpr std::uint64_t seed = 20240;

@@ -20,7 +20,7 @@ enum class ContactStatus {
            // cannot be integrated (region_integral)
 };
 
-// where and how two parts overlap, relative to the centroid of the first part's body, world axes
+// place and measures of the overlap of two parts, relative to the centroid of the first part's body, world axes
 template <int Dim>
 struct ContactGeometry {
   Vector<Dim> point = Vector<Dim>::Zero();   // m
@@ -34,10 +34,10 @@ struct ContactGeometry {
 
 enum class ProofKind {
   none,
-  interior_point,   // `point` lies inside both parts by at least `margin`
+  interior_point,   // `point` is inside both parts by at least `margin`
   separating_axis,  // no point of A is beyond `support` along `axis`, no point of B before support + margin
   multipliers,      // the LP's optimum is at least `margin`, by its multipliers (weak duality)
-  // of potential particles: `point` is where max(f_A, f_B) is least, `support` the ratio λ / (1 - λ); if they touch
+  // of potential particles: `point` is that of the least max(f_A, f_B), `support` the ratio λ / (1 - λ); if they touch
   // `margin` is the path of the point as one part turns, m/rad
   least_point
 };

@@ -25,7 +25,7 @@ void expect_decision_by_separating_axes(std::uint64_t seed, int pairs) {
     const Polytope<Dim> b =
         shapes::centred_block<Dim>(shapes::random_planes<Dim>(random, shapes::integer(random, 0, 8), 1));
     const Matrix<Dim> turn = matrix(shapes::orientation<Dim>(random));
-    // pushed together along a direction until they nearly touch, then a step of 1e-9 to 1 either way
+    // pushed together along a direction until they nearly touch, then a step of 1e-9 to 1 forwards or backwards
     const Vector<Dim> along = shapes::direction<Dim>(random);
     const double outside = distance_of_touching<Dim>(a, b, turn, along);
     const double step = shapes::power_of_ten(random, -9, 0) * (i % 2 ? 1 : -1);
@@ -126,7 +126,7 @@ TEST(ClosedForm, CrossedEdgesMeetAlongTheirCommonPerpendicular) {
     for (int i = 0; i < 10; ++i) {
       const double angle = i == 0 ? std::numbers::pi / 2 : shapes::uniform(random, 0.02, std::numbers::pi - 0.02);
       const Matrix<3> about_z = Eigen::AngleAxisd(angle, Vector<3>::UnitZ()).toRotationMatrix();
-      // the first body sees the world turned back
+      // in the frame of the first body the world is turned back
       const Matrix<3> turn = on_edge.transpose() * about_z * on_edge;
       const Vector<3> up = on_edge.transpose() * Vector<3>::UnitZ();
       const ContactGeometry<3> g = touch<3>(cube, cube, turn, (2 * half_diagonal - overlap) * up).contact.geometry;
@@ -284,7 +284,7 @@ TEST(Symmetry, SwappingThePartsReversesTheNormal2D) {
 // planes and points from one frame to another: Eqs 3.22-3.26
 TEST(ContactBetween, CubesFarFromTheOrigin) {
   const Polytope<3> cube = unit_cube<3>();
-  // a quarter turn about x: what was up points along -y
+  // a quarter turn about x: up becomes -y
   Matrix<3> quarter;
   quarter << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   // multiples of 2^-10 stay exact so far out

@@ -86,8 +86,8 @@ Model<Dim> on_base(const Maker<Dim>& base, const Maker<Dim>& block, double stiff
 
 // ---- in equilibrium -------------------------------------------------------------------------------------------------
 
-// A facet leans by some three times the noise over its extent at most, and both bodies have facets; a face that counts
-// twice tilts the block by a quarter to all of `depth` over its size.
+// A facet is inclined by at most some three times the noise over its extent, and both bodies have facets; a face that
+// counts twice tilts the block by a quarter to all of `depth` over its size.
 constexpr double leaning = 10;
 
 struct Case {
@@ -234,7 +234,7 @@ TEST(CoplanarFacets, ActAsOneFaceOnPotentialParticles) {
 
 // ---- weights --------------------------------------------------------------------------------------------------------
 
-// of m facets 1/m each, of faces that lean 1; in between without a jump
+// of m facets 1/m each, of inclined faces 1; in between without a jump
 TEST(CoplanarFacets, ShareTheWeightOfTheirFace) {
   for (const double angle :
        {0.0, 1e-16, 1e-12, 1e-9, 1e-6, 0.5 * leans_apart, 0.999 * leans_apart, 1.001 * leans_apart}) {

@@ -38,7 +38,7 @@ double width_of(const FaceIntegral<3>& face, const PressedPolygon& polygon) {
 
 // the largest overlap on it, m
 double deepest(const FaceIntegral<2>& face, const PressedPolygon&) {
-  // linear along a segment: mean and mean square tell both ends
+  // linear along a segment: mean and mean square give both ends
   const double mean = face.volume / face.area;
   return mean + std::sqrt(std::max(3 * (face.square / face.area - mean * mean), 0.0));
 }
@@ -149,7 +149,8 @@ void answer(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, const FaceInte
     about += share.slope * r.moment;
   }
   const double size = force.norm();
-  if (!(size > 0)) return without_pressure<Dim>(pair, planes, contact, face);  // deep in the other, on all sides alike
+  if (!(size > 0))
+    return without_pressure<Dim>(pair, planes, contact, face);  // deep in the other, equally on all sides
   ContactGeometry<Dim>& g = contact.geometry;
   g.point = pair.axes * (contact.proof.point + point);
   face.force = pair.axes * force;

@@ -80,7 +80,8 @@ TEST(Multipliers, ACornerInAFaceIsItsDepth) {
 }
 
 TEST(Multipliers, CrossedEdgesAreTheDistanceOfTheirLines) {
-  // both cubes stand on an edge, the upper one leans along its own: it crosses the lower one's away from every corner
+  // both cubes stand on an edge, the upper one is tilted along its own: it crosses the lower one's away from every
+  // corner
   const Polytope<3> cube = unit_cube<3>();
   const Matrix<3> on_edge = Eigen::AngleAxisd(std::numbers::pi / 4, Vector<3>::UnitX()).toRotationMatrix();
   const double half_diagonal = std::sqrt(0.5);
@@ -242,7 +243,7 @@ struct Loop {
   double force_times_path = 0;
 };
 
-// B goes round a small ellipse of translations, and of rotations if it turns, about where it was pushed into A
+// B moves along a small ellipse of translations, and of rotations if it turns, about its place in A
 Loop loop_around(const Polytope<3>& a, const Polytope<3>& b, Random& random, double depth, double turning,
                  const ContactSettings& settings) {
   const Matrix<3> start = matrix(shapes::orientation<3>(random));

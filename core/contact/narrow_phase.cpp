@@ -107,7 +107,7 @@ struct Places {
   std::size_t count = 0;
 };
 
-// by a number of planes, those with more than most have all alike; equal ones stay in their order
+// by a number of planes, all with more than `most` count as equal; equal ones stay in their order
 template <class Planes>
 Places sorted_by(const Places& places, const Planes& planes) {
   constexpr std::size_t most = 32;

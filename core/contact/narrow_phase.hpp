@@ -1,5 +1,5 @@
-// Contact between two convex parts (Boon 2013, chapter 3.3): do they overlap, where, in which direction, how far, how
-// wide.
+// Contact between two convex parts (Boon 2013, chapter 3.3): whether, where, in which direction, how far and how wide
+// they overlap.
 #pragma once
 
 #include <span>

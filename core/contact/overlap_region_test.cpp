@@ -204,7 +204,7 @@ TEST(Bracketing, MeetsCubesAndGrazingFaces) {
   EXPECT_EQ(planes[face_b].normal, Vector<3>(-Vector<3>::UnitZ()));
   EXPECT_FALSE(overlap_by_bracketing<3>(planes, 6, {0, 0, 0.5}, {0, 0, 1}, overlap, face_a, face_b));
 
-  // two planes that lean by a billionth of a radian end the part a billion times farther away than they are
+  // two planes inclined by a billionth of a radian end the part a billion times farther away than they are
   const double lean = 1e-9;
   const HalfSpaces<2> strip{{{1, lean}, 1}, {{-1, -lean}, 1}};
   ASSERT_TRUE(overlap_by_bracketing<2>(strip, 1, {0, 0}, {0, 1}, overlap, face_a, face_b));

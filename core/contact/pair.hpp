@@ -8,9 +8,9 @@ namespace voussoir {
 // how far a pair is resolved; each level contains those before it
 enum class QueryLevel {
   decision,  // touching or not, with the proof
-  point,     // and where
-  overlap,   // and in which direction, how far, between which faces
-  area       // and how wide
+  point,     // and its place
+  overlap,   // and direction, overlap and faces
+  area       // and area
 };
 
 // Two parts in the frame of the first. Positions were subtracted (Eq. 3.26): no result depends on the place of the

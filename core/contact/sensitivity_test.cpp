@@ -74,7 +74,7 @@ Posed<Dim> face_on_face(Random& random) {
   return p;
 }
 
-// any position, of shapes whose faces may be two facets that lean by 10^-12 to 10^-2
+// any position, of shapes whose faces may be two facets inclined by 10^-12 to 10^-2
 template <int Dim>
 Polytope<Dim> with_facets(const Polytope<Dim>& part, Random& random) {
   HalfSpaces<Dim> planes = part.faces;

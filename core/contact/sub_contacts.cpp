@@ -15,7 +15,7 @@ constexpr double least_slope = 1e-3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// one direction of the grid seen in the section: a point at y lies at first + slope·y, in units of cells
+// one direction of the grid seen in the section: a point at y is at first + slope·y, in units of cells
 template <int Flat>
 struct Ruler {
   double first = 0;

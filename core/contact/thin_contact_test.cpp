@@ -38,7 +38,7 @@ void expect_faces_meet(std::uint64_t seed) {
             i % 2 ? unit_cube<Dim>()
                   : shapes::block<Dim>(shapes::box<Dim>(Vector<Dim>::Constant(-0.2), Vector<Dim>::Constant(0.2)));
         const Matrix<Dim> turn = tilt<Dim>(random, angle);
-        // the lowest corner lies `overlap` below the lower block's top
+        // the lowest corner is `overlap` below the lower block's top
         Vector<Dim> offset = Vector<Dim>::Constant(0.5 - overlap);
         for (int k = 0; k < Dim - 1; ++k)
           offset[k] = shapes::uniform(random, -0.3, 0.3);

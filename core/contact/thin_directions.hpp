@@ -16,7 +16,7 @@ struct TurnedPart {
 };
 
 // Up to Dim - 1 directions, unit, across which the parts together are less than half as wide as along any axis; of some
-// of their faces' normals the best, none where parts are as wide as high. The same for any number of threads.
+// of their faces' normals the best, none if parts are as wide as high. The same for any number of threads.
 template <int Dim>
 std::vector<Vector<Dim>> thin_directions(std::span<const TurnedPart<Dim>> parts);
 

@@ -16,9 +16,9 @@ namespace {
 // its height.
 constexpr double out_of_plane = 1e-6;
 
-// Of the spacing of the file's numbers, how far a corner may come to lie outside a facet by rounding: both it and the
-// facet's first corner are off by half the spacing along each axis, √3/2 of it in space, and the facet is turned by at
-// most twice √3 spacing over its height, over which the corner may lie as far as the mesh extends.
+// In spacings of the file's numbers, how far rounding may move a corner outside a facet: both it and the facet's first
+// corner have errors of half the spacing along each axis, √3/2 of it in space, and the facet is turned by at most twice
+// √3 spacing over its height, over which the corner may lie as far as the mesh extends.
 constexpr double rounded_out = 3 * std::numbers::sqrt3;
 // of the mesh's extent: a coarser spacing changes the shape, and excuses no lack of convexity
 constexpr double largest_spacing = 2e-3;
@@ -66,7 +66,7 @@ void check_closed(const Mesh& mesh) {
     if (!runs.contains({edge.second, edge.first}))
       throw FileFault(mesh.facets[facet].line, 0,
                       fmt::format("the surface is open: at the edge from {} to {} {} has no neighbour; add the missing "
-                                  "facet, or write the corners of neighbours alike",
+                                  "facet, or write equal corners of neighbours with equal numbers",
                                   text(mesh.points[edge.first]), text(mesh.points[edge.second]), place(mesh, facet)));
 }
 
@@ -96,7 +96,7 @@ double volume_times_six(const Mesh& mesh) {
   return sum;
 }
 
-// A facet's plane, outward whichever way round the whole mesh is, and how far outside it a corner may lie.
+// A facet's plane, outward for either orientation of the mesh, and how far outside it a corner may lie.
 struct Side {
   Vector<3> normal = Vector<3>::Zero();  // zero: a sliver, which is ignored; its neighbours bound the solid
   double tolerance = 0;                  // m
@@ -144,7 +144,7 @@ double check_convex(const Mesh& mesh, const std::vector<Side>& sides, double ext
         if (outside > sides[f].tolerance)
           throw FileFault(
               other.line, 0,
-              fmt::format("the block is not convex: its corner {} lies {:.3g} m outside {}; {}split it into convex "
+              fmt::format("the block is not convex: its corner {} is {:.3g} m outside {}; {}split it into convex "
                           "blocks, with part_of for one body",
                           text(mesh.points[corner]), outside, place(mesh, f),
                           outside > sides[f].rounding

@@ -290,7 +290,7 @@ class ObjReader {
 std::vector<Mesh> read_stl(std::string_view bytes) {
   std::vector<Mesh> meshes;
   const std::size_t count = bytes.size() >= binary_head ? little_endian<std::uint32_t>(bytes, binary_head - 4) : 0;
-  // many binary files begin with "solid" too: their size tells
+  // many binary files begin with "solid" too: their size shows which they are
   if (count > 0 && bytes.size() == binary_head + count * binary_facet) {
     meshes = read_binary_stl(bytes, count);
   } else {

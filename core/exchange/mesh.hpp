@@ -28,7 +28,7 @@ struct Mesh {
 };
 
 // Every `solid` of an ASCII STL, or the one solid of a binary one, whose single precision leaves 7 digits. Corners of
-// neighbours must be written alike: they are one point only when they are equal. Throws FileFault.
+// neighbours must be written with equal numbers: they are one point only when they are equal. Throws FileFault.
 std::vector<Mesh> read_stl(std::string_view bytes);
 
 // Every object (`o`) of a Wavefront OBJ; of its statements v, f, o, and without effect g, s, vn, vt, vp, usemtl,

@@ -133,7 +133,7 @@ void read_outline(const CsvTable& table, const CsvRow& row, int dimension, Joint
                  dimension == 3 ? "must be infinite, ellipse, rectangle or polygon" : "must be infinite or trace");
   for (const std::string& column : columns) {
     const double extent = table.required_number(row, column);
-    if (!(extent > 0)) table.refuse(row, column, "must be greater than 0; it is the whole extent in m");
+    if (!(extent > 0)) table.refuse(row, column, "must be greater than 0; it is the full extent in m");
     joint.extents.push_back(extent);
   }
 }

@@ -263,7 +263,7 @@ TEST(BlockCatalogue, NearlyCommonCornersStayNearExactOnes) {
 }
 
 TEST(BlockCatalogue, CornersOfNearlyParallelPlanesLieOnThem) {
-  // V3: two or three planes turned by 10^-k; a corner may lie anywhere along them, but on them, and outside none
+  // V3: two or three planes turned by 10^-k; a corner may be anywhere along them, but on them, and outside none
   Random random(604);
   for (int k = 1; k <= 15; ++k)
     for (int i = 0; i < 12; ++i) {

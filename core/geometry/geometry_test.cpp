@@ -22,7 +22,7 @@ constexpr double rounding = 1e-14;
 // vertices of well-shaped blocks lose two to three digits, their third powers some more
 constexpr double mass_tolerance = 1e-12;
 
-// at a distance of 1e6 sizes the offsets carry 1e-10 of the size: the uncertainty of the input, times ten
+// at a distance of 1e6 sizes the offsets have an error of 1e-10 of the size: the uncertainty of the input, times ten
 constexpr double far_origin_tolerance = 1e-9;
 
 // ---- rotations ------------------------------------------------------------------------------------------------------

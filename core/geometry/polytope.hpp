@@ -1,5 +1,5 @@
-// A convex part: its half-spaces and what follows from them. Vertices serve mass, bounds and drawing only; slicing and
-// contact work on the half-spaces.
+// A convex part: its half-spaces and the data that follow from them. Vertices serve mass, bounds and drawing only;
+// slicing and contact work on the half-spaces.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ struct Polytope {
   std::shared_ptr<const Particle<Dim>> particle;
 };
 
-// the order of solids, whatever order they were given in: by centroid, then volume
+// the order of solids, for any order of input: by centroid, then volume
 template <int Dim>
 bool in_order(const MassProperties<Dim>& a, const MassProperties<Dim>& b) {
   for (int k = 0; k < Dim; ++k)

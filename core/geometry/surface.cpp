@@ -30,7 +30,7 @@ constexpr double farthest = 1e9;
 constexpr double well_conditioned = 1e-4;
 
 // Corners nearer to each other than this times the band are one: more planes than dimensions through a point leave, cut
-// in an unlucky order, several points where one is meant.
+// in an unlucky order, several points in place of one.
 constexpr double one_corner = 4;
 
 // of a corner, by the sign of its distance to the plane that cuts, and not by Eq. B.1 over all planes
@@ -218,8 +218,8 @@ Vector<Dim> common_point(const Matrix<Dim>& normals, const Vector<Dim>& offsets)
   return point + inverse * (offsets - normals * point);
 }
 
-// The vertex again from Dim of the planes through it, each chosen to lean most against those before: cutting left it
-// with the rounding of the box.
+// The vertex again from Dim of the planes through it, each chosen with the largest angle to those before: cutting left
+// it with the rounding of the box.
 template <int Dim>
 void sharpen(Vector<Dim>& point, const HalfSpaces<Dim>& faces, std::span<const int> through) {
   Matrix<Dim> normals;

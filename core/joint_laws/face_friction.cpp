@@ -15,9 +15,9 @@ constexpr double far_pole = 32;
 // it
 constexpr double on_the_line = 1e-30;
 
-// The direction of slip is found when the trial lies off its plane's normal by no more than this, over the limit force:
-// the remaining force is on the surface, with an error along it of as much. Below the accuracy of far poles, Newton's
-// method would not end.
+// The direction of slip is found when the trial's distance from its plane's normal is no more than this, over the limit
+// force: the remaining force is on the surface, with an error along it of as much. Below the accuracy of far poles,
+// Newton's method would not end.
 constexpr double along_the_normal = 1e-8;
 constexpr int newton_limit = 60;
 constexpr double shortest_step = 1e-3;  // of Newton's

@@ -89,7 +89,7 @@ FaceFriction by_cells(const PressedPolygon& p, const Vector<2>& v, double w) {
 }
 
 // The slip at a cell's middle represents the cell: its relative error is (width/r)², and of order one within a cell of
-// the pole. Of 1000 cells along, the ring at r cells holds 2πr of them: 2π Σ 1/r < 2π ln 1000 < 50 cells' worth of a
+// the pole. Of 1000 cells along, the ring at r cells has 2πr of them: 2π Σ 1/r < 2π ln 1000 < 50 cells' worth of a
 // million, 5e-5.
 TEST(FaceFriction, TranslationAndTwistTogetherAreTheSumOfAMillionCells) {
   constexpr double of_cells = 5e-5;

@@ -84,7 +84,7 @@ SlipReturn return_to_cone(const JointProperties& p, double friction, double plas
   }
   double low = 0, high = trial / stiffness;
   double slip = p.laws.friction == FrictionLaw::hardening ? low : high;
-  // Newton's steps shorten quadratically; halving, which rounding may ask for, needs as many as a double has digits
+  // Newton's steps shorten quadratically; halving, which rounding may require, needs as many as a double has digits
   constexpr int limit = 2 * std::numeric_limits<double>::digits;
   for (int i = 0; i < limit; ++i) {
     const FrictionAnswer at = friction_answer(p, friction, plastic_slip + slip, stress, strength_factor);

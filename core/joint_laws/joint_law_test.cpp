@@ -298,7 +298,7 @@ TEST(ShearLaw, ConstantNormalStiffnessRaisesTheStress) {
 // -----------------------------------------------------------------------------------------------------------
 
 // Random paths in all laws: dissipation is never negative, and the work of the forces on the joint is stored,
-// dissipated or counted as stiffening. The last holds to the error of the trapezoid rule: small steps.
+// dissipated or counted as stiffening. The latter up to the error of the trapezoid rule: small steps.
 TEST(JointEnergy, DissipationIsNeverNegative) {
   Random random(41);
   constexpr int paths = 100000, length = 8;

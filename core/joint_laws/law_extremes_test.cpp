@@ -1,5 +1,5 @@
 // The joint law at its extremes: turns in any number of steps, forces of any size, paths of any kind. Suites named
-// …Long hold the long siblings of the tests before them (`make test-long`).
+// …Long contain the long siblings of the tests before them (`make test-long`).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -192,7 +192,7 @@ TEST(LawExtremes, NothingIsDividedByZero) {
 // ---- closed loops ---------------------------------------------------------------------------------------------------
 
 // Slips there and back between ±amplitude, and once more. Sticking below the limit returns all work; above it every
-// cycle dissipates 4 limit (amplitude - limit / stiffness), however long the steps.
+// cycle dissipates 4 limit (amplitude - limit / stiffness), at any size of the steps.
 template <int Dim>
 void expect_triangle_loop(std::uint64_t seed, double amplitude_over_limit) {
   Random random(seed);

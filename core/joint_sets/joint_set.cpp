@@ -57,7 +57,7 @@ double reach_over_size(const JointSet& set) {
   return std::max(1.0, set.elongation) / 2;
 }
 
-// Joints whose centre lies within radius + reach of the ball's centre, by powers of the size: the binomial terms of
+// Joints whose centre is within radius + reach of the ball's centre, by powers of the size: the binomial terms of
 // (radius + reach)^Dim times the volume of the unit ball and the density of centres.
 template <int Dim>
 std::array<double, Dim + 1> numbers_by_power(const JointSet& set, double radius) {

@@ -88,7 +88,7 @@ TEST(RandomStream, HasTheMomentsOfItsLaws) {
   expect_moments([&] { return random.normal(); }, 0, 1, 3);
   for (const double mean : {0.3, 7.0})
     expect_moments([&] { return static_cast<double>(random.poisson(mean)); }, mean, mean, 3 + 1 / mean);
-  // in a ball r³ (in a disc r²) is uniform, and every direction alike
+  // in a ball r³ (in a disc r²) is uniform, and every direction equally likely
   expect_moments([&] { return std::pow(random.in_ball<3>().norm(), 3); }, 0.5, 1.0 / 12, 1.8);
   expect_moments([&] { return random.in_ball<2>().squaredNorm(); }, 0.5, 1.0 / 12, 1.8);
   expect_moments([&] { return random.in_ball<3>().normalized()[2]; }, 0, 1.0 / 3, 1.8);
@@ -368,7 +368,7 @@ TEST(Statistics, SpacingsOnScanlines) {
   const Ball<2> ball = ball_around<2>(domain, Vector<2>::Zero());
   SetStatistics<2> found = measure<2>(set, draw<2>(set, ball), ball, domain, Vector<2>::Zero());
   EXPECT_NEAR(found.frequency.value, 0.5, errors * std::sqrt(0.5 / 600));
-  // every line sees the same 300 joints: 300 spacings, each as often as there are lines
+  // every line meets the same 300 joints: 300 spacings, each as often as there are lines
   const double n = 300;
   const Moments spacing = moments_of(found.spacings);
   EXPECT_NEAR(spacing.mean.value, 2, errors * 2 / std::sqrt(n));

@@ -26,8 +26,8 @@ class RandomStream {
   // number never depends on how many were drawn before
   double normal();
 
-  // How many points of a Poisson process lie in an interval of this length, by its exponential gaps: exact at any mean,
-  // in time that grows with it.
+  // The number of points of a Poisson process in an interval of this length, by its exponential gaps: exact at any
+  // mean, in time that grows with it.
   long long poisson(double mean);
 
   // uniform in the unit ball, on the unit circle; by rejection

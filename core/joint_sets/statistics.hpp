@@ -49,7 +49,7 @@ struct Moments {
 };
 Moments moments_of(const std::vector<double>& sample);
 
-// the size that holds `fraction` of the total: of volumes ascending, the smallest that with all below it makes up the
+// the size at `fraction` of the total: of volumes ascending, the smallest whose sum with all below it reaches the
 // fraction
 double size_at_fraction(const std::vector<double>& ascending, double fraction);
 

@@ -18,7 +18,8 @@ double depth_at(const WaterStretch<Dim>& stretch, const Vector<Dim>& centroid, c
   return stretch.rise.dot(Vector<Dim>(stretch.point - centroid) - place);
 }
 
-// where the edge from one corner to another crosses zero of a height over a cut: the same point from either side
+// the point at which the edge from one corner to another crosses zero of a height over a cut: the same point from
+// either side
 template <int Dim>
 Corner<Dim> crossing(const Corner<Dim>& a, double height_a, const Corner<Dim>& b, double height_b) {
   if (height_a > height_b) return crossing(b, height_b, a, height_a);
@@ -177,7 +178,7 @@ void clip_face(std::vector<Corner<3>>& polygon, std::vector<Corner<3>>& cut, con
 }
 
 // Each edge below the surface adds the region between it and the surface straight above, with the sign of its direction
-// along x: regions outside the part cancel, and no edge is needed at the end of the stretch. `alone`: the body lies
+// along x: regions outside the part cancel, and no edge is needed at the end of the stretch. `alone`: the body is
 // within one stretch.
 void add_part(const Polytope<2>& part, const WaterStretch<2>& stretch, bool alone, const Standing<2>& at,
               Submerged<2>& sum) {
@@ -212,7 +213,7 @@ void list_stretches(std::span<const double> numbers, std::vector<WaterStretch<2>
     const double x = numbers[2 * k], h = numbers[2 * k + 1];
     Vector<2> rise(0, 1);
     if (k + 1 < points) rise[0] = -(numbers[2 * k + 3] - h) / (numbers[2 * k + 2] - x);
-    if (rise == stretches.back().rise) continue;  // no bend: a block that lies across this point is not cut there
+    if (rise == stretches.back().rise) continue;  // no bend: a block across this point is not cut there
     stretches.back().to = x;
     stretches.push_back({.from = x, .point = {x, h}, .rise = rise});
   }

@@ -33,7 +33,7 @@ struct Standing {
   Matrix<Dim> axes = Matrix<Dim>::Identity();
 };
 
-// The part of a body that lies below the surface, moments about the body's centroid.
+// The part of a body below the surface, moments about the body's centroid.
 template <int Dim>
 struct Submerged {
   double volume = 0;                               // m³ (2-D: m²)

@@ -288,7 +288,7 @@ std::vector<WaterStretch<3>> level_3d(double h) {
   return surface;
 }
 
-// a unit cube that stands on its corner, the water so far above the corner
+// a unit cube that stands on its corner, the water at this height above the corner
 TEST(WaterNumbers, OfACubeOnItsCorner) {
   const std::vector<Polytope<3>> cube_parts{block<3>(cube<3>(0.5))};
   const Vector<3> diagonal = Vector<3>::Ones().normalized();

@@ -18,7 +18,7 @@ struct Schedule {
                                                           // empty: no factor has been searched
   WaterValues water, last_water;                          // the numbers of Model::waters, and those of the step before
   double started = 0;                                     // s: when the schedules began to run
-  double ends = std::numeric_limits<double>::infinity();  // s: when the run that is under way is complete; its last
+  double ends = std::numeric_limits<double>::infinity();  // s: when the present run is complete; its last
                                                           // step ends there
 };
 

@@ -1,4 +1,4 @@
-// A short name for the state of a simulation: equal hashes mean equal bits, whatever program computed them.
+// A short name for the state of a simulation: equal hashes mean equal bits, from any program.
 #pragma once
 
 #include <string>

@@ -135,7 +135,7 @@ TEST_P(PotentialCertaintyLong, RandomPairsInSpace) {
 }
 INSTANTIATE_TEST_SUITE_P(Parts, PotentialCertaintyLong, testing::Range(0, 10));
 
-// k down to 0, where the least point need not be unique: the value alone, and both decisions. The referee needs some
+// k down to 0, at which the least point need not be unique: the value alone, and both decisions. The referee needs some
 // curvature: k = 1e-16 changes the value by less than 1e-14. If the inner bodies overlap and k is below 1e-6, only the
 // spheres' last digits determine the least point; the solver may then report that it has no result.
 template <int Dim>

@@ -80,7 +80,7 @@ TEST(PotentialConservative, BetweenRightAngledFeaturesItIsTheOverlap) {
     }
 }
 
-// Faces at any k: the scale is exact halfway out, |x - c|² = R²/2. Elsewhere the face lies at s = r sqrt((1 - k ρ²/R²)
+// Faces at any k: the scale is exact halfway out, |x - c|² = R²/2. Elsewhere the face is at s = r sqrt((1 - k ρ²/R²)
 // / (1 - k)), and the decrease of sqrt(f + 1) along the normal is the inverse of the rate.
 TEST(PotentialConservative, BetweenFacesTheRateIsThatOfTheSlopes) {
   PotentialWorkspace<3> workspace;

@@ -105,7 +105,7 @@ struct Slopes {
   Vector<Dim> a = Vector<Dim>::Zero(), b = Vector<Dim>::Zero();
 };
 
-// The planes that can count within a distance of a point. Those that lie farther inside do not, as no normal is longer
+// The planes that can count within a distance of a point. Those farther inside do not, as no normal is longer
 // than 1.
 template <int Dim>
 class NearPlanes {

@@ -57,7 +57,7 @@ void expect_faces() {
     for (const double k : {1e-4, 0.01, 0.3, 0.9}) {
       PotentialShape<Dim> cube{shapes::cube<Dim>(0.5), r, k};
       cube.sphere_radius = enclosing_radius<Dim>(cube.planes, r, Vector<Dim>::Zero());
-      // the face's middle lies at (1 - k) s² / r² + k (1/2 + s)² / R² = 1
+      // the face's middle is at (1 - k) s² / r² + k (1/2 + s)² / R² = 1
       const double p = (1 - k) / (r * r), q = k / (cube.sphere_radius * cube.sphere_radius);
       const double s = (1 - q / 4) / (q / 2 + std::sqrt(q * q / 4 + (p + q) * (1 - q / 4)));
       const double depth = 0.1 * r;
@@ -192,7 +192,7 @@ struct TurnedOnItsSide {
     pair.offset[0] = find_support<Dim>(placed<Dim>(cube), ahead, workspace.ray).point[0] -
                      find_support<Dim>(turned, -ahead, workspace.ray).point[0] - depth;
   }
-  // how far the contact lies beyond the second one's plane towards -y
+  // the distance of the contact beyond the second one's plane towards -y
   double beyond_side(double angle) {
     turn(angle);
     const PotentialContact<Dim> c = resolve<Dim>(pair, PotentialQuery::least, workspace);
@@ -282,7 +282,7 @@ TEST(PotentialContact, OverlapEndsOnBothSurfacesAlongTheCommonGradient) {
   expect_overlap_on_the_surfaces<3>();
 }
 
-// whichever is the first: the same contact, with the normal turned round
+// in either order: the same contact, with the normal turned round
 template <int Dim>
 void expect_exchange() {
   shapes::Random random(288);

@@ -16,7 +16,7 @@ struct WeightedPotentials {
   Vector<Dim> pull = Vector<Dim>::Zero();
 };
 
-// a plane along a ray: how far the ray's start lies outside it, and how fast that grows
+// a plane along a ray: the distance of the ray's start outside it, and its growth along the ray
 struct RayPlane {
   double slack, rate;
   double weight;  // of its square in h

@@ -10,7 +10,7 @@ template <int Dim>
 struct PotentialDrawing {
   std::vector<Vector<Dim>> points;      // on the surface, to rounding; the shape's frame
   std::vector<std::vector<int>> cells;  // 3-D: triangles, counter-clockwise seen from outside; 2-D: the outline
-  // m: no point of the surface lies farther from the mesh, which lies inside the body; a bound, as derived below
+  // m: no point of the surface is farther from the mesh, which is inside the body; a bound, as derived below
   double error = 0;
 };
 

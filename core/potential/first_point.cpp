@@ -25,7 +25,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // the line of centres as the spheres' radii, over the sum of the radii, or over the distance of the centres if that is
 // larger. A point x of both spheres has (Stewart's theorem)
 //   |x - p|² <= (R_B |x - c_A|² + R_A |x - c_B|²) / (R_A + R_B) <= R_A R_B <= ((R_A + R_B) / 2)²,
-// so that half contains all contacts; the program's optimum may lie a little farther out, as corners recede. The nearer
+// so that half contains all contacts; the program's optimum may be a little farther out, as corners recede. The nearer
 // the planes, the fewer exchanges.
 constexpr double far_in_reaches = 0.6;
 

@@ -12,7 +12,7 @@ struct FirstPoint {
   bool found = false;
   Vector<Dim> point = Vector<Dim>::Zero();
   double ratio = 1;   // λ / (1 - λ)
-  double level = 0;   // sqrt(f + 1) there by the tight planes; not positive where the bodies within the planes overlap
+  double level = 0;   // sqrt(f + 1) there by the tight planes; not positive if the bodies within the planes overlap
   int exchanges = 0;  // of the linear program
 };
 

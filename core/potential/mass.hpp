@@ -21,7 +21,7 @@ struct PotentialMass {
 // - if every plane counts on all of its surface or on none of it, the difference from the rule on the undivided cell:
 //   the distance is an analytic function, and that rule's error is some 16 times as large (64 in space);
 // - otherwise, the volume between the surface's chords and a plane that touches it: the body is convex, so that its
-//   surface lies between them whatever the rays have missed, an edge as thin as r included.
+//   surface is between them, even if the rays have missed features, an edge as thin as r included.
 // Whether a plane counts is decided at the corners of that enclosure, for all points between them. The worst cell is
 // divided next until the sum, which is `error`, is below `tolerance` of the volume, or there are `cell_limit` cells.
 template <int Dim>

@@ -1,7 +1,7 @@
 // A potential particle (Houlsby 2009; Boon 2013, appendix A): a convex body as one function of planes, rounded where
 // they meet. Eq. A.2 (Eq. A.1 over squares of lengths), its constants added up to one:
 //   f(x) = (1 - k) Σ <a_i·x - d_i>² / r² + k |x - c|² / R² - 1,   <s> = max(s, 0);
-// inside f < 0, on the surface f = 0. f is convex and once differentiable; its second derivative jumps where the point
+// inside f < 0, on the surface f = 0. f is convex and once differentiable; its second derivative jumps when the point
 // passes a plane.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace voussoir {
 
-// In the body's frame. At k = 0 each face lies r outside its plane; at k = 1 the planes do not count and the body is
-// the sphere. The thesis' c is the frame's origin; a body's frame starts at its centroid, which may lie elsewhere.
+// In the body's frame. At k = 0 each face is r outside its plane; at k = 1 the planes do not count and the body is
+// the sphere. The thesis' c is the frame's origin; a body's frame starts at its centroid, which may be elsewhere.
 template <int Dim>
 struct PotentialShape {
   HalfSpaces<Dim> planes;                    // a_i (unit, outward) and d_i

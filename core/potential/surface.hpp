@@ -1,4 +1,4 @@
-// Where a ray leaves a potential particle.
+// The point at which a ray leaves a potential particle.
 #pragma once
 
 #include "core/potential/shape.hpp"

@@ -44,7 +44,7 @@ void normalise(HalfSpace<Dim>& plane) {
   plane.offset /= norm;
 }
 
-// the order of a part's faces, whatever the order in which its planes were given
+// the order of a part's faces, for any order of its planes in the input
 template <int Dim>
 bool before(const HalfSpace<Dim>& a, const HalfSpace<Dim>& b) {
   for (int k = 0; k < Dim; ++k)
@@ -61,7 +61,7 @@ std::vector<Vector<Dim>> sorted(std::vector<Vector<Dim>> points) {
   return points;
 }
 
-// Bounded iff the recession cone {a_i·x <= 0} holds no direction: along no axis, either way, can a point continue
+// Bounded iff the recession cone {a_i·x <= 0} has no direction: along no axis, in either sense, can a point continue
 // endlessly.
 template <int Dim>
 bool bounded(const HalfSpaces<Dim>& planes) {
@@ -307,7 +307,7 @@ HalfSpaces<2> hull_planes(const std::vector<Vector<2>>& stated, int* hidden) {
         extreme = extreme && distance <= tolerance;
         inner = inner || (std::abs(distance) <= tolerance && (along < -1e-9 || along > 1 + 1e-9));
       }
-      if (!extreme || inner) continue;  // only the whole edge counts, from corner to corner
+      if (!extreme || inner) continue;  // only the full edge counts, from corner to corner
       planes.push_back({normal, normal.dot(points[i])});
       used[i] = used[j] = true;
     }

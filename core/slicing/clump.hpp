@@ -13,7 +13,7 @@ struct SharedFace {
   int joint = 0;
   int below = 0, above = 0;  // parts
   double area = 0;           // m² (2-D: m)
-  bool covered = true;       // it lies within the joint's extent
+  bool covered = true;       // it is within the joint's extent
 };
 
 // Every pair of parts that share an area of a joint, by joint, part below, part above.

@@ -185,7 +185,7 @@ void cut_up(Piece<Dim> first, const Cuts<Dim>& cuts, const SlicingLimits& limits
   }
 }
 
-// The largest pieces of the work, breadth first, and blocks that are finished on the way.
+// The largest pieces of the work, breadth first, and blocks that are finished before.
 template <int Dim>
 std::deque<Piece<Dim>> hand_out(Piece<Dim> first, const Cuts<Dim>& cuts, const SlicingLimits& limits,
                                 std::atomic<std::size_t>& made, Harvest<Dim>& result) {

@@ -10,7 +10,7 @@
 namespace voussoir {
 
 enum class AspectMeasure {
-  box,   // longest over shortest edge of the box along the axes that holds the block
+  box,   // longest over shortest edge of the box along the axes around the block
   balls  // circumscribed over inscribed radius, the outer ball about the middle of that box
 };
 

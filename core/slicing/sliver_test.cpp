@@ -1,4 +1,4 @@
-// Blocks near the limit of what double precision resolves: thin, with nearly coplanar faces, barely cut, or far away.
+// Blocks near the resolution of double precision: thin, with nearly coplanar faces, barely cut, or far away.
 #include <gtest/gtest.h>
 
 #include "core/model/model.hpp"

@@ -13,7 +13,7 @@ template <int Size>
 using Row = FixedMatrix<Size, 1>;
 
 // Axes fitted to the rows: each along the largest remainder that the axes before it leave. In these axes the Hessian
-// Σ p pᵀ is graded, so that factorising it top down loses nothing, however near some planes are and far others. False
+// Σ p pᵀ is graded, so that factorising it top down loses nothing, at any ratio of near and far distances. False
 // when the rows do not span space. Destroys the rows.
 template <int Size>
 bool graded_frame(std::vector<Row<Size>>& rows, FixedMatrix<Size, Size>& frame) {

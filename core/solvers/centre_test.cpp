@@ -117,7 +117,7 @@ void expect_simplex_centroid(Random& random) {
     const Vector<Dim> n = -(edges.inverse() * Vector<Dim>::Unit(0)).normalized();
     planes.push_back({n, n.dot(corners[(k + 1) % (Dim + 1)])});
   }
-  // starts near a corner, where nearly all slacks are small
+  // starts near a corner, with nearly all slacks small
   const Vector<Dim> start = corners[0] + 0.01 * (centroid - corners[0]);
   const CentreResult<Dim> r = solve_analytic_centre<Dim>(planes, {start});
   ASSERT_EQ(r.status, CentreStatus::converged);
@@ -159,7 +159,7 @@ void expect_newton_in_long_double(std::uint64_t seed, int trials) {
     const HalfSpaces<Dim> planes = shapes::random_planes<Dim>(random, shapes::integer(random, 0, 20), 1);
     const oracle::RealVector<Dim> expected = oracle::analytic_centre<Dim>(planes, oracle::RealVector<Dim>::Zero());
     ASSERT_LT(oracle::barrier<Dim>(planes, expected).decrement, 1e-14L);
-    // the centre does not depend on where the search starts
+    // the centre does not depend on the start of the search
     for (const double fraction : {0.0, 0.5, 0.999999}) {
       Vector<Dim> start = shapes::direction<Dim>(random);
       double reach = 1e300;

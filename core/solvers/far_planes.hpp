@@ -49,7 +49,7 @@ double reach_of(const HalfSpaces<Dim>& planes) {
 // and how far the far planes are, in reaches
 inline constexpr double far_in_reaches = 100;
 
-// a program is unbounded when a far plane holds it by a larger multiplier: smaller ones are due to faces tilted by
+// a program is unbounded when a far plane bounds it with a larger multiplier: smaller ones are due to faces tilted by
 // rounding
 inline constexpr double far_multiplier = 1e-11;
 

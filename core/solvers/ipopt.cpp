@@ -83,7 +83,7 @@ Matrix<Dim> fitted_axes(const HalfSpaces<Dim>& planes, const std::vector<double>
   for (std::size_t i = 0; i < planes.size(); ++i)
     scaled.col(static_cast<Eigen::Index>(i)) = planes[i].normal / slacks[i];
 
-  // the thin direction first: pivoting takes the nearest plane's normal, then the nearest of what remains
+  // the thin direction first: pivoting takes the nearest plane's normal, then the nearest of the rest
   Matrix<Dim> axes = Eigen::ColPivHouseholderQR<decltype(scaled)>(scaled).householderQ() * Matrix<Dim>::Identity();
 
   // along each axis the room before the first plane is the unit of length: a flat overlap becomes a square one
@@ -245,7 +245,7 @@ CentreStatus status_of(Ipopt::ApplicationReturnStatus status) {
 // one solve from `result.point`
 template <int Dim>
 void solve(const SlackProgram<Dim>& program, int limit, CentreResult<Dim>& result) {
-  // one call at a time in the whole program; the application is made once, its options cost more than a solve
+  // one call at a time in the program; the application is made once, its options cost more than a solve
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
   const WithoutTraps without_traps;  // Ipopt divides by zero on purpose

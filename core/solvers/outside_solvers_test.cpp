@@ -202,7 +202,7 @@ double apart(const HalfSpaces<3>& planes, const Vector<3>& from, const Vector<3>
 //   start                       thesis' scaling   unscaled, Eq. 3.38
 //   1 % of the block away           4.5 (4.5)         7.4 (12)
 //   the LP's point, a corner         24 (38)         10.7 (10)
-// The scaling is made for starts near the centre; there it needs no more iterations however thin the overlap is.
+// The scaling is made for starts near the centre; there it needs no more iterations at any thickness of the overlap.
 TEST(IpoptScaling, FindsOurCentreFaceOnFaceAndSavesIterationsFromAWarmStart) {
   const int pairs = 5;
   for (const double overlap : {1e-2, 1e-6, 1e-10}) {

@@ -17,7 +17,7 @@ const Vector<Dim>& largest(const std::vector<Vector<Dim>>& vectors) {
 }
 
 // Axes fitted to the scaled normals p = a/s: the first along the largest, the second along the largest remainder. In
-// these axes the Hessian Σ p pᵀ is graded, so that factorising it top down loses nothing, however thin the region is in
+// these axes the Hessian Σ p pᵀ is graded, so that factorising it top down loses nothing, even if the region is thin in
 // one direction (face on face) or in two (edge along edge).
 Matrix<2> graded_frame(const std::vector<Vector<2>>& scaled) {
   const Vector<2> first = largest(scaled).normalized();

@@ -35,8 +35,8 @@ struct BeamStrain {
   std::array<double, 2> end_rotation = {};  // rad: θ1, θ2
 };
 
-// Accurate to rounding of the displacements' difference, however far the nodes are from the origin and however small
-// the difference is. The turn of the chord is the one, among those that differ by 2π, closest to the mean of the nodes'
+// Accurate to rounding of the displacements' difference, at any distance of the nodes from the origin and for any small
+// difference. The turn of the chord is the one, among those that differ by 2π, closest to the mean of the nodes'
 // rotations: unique as long as θ1 + θ2 stays within ±2π.
 BeamStrain beam_strain(const Beam& beam, const BeamNode& first, const BeamNode& second);
 

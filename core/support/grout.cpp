@@ -124,7 +124,7 @@ void solve(int begin, GroutWorkspace& w) {
     w.step[i] = (w.step[i] + w.rod[i] * w.step[i + 1]) / (w.held[i] + w.rod[i]);
 }
 
-// where along the step a spring's trial force meets a bound
+// the point of the step at which a spring's trial force meets a bound
 void add_kink(double trial, double change, double bound, std::vector<double>& kinks) {
   const double left = bound - trial;
   // within (0, 1), and no overflow
@@ -307,7 +307,7 @@ GroutedBarState installed(const GroutedBar& bar, std::span<const double> rock) {
   const std::size_t n = bar.position.size();
   assert(n > 0 && rock.size() == n && bar.bond_length.size() == n);
   if (!is_held(bar))
-    throw std::invalid_argument("nothing holds a bar without bond: its grout has neither stiffness nor length");
+    throw std::invalid_argument("a bar without bond has no support: its grout has neither stiffness nor length");
   GroutedBarState state;
   state.displacement.assign(rock.begin(), rock.end());
   state.rock = state.displacement;

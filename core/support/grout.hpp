@@ -3,7 +3,8 @@
 // bar has no mass and is in equilibrium with them, so that it shortens no time step by itself.
 //
 // One coordinate s runs along the axis from the collar into the rock, m; displacements along it are positive, so are
-// tension in the bar and forces that push the rock that way. With u of the bar, g of the rock, p the bond's slip,
+// tension in the bar and forces that push the rock in this direction. With u of the bar, g of the rock, p the bond's
+// slip,
 //   N = EA du/ds, |N| <= yield force;   dN/ds = k (u - g - p), |k (u - g - p)| <= S.
 // Closed forms, second-order accurate in the spacing of nodes: pulled out of rock √(EA k) tanh(l √(k/EA)) N/m; half of
 // that, with l half its length, over one joint at its middle; √(EA S w) N if a joint opened by w and k is large.
@@ -101,8 +102,8 @@ double elastic_stiffness(const GroutedBar& bar, int first, int last, GroutWorksp
 
 // The derivatives of the forces on the rock by the rock's displacements, N/m, in the present state of bonds, elements
 // and plate. The rock is rigid within each segment: node i lies in stretch[i], 0 … stretches - 1. `stiffness` becomes a
-// symmetric matrix, row by row, minus the derivatives; rows sum to 0, since moving all rock alike causes no force, and
-// off its diagonal no entry is above 0: segments act as if connected to each other by springs of -stiffness.
+// symmetric matrix, row by row, minus the derivatives; rows sum to 0, since moving all rock equally causes no force,
+// and off its diagonal no entry is above 0: segments act as if connected to each other by springs of -stiffness.
 void condensed_stiffness(const GroutedBar& bar, const GroutedBarState& state, std::span<const int> stretch,
                          int stretches, GroutWorkspace& workspace, std::vector<double>& stiffness);
 

@@ -14,7 +14,7 @@
 namespace voussoir {
 namespace {
 
-// of a side's length: a node this near to a corner lies in it
+// of a side's length: a node this near to a corner is in it
 constexpr double at_corner = 1e-9;
 
 // of their corners
@@ -30,7 +30,7 @@ struct OnOutline {
   std::array<int, 2> side;  // before it, after it
 };
 
-// where a ray from inside a convex outline meets it
+// the point at which a ray from inside a convex outline meets it
 OnOutline on_outline(const std::vector<LiningSide>& sides, const Vector<2>& centre, double turn) {
   const Vector<2> ray(std::cos(turn), std::sin(turn));
   double nearest = std::numeric_limits<double>::infinity();
@@ -74,7 +74,7 @@ void weigh_nodes(Lining& lining) {
   const LiningProperties& p = lining.properties;
   for (int k = 0; k < lining.beams(); ++k) {
     const double length = lining.beam(k).chord.norm();
-    if (!(length > 0)) throw std::invalid_argument("two nodes of a lining lie in one place");
+    if (!(length > 0)) throw std::invalid_argument("two nodes of a lining are in one place");
     lining.nodes[k].half_length[1] = lining.nodes[lining.next(k)].half_length[0] = 0.5 * length;
   }
   for (LiningNode& node : lining.nodes) {

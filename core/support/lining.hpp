@@ -81,7 +81,7 @@ int nearest_node(const Lining& lining, double turn);
 struct LiningRock {
   int side = 0;  // Lining::sides
   int body = 0;
-  Vector<2> corner = Vector<2>::Zero();  // m, where the side began, body frame
+  Vector<2> corner = Vector<2>::Zero();  // m, begin of the side, body frame
   Vector<2> normal = Vector<2>::Zero();  // body frame, into the rock
   double from = 0, to = 0;               // m, along the side: the block's face
 };

@@ -14,7 +14,7 @@ struct Spread {
   double stiffness = 0;  // of normal over shear stiffness; 0: 5 : 2 and 1 : 3
 };
 
-// a box with random edges and principal axes, as the step knows it: without faces
+// a box with random edges and principal axes, as in the step: without faces
 template <int Dim>
 Body<Dim> random_body(Random& random, const Spread& spread) {
   Vector<Dim> half;

@@ -19,7 +19,7 @@ inline constexpr double point_tolerance = 1e-6;
 // sections through a point and a normal that both have rounding; in long double they have neither
 inline constexpr double area_tolerance = 1e-6;
 
-// if a cube's corner meets a face, the normal lies between the face's and the corner's diagonal, 54.7 degrees away:
+// if a cube's corner meets a face, the normal is between the face's and the corner's diagonal, 54.7 degrees away:
 // the cosine of half of that
 inline constexpr double halfway_to_a_corner = 0.887;
 

@@ -11,7 +11,7 @@ double to_double(const Quad& q) {
 }
 
 Quad to_quad(const Rational& q) {
-  // three doubles hold 159 bits
+  // three doubles have 159 bits
   mpf_class rest(q, 256);
   Quad sum = 0;
   for (int part = 0; part < 3; ++part) {

@@ -122,7 +122,7 @@ QuadVector potential_direction(const Barrier& barrier, int first, int last, cons
   return sum;
 }
 
-// three doubles hold 159 bits
+// three doubles have 159 bits
 Rational rational(Quad q) {
   Rational sum = 0;
   for (int part = 0; part < 3; ++part) {

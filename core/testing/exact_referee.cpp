@@ -309,7 +309,7 @@ IntegratedContact pressed_face(const Planes& planes, int face_a, int face_b) {
     overlap.push_back(to_quad(open.offset - dot(open.normal, x)) / (length / 2));
     corner.push_back({to_quad(x[0] - first[0]), to_quad(x[1] - first[1]), to_quad(x[2] - first[2])});
     face.extent = std::max(face.extent, root(dot(corner.back(), corner.back())));
-    // a line of the chart holds two components of the cross product of both planes' normals
+    // a line of the chart has two components of the cross product of both planes' normals
     const Line& line = lines[c.second];
     if (line.alpha == pressed_edge.alpha && line.beta == pressed_edge.beta) continue;
     const Point& n = mean.normal;

@@ -2,7 +2,7 @@
 // values, vertices and sections are exact; results with a root or a long sum are computed in 113 bits from exact
 // vertices. Programs and vertices: cddlib with GMP. Sections, solids and everything else: written here, sharing nothing
 // with the core but its plain structs. cddlib is GPL and has global state: tests only, one thread. A programming error
-// of the caller (no planes, not closed where it must be) throws std::logic_error.
+// of the caller (no planes, not closed although required) throws std::logic_error.
 #pragma once
 
 #include <gmpxx.h>
@@ -36,7 +36,7 @@ Rational dot(const Point& a, const Point& b);
 // Both parts' planes in the first body's frame by the pair's doubles, planes of A first: (R a)·x <= d + (R a)·o.
 Planes planes_of(const Pair<3>& pair);
 
-// the same with an offset that no double holds
+// the same with an offset that no double represents
 Planes planes_of(const Pair<3>& pair, const Point& offset);
 
 // A pair of the plane as prisms along z: planes of A, of B, then two lids |z| <= H = 4 (radius of A + radius of B). The
@@ -69,7 +69,7 @@ std::optional<Rational> proven_support(const Planes& planes, const std::array<in
 Rational least_slack(const Planes& planes, const Point& point);
 
 // Bounds of the program's minimum proven by a guessed basis: 4 of the planes, multipliers and point by
-// Cramer's rule, then every plane checked. Cheap for thousands of planes, where cddlib is not. `proven` is false when
+// Cramer's rule, then every plane checked. Cheap for thousands of planes, unlike cddlib. `proven` is false when
 // the basis proves no lower bound (singular or a negative multiplier).
 struct ProgramBounds {
   bool proven = false;

@@ -35,7 +35,7 @@ TEST(ExactReferee, FindsOpenSolidsAndSections) {
   cube.pop_back();
   EXPECT_EQ(solid(planes_of(shapes::cube<3>(0.5))).facets, 6);
   EXPECT_THROW(solid(planes_of(cube)), std::logic_error);
-  EXPECT_TRUE(feasibility(planes_of(cube)).bounded);  // its inscribed ball is held by the four sides
+  EXPECT_TRUE(feasibility(planes_of(cube)).bounded);  // its inscribed ball touches the four sides
   EXPECT_FALSE(feasibility({{{0, 0, 1}, 1}}).bounded);
 }
 
@@ -94,7 +94,7 @@ TEST(ExactReferee, MeasuresSections) {
 }
 
 TEST(ExactReferee, FindsTheGrowthOfASection) {
-  // a square of edge 1 gains 4 of its edges when its planes move out; along a diagonal plane two of them lean
+  // a square of edge 1 gains 4 of its edges when its planes move out; along a diagonal plane two of them are inclined
   const Planes cube = planes_of(shapes::cube<3>(0.5));
   const Section square = section(cube, {0, 0, Rational(1, 4)}, {0, 0, 2});
   EXPECT_NEAR(to_double(square.area), 1, closed_form);

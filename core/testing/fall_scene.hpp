@@ -1,5 +1,5 @@
 // The scenes of free fall, by a seed: regular polyhedra in random orientations on a jittered grid, in a box with walls.
-// The case, its committed scene and the benchmark of whole steps are made here.
+// The case, its committed scene and the benchmark of full steps are made here.
 #pragma once
 
 #include <fmt/format.h>

@@ -234,7 +234,7 @@ void contain(Case<Dim>& c, Random& random) {
                                    : Vector<Dim>(uniform(random, 0, 0.3) * shapes::direction<Dim>(random));
 }
 
-// L10: a block on its mirror image, face on face: whole edges of optimal bases
+// L10: a block on its mirror image, face on face: full edges of optimal bases
 template <int Dim>
 void stack(Case<Dim>& c, Random& random) {
   c.a = integer(random, 0, 1) ? shapes::centred_block<Dim>(shapes::cube<Dim>(0.5))

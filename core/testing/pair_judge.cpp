@@ -325,7 +325,7 @@ struct Broken {
   }
 };
 
-// one line each, fields separated by tabs: what a worker writes and its parent reads
+// one line each, fields separated by tabs: written by a worker and read by its parent
 void read_back(const std::string& text, Tally& tally, std::map<std::string, Broken>& broken) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {

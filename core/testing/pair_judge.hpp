@@ -2,7 +2,7 @@
 //
 // Promised, with the pair's size = radius of A + radius of B (Polytope::radius, about the bodies' centroids) and
 // 1 ulp = 2^-52:
-//  - touching only where s* < 0, separated only where s* > 0, undecided only within 64 ulp of the size, nothing else;
+//  - touching only if s* < 0, separated only if s* > 0, undecided only within 64 ulp of the size, nothing else;
 //  - a proof is valid as stored: an interior point is `margin` inside every plane; no point of A is beyond `support`
 //     along a unit axis and none of B before support + margin; by multipliers s* >= margin; and margin > 0;
 //  - the program's value, cold and to its end, within 64 ulp of the size;

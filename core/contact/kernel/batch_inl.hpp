@@ -37,7 +37,7 @@ struct Batch : Fields<Dim> {
   Real tolerance, potential_radius;
   Real smoothing, diameter[2];  // m, only on the central path
   Bool good;
-  Bool fallback;  // a face's normal stood in for a gradient
+  Bool fallback;  // a face's normal replaced a gradient
 
   Real rounding;                 // m, of a slack
   Components<Real, Dim> moved;   // contact frame

@@ -1,7 +1,7 @@
-// The contact kernel's two ways to fill a vector register: with the planes of one pair (OnePair) or one plane of
+// The contact kernel's two methods to fill a vector register: with the planes of one pair (OnePair) or one plane of
 // several pairs (ManyPairs).
 //
-// Both ways make the same roundings: only +, -, *, /, square root, minimum and maximum of IEEE doubles occur, never a
+// Both make the same roundings: only +, -, *, /, square root, minimum and maximum of IEEE doubles occur, never a
 // fused multiply-add, and a sum over planes is always four strided partial sums combined as (0+1)+(2+3). So a pair's
 // result is bitwise independent of the batch and of the width.
 #if defined(VOUSSOIR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
@@ -309,7 +309,7 @@ struct ManyPairs {
     }
     if (slot < slots.last) set(one / get(slot), slot);
   }
-  // As many strides side by side as the registers hold: 4 of 3 sums, 2 of 5 or 4 where there are 32 registers, 1 of 9.
+  // As many strides side by side as the registers hold: 4 of 3 sums, 2 of 5 (4 with 32 registers), 1 of 9.
   template <int K, int N, class F>
   static HWY_INLINE void sum(const Slots (&parts)[N], Wide (&out)[K], const F& add) {
     constexpr bool many_registers = HWY_MAX_BYTES >= 64;

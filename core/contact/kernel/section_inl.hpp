@@ -135,7 +135,7 @@ HWY_INLINE bool find_section(const SectionPlanes<OnePair>& planes, int quads, in
     ++size;
   }
   if (size < 3) return false;
-  // the same list however it was found: it begins with its smallest number
+  // the same list from any search: it begins with its smallest number
   const int first = static_cast<int>(std::min_element(list, list + size) - list);
   std::rotate(list, list + first, list + size);
   std::rotate(c0, c0 + first, c0 + size);

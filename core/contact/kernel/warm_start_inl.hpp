@@ -2,7 +2,7 @@
 // overlap, area. Written once for both methods to fill a register (lanes_inl.hpp).
 //
 // All computations are in the contact frame: origin at the start, axes along the old normal and the next-thinnest
-// direction. There the Hessian is graded and factorising it top down loses nothing, however thin the region is (the
+// direction. There the Hessian is graded and factorising it top down loses nothing, at any thickness of the region (the
 // thesis' 3.3.6 without its scaling factors).
 #if defined(VOUSSOIR_WARM_START_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOUSSOIR_WARM_START_INL
