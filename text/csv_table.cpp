@@ -221,7 +221,7 @@ bool CsvReader::next(CsvRow& row) {
   if (row.cells.size() == header_.size()) return true;
   if (is_comment(lines_.line())) throw FileFault(row.line, 0, comment_line);
   throw FileFault(row.line, 0,
-                  "has " + std::to_string(row.cells.size()) + "  cells, but the header has  " +
+                  "has " + std::to_string(row.cells.size()) + " cells, but the header has " +
                       std::to_string(header_.size()) +
                       (may_hold_decimal_commas(row.cells, header_.size())
                            ? "; were decimals written with a comma? write 3.5, not 3,5"
@@ -256,7 +256,7 @@ void CsvTable::check_header(const std::vector<std::string>& required, const std:
       throw FileFault(
           header_line, cell.column,
           "no such column as " + shown(cell.text) + (meant.empty() ? ";" : fmt::format("; did you mean {}?", meant)) +
-              fmt::format("  there are {} and, if needed, {}", fmt::join(required, ", "), fmt::join(optional, ", ")));
+              fmt::format(" there are {} and, if needed, {}", fmt::join(required, ", "), fmt::join(optional, ", ")));
   for (const std::string& name : required)
     if (!find(name))
       throw FileFault(header_line, 0,
