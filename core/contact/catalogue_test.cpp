@@ -1,6 +1,6 @@
-// The rest of the catalogue of extremes for the contact kernel, against exact arithmetic. Their tests:
+// The rest of the catalogue of extremes for the contact kernel, against exact arithmetic. Tests of its rows:
 //   L1 L2 L4-L7 L10  certainty_test (by number)      L3 L6 (turned by Pythagorean quadruples)   here
-//   L8  slicing_test MakeBlock.NamesTheFault      L9  symmetry_test
+//   L8  slicing_test MakeBlock.NamesTheFault           L9  symmetry_test
 //   A1-A6  centre_test                               N1 N2 N4 N5  here; contacts: thin_contact_test Containment
 //   N3  pair_judge ("length of the normal")          N6 N7  no aligning rotation and no fixed tangent seed is used;
 //                                                    geometry_test Types.PerpendicularIsUnitAndPerpendicular

@@ -23,8 +23,7 @@ constexpr double ulp = std::numeric_limits<double>::epsilon();
 
 // ---- A1: depth by aspect by offset ----------------------------------------------------------------------------------
 
-// the accuracy of a stop rule: the point, as a fraction of the region in every direction; overlap and area, of
-// themselves
+// the accuracy of a stop rule: the point, as a fraction of the region in every direction; overlap and area, relative
 struct Level {
   double newton_tolerance, point, value;
 };

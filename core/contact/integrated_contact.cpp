@@ -149,8 +149,7 @@ void answer(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, const FaceInte
     about += share.slope * r.moment;
   }
   const double size = force.norm();
-  if (!(size > 0))
-    return without_pressure<Dim>(pair, planes, contact, face);  // deep in the other, equally on all sides
+  if (!(size > 0)) return without_pressure<Dim>(pair, planes, contact, face);  // deep in the other on all sides
   ContactGeometry<Dim>& g = contact.geometry;
   g.point = pair.axes * (contact.proof.point + point);
   face.force = pair.axes * force;

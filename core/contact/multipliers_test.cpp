@@ -145,7 +145,7 @@ double depth(const ContactGeometry<Dim>& g) {
   return 0.5 * g.overlap * std::sqrt(g.stiffness_factor);
 }
 
-// The smoothed overlap is never larger than the unsmoothed one, so that a force begins at zero, and close to it.
+// The smoothed overlap is never larger than the unsmoothed one and close to it, so that a force begins at zero.
 template <int Dim>
 void expect_less_by_the_smoothing(std::uint64_t seed) {
   Random random(seed);

@@ -1,4 +1,4 @@
-// Blocks against exact arithmetic: rows R, V and M of the catalogue of extremes. Their tests:
+// Blocks against exact arithmetic: rows R, V and M of the catalogue of extremes. Tests of the rows:
 //   R1 R2 R3  here; the joint that a coincident plane keeps: slicing_test MakeBlock.OfEqualPlanesTheLastOneStays
 //   V1 V2 V3  here; also geometry_test Topology, sliver_test, and the robustness atlas down to 1e-12 rad
 //   V4  no loop over triples of planes: surfaces are cut from a box, plane by plane

@@ -157,8 +157,7 @@ TEST(PotentialConservative, TheForceIsTheSlopeOfTheOverlap) {
 }
 
 struct Work {
-  double bracketed = 0, conservative = 0,
-         gross = 0;  // work around the path; gross: sum of the conservative force's |work|
+  double bracketed = 0, conservative = 0, gross = 0;  // work around the path; the conservative one's |work|
 };
 
 // Once around an ellipse in the space of motions, stiffness 1: Gauss's rule of three points on each of many pieces. The

@@ -4,7 +4,7 @@
 // 1 ulp = 2^-52:
 //  - touching only if s* < 0, separated only if s* > 0, undecided only within 64 ulp of the size, nothing else;
 //  - a proof is valid as stored: an interior point is `margin` inside every plane; no point of A is beyond `support`
-//     along a unit axis and none of B before support + margin; by multipliers s* >= margin; and margin > 0;
+//    along a unit axis and none of B before support + margin; by multipliers s* >= margin; and margin > 0;
 //  - the program's value, cold and to its end, within 64 ulp of the size;
 //  - at the kernel's own point and normal: overlap within 64 ulp of the size, the faces those that end it (or nearer to
 //    that than 64 ulp), area within 1e-12 relative plus the first-order effect of 64 ulp on each plane's offset;
