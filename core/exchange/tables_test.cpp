@@ -111,7 +111,7 @@ TEST(JointTable, NamesTheColumnThatIsMeant) {
       1, 0, "rename its columns Name, Dip, Dip_Dir, Cx, Cy, Cz");
 }
 
-// the plane through the strike's horizontal line and dips to the right of it
+// the plane through the strike's horizontal line that dips to the right of it
 TEST(JointTable, StrikeIsReadByTheRightHandRule) {
   shapes::Random random(15);
   for (int i = 0; i < 200; ++i) {
