@@ -104,7 +104,7 @@ struct Settings {
   int threads = 1;  // results do not depend on it
 };
 
-// ---- plans: as a scene states ---------------------------------------------------------------------------------
+// ---- plans stated in a scene ------------------------------------------------------------------------------------
 
 // The model's gravity times a factor: from one to the other within the time of the ramp; without a ramp `to` applies
 // immediately; no change if it is not given.

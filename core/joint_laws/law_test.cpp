@@ -162,8 +162,7 @@ TEST(Coulomb, APathInAPlaneIsTheSameInBothDimensions) {
   }
 }
 
-// ---- rotation of the shear force
-// --------------------------------------------------------------------------------------------
+// ---- rotation of the shear force ------------------------------------------------------------------------------------
 
 // turn about a unit axis by Rodrigues' formula
 Vector<3> rotated(const Vector<3>& v, const Vector<3>& axis, double angle) {
