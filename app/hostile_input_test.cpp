@@ -153,7 +153,7 @@ TEST_F(Hostile, TablesAndMeshesAreRefusedWithTheirPlace) {
   refused_file("blocks_file", "b.csv", planes + repeated("a,1,0,0,1\n", 300), "at most 200 planes");
   refused_file("blocks_file", "b.csv", planes + "a,1,0,0,1\n", "b.csv:2: blocks.a.planes");
   refused_file("blocks_file", "b.csv", planes + "a,0,0,0,1\n", "b.csv:2: blocks.a.planes.1.normal");
-  refused_file("blocks_file", "b.obj", repeated("v 0 0 0\n", 1'500'000), "b.obj:1: holds no face");
+  refused_file("blocks_file", "b.obj", repeated("v 0 0 0\n", 1'500'000), "b.obj:1: contains no face");
   refused_file("blocks_file", "b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + repeated("f 1 2 3\n", 1'500'000),
                "b.obj:5004: more than 5000 facets");
   refused_file("blocks_file", "b.obj", "f" + repeated(" 1", 7'000'000), "b.obj:1:2001: more than 1000 words");

@@ -38,7 +38,7 @@ void expect_refusal(const Read& read, std::string_view text, const std::string& 
   SCOPED_TRACE(part);
   try {
     read(text, at_origin);
-    ADD_FAILURE() << "read without a complaint";
+    ADD_FAILURE() << "read without an error";
   } catch (const FileFault& fault) {
     EXPECT_NE(std::string(fault.what()).find(part), std::string::npos) << fault.what();
   }

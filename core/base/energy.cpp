@@ -12,10 +12,10 @@ constexpr bool in_order() {
     if (static_cast<std::size_t>(source_table[i].source) != i) return false;
   return true;
 }
-static_assert(in_order(), "the rows stand in the order of the enum");
+static_assert(in_order(), "the rows have the order of the enum");
 
-// A column's sum with the rows known before the program runs, so that what does not count costs nothing: every step
-// strikes the balance.
+// A column's sum with the rows known before the program runs, so that rows of weight 0 cost nothing: the balance is
+// computed in every step.
 template <int SourceRow::*column, std::size_t... row>
 double sum_of(const EnergyFlows& flows, std::index_sequence<row...>) {
   double sum = 0;
@@ -41,7 +41,7 @@ void balance(EnergyLedger& ledger) {
   if (ledger.phase == LedgerPhase::not_begun) f = {};  // half a kick that belongs to the time before
   const double to_motion = sum_of<&SourceRow::motion>(f), from_springs = sum_of<&SourceRow::springs>(f);
 
-  // at the start, and where the model has changed, the errors stay what they were
+  // at the start, and when the model has changed, the errors keep their values
   if (ledger.phase != LedgerPhase::running) {
     const double kinetic = ledger.kinetic - to_motion - ledger.motion_error;
     const double elastic = ledger.elastic + from_springs - ledger.contact_error;

@@ -1,4 +1,4 @@
-// The energy ledger: both balances on closed forms and on an assembly that collapses.
+// The energy balance: both parts on closed forms and on an assembly that collapses.
 #include "core/base/energy.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using shapes::model_of;
 // roundings of some thousand steps, each an ulp of the largest energy
 constexpr double rounding = 1e-12;
 
-// an overlap of some 1e-5 m carries an ulp of the block's size
+// an overlap of some 1e-5 m has an error of an ulp of the block's size
 constexpr double overlap_rounding = 1e-9;
 
 template <int Dim>
@@ -47,12 +47,12 @@ void expect_exact_oscillation() {
   EXPECT_EQ(e.damping(), 0);
 }
 
-TEST(Energy, AnOscillationOnLinearSpringsClosesToRounding) {
+TEST(EnergyBalance, AnOscillationOnLinearSpringsClosesToRounding) {
   expect_exact_oscillation<3>();
   expect_exact_oscillation<2>();
 }
 
-// what the weight gives goes to speed and to friction
+// the work of the weight becomes kinetic energy and friction
 template <int Dim>
 void expect_sliding_balance() {
   const double slope = 30 * degree, friction = 20 * degree;
@@ -70,18 +70,18 @@ void expect_sliding_balance() {
   const double slid = state.bodies.motions[block].displacement.norm();
   const double resistance = std::tan(friction) * model.bodies[block].mass * gravity * std::cos(slope);
   EXPECT_NEAR(e.flows[Source::friction], resistance * slid,
-              0.02 * resistance * slid);  // but for the elastic slip at first
+              0.02 * resistance * slid);  // except for the elastic slip at first
   EXPECT_NEAR(-e.potential(), model.bodies[block].mass * gravity * std::sin(slope) * slid, 0.02 * e.largest_energy);
   EXPECT_LT(std::abs(e.motion_error), rounding * e.largest_energy);
   EXPECT_LT(e.relative_error(), 1e-3);
 }
 
-TEST(Energy, ASlidingBlockLosesItsFrictionTimesItsPath) {
+TEST(EnergyBalance, ASlidingBlockLosesItsFrictionTimesItsPath) {
   expect_sliding_balance<3>();
   expect_sliding_balance<2>();
 }
 
-TEST(Energy, AtRestDampingHasTakenWhatTheSpringsDoNotHold) {
+TEST(EnergyBalance, InEquilibriumDampingHasTakenTheEnergyNotStoredInSprings) {
   Model<3> model = block_on_plate<3>(0, 35 * degree);
   model.properties[0].constant_stiffness = true;
   Settings settings;
@@ -96,8 +96,9 @@ TEST(Energy, AtRestDampingHasTakenWhatTheSpringsDoNotHold) {
   EXPECT_LT(e.relative_error(), 0.01);
 }
 
-TEST(Energy, GravityThatGrowsIsExternalWork) {
-  // pressed in at rest under half its weight, then half the weight more: the ramp lowers what has already sunk
+TEST(EnergyBalance, GravityThatGrowsIsExternalWork) {
+  // in equilibrium under half its weight, then half the weight more: the ramp acts on the settlement that is already
+  // there
   Model<2> model = block_on_plate<2>(0, 35 * degree);
   model.properties[0].constant_stiffness = true;
   State<2> state = initial_state(model);
@@ -110,8 +111,8 @@ TEST(Energy, GravityThatGrowsIsExternalWork) {
   EXPECT_LT(e.relative_error(), 1e-9);
 }
 
-TEST(Energy, AChangeOfTheModelIsExternalWork) {
-  // a block that falls is caught: its motion is taken out of the model
+TEST(EnergyBalance, AChangeOfTheModelIsExternalWork) {
+  // a falling block is stopped: its motion is removed from the model
   Model<2> model = block_on_plate<2>(0, 35 * degree);
   const int block = index_of(model, "block");
   model.bodies[block].reference[1] += 10;
@@ -129,7 +130,7 @@ TEST(Energy, AChangeOfTheModelIsExternalWork) {
 }
 
 // rotation, slip, local damping, dashpots, steps that change: the motion's energy balance closes all the same
-TEST(Energy, AnAssemblyThatCollapsesKeepsItsBooks) {
+TEST(EnergyBalance, ClosesWhenAnAssemblyCollapses) {
   const Model<3> model = model_of<3>(shapes::jointed_box(), 10 * degree);
   for (const bool viscous : {false, true}) {
     Settings settings;
