@@ -1,4 +1,4 @@
-// Bolts that are stated wrongly, and how the scene says so.
+// Errors of bolts in a scene, and their messages.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -92,9 +92,9 @@ TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
       {bolts(line + grouted + "plate = \"steel\"") + install, "plate", "tied"},
       {bolts(line + grouted + "plate = \"spring\"") + install, "plate_stiffness", "is missing"},
       {bolts(line + grouted + "plate = \"tied\"\nplate_stiffness = 1e8") + install, "plate_stiffness", "spring"},
-      {bolts(line + grouted + "pretension = 1e4") + install, "pretension", "needs a plate"},
+      {bolts(line + grouted + "pretension = 1e4") + install, "pretension", "requires a plate"},
       {bolts(line + grouted + "plate = \"tied\"\npretension = 1e5\nbond_strength = 4e4") + install, "pretension",
-       "what the grout holds"},
+       "the strength of the grout"},
       {bolts(line + grouted + "plate = \"tied\"\npretension = 2e5\nyield = 1e5") + install, "pretension",
        "more than yield"},
       {bolts(line + grouted + "free_length = 2") + install, "free_length", "leaves no grout"},
@@ -119,7 +119,7 @@ TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
       {bolts(line + stiff) + install +
            "[[monitors]]\nname = \"m\"\nquantities = [\"bolt_force\"]\nbolts = \"roof\"\n"
            "over = \"sum\"\n",
-       "over", "follows none"},
+       "over", "this monitor has none"},
       {stage + "[[monitors]]\nname = \"m\"\nquantities = [\"displacement\"]\nall = true\n", "monitors", "over ="},
   };
   for (const Case& c : cases) {

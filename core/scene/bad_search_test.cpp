@@ -1,4 +1,4 @@
-// Mistakes in searches, in what a stage makes of friction, and in joint sets through a point.
+// Mistakes in searches, in changes of friction by a stage, and in joint sets through a point.
 #include "core/testing/bad_scenes.hpp"
 
 namespace voussoir {
@@ -8,7 +8,7 @@ using namespace bad_scenes;
 
 class BadSearch : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadSearch, IsToldInOneLine) {
+TEST_P(BadSearch, IsReportedInOneLine) {
   expect_reported(GetParam());
 }
 
@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "stage.reduce.method = \"rate\"", "write method = \"bisection\" or \"steps\""},
         BadInput{"by_two_rates", reduction,
                  factor + range + "method = \"two_rates\" #!\nrate_deg_per_s = 1\nslower_rate_deg_per_s = 0.1",
-                 "stage.reduce.method = \"two_rates\"", "how late a rate finds failure"},
+                 "stage.reduce.method = \"two_rates\"", "the delay of failure at a finite rate"},
         BadInput{"another_search", reduction, "search = \"cohesion\" #!\n" + reduction,
                  "stage.reduce.search = \"cohesion\"", "must be one of \"friction\", \"factor\""},
         BadInput{"of_nobody", reduction, factor + range + "tolerance_factor = 0.01\njoint_properties = [\"rok\"] #!",
@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "joint_sets.S.point = [0, 0]", "a list of 3 numbers in m"},
         BadInput{"with_scatter", "",
                  set + "arrangement = \"equal\"\nscatter = \"fisher\"\nfisher_constant = 100\npoint = [0, 0, 0] #!",
-                 "joint_sets.S.point = [0, 0, 0]", "stands beside scatter"}),
+                 "joint_sets.S.point = [0, 0, 0]", "is stated together with scatter"}),
     by_name);
 
 }  // namespace

@@ -88,7 +88,7 @@ TEST_F(SceneFiles, PersistentSetsCutTheDomain) {
     mass += body.mass;
   EXPECT_NEAR(mass, 2600 * 1000, 2600 * 1000 * 1e-12);
   EXPECT_EQ(model.joints.front().name, "bedding-1");
-  // one more set, or another order, changes no joint of the others; another seed of its own all of them
+  // one more set, or another order, changes no joint of the others; another seed changes all joints of its set
   const auto joints_of = [&](const std::string& text, const std::string& set,
                              const std::vector<std::string>& more = {}) {
     std::vector<double> offsets;
@@ -132,7 +132,7 @@ void SceneFiles::return_from_table(const std::string& text) const {
   expect_equal(read.model, drawn.model);
 }
 
-// what a report writes as joints.csv makes the same blocks to the last bit
+// the joints.csv of a report gives the same blocks to the last bit
 TEST_F(SceneFiles, DrawnJointsReturnFromTheirTableBitForBit) {
   return_from_table(base_3d + three_sets);
   return_from_table(base_3d +
@@ -153,13 +153,13 @@ TEST_F(SceneFiles, JointsOfATableAreJointsOfTheScene) {
   EXPECT_NEAR(model.joints[0].plane.offset, -1, 1e-15);
   EXPECT_EQ(model.bodies.size(), 6u);
   EXPECT_EQ(prepare<3>(parse(text, {"joints.A.point=[5, 5, 20]"})).model.bodies.size(), 2u);
-  // the file's content is part of the scene's fingerprint
+  // the file's content is part of the scene's hash
   const std::string before = canonical_text(parse(text));
   write("joints.csv", "name,dip_deg,dip_direction_deg,x_m,y_m,z_m\nA,0,,5,5,5.5\n,90,90,5,5,5\n");
   EXPECT_NE(canonical_text(parse(text)), before);
 }
 
-TEST_F(SceneFiles, MistakesAreToldWithTheirPlace) {
+TEST_F(SceneFiles, MistakesAreReportedWithTheirPlace) {
   const std::string text = "joints_file = \"joints.csv\"\n" + base_3d;
   const auto refused = [&](const std::string& csv, const std::string& part) {
     write("joints.csv", csv);
@@ -240,8 +240,8 @@ TEST_F(SceneFiles, JointSetsAreChecked) {
     expect_refused(base_3d + "[[joint_sets]]\nname = \"A\"\ndip = 30\ndip_direction = 90\n" + keys, part);
   };
   refused("", "needs spacing or intensity");
-  refused("spacing = 1\nintensity = 1\n", "stands beside spacing");
-  refused("intensity = 1\nsize = \"constant\"\nsize_mean = 1\npersistence = 0.5\n", "belongs to spacing");
+  refused("spacing = 1\nintensity = 1\n", "is stated together with spacing");
+  refused("intensity = 1\nsize = \"constant\"\nsize_mean = 1\npersistence = 0.5\n", "applies to spacing only");
   refused("spacing = 1e-7\n", "more than 1e+06");
   refused("spacing = 1\nsize = \"lognormal\"\nsize_mean = 1\n", "size_deviation is missing");
   refused("spacing = 1\nsize_mean = 1\n", "applies only where size");
