@@ -379,9 +379,9 @@ TEST_F(Check, AResultBelowTheAnglesThatALevelPromisesIsDoubted) {
     const Ended ended = run("run scene.toml --overwrite --out out");
     ASSERT_EQ(ended.code, 0) << ended.err;
     const bool doubted =
-        results("out")["warnings"].dump().find("promises its accuracy of critical angles from 15") != std::string::npos;
+        results("out")["warnings"].dump().find("has its accuracy for critical angles above 15") != std::string::npos;
     EXPECT_EQ(doubted, dip < 15) << results("out")["warnings"].dump(2);
-    EXPECT_EQ(doubted, ended.err.find("from 15 deg on") != std::string::npos) << ended.err;
+    EXPECT_EQ(doubted, ended.err.find("above 15 deg") != std::string::npos) << ended.err;
   }
 }
 

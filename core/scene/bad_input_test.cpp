@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "name = \"settle\"\nkind = \"settle\"\nduration_s = 2 #!", "stage.settle.duration_s = 2",
                  "only where kind = \"run\""},
         BadInput{"wrong_method", "from_deg = 40", "step_deg = 1 #!\nfrom_deg = 40", "stage.reduce.step_deg = 1",
-                 "only where method = \"steps\", which here is \"bisection\""},
+                 "only if method = \"steps\", which here is \"bisection\""},
         BadInput{"name_twice", "name = \"B\"", "name = \"A\" #!", "joints.A.name = \"A\"", "must be unique in joints"},
         BadInput{"dot_in_name", "name = \"B\"", "name = \"B.1\" #!", "\"B.1\"", "write '-' or a space instead"},
         BadInput{"empty_name", "name = \"B\"", "name = \"\" #!", "joints.2.name = \"\"", "must not be empty"}),

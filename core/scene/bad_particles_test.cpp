@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "blocks.ball.vertices", "cannot define a potential particle"},
         BadInput{"radius_of_a_block", "[[blocks]]\nname = \"far\"",
                  "[[blocks]]\nname = \"far\"\ncorner_radius = 0.1 #!", "blocks.far.corner_radius = 0.1",
-                 "applies only where shape = \"potential\""}),
+                 "applies only if shape = \"potential\""}),
     by_name);
 
 // keys that cannot be combined with particles

@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "stage.reduce.tolerance_deg = 0.01", "only where search = \"friction\""},
         BadInput{"tolerance_of_steps", reduction,
                  factor + range + "method = \"steps\"\nstep_factor = 0.1\ntolerance_factor = 0.01 #!",
-                 "stage.reduce.tolerance_factor = 0.01", "only where method = \"bisection\", which here is \"steps\""},
+                 "stage.reduce.tolerance_factor = 0.01", "only if method = \"bisection\", which here is \"steps\""},
         BadInput{"step_of_angle", reduction, factor + range + "method = \"steps\"\nstep_deg = 0.1 #!",
                  "stage.reduce.step_deg = 0.1", "only where search = \"friction\""},
         BadInput{"without_tolerance", "[[stage]]\nname = \"reduce\"\nkind = \"reduce\"\n" + reduction,

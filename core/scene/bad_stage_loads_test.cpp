@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
             "stage.push.move.2", "already moves"},
         BadInput{"at_rest", "kind = \"settle\"",
                  "kind = \"settle\"\n[[stage.move]] #!\nbodies = [\"far\"]\nvelocity = [1, 0, 0]", "stage.settle.move",
-                 "applies only where kind"}),
+                 "applies only if kind"}),
     by_name);
 
 const std::string digging =
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
             "[[stage]]\nname = \"dig\"\nkind = \"run\"\nduration_s = 1\nlet_off = { share = 0, duration_s = 3 } #!",
             "stage.dig.let_off.duration_s = 3", "at most the stage's duration_s (1)"},
         BadInput{"in_a_search", "to_deg = 5", "to_deg = 5\nlet_off = { share = 0, duration_s = 3 } #!",
-                 "stage.reduce.let_off", "applies only where kind"}),
+                 "stage.reduce.let_off", "applies only if kind"}),
     by_name);
 
 const std::string forcing = "[[stage]]\nname = \"press\"\nkind = \"settle\"\n[[stage.force]]\nname = \"jack\"\n";

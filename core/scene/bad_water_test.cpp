@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "stage.drain.water.lake.rate = 1", "the rise then differs from place to place"},
         BadInput{"while_friction_falls", "kind = \"reduce\"",
                  "kind = \"reduce\"\nwater = [{ name = \"lake\", level = 0, duration_s = 1 }] #!", "stage.reduce.water",
-                 "applies only where kind"}),
+                 "applies only if kind"}),
     by_name);
 
 INSTANTIATE_TEST_SUITE_P(

@@ -337,7 +337,7 @@ TEST(Repeat, ImpossibleRepeatsAreRefused) {
       {"[[repeat]]\nblocks = [\"stone\"]\ncount = 2\nshift = [3, 0, 0]\n[[repeat]]\nblocks = [\"stone\"]\ncount = "
        "2\nshift = [0, 3, 0]\n"
        "[[blocks]]\nname = \"stone-2\"\nbox = { min = [9, 0, 0], max = [10, 1, 1] }\n",
-       "repeat.1.blocks", "which is the name of one of [[blocks]] already"},
+       "repeat.1.blocks", "but one of [[blocks]] already has this name"},
   };
   for (const Case& c : cases)
     try {

@@ -244,7 +244,7 @@ TEST_F(SceneFiles, JointSetsAreChecked) {
   refused("intensity = 1\nsize = \"constant\"\nsize_mean = 1\npersistence = 0.5\n", "applies to spacing only");
   refused("spacing = 1e-7\n", "more than 1e+06");
   refused("spacing = 1\nsize = \"lognormal\"\nsize_mean = 1\n", "size_deviation is missing");
-  refused("spacing = 1\nsize_mean = 1\n", "applies only where size");
+  refused("spacing = 1\nsize_mean = 1\n", "applies only if size");
   refused("spacing = 1\nscatter = \"fisher\"\n", "fisher_constant is missing");
   refused("spacing = 1\nproperties = \"clay\"\n", "no joint_properties of this name");
   refused("spacing = 1\n[[joints]]\nname = \"A-2\"\ndip = 0\npoint = [0, 0, 1]\n", "rename the set");

@@ -339,8 +339,9 @@ TEST(Plausibility, ReportsThePropertiesOfFacesThatNoJointMade) {
   EXPECT_EQ(warnings(soil("soil"), named), "") << "the outer faces of one domain meet nothing";
   const std::string wall = "[[blocks]]\nname = \"wall\"\nbox = { min = [4, -4, -4], max = [6, 4, 0] }\nfixed = true\n";
   EXPECT_EQ(warnings(soil("default") + wall, named), "");
-  EXPECT_NE(warnings(soil("soil") + wall, named).find("name = \"rock\": serves where faces meet that no joint made"),
-            std::string::npos)
+  EXPECT_NE(
+      warnings(soil("soil") + wall, named).find("name = \"rock\": applies to contacts of faces that no joint made"),
+      std::string::npos)
       << warnings(soil("soil") + wall, named);
 }
 

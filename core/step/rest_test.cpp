@@ -244,7 +244,7 @@ water = [{ name = "seep", pressure = 2e4, duration_s = 1 }]
   const std::string both = message({"stage.settle.step_limit=10", "stage.settle.gravity_ramp_s=0.1"});
   EXPECT_NE(both.find("; not reached: gravity (at 10 % of 0.1 s)"), std::string::npos) << both;
   const std::string window = message({"stage.settle.step_limit=2000", "equilibrium.window=10000"});
-  EXPECT_NE(window.find("; not reached: rest in 10000 steps in a row (equilibrium.window), it lasted for"),
+  EXPECT_NE(window.find("; not reached: equilibrium in 10000 consecutive steps (equilibrium.window), it lasted for"),
             std::string::npos)
       << window;
 }

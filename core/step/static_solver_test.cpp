@@ -270,7 +270,7 @@ TEST(Newton, ABodyThatRotatesFreelyIsNamed) {
   const RunReport report = no_rest_of(model);
   EXPECT_EQ(report.reason, StopReason::step_limit);
   EXPECT_NE(report.detail.find("block"), std::string::npos) << report.detail;
-  EXPECT_NE(report.detail.find("turned by"), std::string::npos) << report.detail;
+  EXPECT_NE(report.detail.find("rotated by"), std::string::npos) << report.detail;
 }
 
 // The face has one contact point, and nothing rotates the block.
