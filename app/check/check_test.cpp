@@ -127,7 +127,7 @@ TEST_F(Check, CountsEveryRampAndWarnsOfLimitsThatNoneCanReach) {
   silent(stone + search + "ramp_steps = 500\nstep_limit = 5000\n", "a trial lowers");
 }
 
-// Mapped joints without sizes are endless and cut many more blocks than a table with sizes.
+// Mapped joints without sizes are infinite and cut many more blocks than a table with sizes.
 TEST_F(Check, SaysThatATableOfJointsWithoutSizesIsEndless) {
   const std::string scene =
       "dimension = 2\ngravity = [0, -10]\ndensity = 2000\njoints_file = \"joints.csv\"\n"
@@ -142,7 +142,7 @@ TEST_F(Check, SaysThatATableOfJointsWithoutSizesIsEndless) {
     ended += row + ",trace,0.5\n";
   }
   write("joints.csv", endless);
-  says(scene, "all 50 joints of 'joints.csv' are endless");
+  says(scene, "all 50 joints of 'joints.csv' are infinite");
   says(scene, "warning: scene.toml: all 50 joints");
   const Ended sliced = run("slice scene.toml --out sliced");
   const std::size_t at = sliced.out.find("they cut ");

@@ -97,7 +97,7 @@ TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
        "the strength of the grout"},
       {bolts(line + grouted + "plate = \"tied\"\npretension = 2e5\nyield = 1e5") + install, "pretension",
        "more than yield"},
-      {bolts(line + grouted + "free_length = 2") + install, "free_length", "leaves no grout"},
+      {bolts(line + grouted + "free_length = 2") + install, "free_length", "leaves no grouted length"},
       {bolts(line + grouted + "free_length = -1") + install, "free_length", "0"},
       {bolts(line + grouted + "node_spacing = 3") + install, "node_spacing", "2 m long"},
       {bolts(line + grouted + "node_spacing = 1e-4") + install, "node_spacing", "nodes, more than"},
@@ -112,7 +112,7 @@ TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
       {bolts(line + stiff) + install + "[[monitors]]\nname = \"m\"\nquantities = [\"bolt_force\"]\nbolts = \"x\"\n",
        "bolts", "no bolts of this name"},
       {bolts(line + stiff) + install + "[[monitors]]\nname = \"m\"\nquantities = [\"bolt_force\"]\njoint = \"bed\"\n",
-       "bolts", "followed on bolts"},
+       "bolts", "a quantity of bolts"},
       {bolts(line + stiff) + install +
            "[[monitors]]\nname = \"m\"\nquantities = [\"displacement\"]\nbolts = \"roof\"\n",
        "quantities", "bolt_force only"},

@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "stage.go.duration_s is missing", "duration_s = 2"},
         BadInput{"wrong_kind", "name = \"settle\"\nkind = \"settle\"",
                  "name = \"settle\"\nkind = \"settle\"\nduration_s = 2 #!", "stage.settle.duration_s = 2",
-                 "only where kind = \"run\""},
+                 "only if kind = \"run\""},
         BadInput{"wrong_method", "from_deg = 40", "step_deg = 1 #!\nfrom_deg = 40", "stage.reduce.step_deg = 1",
                  "only if method = \"steps\", which here is \"bisection\""},
         BadInput{"name_twice", "name = \"B\"", "name = \"A\" #!", "joints.A.name = \"A\"", "must be unique in joints"},

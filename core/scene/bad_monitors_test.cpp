@@ -71,12 +71,12 @@ TEST(BadMonitors, OfWallsAndOfStagesAreRefusedWithAReasonAndARepair) {
       {monitor(block + "since = \"stres\""), "since", "stress"},
       {monitor(block + "since = \"later\""), "since", "last stage"},
       {monitor("inside = [3.8, 0]\nquantities = [\"displacement\", \"velocity\"]\nsince = \"dig\""), "since",
-       "velocity is no motion"},
+       "velocity is not a motion"},
       {monitor(block + "since_start = \"digg\""), "since_start", "dig"},
       {monitor(block + "since_start = 2"), "since_start", "text in double quotes"},
       {monitor(block + "since_start = \"dig\"\nsince = \"stress\""), "since_start", "together with since"},
       {monitor("inside = [3.8, 0]\nquantities = [\"velocity\"]\nsince_start = \"dig\""), "since_start",
-       "velocity is no motion"},
+       "velocity is not a motion"},
       {monitor("joint = \"bed\"\nquantities = [\"contact_force\"]\nsince = \"dig\""), "since", "contact_force"},
   };
   for (const Case& c : cases) {

@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"two_waters_outside", "", level + seep + "level = 2\nfaces = \"outer\" #!",
                  "water.seep.faces = \"outer\"", "the outer faces have the water 'lake' already"},
         BadInput{"a_number", "", level + "faces = 5 #!", "water.lake.faces = 5", "must be a name or a list of names"},
-        BadInput{"a_name_twice", "", level + "faces = [\"A\", \"A\"] #!", "water.lake.faces", "stands twice"}),
+        BadInput{"a_name_twice", "", level + "faces = [\"A\", \"A\"] #!", "water.lake.faces", "appears twice"}),
     by_name);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Monitors, BadWater,
     testing::Values(BadInput{"level_of_nothing", "", level + "[[monitors]]\nname = \"l\"\nquantities = [\"level\"]",
-                             "monitors.l.water is missing", "level is followed on a water"},
+                             "monitors.l.water is missing", "level is a quantity of a water"},
                     BadInput{"level_of_no_water", "",
                              level + "[[monitors]]\nname = \"l\"\nquantities = [\"level\"]\nwater = \"sea\" #!",
                              "monitors.l.water = \"sea\"", "no water of this name"},
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
                              "monitors.l.quantities", "has its level only"},
                     BadInput{"bonds_of_a_block", "",
                              "[[monitors]]\nname = \"l\"\nbodies = [\"far\"]\nquantities = [\"whole_bonds\"]",
-                             "monitors.l.joint is missing", "whole_bonds is followed on a joint"}),
+                             "monitors.l.joint is missing", "whole_bonds is a quantity of a joint"}),
     by_name);
 
 const std::string in_the_plane = R"(dimension = 2

@@ -212,8 +212,8 @@ TEST(Keys, HaveExamplesThatAreAccepted) {
       parse(scene_of(row), {text});
     } catch (const SceneError& error) {
       const std::string message = error.what();
-      EXPECT_TRUE(message.find("must exceed min") != std::string::npos || message.find("beside") != std::string::npos ||
-                  message.find("only one of") != std::string::npos ||
+      EXPECT_TRUE(message.find("must exceed min") != std::string::npos ||
+                  message.find("is stated ") != std::string::npos || message.find("only one of") != std::string::npos ||
                   message.find("applies only if") != std::string::npos ||
                   message.find("is missing") != std::string::npos)
           << text << "\n"

@@ -303,14 +303,14 @@ TEST(Plausibility, KnowsTheSignsOfWrongUnits) {
   EXPECT_EQ(warnings(wedge), "");
   const std::vector<std::pair<std::string, std::string>> all = {
       {"gravity=[0,0,9.81]", "gravity = [0, 0, 9.81]: points upwards"},
-      {"gravity=[0,9.81,-0.1]", "gravity = [0, 9.81, -0.1]: points more aside than down"},
+      {"gravity=[0,9.81,-0.1]", "gravity = [0, 9.81, -0.1]: points more sideways than down"},
       {"gravity=[0,0,-9810]", "on earth it is 9.81"},
       {"density=2.6", "density = 2.6: is unusual, 500 to 8000 kg/m³ is usual; was it given in g/cm³"},
       {"joint_properties.rock.friction_deg=0.6", "friction_deg = 0.6: is unusual, 0 or 1.6 to 89.9 deg is usual"},
       {"joints.A.dip=0.7", "joints.A.dip = 0.7: is unusual, 0 or 1.6 to 90 deg is usual; was it given in radians?"},
       {"joint_properties.rock.shear_stiffness=1e8", "exceeds normal_stiffness"},
       {"joint_properties.rock.shear_stiffness=10", "was it given in MPa/m"},
-      {"joint_properties.rock.normal_stiffness=1e10", "is tiny beside normal_stiffness"},
+      {"joint_properties.rock.normal_stiffness=1e10", "is very small compared with normal_stiffness"},
       {"joint_properties.rock.normal_stiffness=1e14", "1e+06 to 1e+12 Pa/m is usual"},
       {"domain.planes.slope face.point=[0,0,-0.001]", "close to zero in a scene of"},
       {"domain.box.min=[-4e5,-4,-4]", "is a coordinate of one in the wrong unit"}};

@@ -207,9 +207,9 @@ TEST(SlicingScene, ImpossibleEndsOfJointsAreRefused) {
       {level_joint(0.3, 0.5, "ends_at = [\"wall\", \"wall\"]\n"), "ends_at", "twice"},
       {level_joint(0.3, 0.5, "") + "[[joints]]\nname = \"bed\"\ndip = 0\npoint = [0.3, 0.6]\nends_at = \"level\"\n",
        "ends_at", "parallel to 'level'"},
-      {level_joint(0, 0.5, "ends_at = \"wall\"\n"), "point", "lies on 'wall'"},
+      {level_joint(0, 0.5, "ends_at = \"wall\"\n"), "point", "is on 'wall'"},
       {level_joint(0.3, 0.5, "ends_at = \"wall\"\nkind = \"boundary\"\nwhole = \"below\"\n"), "ends_at", "boundary"},
-      {box + level_joint(0.5, 0.2, "ends_at = \"cut\"\n"), "point", "lies on 'cut'"},
+      {box + level_joint(0.5, 0.2, "ends_at = \"cut\"\n"), "point", "is on 'cut'"},
       {box.substr(0, box.find("outline")) + level_joint(0.8, 0.2, "ends_at = \"cut\"\n"), "ends_at", "outline = true"},
       {box + level_joint(0.8, 0.2, "ends_at = \"cut\"\n") +
            "[[joints]]\nname = \"cut\"\ndip = 60\ndip_direction = 90\npoint = [0, 0]\n",
