@@ -78,7 +78,7 @@ TEST_F(Check, PrintsWhatLiesInWater) {
   says(scene + "water = [{ name = \"lake\", level = 0.5, rate = 0.1 }]\n", "water 'lake' changes within 2.5 s");
   silent(scene, "wets none");
   says(ground + box("stone", 0, 0) + rock_properties + lake + "level = -2\n" + settle_stage,
-       "water.lake.level = -2: lies below every");
+       "water.lake.level = -2: is below every");
   says(ground + box("stone", 0, 0) + rock_properties + lake + "level = 300\n" + settle_stage,
        "299 m above every block");
   says(ground + box("stone", 0, 0) + "density = 900\n" + rock_properties + lake + "level = 3\n" + settle_stage,

@@ -107,7 +107,7 @@ TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
       {bolts(line + stiff) + stage + "install = [\"rof\"]\n", "install", "roof"},
       {stage + "install = [\"roof\"]\n", "install", "there is nothing to install"},
       {bolts(line + stiff) + install + "[[stage]]\nname = \"again\"\nkind = \"settle\"\ninstall = [\"roof\"]\n",
-       "install", "once more"},
+       "install", "again; name"},
       {bolts(line + stiff) + bolts(line + stiff) + install, "name", "roof"},
       {bolts(line + stiff) + install + "[[monitors]]\nname = \"m\"\nquantities = [\"bolt_force\"]\nbolts = \"x\"\n",
        "bolts", "no bolts of this name"},

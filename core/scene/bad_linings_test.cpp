@@ -73,9 +73,9 @@ TEST(BadLinings, AreRefusedWithAReasonAndARepair) {
       {lining(section) + stage + "install = [\"shel\"]\n", "install", "did you mean"},
       {lining(section) + stage + "install = [\"shell\"]\n" +
            "[[stage]]\nname = \"dig\"\nkind = \"settle\"\nexcavate = [\"tunnel\"]\n",
-       "install", "before 'tunnel' is taken out"},
+       "install", "before 'tunnel' is excavated"},
       {lining(section) + dig + "[[stage]]\nname = \"again\"\nkind = \"settle\"\ninstall = [\"shell\"]\n", "install",
-       "once more"},
+       "again; name"},
       {lining(section) + "[[bolts]]\nname = \"shell\"\nfrom = [0, 3]\nto = [0, 5]\nstiffness = 1e8\n" + dig, "name",
        "name of bolts"},
       {lining(section) + dig + monitor("quantities = [\"lining_force\"]\nlining = \"x\"\n"), "lining",

@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"twice", "",
                  digging + "excavate = [\"pit\"]\n[[stage]]\nname = \"again\"\nkind = \"settle\"\nexcavate = "
                            "[\"pit\"] #!",
-                 "stage.again.excavate", "once more"},
+                 "stage.again.excavate", "again; name"},
         BadInput{"by_a_word", "", digging + "excavate = 3 #!", "stage.dig.excavate = 3", "names"},
         BadInput{"nothing_to_let_off", "", digging + "let_off = { share = 0, duration_s = 1 } #!", "stage.dig.let_off",
                  "nothing to let off"},

@@ -172,7 +172,8 @@ TEST_F(SceneFiles, MistakesAreReportedWithTheirPlace) {
   refused(head + "A,40,90,0,zero,0,,,,\n", "joints.csv:2:11: y_m = 'zero'");
   refused(head + "A,40,90,0,0,0,,ellipse,2e13,1\n", "joints.csv:2: joints.A.length = 2e+13");
   refused("dip_deg,normal_x,normal_y,normal_z,x_m,y_m,z_m\n10,0,0,1,0,0,0\n", "dip_direction is missing");
-  refused("dip_deg,dip_direction_deg,normal_x,normal_y,normal_z,x_m,y_m,z_m\n10,0,0,0,1,0,0,0\n", "of another plane");
+  refused("dip_deg,dip_direction_deg,normal_x,normal_y,normal_z,x_m,y_m,z_m\n10,0,0,0,1,0,0,0\n",
+          "does not agree with dip");
   expect_refused("joints_file = \"none.csv\"\n" + base_3d, "no such file");
   expect_refused("joints_file = \"../joints.csv\"\n" + base_3d, "own folder");
   expect_refused(base_3d, "cannot be set", {"joints_file=joints.csv"});
