@@ -247,9 +247,8 @@ void judge_sizes(const Scene& scene, const Model<Dim>& model, Warnings& warnings
   for (const Body<Dim>& body : model.bodies)
     if (body.size < lost_fraction * body.reference.norm()) {
       warnings.push_back(file + described(model, body) + " is " + text(body.reference.norm()) +
-                         " m from the scene's centre, so that its "
-                         "size of " +
-                         text(body.size) + " m loses its digits; is a coordinate in the wrong unit?");
+                         " m from the scene's centre, so that its size of " + text(body.size) +
+                         " m loses its digits; is a coordinate in the wrong unit?");
       break;
     }
 }
@@ -325,8 +324,7 @@ void judge_particles(const Scene& scene, const Model<Dim>& model, Warnings& warn
       warnings.push_back(complaint(block.subject, "sphere_radius",
                                    "is " + text(shape.sphere_radius / least) +
                                        " times the smallest radius that encloses the particle: its sphere, and "
-                                       "therefore k, have almost no effect; leave "
-                                       "it out for the smallest radius"));
+                                       "therefore k, have almost no effect; leave it out for the smallest radius"));
   }
 }
 
