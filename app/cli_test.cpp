@@ -104,7 +104,7 @@ TEST_F(Program, ARunWhoseEnergyDoesNotCloseSaysSo) {
   const auto doubts = [&](const std::string& where) {
     const nlohmann::json warnings = results(where)["warnings"];
     return std::count_if(warnings.begin(), warnings.end(), [](const nlohmann::json& w) {
-      return w.get<std::string>().find("energy ledger does not close") != std::string::npos;
+      return w.get<std::string>().find("energy balance does not close") != std::string::npos;
     });
   };
   ASSERT_EQ(run(bounce + "--set time.fraction=0.05 --out fine").code, 0);
@@ -115,7 +115,7 @@ TEST_F(Program, ARunWhoseEnergyDoesNotCloseSaysSo) {
   const Ended coarse = run(bounce + "--set time.fraction=0.9 --out coarse");
   ASSERT_EQ(coarse.code, 0);
   EXPECT_EQ(doubts("coarse"), 1);
-  EXPECT_NE(coarse.err.find("energy ledger does not close"), std::string::npos) << coarse.err;
+  EXPECT_NE(coarse.err.find("energy balance does not close"), std::string::npos) << coarse.err;
   EXPECT_GT(results("coarse")["energy"]["closure"], 0.05);
 }
 

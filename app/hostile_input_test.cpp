@@ -104,9 +104,9 @@ TEST_F(Hostile, ABaseIsARegularFileInTheScenesFolder) {
                                                      {"device.toml", "no such file"},
                                                      {"self.toml", "no such file"},
                                                      {"good.toml\\u0000", "no such file"},
-                                                     {"leaves.toml", "leaves the scene's own folder"},
-                                                     {"away/good.toml", "leaves the scene's own folder"},
-                                                     {"scene.toml", "leads back to itself"},
+                                                     {"leaves.toml", "leads out of the scene's own folder"},
+                                                     {"away/good.toml", "leads out of the scene's own folder"},
+                                                     {"scene.toml", "leads back to the scene itself"},
                                                      {"", "no such file"}};
   for (const auto& [base, part] : bad)
     refused_text("base = \"" + base + "\"\n", part);
@@ -122,7 +122,7 @@ TEST_F(Hostile, BasesChainSixteenDeepAndEndInNoCircle) {
   refused("17.toml", "more than 16 bases");
   write("a.toml", "base = \"b.toml\"\n");
   write("b.toml", "base = \"a.toml\"\n");
-  refused("a.toml", "leads back to itself");
+  refused("a.toml", "leads back to the scene itself");
 }
 
 // files of joints and blocks that a scene names

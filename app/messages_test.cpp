@@ -86,7 +86,7 @@ TEST_F(Messages, MissingGravityIsNoWrongDensity) {
 
 TEST_F(Messages, TimeStepsAreStatedOnce) {
   refused(halves + settle_stage + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "time.fraction");
-  refused(halves + settle_stage + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "stands beside step_s");
+  refused(halves + settle_stage + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "is stated together with step_s");
   check(halves + settle_stage + "[time]\nstep_s = 1e-4\n");
   check(halves + settle_stage + "[time]\nfraction = 0.1\n");
 }
@@ -183,7 +183,7 @@ TEST_F(Messages, FansOfMoreThanAWholeTurnAreRefused) {
   };
   const std::string scene = halves + settle_stage + "install = [\"roof\"]\n";
   refused(scene + fan(-10, 360), "to_deg");
-  refused(scene + fan(-360, 360), "whole turn");
+  refused(scene + fan(-360, 360), "more than 360 degrees beyond from_deg");
   EXPECT_FALSE(holds(check(scene + fan(-180, 150)), "on top"));
   EXPECT_TRUE(holds(check(scene + fan(0, 360)), "1 of 13 lie on top of another bolt"));
 }

@@ -1,4 +1,4 @@
-// Prints libFuzzer's dictionary of scenes: what TOML is made of, and every key, table and choice of the key table.
+// Prints libFuzzer's dictionary of scenes: the tokens of TOML, and every key, table and choice of the key table.
 #include <cstdio>
 #include <iterator>
 #include <set>
@@ -8,7 +8,7 @@
 
 namespace {
 
-// as libFuzzer reads them back
+// in the notation of libFuzzer
 constexpr const char* toml[] = {R"(\x0a)",    "=",        "[",           "]",          "[[",         "]]",
                                 "{",          "}",        ", ",          ".",          R"(\")",      R"(\\)",
                                 R"(\"\"\")",  "'''",      "#",           "true",       "false",      "nan",

@@ -78,7 +78,7 @@ TEST_F(Check, PrintsWhatLiesInWater) {
   says(scene + "water = [{ name = \"lake\", level = 0.5, rate = 0.1 }]\n", "water 'lake' changes within 2.5 s");
   silent(scene, "wets none");
   says(ground + box("stone", 0, 0) + rock_properties + lake + "level = -2\n" + settle_stage,
-       "water.lake.level = -2: lies below every");
+       "water.lake.level = -2: is below every");
   says(ground + box("stone", 0, 0) + rock_properties + lake + "level = 300\n" + settle_stage,
        "299 m above every block");
   says(ground + box("stone", 0, 0) + "density = 900\n" + rock_properties + lake + "level = 3\n" + settle_stage,
@@ -127,7 +127,7 @@ TEST_F(Check, CountsEveryRampAndWarnsOfLimitsThatNoneCanReach) {
   silent(stone + search + "ramp_steps = 500\nstep_limit = 5000\n", "a trial lowers");
 }
 
-// Mapped joints without sizes are endless and cut many more blocks than a table with sizes.
+// Mapped joints without sizes are infinite and cut many more blocks than a table with sizes.
 TEST_F(Check, SaysThatATableOfJointsWithoutSizesIsEndless) {
   const std::string scene =
       "dimension = 2\ngravity = [0, -10]\ndensity = 2000\njoints_file = \"joints.csv\"\n"
@@ -142,14 +142,14 @@ TEST_F(Check, SaysThatATableOfJointsWithoutSizesIsEndless) {
     ended += row + ",trace,0.5\n";
   }
   write("joints.csv", endless);
-  says(scene, "all 50 joints of 'joints.csv' are endless");
+  says(scene, "all 50 joints of 'joints.csv' are infinite");
   says(scene, "warning: scene.toml: all 50 joints");
   const Ended sliced = run("slice scene.toml --out sliced");
   const std::size_t at = sliced.out.find("they cut ");
   ASSERT_NE(at, std::string::npos) << sliced.out << sliced.err;
   EXPECT_EQ(std::stoul(sliced.out.substr(at + 9)), std::stoul(sliced.out)) << "the blocks that were written";
   write("joints.csv", ended);
-  silent(scene, "endless");
+  silent(scene, "are infinite");
 }
 
 // Where a table slopes, a block that slides leaves its water before the displacement that counts as failure.
@@ -379,9 +379,9 @@ TEST_F(Check, AResultBelowTheAnglesThatALevelPromisesIsDoubted) {
     const Ended ended = run("run scene.toml --overwrite --out out");
     ASSERT_EQ(ended.code, 0) << ended.err;
     const bool doubted =
-        results("out")["warnings"].dump().find("promises its accuracy of critical angles from 15") != std::string::npos;
+        results("out")["warnings"].dump().find("has its accuracy for critical angles above 15") != std::string::npos;
     EXPECT_EQ(doubted, dip < 15) << results("out")["warnings"].dump(2);
-    EXPECT_EQ(doubted, ended.err.find("from 15 deg on") != std::string::npos) << ended.err;
+    EXPECT_EQ(doubted, ended.err.find("above 15 deg") != std::string::npos) << ended.err;
   }
 }
 

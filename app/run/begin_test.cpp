@@ -101,7 +101,7 @@ TEST_F(Begin, RowsOfMonitorsThatTheOtherDidNotFollowAreEmptyUntilThere) {
   write("stress.toml", scene_without("[[monitors]]\nname = \"crown\"\nquantities = [\"convergence\"]\nexcavation = "
                                      "\"tunnel\"\nangles_deg = [90, 0, 180]\nsince = \"stress\"\n"));
   run_well("run stress.toml --out no_stress --until dig");
-  expect_one_line(run("run " + tunnel_ + "--out bad --begin no_stress"), 2, "'stress', from which a monitor counts");
+  expect_one_line(run("run " + tunnel_ + "--out bad --begin no_stress"), 2, "'stress', from which a monitor measures");
 }
 
 TEST_F(Begin, AKilledRunContinuesWithoutTheFolderItBeganWith) {

@@ -180,7 +180,7 @@ TEST_F(Budget, AnErrorThatCannotBeAskedForIsRefused) {
   std::string steps = search;
   steps.replace(steps.find("tolerance_deg = 0.1"), 19, "method = \"steps\"\nstep_deg = 1");
   write("steps.toml", incline + steps + asked);
-  expect_one_line(run("run steps.toml --out b"), 2, "which stage.critical has not");
+  expect_one_line(run("run steps.toml --out b"), 2, "which stage.critical does not state");
 }
 
 TEST_F(Budget, WhatItIsAskedForIsChecked) {

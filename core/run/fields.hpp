@@ -1,5 +1,4 @@
-// The members of everything that Progress holds besides the state (core/model/fields.hpp), and the archive that saves
-// both.
+// The members of all parts of Progress except the state (core/model/fields.hpp), and the archive that saves both.
 #pragma once
 
 #include <cereal/archives/binary.hpp>
@@ -39,7 +38,7 @@ void serialize(Archive& archive, Rotation<3>& r) {
   archive(r.quaternion.coeffs());
 }
 
-// saves and reads what is hashed or saved, in the order of its list
+// saves and reads hashed and saved members, in the order of their list
 template <class Archive>
 struct ArchivedFields {
   Archive& archive;
@@ -167,7 +166,7 @@ void visit_fields(Either<Progress> auto& p, auto&& visit) {
         frames, trial_frames, ends, bonded, results);
 }
 
-// every bit of it: two objects are the same when these are equal
+// all bits of it: two objects are the same if these are equal
 template <class T>
 std::string bytes_of(const T& object) {
   std::ostringstream stream(std::ios::binary);

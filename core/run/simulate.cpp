@@ -41,7 +41,7 @@ void add_final_results(const StageInForce<Dim>& stage, Progress<Dim>& progress) 
 // stage after stage; false: interrupted
 template <int Dim>
 bool execute_all(const Prepared<Dim>& scene, Progress<Dim>& progress, const Watcher<Dim>& watcher) {
-  Model<Dim> model = model_after(scene, progress.stage);  // of the stage, and so the settings
+  Model<Dim> model = model_after(scene, progress.stage);  // of the stage, like the settings
   Settings settings;
   const int last = scene.last_stage.value_or(static_cast<int>(scene.stages.size()) - 1);
   while (progress.stage <= last) {

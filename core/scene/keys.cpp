@@ -7,7 +7,7 @@
 namespace voussoir {
 namespace {
 
-// what its member says about a row
+// completes a row from its member
 KeyRow completed(KeyRow row) {
   if (row.members.empty()) return row;
   const KeyMember& member = row.members.front();
@@ -57,7 +57,7 @@ std::span<const KeyRow> key_rows(std::string_view group) {
     std::map<std::string_view, std::span<const KeyRow>> found;
     for (const KeyRow& row : key_rows()) {
       std::span<const KeyRow>& rows = found[row.table];
-      rows = {rows.empty() ? &row : rows.data(), rows.size() + 1};  // they stand together
+      rows = {rows.empty() ? &row : rows.data(), rows.size() + 1};  // rows of one key are contiguous
     }
     return found;
   }();

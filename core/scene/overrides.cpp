@@ -46,7 +46,7 @@ Node& find_item(Node* list, const std::string& name, const std::string& path, co
   fail(place, key_path(path, name), "no table of this name; " + suggestion(name, names));
 }
 
-// The table that holds the path's last key, made where the file does not state it.
+// The table that holds the path's last key, created if the file does not state it.
 struct Target {
   Node* table;
   std::string key;
@@ -62,7 +62,8 @@ Target find_target(Node& scene, const std::vector<std::string>& segments, const 
     path = key_path(path, segments[i]);
     if (!row) fail(place, path, "no such key; " + suggestion(segments[i], keys_of(groups)));
     if (row->table.empty() && (row->key == "base" || row->key == "joints_file" || row->key == "blocks_file"))
-      fail(place, path, "cannot be set, because overrides change the scene laid over its files; write it in a file");
+      fail(place, path,
+           "cannot be set, because overrides apply to the scene after its files have been read; write it in a file");
     if (i + 1 == segments.size()) return {table, segments[i]};
 
     Node* next = table->find(row->key);
@@ -79,7 +80,7 @@ Target find_target(Node& scene, const std::vector<std::string>& segments, const 
       if (i + 1 == segments.size())
         fail(place, path, "this is a table; name one of its keys: " + listed(keys_of(row->holds)));
     } else {
-      fail(place, path, "this is a value, it has no keys; write " + path + "=…");
+      fail(place, path, "this is a value and has no keys; write " + path + "=…");
     }
     groups = row->holds;
   }

@@ -8,7 +8,7 @@
 namespace voussoir {
 
 // "joints.A.dip=65": tables of a list by their name or, counted from 1, their number. A legal key that the file does
-// not state is added; an unknown key or name is a SceneError that lists those that exist.
+// not state is added; an unknown key or name is a SceneError that lists the existing ones.
 void apply_override(Node& scene, const std::string& text, const std::string& file);
 
 }  // namespace voussoir

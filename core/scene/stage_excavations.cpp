@@ -51,7 +51,7 @@ void check_excavations(const Scene& scene) {
                              : "no excavation is named '" + one_line(name, 60) + "'; " + suggestion(name, names));
       if (holds(taken_out, name))
         refuse(stage.subject, "excavate",
-               "takes out '" + one_line(name, 60) + "' once more; name each excavation in one stage, once");
+               "excavates '" + one_line(name, 60) + "' again; name each excavation in one stage, once");
       taken_out.push_back(name);
     }
     if (!stage.plan.let_off) continue;

@@ -1,4 +1,4 @@
-// When a run is at rest: against which of its forces what is unbalanced is measured.
+// Equilibrium of a run: the forces with which unbalanced forces are compared.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ Vector<Dim> direction(Engine& engine) {
   return v.normalized();
 }
 
-// Bodies that no step has met, with forces of random size from every source; the oracle takes the means apart.
+// Bodies before any step, with forces of random size from every source; the oracle computes the means separately.
 template <int Dim>
 void expect_largest_mean(Engine& engine) {
   Model<Dim> model = shapes::block_on_plate<Dim>(0, 0.5);
@@ -88,7 +88,7 @@ void expect_largest_mean(Engine& engine) {
     EXPECT_TRUE(std::isinf(ratio));
 }
 
-TEST(Rest, IsMeasuredAgainstTheLargestMeanOfWhatActs) {
+TEST(Rest, IsMeasuredAgainstTheLargestMeanForce) {
   Engine engine(5204);
   for (int k = 0; k < 500; ++k) {
     expect_largest_mean<2>(engine);
@@ -101,7 +101,7 @@ Progress<Dim> run_of(const std::string& text, const std::vector<std::string>& ov
   return simulated(scene_of<Dim>(text, overrides));
 }
 
-// A slab that hangs in the roof of an opening, by the forces of the rock that was below it, then by two bolts.
+// A slab in the roof of an opening, supported by the forces of the rock that was below it, then by two bolts.
 const std::string hung_slab = R"(
 dimension = 2
 gravity = [0, -9.81]
@@ -147,19 +147,19 @@ TEST(Rest, OfRockThatReliefLoadsHoldComesAtOnce) {
         const double carried = bolt.stage == 3 ? 0.5 * (1 - share) * weight : 0;
         EXPECT_NEAR(bolt.force, carried, 1e-5 * weight) << statics << ' ' << share << ' ' << bolt.stage;
       }
-      // the stage lasts as long as its ramp, 1 s, and the few steps of rest
+      // the stage takes its ramp, 1 s, and the few steps of the equilibrium window
       EXPECT_LT(results.stages[1].time, 1.05) << statics;
       EXPECT_EQ(results.relief_left, share);
     }
 }
 
-// Water in the joint below a block lifts it by all but a share of its weight: the contact carries what is left, and is
-// at rest however little that is.
-TEST(Rest, ComesHoweverLittleTheWaterInAJointLeaves) {
+// Water in the joint below a block supports all but a fraction of its weight: the contact supports the rest, and is in
+// equilibrium however small that is.
+TEST(Rest, IsReachedHoweverLittleTheWaterInAJointLeaves) {
   Engine engine(147);
   const double weight = 4 * 2 * 2000 * 10, area = 4;  // N, m² for each metre
   for (int k = 0; k < 24; ++k) {
-    // true motion lifts what weighs next to nothing, and time brings it back
+    // true motion lifts the almost weightless block, which returns in time
     const std::string statics = std::vector{"adaptive", "newton", "local"}[k % 3];
     const double left = std::pow(10, std::uniform_real_distribution<>(statics == "local" ? -3 : -9, -1)(engine));
     const std::string scene = fmt::format(R"(
@@ -186,13 +186,13 @@ water = [{{ name = "seep", pressure = {:.17g}, duration_s = 0.1 }}]
                                           statics, weight / area * (1 - left));
     const Progress<2> progress = run_of<2>(scene);
     ASSERT_EQ(progress.results.outcome, Outcome::done) << left << ' ' << progress.results.message;
-    // 1e-6 of the water's force may be left, and the water's force and the weight are rounded
+    // 1e-6 of the water's force may be unbalanced, and the water's force and the weight are rounded
     EXPECT_NEAR(progress.results.find("bed_normal_force")->value, left * weight, 2e-6 * weight) << left;
   }
 }
 
-// A lining that its rock leaves on all sides has nothing to rest on.
-TEST(Rest, IsNotAwaitedOfALiningThatHasLeftItsRock) {
+// A lining that has lost contact with the rock on all sides has no equilibrium.
+TEST(Rest, IsNotExpectedOfALiningThatHasLeftItsRock) {
   const Prepared<2> prepared =
       scene_of(lined_opening::rock + lined_opening::held + lined_opening::shell + lined_opening::dig);
   Progress<2> progress = initial_progress(prepared);
@@ -215,8 +215,8 @@ TEST(Rest, IsNotAwaitedOfALiningThatHasLeftItsRock) {
   EXPECT_NE(report.detail.find("'shell'"), std::string::npos) << report.detail;
 }
 
-// What a limit of steps cut off is said: each ramp with how far it has come, else how long rest has lasted.
-TEST(Rest, WhatALimitOfStepsCutOffIsSaid) {
+// Unfinished work at a limit of steps is reported: each ramp with its progress, else the duration of equilibrium.
+TEST(Rest, UnfinishedWorkAtALimitOfStepsIsReported) {
   const std::string scene = R"(
 dimension = 2
 gravity = [0, -10]
@@ -244,7 +244,7 @@ water = [{ name = "seep", pressure = 2e4, duration_s = 1 }]
   const std::string both = message({"stage.settle.step_limit=10", "stage.settle.gravity_ramp_s=0.1"});
   EXPECT_NE(both.find("; not reached: gravity (at 10 % of 0.1 s)"), std::string::npos) << both;
   const std::string window = message({"stage.settle.step_limit=2000", "equilibrium.window=10000"});
-  EXPECT_NE(window.find("; not reached: rest in 10000 steps in a row (equilibrium.window), it lasted for"),
+  EXPECT_NE(window.find("; not reached: equilibrium in 10000 consecutive steps (equilibrium.window), it lasted for"),
             std::string::npos)
       << window;
 }

@@ -18,18 +18,18 @@ KeyTable damping_keys() {
      .breaks = "adaptive is for what is nearly at rest; where the way to rest is an event, as in a fall, choose local"},
     {.key = "increments", .members = {in(&DampingSettings::increments)}, .unit = "1", .range = {1, 1000},
      .example = "4",
-     .meaning = "newton: increments in which a ramp of gravity, or a fall of friction in a search, is put on; a joint that "
-         "slips within one slips along its chord",
-     .breaks = "the cost goes with them"},
+     .meaning = "newton: increments in which a ramp of gravity, or a fall of friction in a search, is applied; slip within one increment "
+         "is integrated in one step",
+     .breaks = "the cost is proportional to their number"},
     {.key = "local", .members = {in(&DampingSettings::local)}, .unit = "1", .range = fraction,
      .plausible = {.low = 0.01, .high = 0.95, .or_zero = true}, .example = "0",
-     .meaning = "fraction by which each force component is lessened when it drives the motion (Cundall); a stage takes what "
-         "it leaves out from the scene; 0 in stages of kind run where neither states it",
-     .repair = "0 for dynamics, 0.7 to reach rest",
-     .breaks = "0 never comes to rest by itself; above 0.9 failure is delayed"},
+     .meaning = "fraction by which each force component is reduced when it drives the motion (Cundall); a stage that does not state it "
+         "takes the scene's; 0 in stages of kind run if neither states it",
+     .repair = "0 for dynamics, 0.7 to reach equilibrium",
+     .breaks = "at 0 the model does not come to equilibrium by itself; above 0.9 failure is delayed"},
     {.key = "viscous_ratio", .members = {in(&DampingSettings::viscous_ratio)}, .unit = "1", .range = {0, 10},
      .plausible = {.low = 1e-3, .high = 1, .or_zero = true}, .example = "0.1",
-     .meaning = "dashpot normal to every contact, as a fraction of critical damping",
+     .meaning = "normal dashpot of every contact, as a fraction of critical damping",
      .breaks = "large values shorten the time step"},
   }};
 }

@@ -1,5 +1,5 @@
-// The tables of a scene, a file for each: its keys, what they mean and where their values go. `keys.cpp` lists them in
-// the order of the page.
+// The tables of a scene, one file each: keys, meanings and the members that receive the values. `keys.cpp` lists them
+// in the order of the page.
 #pragma once
 
 #include "core/scene/keys/members.hpp"
