@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# install_packages.sh PURPOSE…: installs the packages of packages.txt for these purposes that this machine lacks, and says
-# before which and how large; silent if nothing is missing.
+# install_packages.sh PURPOSE…: installs the packages of packages.txt for these purposes that this machine lacks, and prints
+# them and their size before; silent if nothing is missing.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 missing=()

@@ -111,7 +111,7 @@ std::string drawn(const Curve& curve, const Axis& x, const Axis& y, const char* 
   return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", path, colour);
 }
 
-// from low to high, told apart without colours too: its lightness rises evenly (viridis, five of its colours)
+// from low to high, readable without colour too: the lightness rises evenly (viridis, five of its colours)
 std::string shade(double fraction) {
   constexpr int stops[][3] = {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
   const double at = std::clamp(fraction, 0.0, 1.0) * 4;
