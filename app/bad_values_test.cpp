@@ -190,7 +190,7 @@ const Harmless harmless[] = {
     {"bolts", "pretension", "0", is_default},
     {"bolts", "dowel_stiffness", "0", is_default},
     {"bolts", "free_length", "0", is_default},
-    {"bolts", "rupture_extension", "0", "it breaks where it yields"},
+    {"bolts", "rupture_extension", "0", "it breaks when it yields"},
     {"bolts", "from", "any", "another bolt; one that crosses no joint or ends in the open is reported"},
     {"bolts", "to", "any", "another bolt; one that crosses no joint or ends in the open is reported"},
     {"fan", "centre", "any", "other bolts; those that cross no joint or end in the open are reported"},

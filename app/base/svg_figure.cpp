@@ -145,7 +145,7 @@ std::string drawn_mark(MapMark mark, double x, double y, double half) {
   return mark == MapMark::cross ? cross(x, y, half) : ring(x, y, half);
 }
 
-// the scale beside a map, with the marks that it uses
+// the scale next to a map, with the marks that it uses
 std::string map_legend(const MapFigure& figure, double low, double high) {
   constexpr double x = 620, wide = 20, steps = 50;
   std::string text;
@@ -219,7 +219,7 @@ std::string svg_map(const MapFigure& figure) {
 }
 
 std::string stereonet_svg(const std::string& title, const std::vector<PoleSet>& sets) {
-  constexpr std::size_t most_named = 14;  // beside the net
+  constexpr std::size_t most_named = 14;  // next to the net
   std::string text = head(title);
   for (const double fraction : {1.0, 2.0 / 3, 1.0 / 3}) {
     // circles of equal plunge: 0, 30, 60 degrees

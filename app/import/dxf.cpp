@@ -161,7 +161,7 @@ class DxfReader {
     else if (entity_.number(62, 0) < 0)
       hidden_layers_[upper_case(name->text)] = "is switched off";
   }
-  // why the drawing does not show the entity; empty where it does
+  // why the drawing does not show the entity; empty if it does
   std::string hidden() const {
     if (entity_.number(67, 0) == 1) return "an entity of the paper space (67 = 1), which is not part of the model";
     if (entity_.number(60, 0) == 1) return "an entity that is invisible (60 = 1)";
@@ -229,10 +229,10 @@ class DxfReader {
   }
   // of a flat polyline, whose vertices have no individual height
   double elevation(const Entity& head, double height_of_vertex) {
-    const double height = head.number(30, 0), beside = std::abs(height_of_vertex - height);
-    if (beside > 0 && entity_.find(30)) {
+    const double height = head.number(30, 0), difference = std::abs(height_of_vertex - height);
+    if (difference > 0 && entity_.find(30)) {
       if (heights_++ == 0) first_height_ = entity_.line;
-      largest_height_ = std::max(largest_height_, beside * place_.metres());
+      largest_height_ = std::max(largest_height_, difference * place_.metres());
     }
     return height;
   }

@@ -217,7 +217,7 @@ void add_import(CLI::App& program, Action& action) {
           "and LWPOLYLINE of an ASCII DXF, its layers are sets; traces: GeoJSON lines in a plane")
       ->required()
       ->check(CLI::IsMember({"facets", "fab", "dxf", "traces"}));
-  command->add_option("--out", arguments.out, "the table, e.g. joints.csv beside the scene")
+  command->add_option("--out", arguments.out, "the table, e.g. joints.csv in the folder of the scene")
       ->required()
       ->check(plain_text())
       ->type_name("FILE");

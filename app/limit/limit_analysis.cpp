@@ -165,7 +165,7 @@ void seek_friction(const LimitRequest& request, LimitAnalysis& analysis) {
   }
 }
 
-// the load whose factor is sought, beside gravity or instead of it
+// the load whose factor is sought, in addition to gravity or instead of it
 struct LiveLoad {
   std::string sought, if_any;  // if_any: the reason, or the repair, if any factor is carried
   Loads loads;                 // none: gravity itself is sought
@@ -181,7 +181,7 @@ LiveLoad pushed(const Model<2>& model, double direction, const char* side) {
 LiveLoad applied(const Model<2>& model, const StagePlan& stage) {
   Change forces;
   forces.force = stage.change.force;
-  return {fmt::format("multiple of the applied forces of stage '{}' at collapse, beside gravity", stage.name),
+  return {fmt::format("multiple of the applied forces of stage '{}' at collapse, in addition to gravity", stage.name),
           "they press the blocks against fixed ones, or wedge them there",
           loads_of_applied_forces(apply(model, forces))};
 }

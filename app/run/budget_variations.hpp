@@ -50,7 +50,7 @@ std::vector<Search> searches_of(const LoadedScene& scene);
 // an override of one key
 std::string set(const std::string& path, std::string_view key, double value);
 
-// whether a table says `key = true`
+// whether a table states `key = true`
 bool states(const Node& table, std::string_view key);
 
 }  // namespace voussoir

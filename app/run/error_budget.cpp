@@ -201,7 +201,7 @@ struct BudgetedRuns {
       return !run.ends_with(from_afar) && !moved_nothing(run, results);
     };
     if (closer.empty() || std::ranges::none_of(names, moved)) return true;
-    const Variation nothing{"search", "begun near the answer", 1, 0, [](double) { return std::vector<std::string>(); }};
+    const Variation nothing{"search", "begun near the result", 1, 0, [](double) { return std::vector<std::string>(); }};
     const std::string run = folder_of(nothing, of.name);
     if (carry_out_runs({run_of(nothing, folder / "scene.toml", of.settings, closer, run)}, options).interrupted)
       return false;
@@ -276,7 +276,7 @@ bool add_budget(const LoadedScene& scene, const BudgetRuns& of, const fs::path& 
     }
     if (!runs.path.empty()) {
       const double shift = runs.found(runs.path, name).result->value - value.value;
-      value.budget.push_back({"search", "begun near the answer", shift, shift, false});
+      value.budget.push_back({"search", "begun near the result", shift, shift, false});
     }
     if (!value.budget.empty()) combine(other, value);
     judge_level(scene, name, value, results.warnings);

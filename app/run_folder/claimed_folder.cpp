@@ -37,7 +37,7 @@ std::string host() {
 }
 
 // also a dangling link
-bool stands(const fs::path& path) {
+bool entry_exists(const fs::path& path) {
   std::error_code error;
   return fs::exists(fs::symlink_status(path, error));
 }
@@ -83,7 +83,7 @@ bool is_safe(const std::string& name) {
 
 // nothing if there is no list, or one that cannot be read: then no file there is ours
 std::optional<Outputs> made_in(const fs::path& folder) {
-  if (!stands(folder / made_file)) return std::nullopt;
+  if (!entry_exists(folder / made_file)) return std::nullopt;
   try {
     const json list = json::parse(read_file(folder / made_file, largest_list));
     if (list.at("schema") != "voussoir.made" || list.at("schema_version") != 1) return std::nullopt;
@@ -110,7 +110,7 @@ void write_made(const fs::path& folder, const Outputs& outputs) {
 std::vector<fs::path> standing(const fs::path& folder, const Outputs& outputs) {
   std::vector<fs::path> files;
   for (const std::string& name : outputs.files)
-    if (stands(folder / name)) files.emplace_back(name);
+    if (entry_exists(folder / name)) files.emplace_back(name);
   if (!outputs.frames) return files;
   const std::vector<fs::path> series = series_files(folder);
   files.insert(files.end(), series.begin(), series.end());
@@ -139,9 +139,9 @@ BadInput folder_is_taken(const fs::path& folder) {
 // whether results of an older command are complete, or can still be completed
 void refuse_results(const fs::path& folder, const Outputs& outputs, const std::optional<Outputs>& made) {
   const auto has = [&](const char* name) {
-    return stands(folder / name) && (holds(outputs.files, name) || is_made(made, name));
+    return entry_exists(folder / name) && (holds(outputs.files, name) || is_made(made, name));
   };
-  if (has("results.json") || (made && stands(folder / made->files.front()))) throw folder_is_taken(folder);
+  if (has("results.json") || (made && entry_exists(folder / made->files.front()))) throw folder_is_taken(folder);
   if (has("run.json"))
     throw BadInput(
         fmt::format("'{0}' contains an interrupted run: continue with 'voussoir resume {0}', or add "
@@ -203,7 +203,7 @@ void remove_older(const fs::path& folder, const Outputs& outputs, const std::vec
 // before the lock is made: a refused folder is left unchanged
 const fs::path& checked(const fs::path& folder, const Outputs& outputs, const std::vector<fs::path>& inputs,
                         bool overwrite) {
-  if (!stands(folder / lock_file)) require_free(folder, outputs, inputs, overwrite);
+  if (!entry_exists(folder / lock_file)) require_free(folder, outputs, inputs, overwrite);
   return folder;
 }
 

@@ -56,7 +56,7 @@ def largest(vectors):
 def warped(data, vectors, scale=1):
     """The data's points after Warp By Vector."""
     array = vtk.vtkDoubleArray()
-    array.SetName("way")
+    array.SetName("displacement")
     array.SetNumberOfComponents(3)
     for vector in vectors:
         array.InsertNextTuple(vector)
@@ -110,17 +110,17 @@ frames = frames_of(folder, "blocks.pvd")
 assert len(frames) >= 5, len(frames)
 start = frames[0][1]
 for time, frame in frames:
-    way = tuples(frame, "displacement")
-    single = 2**-23 * largest(way) + 1e-14
-    assert largest(less(warped(start, less(way, tuples(start, "displacement"))), points(frame))) <= single, time
+    displacement = tuples(frame, "displacement")
+    single = 2**-23 * largest(displacement) + 1e-14
+    assert largest(less(warped(start, less(displacement, tuples(start, "displacement"))), points(frame))) <= single, time
     # as in ParaView: the frame's own array, with a scale of -1
     frame.GetPointData().SetActiveVectors("displacement")
-    assert largest(less(warped(frame, way, -1), warped(start, tuples(start, "displacement"), -1))) <= single, time
+    assert largest(less(warped(frame, displacement, -1), warped(start, tuples(start, "displacement"), -1))) <= single, time
 for (_, frame), (time, following) in zip(frames, frames[1:]):
-    ways = tuples(frame, "displacement"), tuples(following, "displacement")
-    single = 2**-23 * largest(ways[1]) + 1e-14
-    assert largest(less(warped(frame, less(ways[1], ways[0])), points(following))) <= single, time
-    moved = less(ways[1], ways[0])
+    displacements = tuples(frame, "displacement"), tuples(following, "displacement")
+    single = 2**-23 * largest(displacements[1]) + 1e-14
+    assert largest(less(warped(frame, less(displacements[1], displacements[0])), points(following))) <= single, time
+    moved = less(displacements[1], displacements[0])
     assert max(x for x, _, _ in moved) - min(x for x, _, _ in moved) > 0.05, "nothing turns"
 
 # Over two intervals dt the mean velocity has an error of spin³ × arm × dt² / 6, and the written one is half a step old: spin² ×
