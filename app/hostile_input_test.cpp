@@ -1,4 +1,4 @@
-// Scenes that claim too much, and files that are none: refused in one line, exit code 2, in little memory and time.
+// Scenes that ask for too much, and invalid files: refused in one line, exit code 2, with little memory and time.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 using namespace program;
 
-// kilobytes of memory and seconds of processor time; a program that needs more is killed, which its code shows.
+// kilobytes of memory and seconds of processor time; a program that needs more is killed, as its exit code shows.
 // Sanitizers reserve terabytes.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 const std::string limits = "ulimit -t 60 && ";
@@ -179,7 +179,7 @@ TEST_F(Hostile, JointSetsOfTooManyJointsAreRefusedBeforeTheyAreDrawn) {
       "stage = [{ name = \"s\", kind = \"settle\" }]\n[[joint_sets]]\nname = \"A\"\ndip = 0\n";
   refused_text(scene + "spacing = 1e-12\n", "more than 1e+06");
   refused_text(scene + "intensity = 1e12\n", "more than 1e+06");
-  // a law whose large joints come from everywhere
+  // a distribution whose large joints may be centred anywhere
   refused_text(scene + "intensity = 1\nsize = \"lognormal\"\nsize_mean = 1e-6\nsize_deviation = 1e12\n",
                "more than 1e+06");
 }

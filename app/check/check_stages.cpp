@@ -12,7 +12,7 @@ namespace voussoir {
 namespace {
 
 struct PlanText {
-  std::string operator()(const SettlePlan& plan) const { return "settle until at rest" + gravity(plan.gravity); }
+  std::string operator()(const SettlePlan& plan) const { return "settle until equilibrium" + gravity(plan.gravity); }
   std::string operator()(const RunPlan& plan) const {
     return fmt::format("run for {:g} s", plan.duration) + gravity(plan.gravity);
   }
@@ -33,11 +33,11 @@ struct PlanText {
     return fmt::format("by bisection to {:g}", plan.tolerance);
   }
   static std::string gravity(const GravityPlan& plan) {
-    if (plan.ramp > 0 && !plan.to && plan.from == 0) return fmt::format(", gravity put on within {:g} s", plan.ramp);
+    if (plan.ramp > 0 && !plan.to && plan.from == 0) return fmt::format(", gravity applied within {:g} s", plan.ramp);
     if (plan.ramp > 0)
-      return fmt::format(", gravity taken from {:g} to {:g} times itself within {:g} s", plan.from, plan.to.value_or(1),
-                         plan.ramp);
-    return plan.to ? fmt::format(", under {:g} times the gravity", *plan.to) : "";
+      return fmt::format(", gravity changed from {:g} to {:g} times its value within {:g} s", plan.from,
+                         plan.to.value_or(1), plan.ramp);
+    return plan.to ? fmt::format(", under {:g} times gravity", *plan.to) : "";
   }
   static std::string how(const ReducePlan& plan) {
     switch (plan.method) {
@@ -83,7 +83,7 @@ std::string move_text(const MovePlan& move) {
   return text + factor_text(move.factor);
 }
 
-// what happens to the model before the stage, and what is forced upon it within
+// changes of the model before the stage, and motions and loads prescribed during it
 std::string change_text(const Change& change) {
   std::string text;
   for (const MovePlan& move : change.move)
@@ -93,7 +93,7 @@ std::string change_text(const Change& change) {
         fmt::format("; stress {} = {} Pa on outer faces of blocks",
                     plan.stress.size() == 3 ? "(xx, yy, xy)" : "(xx, yy, zz, yz, zx, xy)", numbers_text(plan.stress));
     if (plan.in_situ)
-      text += fmt::format(" and that of {:g} N/m³ below {:g} m, horizontally {:g}{} times as much",
+      text += fmt::format(" plus the stress of {:g} N/m³ below {:g} m, horizontally {:g}{} times as much",
                           plan.in_situ->unit_weight.value(), plan.in_situ->surface, plan.in_situ->k0,
                           plan.in_situ->k0_y ? fmt::format(", along y {:g}", *plan.in_situ->k0_y) : "");
   }
@@ -125,10 +125,10 @@ std::string damping_text(const DampingSettings& damping, bool seeks_rest) {
   if (damping.viscous_ratio > 0) text += fmt::format("{}viscous {:g}", text.empty() ? "" : ", ", damping.viscous_ratio);
   std::string rest;
   if (relaxes(seeks_rest, damping))
-    rest =
-        damping.statics == Statics::newton
-            ? fmt::format("; to rest by Newton's method in {} increments, confirmed by relaxation", damping.increments)
-            : "; to rest by relaxation";
+    rest = damping.statics == Statics::newton
+               ? fmt::format("; static solution by Newton's method in {} increments, confirmed by relaxation",
+                             damping.increments)
+               : "; static solution by relaxation";
   return (text.empty() ? "none" : text) + rest;
 }
 

@@ -1,4 +1,4 @@
-// What `voussoir check` tells of the stages: what each changes, prescribes and seeks.
+// The lines of `voussoir check` about the stages: what each changes, prescribes and seeks.
 #pragma once
 
 #include <string>

@@ -55,10 +55,10 @@ bool asks_for_newton(const DampingSettings& damping, const std::vector<StagePlan
 
 namespace {
 
-constexpr double relaxed_fraction = 0.9;  // of the stability limit: what relaxation takes for its step
+constexpr double relaxed_fraction = 0.9;  // of the stability limit: the step of relaxation
 
-// Overlap at which the joints under a body carry its weight: u such that sum k A (n·g)² u = W over its faces that look
-// down and may meet another. 0 without gravity or without such a face.
+// Overlap at which the joints under a body support its weight: u such that sum k A (n·g)² u = W over its faces that
+// look down and may touch another. 0 without gravity or without such a face.
 template <int Dim>
 double own_weight_overlap(const Model<Dim>& model, const std::vector<bool>& used, const Body<Dim>& body) {
   const double g = model.gravity.norm();
@@ -78,9 +78,9 @@ double own_weight_overlap(const Model<Dim>& model, const std::vector<bool>& used
   return stiffness > 0 ? body.mass * g / stiffness : 0;
 }
 
-// Time in which a block that bounces on its joint comes down to the fraction `rest` of its first swing. Local damping
-// (fraction α) drives every swing inwards with 1-α and outwards with 1+α of the force, the dashpot takes ξω of the
-// amplitude per time. Relaxation damps critically.
+// Time in which the oscillation of a block on its joint decays to the fraction `rest` of its first amplitude. Local
+// damping (fraction α) leaves 1-α of the force inwards and 1+α outwards, the dashpot reduces the amplitude at the rate
+// ξω. Relaxation damps critically.
 double settling_time(double overlap, double g, const DampingSettings& damping, double rest) {
   if (relaxes(true, damping)) return -std::log(rest) / std::sqrt(g / overlap);
   const double frequency = std::sqrt(g / overlap), in = std::sqrt(1 - damping.local),
@@ -117,10 +117,10 @@ struct Forecaster {
     return 0;
   }
   double ramp(const ReducePlan& plan) const { return static_cast<double>(plan.ramp_steps) * time_step; }
-  // a trial ends at rest, or when a body has slid away at a tenth of gravity
+  // a trial ends in equilibrium, or when a body has slid away at a tenth of gravity
   double trial(const ReducePlan& plan) const {
-    const double way = plan.failure_displacement > 0 ? plan.failure_displacement : 0.1 * smallest;
-    const double sliding = g > 0 && !relaxed ? std::sqrt(2 * way / (0.1 * g)) : 0;
+    const double distance = plan.failure_displacement > 0 ? plan.failure_displacement : 0.1 * smallest;
+    const double sliding = g > 0 && !relaxed ? std::sqrt(2 * distance / (0.1 * g)) : 0;
     return ramp(plan) + std::max(settling, sliding);
   }
 };
@@ -131,11 +131,11 @@ EstimateKind kind_of(const StagePlan& stage) {
   return plan && plan->method != ReductionMethod::bisection ? EstimateKind::at_most : EstimateKind::at_least;
 }
 
-// Of linings together. A chain of n beams bends in modes whose frequencies range as n² to 1: so many steps a method
-// that goes by the stiffest takes until the slowest is at rest.
+// Of all linings. A chain of n beams bends in modes whose frequencies range as n² to 1: an explicit method, whose step
+// the stiffest mode limits, takes about n² steps until the slowest is in equilibrium.
 struct LiningCost {
   double step_limit;  // s: of the beams' stiffest mode
-  double steps = 0;   // to rest, about; not by Newton's method
+  double steps = 0;   // to equilibrium, about; not by Newton's method
 };
 
 template <int Dim>
@@ -197,10 +197,10 @@ void find_overlaps(const Model<Dim>& model, Forecast& result) {
   }
 }
 
-// the block with most neighbours, and the memory of a run: a step keeps two lists of pairs while one is renewed
+// the block with most neighbours, and the memory of a run: a step has two lists of pairs while one is renewed
 template <int Dim>
 void find_crowd(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state, Forecast& result) {
-  constexpr double memory_of_a_block = 10e3;  // bytes, measured over whole runs
+  constexpr double memory_of_a_block = 10e3;  // bytes, measured in complete runs
   result.memory = memory_of_a_block * static_cast<double>(model.bodies.size()) +
                   2.0 * static_cast<double>(state.contacts.list.size() * sizeof(Contact<Dim>) +
                                             state.contacts.subs.size() * sizeof(SubContact<Dim>));

@@ -1,4 +1,4 @@
-// Repairs that name the mistake in a scene or in a table that it names.
+// Repairs that name the mistake in a scene or in one of its tables.
 #include "app/testing/checked_scene.hpp"
 
 namespace voussoir {
@@ -49,7 +49,7 @@ TEST_F(Repair, OfScenesNamesTheMistake) {
   refused(utf_16("dimension = 3\n"), "is written in UTF-16; save it as UTF-8");
 }
 
-TEST_F(Repair, OfAFolderThatMustNotBeEnteredSaysSo) {
+TEST_F(Repair, OfAFolderWithoutPermissionNamesTheFolder) {
   if (::geteuid() == 0) GTEST_SKIP() << "root enters every folder";
   fs::create_directories(folder_ / "closed");
   write("closed/scene.toml",
