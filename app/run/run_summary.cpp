@@ -87,9 +87,8 @@ void print_summary(const std::string& title, const Results& results, const std::
     fmt::print("  bonds: {} made, {} whole, {} broken, {} removed with their blocks; {} joints have not pressed yet\n",
                bonds->made, bonds->whole, bonds->broken, bonds->removed, bonds->due);
   print_moved(results.moved);
-  if (results.relief_left > 0)
-    fmt::print("  let_off: a share of {:g} of the forces by which excavated rock held the rest still acts\n",
-               results.relief_left);
+  if (results.forces_remaining > 0)
+    fmt::print("  excavation_forces: {} at the end\n", remaining_text(results.forces_remaining));
   print_cost(results, rounds);
   fmt::print("results: {}\n", folder.string());
 }

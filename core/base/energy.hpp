@@ -23,7 +23,7 @@ enum class Source {
   applied_forces,
   water,
   water_pressure,
-  let_off,
+  excavation_forces,
   bolts,
   lining,
   prescribed_motion,
@@ -50,7 +50,7 @@ struct SourceRow {
   std::string_view name;
   std::string_view monitored;  // as a quantity of monitors, which adds up all sources of one word; empty: none
   int motion;                  // what the motion gets
-  int springs;    // what springs that store energy (EnergyLedger::elastic) lose; loads with a spring have 1 here
+  int springs;    // what springs that store energy (EnergyBalance::elastic) lose; loads with a spring have 1 here
   int potential;  // potential energy of gravity and of water
   int damping;    // lost to damping
   int external;   // put in from outside
@@ -62,7 +62,7 @@ inline constexpr std::array<SourceRow, source_count> source_table{{
     {Source::applied_forces, "applied_forces", "applied_load", 1, 0, 0, 0, 1},
     {Source::water, "water", "water_load", 1, 0, -1, 0, 0},  // one table on all faces: it has a potential
     {Source::water_pressure, "water_pressure", "water_load", 1, 0, 0, 0, 1},  // others: on some faces, or several
-    {Source::let_off, "let_off", "", 1, 0, 0, 0, 1},                          // what excavated rock still holds
+    {Source::excavation_forces, "excavation_forces", "", 1, 0, 0, 0, 1},      // what excavated rock still holds
     {Source::bolts, "bolts", "bolt_load", 1, 1, 0, 0, 0},
     {Source::lining, "lining", "lining_load", 1, 1, 0, 0, 0},  // its beams and its interface
     {Source::prescribed_motion, "prescribed_motion", "", 1, 0, 0, 0, 1},
@@ -93,9 +93,9 @@ struct BySource {
 // kick.
 using EnergyFlows = BySource<double, source_count>;
 
-enum class LedgerPhase { not_begun, model_changed, running };
+enum class BalancePhase { not_begun, model_changed, running };
 
-struct EnergyLedger {
+struct EnergyBalance {
   EnergyFlows flows;
   double kinetic = 0;  // ½ m v₋·v₊ and the same for spins (v₋, v₊: half a step before and after): negative at a turn
   double elastic = 0;                             // held by the springs of the touching contacts, of bolts and linings
@@ -103,7 +103,7 @@ struct EnergyLedger {
   double motion_error = 0, contact_error = 0;     // what each balance could not account for
   double worst_error = 0;                         // the largest |motion_error + contact_error| so far
   double largest_energy = 0;                      // the largest entry so far
-  LedgerPhase phase = LedgerPhase::not_begun;
+  BalancePhase phase = BalancePhase::not_begun;
 
   // the flows, each as often as its row says in that column
   double sum(int SourceRow::*column) const;
@@ -115,11 +115,11 @@ struct EnergyLedger {
   // kinetic + elastic + potential + friction + damping + stiffening - external, against the start
   double unexplained() const { return motion_error + contact_error; }
 
-  // the unexplained at its worst as a fraction of the largest energy the ledger saw
+  // the unexplained at its worst as a fraction of the largest energy so far
   double relative_error() const { return largest_energy > 0 ? worst_error / largest_energy : 0; }
 };
 
 // Checks both balances at the time of the positions: `kinetic`, `elastic` and the flows must be those of this time.
-void balance(EnergyLedger& ledger);
+void balance(EnergyBalance& energy);
 
 }  // namespace voussoir

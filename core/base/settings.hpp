@@ -59,20 +59,22 @@ struct ContactSettings {
 
 enum class Statics { adaptive, local, newton };
 
-struct DampingSettings {
+struct StaticsSettings {
   // how a run that ends at rest gets there. adaptive: dynamic relaxation with scaled inertia, in which time, velocities
-  // and dashpots mean nothing; local: the true motion under the damping below, the thesis' way, ten to a hundred times
+  // and dashpots mean nothing; local: the true motion under its damping, the thesis' way, ten to a hundred times
   // slower for many blocks, and right where the way to rest is an event, like a fall. newton: Newton's method on the
   // joints' stiffness, which relaxation then confirms
-  Statics statics = Statics::adaptive;
-
-  // Cundall's non-viscous damping: each force component is lessened by this fraction when it drives the motion; 0..<1.
-  // Reaches rest, but delays failure; 0 for dynamics, and in a scene's stages of kind run unless it is stated
-  double local = 0.7;
+  Statics method = Statics::adaptive;
 
   // newton: increments in which a ramp of gravity, or a fall of friction in a search, is put on; a joint that slips
   // within one slips along its chord. The cost goes with them
   int increments = 1;
+};
+
+struct DampingSettings {
+  // Cundall's non-viscous damping: each force component is lessened by this fraction when it drives the motion; 0..<1.
+  // Reaches rest, but delays failure; 0 for dynamics, and in a scene's stages of kind run unless it is stated
+  double local = 0.7;
 
   // ratio to critical of the dashpot in every contact's normal direction; 0..; lowers the stable time step
   double viscous_ratio = 0;
@@ -98,6 +100,7 @@ struct EquilibriumSettings {
 
 struct Settings {
   ContactSettings contact;
+  StaticsSettings statics;
   DampingSettings damping;
   TimeSettings time;
   EquilibriumSettings equilibrium;
@@ -224,11 +227,11 @@ struct FrictionPlan {
   double friction = 0;  // rad
 };
 
-// How the forces by which excavated rock held the rest are let off: linearly from the share that still acts to this
-// one, or not at all where no more acts.
-struct LetOffPlan {
-  double share = 0;     // of what acted before the excavation
-  double duration = 0;  // s, from the begin of the stage on
+// The forces by which excavated rock supported the rest: they fall linearly from the share that still acts to this one,
+// or stay if no more acts.
+struct ExcavationForcesPlan {
+  double remaining = 0;  // as a fraction of the forces before the excavation
+  double duration = 0;   // s, from the begin of the stage on
 };
 
 // what changes in the model between two stages
@@ -248,15 +251,17 @@ struct Change {
 struct StagePlan {
   std::string name;
   std::variant<SettlePlan, RunPlan, ReducePlan> plan;
-  Change change;                           // applied before the stage begins
-  std::vector<WaterPlan> water{};          // of kind settle or run
-  std::optional<LetOffPlan> let_off{};     // likewise; without it what is excavated is gone at once
-  std::optional<DampingSettings> damping;  // replaces the scene's within this stage
-  std::optional<double> time_fraction;     // the same of TimeSettings::fraction
+  Change change;                                            // applied before the stage begins
+  std::vector<WaterPlan> water{};                           // of kind settle or run
+  std::optional<ExcavationForcesPlan> excavation_forces{};  // likewise; without it they are removed at once
+  std::optional<StaticsSettings> statics;                   // replaces the scene's within this stage
+  std::optional<DampingSettings> damping;                   // likewise
+  std::optional<double> time_fraction;                      // the same of TimeSettings::fraction
 };
 
 // what is in force within a stage
 inline Settings settings_of(const StagePlan& stage, Settings scene) {
+  scene.statics = stage.statics.value_or(scene.statics);
   scene.damping = stage.damping.value_or(scene.damping);
   scene.time.fraction = stage.time_fraction.value_or(scene.time.fraction);
   return scene;

@@ -167,7 +167,7 @@ TEST(CoplanarFacets, ActAsOneFaceOfASoftJoint) {
 // Between faces that lean Newton's method leaves what its one increment slips: 1e-8 to 5e-7 rad, single faces too.
 TEST(CoplanarFacets, ActAsOneFaceForNewtonsMethodOnJoints) {
   Case c{.rest = 0.05};
-  c.settings.damping.statics = Statics::newton;
+  c.settings.statics.method = Statics::newton;
   expect_noise_to_be_harmless<3>(c, 75, some_noises);
   expect_noise_to_be_harmless<2>(c, 76, some_noises);
 }

@@ -1,4 +1,4 @@
-// Stress on outer faces: its resultants, what a joint carries under it, and its place in the energy ledger.
+// Stress on outer faces: its resultants, what a joint carries under it, and its place in the energy balance.
 #include "core/load/boundary_stress.hpp"
 
 #include <gtest/gtest.h>
@@ -273,7 +273,7 @@ TEST(BoundaryStress, WorkOnATurningBlockIsItsKineticEnergy) {
   settings.time.step = 1e-4;
   State<3> state = initial_state(model);
   run(model, settings, {.end_time = 0.2}, {.properties = {}}, state);
-  const EnergyLedger& e = state.ledger.energy;
+  const EnergyBalance& e = state.ledger.energy;
   EXPECT_GT(rotation_vector(state.bodies.motions[0].rotation).norm(), 1e-3);
   EXPECT_NEAR(e.kinetic, e.external(), 1e-3 * e.kinetic) << "the flow is half of 2,000 steps' last ahead";
   EXPECT_LT(std::abs(e.flows[Source::contacts]), 1e-12 * e.largest_energy);

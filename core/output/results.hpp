@@ -128,8 +128,8 @@ struct Results {
   Counters counters;
   std::optional<BondCount> bonds;  // where a stage makes some
   std::vector<MovedBody> moved;    // by stage, the farthest first
-  double relief_left = 0;          // share of the forces of excavated rock that still acts at the end, the largest
-  EnergyLedger energy;
+  double forces_remaining = 0;     // share of the forces of excavated rock that still acts at the end, the largest
+  EnergyBalance energy;
   std::string state_hash;             // of the last state (core/model/state_hash.hpp)
   std::vector<std::string> warnings;  // one line each: what the run itself showed to be doubtful
   double seconds = 0;                 // wall clock

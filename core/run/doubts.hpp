@@ -1,4 +1,4 @@
-// What of a run is to be doubted: an energy ledger that does not close, an angle below what its level promises.
+// What of a run is to be doubted: an energy balance that does not close, an angle below what its level promises.
 #pragma once
 
 #include <span>
@@ -12,9 +12,9 @@
 
 namespace voussoir {
 
-// A warning with which of the two balances is open and what of the run opens it; empty when the ledger closes.
+// A warning with which of the two balances is open and what of the run opens it; empty when the balance closes.
 // `stages`: those that were begun, under the scene's settings.
-std::string doubts_of(const EnergyLedger& energy, std::span<const StagePlan> stages, const Settings& scene);
+std::string doubts_of(const EnergyBalance& energy, std::span<const StagePlan> stages, const Settings& scene);
 
 // A warning for each critical angle below those for which an accuracy level, empty for none, keeps its promise.
 std::vector<std::string> doubts_of_level(std::string_view level, const Results& results);

@@ -191,7 +191,7 @@ TEST(WholeFaces, CarryTheirStressWhenTheyLoseASide) {
 
 // what the ledger leaves open as a block rocks and twists on its face
 template <int Dim>
-double closure_of_rocking(const Spin<Dim>& spin, double fraction) {
+double energy_error_of_rocking(const Spin<Dim>& spin, double fraction) {
   Pressed<Dim> p(1e-4);
   p.settings.time.fraction = fraction;
   Motion<Dim>& motion = p.state.bodies.motions[p.block];
@@ -205,9 +205,9 @@ double closure_of_rocking(const Spin<Dim>& spin, double fraction) {
 }
 
 TEST(WholeFaces, KeepTheirEnergyAsTheyRockAndTwist) {
-  EXPECT_LT(closure_of_rocking<2>(Spin<2>(0.01), 0.02), 1e-6);
-  EXPECT_LT(closure_of_rocking<3>(Spin<3>(0, 0.01, 0), 0.02), 1e-6);
-  EXPECT_LT(closure_of_rocking<3>(Spin<3>(0.005, 0.01, 0.02), 0.02), 1e-5);
+  EXPECT_LT(energy_error_of_rocking<2>(Spin<2>(0.01), 0.02), 1e-6);
+  EXPECT_LT(energy_error_of_rocking<3>(Spin<3>(0, 0.01, 0), 0.02), 1e-6);
+  EXPECT_LT(energy_error_of_rocking<3>(Spin<3>(0.005, 0.01, 0.02), 0.02), 1e-5);
 }
 
 // a block that comes to rest on a face does not turn on it for ever

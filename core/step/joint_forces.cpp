@@ -39,7 +39,7 @@ struct Bearing {
   double stiffness_factor = 1;  // of a constant stiffness
 };
 
-// what some contacts add to the energy ledger, J
+// what some contacts add to the energy balance, J
 struct JointSums {
   double elastic = 0, friction = 0, lost_area = 0, dashpots = 0, stiffening = 0;
   long long snap_backs = 0, bonds_made = 0;

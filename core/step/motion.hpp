@@ -11,7 +11,7 @@ namespace voussoir {
 // what lies in it: counted where it is. Relaxation learns what of the loads' change the water has imposed.
 template <int Dim>
 void add_ramps(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
-               const LoadsState<Dim>& loads, Schedule& schedule, EnergyLedger& energy, Relaxation<Dim>& relaxation);
+               const LoadsState<Dim>& loads, Schedule& schedule, EnergyBalance& energy, Relaxation<Dim>& relaxation);
 
 // A time step that today's contacts allow, then velocities, then positions; or one of relaxation. Contacts change in
 // nothing but the area that they are rated with.

@@ -18,16 +18,16 @@
 namespace voussoir {
 
 // Whether a run relaxes: one that seeks rest, unless it is to come there in true motion.
-inline bool relaxes(bool seeks_rest, const DampingSettings& damping) {
-  return seeks_rest && damping.statics != Statics::local;
+inline bool relaxes(bool seeks_rest, const StaticsSettings& statics) {
+  return seeks_rest && statics.method != Statics::local;
 }
 
-// Whether a stage under this damping begins by relaxation, which stops every body; every reduction begins at rest.
-bool begins_relaxing(const StagePlan& stage, const DampingSettings& damping);
+// Whether a stage under these settings begins by relaxation, which stops every body; every reduction begins at rest.
+bool begins_relaxing(const StagePlan& stage, const StaticsSettings& statics);
 
 // Whether it ends by relaxation, so that its time and its velocities are fictitious; a reduction at constant rate ends
 // in true motion.
-bool ends_relaxed(const StagePlan& stage, const DampingSettings& damping);
+bool ends_relaxed(const StagePlan& stage, const StaticsSettings& statics);
 
 // Stops all bodies; from here on the step relaxes. Changes all but contacts, supports, schedule and counters.
 template <int Dim>

@@ -1,4 +1,4 @@
-// The work of every load over a step, and with it the energy ledger.
+// The work of every load over a step, and with it the energy balance.
 #pragma once
 
 #include <vector>
@@ -14,6 +14,6 @@ namespace voussoir {
 // energy.
 template <int Dim>
 void add_work(const Model<Dim>& model, int threads, const std::vector<Kick<Dim>>& kicks, const LoadsState<Dim>& loads,
-              const Relaxation<Dim>& relaxation, EnergyLedger& energy);
+              const Relaxation<Dim>& relaxation, EnergyBalance& energy);
 
 }  // namespace voussoir

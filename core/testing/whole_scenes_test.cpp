@@ -95,7 +95,7 @@ move = [{ bodies = ["block"], velocity = [0, 0.01] }]
 }
 
 // a column of two blocks on a slope of 20 degrees, which local damping holds up: not the time step opens its ledger
-TEST(EnergyLedger, SaysWhatOpensIt) {
+TEST(EnergyBalance, SaysWhatOpensIt) {
   const std::string text = R"(dimension = 2
 gravity = [3.35521761, -9.21838466]
 density = 2500

@@ -65,7 +65,7 @@ struct InSitu {
 
 // Loads the blocks by what the rock in the opening held them with, the other way round, times `share`: towards the
 // opening under compression. Exact in force and moment.
-void let_off(std::vector<Block>& blocks, const std::vector<Face>& wall, const InSitu& stress, double share = 1);
+void relieve(std::vector<Block>& blocks, const std::vector<Face>& wall, const InSitu& stress, double share = 1);
 
 // A spring at each face that the line from collar to toe crosses, its anchors `offset` (m) to both sides, but not
 // further than the middle of the bolt's stretch in that block; infinite: midway. The first block is nearer to the

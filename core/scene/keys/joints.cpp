@@ -30,7 +30,7 @@ KeyTable joint_keys() {
           {"fictitious", JointKind::fictitious}})},
      .example = "\"construction\"",
      .meaning = "boundary: one side stays whole and fixed; construction: its two sides are one body; fictitious: intact"},
-    {.key = "whole", .members = {one_of(&JointSpec::whole,
+    {.key = "fixed_side", .members = {one_of(&JointSpec::fixed_side,
          {{"below", JointSide::below}, {"above", JointSide::above}})},
      .example = "\"below\"", .required = true, .when = {"kind", "boundary"},
      .meaning = "the side that later joints do not cut and that never moves"},
