@@ -5,7 +5,6 @@
 
 #include "app/check/check_line.hpp"
 #include "core/scene/stage_excavations.hpp"
-#include "core/step/relaxation.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {

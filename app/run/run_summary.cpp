@@ -8,6 +8,7 @@
 
 #include "app/base/progress_line.hpp"
 #include "core/run/stable_state.hpp"
+#include "core/scene/stage_excavations.hpp"
 
 namespace voussoir {
 namespace {

@@ -196,7 +196,7 @@ velocity = [1, 0, 0]
 name = "settle"
 kind = "settle"
 statics = "adaptive"
-static_increments = 1
+static_increments = 4
 damping = {}
 fix = [{ bodies = ["by planes"] }]
 water = [{ name = "lake", level = 0.1, duration_s = 5 }]
