@@ -186,7 +186,7 @@ const Harmless harmless[] = {
     {"in_situ", "surface", "any", "another surface; one far above or below all blocks is reported"},
     {"in_situ", "k0", "0", "no horizontal stress"},
     {"in_situ", "k0_y", "0", "none along y"},
-    {"let_off", "share", "0", "all is let off"},
+    {"excavation_forces", "remaining", "0", "none remains"},
     {"bolts", "pretension", "0", is_default},
     {"bolts", "dowel_stiffness", "0", is_default},
     {"bolts", "free_length", "0", is_default},
@@ -342,8 +342,7 @@ friction_deg = 30
       "[[blocks]]\nname = \"stone\"\nbox = { min = [-0.5, 0], max = [0.5, 1] }\nvelocity = [0.1, 0]\n";
   const std::string listed = "[[initial_velocity]]\nbodies = [\"stone\"]\nangular_velocity = 0.1\n";
   const std::string settle = "[[stage]]\nname = \"rest\"\nkind = \"settle\"\n",
-                    run = "[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = 1\n",
-                    local = "damping = { statics = \"local\" }\n",
+                    run = "[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = 1\n", local = "statics = \"local\"\n",
                     reduce = "[[stage]]\nname = \"rest\"\nkind = \"reduce\"\nfrom_deg = 40\nto_deg = 10\n";
   const auto lost = [&](const std::string& rest) {
     const SceneFile file(head + rest);

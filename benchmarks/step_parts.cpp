@@ -47,7 +47,7 @@ double median(std::vector<double> values) {
 
 // the scene at the end of settling, and a few steps of relaxation from there
 Subject rock_mass(const char* file) {
-  const Prepared<3> scene = prepare<3>(read_scene(file, {"damping.statics=newton"}));
+  const Prepared<3> scene = prepare<3>(read_scene(file, {"statics=newton"}));
   Progress<3> progress = initial_progress(scene);
   simulate(scene, progress, {});
   Subject s{apply(scene.model, scene.stages[0].change), progress.state, scene.settings, true};

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/scene/keys.hpp"
+#include "core/scene/renamed_keys.hpp"
 
 namespace {
 
@@ -30,6 +31,8 @@ int main() {
     for (const std::string_view choice : row.choices)
       words.insert(R"(\")" + std::string(choice) + R"(\")");
   }
+  for (const voussoir::RenamedKey& row : voussoir::renamed_keys)
+    words.insert(std::string(row.earlier.substr(row.earlier.rfind('.') + 1)) + " = ");
   for (const std::string& word : words)
     std::printf("\"%s\"\n", word.c_str());
 }

@@ -237,7 +237,7 @@ std::string ways_table(const std::vector<CaseStudy>& studies) {
     const std::string sweep = setting.at("sweep");
     if (!sweep.starts_with(way_to_rest)) return;
     std::string way = sweep.substr(way_to_rest.size());
-    const bool by_increments = setting.at("key") == "damping.increments";
+    const bool by_increments = setting.at("key") == "static_increments";
     if (by_increments) way += ", " + setting.at("value").get<std::string>();
     std::vector<std::string>& group = by_increments ? newton : marched;
     if (std::ranges::find(group, way) == group.end()) group.push_back(way);

@@ -264,7 +264,7 @@ std::string solvers_text(const ContactSettings& contact) {
 // joints whose laws Newton's method does not support, if it is asked for
 template <int Dim>
 void print_left_to_relaxation(const Prepared<Dim>& prepared) {
-  if (!asks_for_newton(prepared.settings.damping, prepared.stages)) return;
+  if (!asks_for_newton(prepared.settings.statics, prepared.stages)) return;
   std::vector<std::string> names;
   for (const JointProperties& p : prepared.model.properties)
     if (!newton_follows(p)) names.push_back(p.name);
@@ -285,6 +285,7 @@ void print_active(const Scene& stated, const Prepared<Dim>& prepared) {
   print_properties(prepared.model, prepared.settings.contact);
   print_line("gravity", vector_text<Dim>(prepared.model.gravity) + " m/s²");
   print_water(prepared);
+  print_line("statics", statics_text(settings.statics));
   print_line("damping", damping_text(settings.damping));
   print_line("solvers", solvers_text(settings.contact));
   print_stages(prepared.stages, prepared.model.waters);
@@ -327,6 +328,8 @@ ExitCode check_command(const SceneArguments& arguments) {
   std::visit([&](const auto& prepared) { print_active(*scene.stated, prepared); }, scene.prepared);
   for (std::size_t k = 0; k < scene.from_level.size(); ++k)
     print_line(k == 0 ? "by level" : "", scene.from_level[k]);
+  for (std::size_t k = 0; k < scene.stated->renamed.size(); ++k)
+    print_line(k == 0 ? "renamed" : "", scene.stated->renamed[k]);
   const Assessment assessment = assess(scene);
   print_derived(assessment.forecast);
   for (const std::string& warning : assessment.warnings)

@@ -5,7 +5,6 @@
 
 #include "app/check/check_line.hpp"
 #include "core/scene/stage_excavations.hpp"
-#include "core/step/relaxation.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -119,37 +118,46 @@ std::string change_text(const Change& change) {
 
 }  // namespace
 
-std::string damping_text(const DampingSettings& damping, bool seeks_rest) {
+std::string statics_text(const StaticsSettings& statics) {
+  switch (statics.method) {
+    case Statics::local:
+      return "true motion under local damping";
+    case Statics::newton:
+      return fmt::format("Newton's method in {} increment{}, confirmed by relaxation", statics.increments,
+                         statics.increments == 1 ? "" : "s");
+    case Statics::adaptive:
+      break;
+  }
+  return "relaxation";
+}
+
+std::string damping_text(const DampingSettings& damping) {
   std::string text;
   if (damping.local > 0) text = fmt::format("local {:g}", damping.local);
   if (damping.viscous_ratio > 0) text += fmt::format("{}viscous {:g}", text.empty() ? "" : ", ", damping.viscous_ratio);
-  std::string rest;
-  if (relaxes(seeks_rest, damping))
-    rest = damping.statics == Statics::newton
-               ? fmt::format("; static solution by Newton's method in {} increments, confirmed by relaxation",
-                             damping.increments)
-               : "; static solution by relaxation";
-  return (text.empty() ? "none" : text) + rest;
+  return text.empty() ? "none" : text;
 }
 
 void print_stages(const std::vector<StagePlan>& stages, const std::vector<Water>& waters) {
-  ActingShare acting;
+  ActingForces acting;
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const StagePlan& stage = stages[k];
     std::string text = fmt::format("{} {}: {}", k + 1, stage.name, std::visit(PlanText{}, stage.plan));
     text += change_text(stage.change);
     for (const WaterPlan& water : stage.water)
       text += fmt::format("; water '{}' changes within {:g} s", waters[water.water].name, water.ramp);
-    if (stage.let_off)
-      text += fmt::format("; lets off to a share of {:g} within {:g} s", stage.let_off->share, stage.let_off->duration);
-    const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
-    if (stage.damping) text += "; damping " + damping_text(*stage.damping, seeks_rest);
+    if (const auto& forces = stage.excavation_forces)
+      text += fmt::format("; excavation forces fall to {} within {:g} s", remaining_text(forces->remaining),
+                          forces->duration);
+    if (stage.statics && !std::holds_alternative<RunPlan>(stage.plan))
+      text += "; statics: " + statics_text(*stage.statics);
+    if (stage.damping) text += "; damping " + damping_text(*stage.damping);
     print_line(k == 0 ? "stages" : "", text);
     acting.follow(stage);
   }
-  if (acting.share > 0)
-    print_line("", fmt::format("let_off: a share of {:g} still acts after the last stage, since stage {}", acting.share,
-                               acting.stage));
+  if (acting.remaining > 0)
+    print_line("", fmt::format("excavation_forces: {} after the last stage, since stage {}",
+                               remaining_text(acting.remaining), acting.stage));
 }
 
 }  // namespace voussoir

@@ -8,7 +8,8 @@
 
 namespace voussoir {
 
-std::string damping_text(const DampingSettings& damping, bool seeks_rest = true);
+std::string statics_text(const StaticsSettings& statics);
+std::string damping_text(const DampingSettings& damping);
 
 void print_stages(const std::vector<StagePlan>& stages, const std::vector<Water>& waters);
 

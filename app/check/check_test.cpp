@@ -1,4 +1,5 @@
 // The output and the warnings of `voussoir check`.
+#include <algorithm>
 #include <array>
 
 #include "app/testing/checked_scene.hpp"
@@ -89,7 +90,17 @@ TEST_F(Check, PrintsTheVolumeBelowWater) {
   says(ground + box("stone", 0, 0) + rock_properties + settle_stage, "applied forces, water");
 }
 
-TEST_F(Check, PrintsTheShareOfReliefLoadsThatIsLeft) {
+TEST_F(Check, NamesThePresentNameOfEveryKeyThatHadAnother) {
+  const std::string stone = ground + box("stone", 0, 0) + rock_properties + settle_stage;
+  says(stone + "damping = { statics = \"newton\" }\n",
+       fmt::format("renamed     scene.toml:{}: stage.settle.damping.statics is now stage.settle.statics",
+                   std::ranges::count(stone, '\n') + 1));
+  EXPECT_NE(check(stone, "--set damping.increments=2").find("damping.increments is now static_increments"),
+            std::string::npos);
+  silent(stone + "statics = \"newton\"\n", "renamed");
+}
+
+TEST_F(Check, PrintsTheExcavationForcesThatRemain) {
   const std::string dug =
       "dimension = 2\ngravity = [0, -10]\ndensity = 2000\ndomain = { box = { min = [0, 0], max = [6, 3] } }\n" +
       rock_properties +
@@ -97,16 +108,18 @@ TEST_F(Check, PrintsTheShareOfReliefLoadsThatIsLeft) {
       "[[fix]]\nbelow = \"floor\"\n[[excavations]]\nname = \"pit\"\noutline = true\n"
       "box = { min = [2, 1], max = [4, 2] }\n" +
       settle_stage + "[[stage]]\nname = \"dig\"\nkind = \"settle\"\nexcavate = \"pit\"\n";
-  const std::string let_off = "let_off = { share = 0.4, duration_s = 1 }\n";
-  says(dug + let_off, "let_off: a share of 0.4 still acts after the last stage, since stage dig");
-  silent(dug + let_off + "[[stage]]\nname = \"off\"\nkind = \"settle\"\nlet_off = { share = 0, duration_s = 1 }\n",
-         "still acts");
-  silent(dug, "still acts");
-  write("scene.toml", dug + let_off);
+  const std::string forces = "excavation_forces = { remaining = 0.4, duration_s = 1 }\n";
+  says(dug + forces, "excavation_forces: remaining 0.40 (relaxed λ = 0.60) after the last stage, since stage dig");
+  silent(dug + forces +
+             "[[stage]]\nname = \"off\"\nkind = \"settle\"\nexcavation_forces = { remaining = 0, duration_s = 1 }\n",
+         "after the last stage");
+  silent(dug, "after the last stage");
+  write("scene.toml", dug + forces);
   const Ended ended = run("run scene.toml --out out");
   EXPECT_EQ(ended.code, 0) << ended.err;
-  EXPECT_NE(ended.out.find("let_off: a share of 0.4 of the forces"), std::string::npos) << ended.out;
-  EXPECT_EQ(results("out")["let_off"]["share_left"], 0.4);
+  EXPECT_NE(ended.out.find("excavation_forces: remaining 0.40 (relaxed λ = 0.60) at the end"), std::string::npos)
+      << ended.out;
+  EXPECT_EQ(results("out")["excavation_forces"]["remaining"], 0.4);
 }
 
 // Every ramp of a stage is counted, and a warning is printed if the step limit ends the stage before it is complete.
@@ -227,7 +240,7 @@ TEST_F(Check, WarnsOfRampsThatActAsAnImpact) {
   std::string tower = ground;
   for (int k = 0; k < 20; ++k)
     tower += box(fmt::format("b{}", k), 0, k * 1.0);
-  const std::string ramped = settle_stage + "damping = { statics = \"local\" }\ngravity_ramp_s = ";
+  const std::string ramped = settle_stage + "statics = \"local\"\ngravity_ramp_s = ";
   // one block oscillates with a period of 9 ms, a column of twenty with 13 times as long
   says(tower + rock_properties + ramped + "0.1\n", "it acts as an impact");
   silent(tower + rock_properties + ramped + "0.5\n", "it acts as an impact");

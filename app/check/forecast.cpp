@@ -26,8 +26,8 @@ double smallest_size(const Model<Dim>& model) {
 }
 
 // a stage that relaxes from its first step on stops every body
-bool relaxes(const StagePlan& stage, const DampingSettings& damping) {
-  if (damping.statics == Statics::local) return false;
+bool relaxes(const StagePlan& stage, const StaticsSettings& statics) {
+  if (statics.method == Statics::local) return false;
   if (const auto* plan = std::get_if<ReducePlan>(&stage.plan))
     return plan->method == ReductionMethod::bisection || plan->method == ReductionMethod::steps;
   return std::holds_alternative<SettlePlan>(stage.plan);
@@ -39,7 +39,7 @@ double ramp_of(const StagePlan& stage) {
   if (const auto* plan = std::get_if<RunPlan>(&stage.plan)) ramp = plan->gravity.ramp;
   for (const WaterPlan& water : stage.water)
     ramp = std::max(ramp, water.ramp);
-  if (stage.let_off) ramp = std::max(ramp, stage.let_off->duration);
+  if (stage.excavation_forces) ramp = std::max(ramp, stage.excavation_forces->duration);
   return ramp;
 }
 
@@ -47,9 +47,9 @@ const char* text_of(EstimateKind kind) {
   return kind == EstimateKind::about ? "about" : kind == EstimateKind::at_least ? "at least" : "at most";
 }
 
-bool asks_for_newton(const DampingSettings& damping, const std::vector<StagePlan>& stages) {
-  return damping.statics == Statics::newton || std::any_of(stages.begin(), stages.end(), [](const StagePlan& s) {
-           return s.damping && s.damping->statics == Statics::newton;
+bool asks_for_newton(const StaticsSettings& statics, const std::vector<StagePlan>& stages) {
+  return statics.method == Statics::newton || std::any_of(stages.begin(), stages.end(), [](const StagePlan& s) {
+           return s.statics && s.statics->method == Statics::newton;
          });
 }
 
@@ -81,8 +81,10 @@ double own_weight_overlap(const Model<Dim>& model, const std::vector<bool>& used
 // Time in which the oscillation of a block on its joint decays to the fraction `rest` of its first amplitude. Local
 // damping (fraction α) leaves 1-α of the force inwards and 1+α outwards, the dashpot reduces the amplitude at the rate
 // ξω. Relaxation damps critically.
-double settling_time(double overlap, double g, const DampingSettings& damping, double rest) {
-  if (relaxes(true, damping)) return -std::log(rest) / std::sqrt(g / overlap);
+double settling_time(double overlap, double g, const Settings& settings) {
+  const double rest = settings.equilibrium.unbalanced;
+  if (relaxes(true, settings.statics)) return -std::log(rest) / std::sqrt(g / overlap);
+  const DampingSettings& damping = settings.damping;
   const double frequency = std::sqrt(g / overlap), in = std::sqrt(1 - damping.local),
                out = std::sqrt(1 + damping.local);
   const double half_swing = 0.5 * std::numbers::pi * (1 / in + 1 / out) / frequency;
@@ -160,27 +162,26 @@ void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, Sta
   std::vector<std::string> installed;
   for (const StagePlan& stage : prepared.stages) {
     const Settings settings = settings_of(stage, prepared.settings);
-    const DampingSettings& damping = settings.damping;
     installed.insert(installed.end(), stage.change.install.begin(), stage.change.install.end());
     const LiningCost linings = cost_of_linings(model, installed);
-    TimeStepEstimate estimate =
-        estimate_time_step<Dim>(model, settings, damping, state.bodies, state.loads, state.contacts, state.time_step);
+    TimeStepEstimate estimate = estimate_time_step<Dim>(model, settings, settings.damping, state.bodies, state.loads,
+                                                        state.contacts, state.time_step);
     if (linings.step_limit < estimate.limit) {
       if (!settings.time.step && std::isfinite(estimate.limit)) estimate.step *= linings.step_limit / estimate.limit;
       estimate.limit = linings.step_limit;
     }
     if (&stage == &prepared.stages.front()) result.step_limit = estimate.limit;
-    const bool relaxed = relaxes(stage, damping);
+    const bool relaxed = relaxes(stage, settings.statics);
     StageForecast forecast{.name = stage.name, .time_step = estimate.step, .kind = kind_of(stage)};
     if (relaxed && !prepared.settings.time.step && std::isfinite(estimate.limit))
       forecast.time_step = relaxed_fraction * estimate.limit;
     double settling = 0;
-    if (g > 0 && result.overlap > 0)
-      settling = settling_time(result.overlap, g, damping, prepared.settings.equilibrium.unbalanced);
+    if (g > 0 && result.overlap > 0) settling = settling_time(result.overlap, g, settings);
     forecast.duration =
         std::visit(Forecaster{settling, g, smallest, forecast.time_step, relaxed, ramp_of(stage)}, stage.plan);
     if (forecast.time_step > 0) forecast.steps = forecast.duration / forecast.time_step;
-    if (forecast.steps > 0 && damping.statics != Statics::newton && !std::holds_alternative<RunPlan>(stage.plan))
+    if (forecast.steps > 0 && settings.statics.method != Statics::newton &&
+        !std::holds_alternative<RunPlan>(stage.plan))
       forecast.steps = std::max(forecast.steps, linings.steps);
     result.stages.push_back(forecast);
   }
@@ -204,7 +205,7 @@ void find_crowd(const Prepared<Dim>& prepared, const Model<Dim>& model, const St
   result.memory = memory_of_a_block * static_cast<double>(model.bodies.size()) +
                   2.0 * static_cast<double>(state.contacts.list.size() * sizeof(Contact<Dim>) +
                                             state.contacts.subs.size() * sizeof(SubContact<Dim>));
-  if (asks_for_newton(prepared.settings.damping, prepared.stages)) result.memory += memory_of_newton(state);
+  if (asks_for_newton(prepared.settings.statics, prepared.stages)) result.memory += memory_of_newton(state);
   result.candidates_allowed = static_cast<double>(most_candidates(model.parts.size()));
   std::size_t most = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {

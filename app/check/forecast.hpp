@@ -49,13 +49,13 @@ template <int Dim>
 double smallest_size(const Model<Dim>& model);
 
 // a stage that relaxes from its first step on stops every body
-bool relaxes(const StagePlan& stage, const DampingSettings& damping);
+bool relaxes(const StagePlan& stage, const StaticsSettings& statics);
 
 // s: how long gravity, waters and relief loads of a stage change: equilibrium waits for the longest. Forces and motions
 // change only in stages of kind run, whose duration is stated.
 double ramp_of(const StagePlan& stage);
 
 // whether any stage uses the implicit static solver (Newton-Raphson)
-bool asks_for_newton(const DampingSettings& damping, const std::vector<StagePlan>& stages);
+bool asks_for_newton(const StaticsSettings& statics, const std::vector<StagePlan>& stages);
 
 }  // namespace voussoir

@@ -126,7 +126,7 @@ template <int Dim>
 void judge_velocities(const Prepared<Dim>& prepared, const Model<Dim>& model, std::vector<std::string>& warnings) {
   if (prepared.stages.empty()) return;
   const StagePlan& first = prepared.stages.front();
-  if (!begins_relaxing(first, first.damping.value_or(prepared.settings.damping))) return;
+  if (!begins_relaxing(first, first.statics.value_or(prepared.settings.statics))) return;
   for (std::size_t b = 0; b < prepared.state.bodies.motions.size(); ++b) {
     const Motion<Dim>& motion = prepared.state.bodies.motions[b];
     if (!moves(model.bodies[b]) || (motion.velocity.isZero(0) && motion.angular_momentum.isZero(0))) continue;
@@ -134,7 +134,7 @@ void judge_velocities(const Prepared<Dim>& prepared, const Model<Dim>& model, st
         fmt::format("block {} begins with a velocity (its own, or that of initial_velocity) that is lost: stage.{} is "
                     "solved by "
                     "relaxation, which stops every block; let a stage of kind \"run\" come first, or state "
-                    "stage.{}.damping.statics = \"local\"",
+                    "stage.{}.statics = \"local\"",
                     name_of(model, static_cast<int>(b)), first.name, first.name));
     return;  // one warning is enough
   }

@@ -56,12 +56,12 @@ void judge_limits(const StagePlan& stage, const Settings& settings, const StageF
   const double ramp = ramp_of(stage);
   // Newton's method applies ramps in increments, whatever their duration
   const double steps =
-      forecast.time_step > 0 && settings.damping.statics != Statics::newton ? ramp / forecast.time_step : 0;
+      forecast.time_step > 0 && settings.statics.method != Statics::newton ? ramp / forecast.time_step : 0;
   if (steps > most)
     warnings.push_back(
         fmt::format("{}.step_limit = {}: its longest ramp, {:g} s, takes about {:.2g} steps of {:.2g} s and is not "
                     "reached; shorten "
-                    "the ramp (gravity_ramp_s, duration_s of water and let_off), or raise step_limit",
+                    "the ramp (gravity_ramp_s, duration_s of water and excavation_forces), or raise step_limit",
                     where, *limit, ramp, steps, forecast.time_step));
 }
 
@@ -166,7 +166,7 @@ void judge_stage(const StagePlan& stage, const Settings& settings, double overla
                     "by about {:.2g} %, "
                     "in proportion to the fraction; 0.02 leaves 1 %",
                     where, damping.viscous_ratio, time.fraction, 100 * dashpot_error * time.fraction));
-  if (seeks_rest && undamped && !begins_relaxing(stage, damping))
+  if (seeks_rest && undamped && !begins_relaxing(stage, settings.statics))
     warnings.push_back(where + " seeks equilibrium without damping: state damping.local = 0.7");
   if (const auto* plan = std::get_if<ReducePlan>(&stage.plan);
       plan && smallest > 0 && plan->failure_displacement > smallest)
@@ -219,7 +219,7 @@ void judge_durations(const Prepared<Dim>& prepared, const Model<Dim>& model, con
   const double swing = g > 0 ? slowest_swing(model, period) : 0;
   for (std::size_t k = 0; k < prepared.stages.size(); ++k) {
     const StagePlan& stage = prepared.stages[k];
-    const bool relaxed = relaxes(stage, stage.damping.value_or(prepared.settings.damping));
+    const bool relaxed = relaxes(stage, stage.statics.value_or(prepared.settings.statics));
     judge_steps(stage, forecast.stages[k], warnings);
     judge_limits(stage, settings_of(stage, prepared.settings), forecast.stages[k], warnings);
     judge_times(stage, forecast.stages[k], relaxed ? period : swing, prepared.output, warnings);

@@ -134,6 +134,38 @@ TEST_F(Begin, AnInitialRunThatWasKilledKeepsItsEndToo) {
   EXPECT_EQ(found("begun"), found("whole"));
 }
 
+// with the names that keys had before they were renamed
+std::string with_earlier_names(std::string text) {
+  for (const auto& [present, earlier] : {std::pair<std::string, std::string>{"excavation_forces", "let_off"},
+                                         std::pair<std::string, std::string>{"remaining", "share"}})
+    for (auto at = text.find(present); at != std::string::npos; at = text.find(present))
+      text.replace(at, present.size(), earlier);
+  return text;
+}
+
+// A folder of an earlier version holds a scene with the names of its time.
+TEST_F(Begin, FoldersOfScenesWithEarlierNamesOfKeysContinue) {
+  run_well("run " + tunnel_ + "--out whole");
+  write("earlier.toml", with_earlier_names(read(program::scenes / "tunnel.toml")));
+  const auto as_it_was_kept = [&] {
+    const std::string text = read(folder_ / "generation/scene.toml");
+    ASSERT_NE(text.find("excavation_forces"), std::string::npos);
+    write("generation/scene.toml", with_earlier_names(text));
+  };
+  const Launch launch{.arguments = {"run", (folder_ / "earlier.toml").string(), "--out",
+                                    (folder_ / "generation").string(), "--until", "dig", "--checkpoint-steps", "20"}};
+  Process process(VOUSSOIR_PROGRAM, launch, folder_ / "killed");
+  ASSERT_TRUE(wait_until([&] { return fs::exists(folder_ / "generation/checkpoint"); }));
+  process.send(SIGKILL);
+  ASSERT_EQ(process.wait().signal, SIGKILL) << "it was done before it was killed";
+  as_it_was_kept();
+  run_well("resume generation");
+  for (const std::string& scene : {tunnel_, std::string("earlier.toml ")}) {
+    run_well("run " + scene + "--out begun --begin generation --overwrite");
+    EXPECT_EQ(found("begun"), found("whole")) << scene;
+  }
+}
+
 TEST_F(Begin, AnotherSceneIsRefusedWithWhatDiffers) {
   run_well("run " + tunnel_ + "--out generation --until dig");
   const auto refused = [&](const std::string& changes, const std::string& part) {
@@ -147,7 +179,7 @@ TEST_F(Begin, AnotherSceneIsRefusedWithWhatDiffers) {
   refused("--set joint_properties.rock.friction_deg=41", "joint_properties.rock.friction_deg = 41: is 40");
   refused("--set stage.stress.gravity_ramp_s=0.2", "stage.stress.gravity_ramp_s = 0.2: is 0.1");
   refused("--set stage.stress.zero_slip=true", "stage.stress.zero_slip = true: is not stated");
-  refused("--set stage.dig.let_off.share=0.4", "stage.dig.let_off.share = 0.4: is 0.5");
+  refused("--set stage.dig.excavation_forces.remaining=0.4", "stage.dig.excavation_forces.remaining = 0.4: is 0.5");
   refused("--set bolts.early.stiffness=2e7", "bolts.early.stiffness = 2e+07: is 1e+07");
   refused("--set equilibrium.unbalanced=1e-5", "equilibrium.unbalanced = 1e-05: is 1e-06");
   refused("--set excavations.tunnel.cylinder.radius=1.1", "excavations.tunnel.cylinder.radius = 1.1: is 1");

@@ -8,6 +8,7 @@
 
 #include "app/base/progress_line.hpp"
 #include "core/run/stable_state.hpp"
+#include "core/scene/stage_excavations.hpp"
 
 namespace voussoir {
 namespace {
@@ -91,9 +92,8 @@ void print_summary(const std::string& title, const Results& results, const std::
         "  bonds: {} made, {} whole, {} broken, {} removed with their blocks; {} joints not yet in compression\n",
         bonds->made, bonds->whole, bonds->broken, bonds->removed, bonds->due);
   print_moved(results.moved);
-  if (results.relief_left > 0)
-    fmt::print("  let_off: a share of {:g} of the forces by which excavated rock held the rest still acts\n",
-               results.relief_left);
+  if (results.forces_remaining > 0)
+    fmt::print("  excavation_forces: {} at the end\n", remaining_text(results.forces_remaining));
   print_cost(results, rounds);
   fmt::print("results: {}\n", folder.string());
 }

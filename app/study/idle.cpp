@@ -111,7 +111,8 @@ Node part_of_limit(const Scene& scene, const std::vector<std::string>& options) 
     if (options[k] == "--friction") sought.insert(options[k + 1]);
   const bool seeks_friction = !asked("--factor") && !asked("--load");
   if (!asked("applied")) forget(tree, "stage");
-  for (const char* key : {"accuracy", "damping", "time", "equilibrium", "initial_velocity", "contact"})
+  for (const char* key :
+       {"accuracy", "statics", "static_increments", "damping", "time", "equilibrium", "initial_velocity", "contact"})
     forget(tree, key);
   forget_unused_properties(scene, tree);
   each_properties(tree, [&](Node& item, const std::string& name) {

@@ -19,7 +19,7 @@ TEST_F(StudyFaults, ARowThatDivergesIsAFailureOfItsOwn) {
   write("study.toml", R"(
 scene = "scene.toml"
 quantity = "top_displacement_z"
-set = ["damping.statics=local"]
+set = ["statics=local"]
 [[sweep]]
 name = "time step"
 key = "time.step_s"

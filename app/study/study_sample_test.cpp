@@ -227,7 +227,7 @@ keys = [{ key = "density", values = [1000, 2000], unit = "kg/m3" },
         { key = "joint_properties.rock.normal_stiffness", values = [1e8, 2e8, 4e8] }]
 [[grid]]
 name = "three"
-keys = [{ key = "damping.statics", values = ["local", "adaptive"] },
+keys = [{ key = "statics", values = ["local", "adaptive"] },
         { key = "density", values = [1000, 2000] },
         { key = "joint_properties.rock.normal_stiffness", values = [1e8, 2e8] }]
 )";
@@ -256,9 +256,9 @@ TEST_F(StudySample, AGridIsEveryCombination) {
   for (const char* name : {"grid_1.svg", "grid_2_1.svg", "grid_2_2.svg"})
     EXPECT_TRUE(read(folder_ / "out" / name).ends_with("</svg>\n")) << name;
   EXPECT_FALSE(fs::exists(folder_ / "out/grid_2.svg"));
-  EXPECT_NE(read(folder_ / "out/grid_2_1.svg").find("three, damping.statics = local"), std::string::npos);
+  EXPECT_NE(read(folder_ / "out/grid_2_1.svg").find("three, statics = local"), std::string::npos);
   const std::string csv = read(folder_ / "out/study.csv");
-  EXPECT_NE(csv.find("three,\"damping.statics, density, joint_properties.rock.normal_stiffness\",\"adaptive, 1000, "
+  EXPECT_NE(csv.find("three,\"statics, density, joint_properties.rock.normal_stiffness\",\"adaptive, 1000, "
                      "200000000\",,top_displacement_z,"),
             std::string::npos)
       << csv;

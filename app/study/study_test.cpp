@@ -76,13 +76,48 @@ key = "joint_properties.rock.normal_stiffness"
 values = [1e8, 2e8, 4e8, 3e8]
 [[sweep]]
 name = "damping"
-key = "damping.statics"
+key = "statics"
 values = ["local", "adaptive"]
 )");
   ASSERT_EQ(run("study study.toml --out one --jobs 1").code, 0);
   ASSERT_EQ(run("study study.toml --out four --jobs 4 --threads 2").code, 0);
   EXPECT_EQ(without_seconds("one"), without_seconds("four"));
   EXPECT_EQ(rows("one").size(), 8u);
+}
+
+// Runs of one scene are the same runs, whichever names of keys the plan states.
+TEST_F(Study, TakesKeysByTheirEarlierNames) {
+  const std::string earlier = R"(
+scene = "scene.toml"
+quantity = "top_displacement_z"
+set = ["damping.increments=2"]
+[[sweep]]
+name = "statics"
+key = "damping.statics"
+values = ["local", "newton"]
+[[grid]]
+name = "both"
+keys = [{ key = "stage.settle.damping.statics", values = ["adaptive", "newton"] },
+        { key = "density", values = [1000, 2000] }]
+[[sample]]
+name = "drawn"
+rows = 2
+set = ["damping.statics=newton"]
+keys = [{ key = "density", law = "uniform", least = 1000, most = 2000 }]
+)";
+  std::string present = earlier;
+  for (const auto& [before, after] : {std::pair<std::string, std::string>{"damping.increments", "static_increments"},
+                                      std::pair<std::string, std::string>{"damping.statics", "statics"}})
+    for (auto at = present.find(before); at != std::string::npos; at = present.find(before))
+      present.replace(at, before.size(), after);
+  write("study.toml", earlier);
+  EXPECT_EQ(run("study study.toml --out out").code, 0);
+  const std::vector<std::string> rows = this->rows();
+  ASSERT_EQ(rows.size(), 10u);
+  write("study.toml", present);
+  const Ended ended = run("study study.toml --out out");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("9 different runs, 9 of them kept from before"), std::string::npos) << ended.out;
 }
 
 TEST_F(Study, KeepsCompletedRuns) {
@@ -253,7 +288,7 @@ quantity = "top_displacement_z"
 name = "rest"
 key = "stage.settle.gravity_ramp_s"
 values = [1e8, 0]
-set = ["stage.settle.step_limit=1000000000000", "damping.statics=local"]
+set = ["stage.settle.step_limit=1000000000000", "statics=local"]
 )";
 
 TEST_F(Study, ARunThatHangsLosesOneSetting) {

@@ -24,7 +24,7 @@ values = [1000, 1100, 1200, 1300, 1400, 1500, 1600, 1700, 1800, 1900,
           2000, 2100, 2200, 2300, 2400, 2500, 2600, 2700, 2800, 2900]
 [[sweep]]
 name = "damping"
-key = "damping.statics"
+key = "statics"
 values = ["local", "adaptive"]
 )";
 inline constexpr int study_rows = 43;

@@ -38,7 +38,7 @@ std::vector<std::string> overrides_of(const Setting& s) {
   overrides.push_back("repeat.1.count=" + std::to_string(s.arch.voussoirs));
   overrides.push_back("repeat.1.turn_deg=" + text(-180.0 / s.arch.voussoirs));
   overrides.push_back("stage.close.move.1.velocity=[" + text(-s.closing / closing_time) + ", 0]");
-  overrides.push_back("damping.statics=" + s.statics);
+  overrides.push_back("statics=" + s.statics);
   overrides.insert(overrides.end(), s.more.begin(), s.more.end());
   return overrides;
 }

@@ -124,7 +124,7 @@ void check_sound(CaseReport& report, const std::string& which, const RecordedRun
                  {0.5, 0},
                  "a count"},
                 static_cast<double>(counters.deep_overlaps), cost(run.run));
-  const EnergyLedger& energy = run.run.results.energy;
+  const EnergyBalance& energy = run.run.results.energy;
   report.record(
       {"energy that the motion does not account for" + which,
        "1",

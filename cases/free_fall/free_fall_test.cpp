@@ -84,22 +84,21 @@ void check(CaseReport& report, const std::string& which, const Fall& fall, Balan
                   "a block between two parallel faces keeps turning: contacts that act at points do not resist "
                   "(README.md)",
                   cost);
-  for (const auto& [when, closure] :
-       {std::pair(", before the damping starts", found.before), {", at rest", found.end}}) {
+  for (const auto& [when, error] : {std::pair(", before the damping starts", found.before), {", at rest", found.end}}) {
     at_most(
         std::string("energy that the motion does not account for") + when, "1",
         "conservation of energy: work of all forces against kinetic energy, as a fraction of the energy of the drop",
-        closure.motion, motion_closed,
+        error.motion, motion_closed,
         "leapfrog closes to the rounding of some ten thousand steps of two hundred blocks");
     const std::string quantity = std::string("energy that the contacts do not account for") + when;
     if (balance == Balance::checked)
       at_most(quantity, "1",
               "conservation of energy: work of the contacts against springs, dashpots and friction, as a fraction of "
               "the energy of the drop",
-              closure.contacts, energy_balanced,
+              error.contacts, energy_balanced,
               "requirement on the case; the error of the time step falls with its square (README.md)");
     else
-      report.report(quantity + which, "1", closure.contacts,
+      report.report(quantity + which, "1", error.contacts,
                     "if edges cross, the published normal is not perpendicular to both: sliding along them works "
                     "against the spring without a change of the overlap (README.md)",
                     cost);

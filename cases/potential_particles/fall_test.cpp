@@ -102,20 +102,20 @@ void check(CaseReport& report, const std::string& which, const Fall& fall, Overl
   else
     report.report(which + ": kinetic energy at the end, not at rest" + name_of(overlap), "1", found.kinetic,
                   "contacts that act at points do not resist a spin about their normal (README.md)", cost);
-  for (const auto& [when, closure] :
+  for (const auto& [when, error] :
        {std::pair(", before the damping starts", found.before), {", at the end", found.end}}) {
     at_most(
         std::string(": energy that the motion does not account for") + when, "1",
         "conservation of energy: work of all forces against kinetic energy, as a fraction of the energy of the drop",
-        closure.motion, motion_closed, "leapfrog closes to the rounding of some ten thousand steps");
+        error.motion, motion_closed, "leapfrog closes to the rounding of some ten thousand steps");
     const std::string quantity = std::string(": energy that the contacts do not account for") + when;
     if (overlap == Overlap::conservative)
       at_most(quantity, "1",
               "conservation of energy: work of the contacts against springs, dashpots and friction, as a fraction of "
               "the energy of the drop",
-              closure.contacts, energy_balanced, "requirement on the case (README.md)");
+              error.contacts, energy_balanced, "requirement on the case (README.md)");
     else
-      report.report(which + quantity + name_of(overlap), "1", closure.contacts,
+      report.report(which + quantity + name_of(overlap), "1", error.contacts,
                     "the bracketed overlap changes with the point, which does not affect the force (README.md)", cost);
   }
 }

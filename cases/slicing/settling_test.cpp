@@ -164,7 +164,7 @@ TEST(SlicingSettling, ACornerOfItComesToRest) {
 
 TEST(SlicingSettling, ThreeHundredBlocksReachEquilibriumByRelaxation) {
   CaseReport report("slicing");
-  check(report, ", 327 blocks by relaxation", record<3>("rock_mass.toml", {"damping.statics=\"adaptive\""}));
+  check(report, ", 327 blocks by relaxation", record<3>("rock_mass.toml", {"statics=\"adaptive\""}));
 }
 
 // cost counts of reaching equilibrium, so that they grow with the rock no faster than core/step/NOTES.md states
@@ -189,14 +189,14 @@ void check_cost(CaseReport& report, const std::string& which, const RecordedRun<
 
 TEST(SlicingSettling, ThreeHundredBlocksReachEquilibriumByNewtonsMethod) {
   CaseReport report("slicing");
-  const RecordedRun<3> settled = record<3>("rock_mass.toml", {"damping.statics=\"newton\""});
+  const RecordedRun<3> settled = record<3>("rock_mass.toml", {"statics=\"newton\""});
   check(report, ", 327 blocks by Newton's method", settled);
   check_cost(report, ", 327 blocks by Newton's method", settled, 62);
 }
 
 TEST(SlicingSettlingLong, TwentyFiveHundredBlocksReachEquilibriumByNewtonsMethod) {
   CaseReport report("slicing");
-  const RecordedRun<3> settled = record<3>("settling.toml", {"damping.statics=\"newton\""});
+  const RecordedRun<3> settled = record<3>("settling.toml", {"statics=\"newton\""});
   check(report, ", 2500 blocks by Newton's method", settled);
   check_cost(report, ", 2500 blocks by Newton's method", settled, 114);
 }
@@ -212,7 +212,7 @@ TEST(SlicingSettlingLong, TwentyFiveHundredBlocksComeToRest) {
 TEST(SlicingSettlingLong, TwentyFiveHundredBlocksReachEquilibriumByRelaxation) {
   CaseReport report("slicing");
   check(report, ", 2500 blocks by relaxation",
-        record<3>("settling.toml", {"damping.statics=\"adaptive\"", "joint_properties.rock.sub_contacts=2"}));
+        record<3>("settling.toml", {"statics=\"adaptive\"", "joint_properties.rock.sub_contacts=2"}));
 }
 
 }  // namespace

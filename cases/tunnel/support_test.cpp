@@ -167,7 +167,7 @@ TEST(Support, AnchorsHardlyMatterAndBoltsMeetTheRemainingConvergence) {
                  {0, 0.04},
                  "the largest difference that the thesis found along the wall"},
                 mean_convergence(midway) / mean_convergence(offset), cost(midway));
-  const SceneRun late = run("bolts.toml", with(large_blocks, {"stage.dig.let_off.share=0.4"}));
+  const SceneRun late = run("bolts.toml", with(large_blocks, {"stage.dig.excavation_forces.remaining=0.4"}));
   report.record({"mean bolt force put in after 60 % is let off, over that wished in place, blocks of 0.5 m",
                  "1",
                  Kind::limit,

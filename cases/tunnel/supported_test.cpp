@@ -110,7 +110,7 @@ TEST(Supported, TheSameBlocksAsTheNetwork) {
 TEST(Supported, ForcesReleasedBeforeAreNotCarriedBySupports) {
   CaseReport report("tunnel");
   const Increment all = twins(run_supported("same_blocks.toml"), 2).program;
-  const SupportedRun run = run_supported("same_blocks.toml", {"stage.dig.let_off.share=0.885"});
+  const SupportedRun run = run_supported("same_blocks.toml", {"stage.dig.excavation_forces.remaining=0.885"});
   const Increment half = twins(run, 2).program;
   const auto check = [&](const char* what, double computed) {
     report.record({fmt::format("{} where half is let off before, of all", what),
@@ -137,7 +137,7 @@ Moduli moduli_of(int seed) {
 }
 
 // of bonded.toml
-constexpr double let_off = 0.05 * 662175, bolt_length = 7, bolt_stiffness = 2e8;
+constexpr double relieved = 0.05 * 662175, bolt_length = 7, bolt_stiffness = 2e8;
 constexpr int bolt_count = 32;
 // of circles of the area of the twelve sides, and of the square that is fixed
 const double wall_radius = 5 * std::sqrt(12 * std::tan(std::numbers::pi / 12) / std::numbers::pi),
@@ -147,7 +147,7 @@ const double wall_radius = 5 * std::sqrt(12 * std::tan(std::numbers::pi / 12) / 
 double bolts_of_smeared(const Increment& program, const Moduli& rock) {
   const double crossings = static_cast<double>(program.bolts.size()) / (bolt_count * bolt_length);
   reference::BoltedRing ring{wall_radius,
-                             let_off,
+                             relieved,
                              rock.shear,
                              rock.poisson,
                              bolt_stiffness,
@@ -163,7 +163,7 @@ double bolts_of_smeared(const Increment& program, const Moduli& rock) {
 }
 
 double thrust_of_smeared(const SupportedRun& run, const Moduli& rock) {
-  reference::SoftLining lining{wall_radius, let_off, rock.shear, 25e9, 0.3, 1e8, 0};
+  reference::SoftLining lining{wall_radius, relieved, rock.shear, 25e9, 0.3, 1e8, 0};
   lining.fixed_radius = held_radius;
   lining.ground_poisson_ratio = rock.poisson;
   double mean = 0;

@@ -46,7 +46,7 @@ Freedoms motion_between(const Motion<2>& from, const Motion<2>& to) {
 }
 
 // A stage removes the forces that it releases: the load that held the block falls.
-void let_off_held(const StageEnd& before, const StageEnd& after, const std::vector<int>& number,
+void relieve_held(const StageEnd& before, const StageEnd& after, const std::vector<int>& number,
                   std::vector<Block>& blocks) {
   for (std::size_t i = 0; i < after.state.loads.relief.size(); ++i) {
     const ReliefLoad<2>& held = after.state.loads.relief[i];
@@ -146,7 +146,7 @@ Twins twins(const SupportedRun& run, int cells) {
   Network& network = both.network;
   std::vector<int> number;
   network.blocks = blocks_of(model, number);
-  let_off_held(before, after, number, network.blocks);
+  relieve_held(before, after, number, network.blocks);
   const std::vector<Face> joints = faces(network.blocks, same_line);
   const JointProperties& joint = model.properties[model.joints.front().properties];
   network.springs = springs(joints, cells, joint.normal_stiffness, joint.shear_stiffness);

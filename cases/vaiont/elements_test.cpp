@@ -81,7 +81,7 @@ TEST(VaiontElementsLong, NeedTheFrictionOfTheClosedFormWithManyBlocks) {
 TEST(VaiontElementsLong, NeedTheSameByRelaxation) {
   CaseReport report("vaiont");
   const Ground dry{80, 0};
-  judge(report, dry, limit_analysis(dry), relaxation, {"damping.statics=adaptive"});
+  judge(report, dry, limit_analysis(dry), relaxation, {"statics=adaptive"});
 }
 
 // a slice in space, whose blocks could leave the plane

@@ -37,7 +37,7 @@ TEST(WedgeSaving, BisectionAndTwoRatesAgainstTheThesisRate) {
   const SceneRun two = run("two_rates.toml");
   expect_speed_up(report, closed_form(), "two rates", two, thesis);
   expect_honest_bar(report, closed_form(), "two rates", two);
-  const SceneRun local = run("narrow.toml", {"damping.statics=\"local\"", "stage.reduce.ramp_steps=500"});
+  const SceneRun local = run("narrow.toml", {"statics=\"local\"", "stage.reduce.ramp_steps=500"});
   report.report("contact evaluations of bisection by local damping", "1", evaluations(local),
                 "500 steps of ramp, each a fifth as long as relaxation's", cost(local));
 }
@@ -62,7 +62,7 @@ TEST(WedgeSavingFigure, HasErrorAgainstCost) {
                      fmt::format("stage.reduce.slower_rate_deg_per_s={}", rate / 4)});
   for (const double tolerance : {3.0, 1.0, 0.3, 0.1, 0.05, 0.02}) {
     brackets.push_back({fmt::format("stage.reduce.tolerance_deg={}", tolerance)});
-    damped.push_back({brackets.back().front(), "damping.statics=\"local\"", "stage.reduce.ramp_steps=500"});
+    damped.push_back({brackets.back().front(), "statics=\"local\"", "stage.reduce.ramp_steps=500"});
   }
   sweep("rates.csv", "thesis_rate.toml", rates);
   sweep("two_rates.csv", "two_rates.toml", pairs);

@@ -29,33 +29,33 @@ double sum_of(const EnergyFlows& flows) {
 
 }  // namespace
 
-double EnergyLedger::sum(int SourceRow::*column) const {
+double EnergyBalance::sum(int SourceRow::*column) const {
   double sum = 0;
   for (const SourceRow& row : source_table)
     if (row.*column != 0) sum += row.*column * flows[row.source];
   return sum;
 }
 
-void balance(EnergyLedger& ledger) {
-  EnergyFlows& f = ledger.flows;
-  if (ledger.phase == LedgerPhase::not_begun) f = {};  // half a kick that belongs to the time before
+void balance(EnergyBalance& energy) {
+  EnergyFlows& f = energy.flows;
+  if (energy.phase == BalancePhase::not_begun) f = {};  // half a kick that belongs to the time before
   const double to_motion = sum_of<&SourceRow::motion>(f), from_springs = sum_of<&SourceRow::springs>(f);
 
   // at the start, and when the model has changed, the errors keep their values
-  if (ledger.phase != LedgerPhase::running) {
-    const double kinetic = ledger.kinetic - to_motion - ledger.motion_error;
-    const double elastic = ledger.elastic + from_springs - ledger.contact_error;
-    if (ledger.phase == LedgerPhase::model_changed)
-      f[Source::stage_changes] += (kinetic - ledger.kinetic_origin) + (elastic - ledger.elastic_origin);
-    ledger.kinetic_origin = kinetic;
-    ledger.elastic_origin = elastic;
-    ledger.phase = LedgerPhase::running;
+  if (energy.phase != BalancePhase::running) {
+    const double kinetic = energy.kinetic - to_motion - energy.motion_error;
+    const double elastic = energy.elastic + from_springs - energy.contact_error;
+    if (energy.phase == BalancePhase::model_changed)
+      f[Source::stage_changes] += (kinetic - energy.kinetic_origin) + (elastic - energy.elastic_origin);
+    energy.kinetic_origin = kinetic;
+    energy.elastic_origin = elastic;
+    energy.phase = BalancePhase::running;
   }
-  ledger.motion_error = (ledger.kinetic - ledger.kinetic_origin) - to_motion;
-  ledger.contact_error = (ledger.elastic - ledger.elastic_origin) + from_springs;
-  ledger.worst_error = std::max(ledger.worst_error, std::abs(ledger.unexplained()));
-  ledger.largest_energy =
-      std::max({ledger.largest_energy, ledger.kinetic, ledger.elastic, std::abs(sum_of<&SourceRow::potential>(f)),
+  energy.motion_error = (energy.kinetic - energy.kinetic_origin) - to_motion;
+  energy.contact_error = (energy.elastic - energy.elastic_origin) + from_springs;
+  energy.worst_error = std::max(energy.worst_error, std::abs(energy.unexplained()));
+  energy.largest_energy =
+      std::max({energy.largest_energy, energy.kinetic, energy.elastic, std::abs(sum_of<&SourceRow::potential>(f)),
                 f[Source::friction], sum_of<&SourceRow::damping>(f), std::abs(f[Source::stiffening]),
                 std::abs(sum_of<&SourceRow::external>(f))});
 }

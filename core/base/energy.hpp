@@ -23,7 +23,7 @@ enum class Source {
   applied_forces,
   water,
   water_pressure,
-  let_off,
+  excavation_forces,
   bolts,
   lining,
   prescribed_motion,
@@ -50,7 +50,7 @@ struct SourceRow {
   std::string_view name;
   std::string_view monitored;  // as a quantity of monitors, which adds up all sources of one word; empty: none
   int motion;                  // gained by the motion
-  int springs;    // lost by springs that store energy (EnergyLedger::elastic); loads with a spring have 1 here
+  int springs;    // lost by springs that store energy (EnergyBalance::elastic); loads with a spring have 1 here
   int potential;  // potential energy of gravity and of water
   int damping;    // lost to damping
   int external;   // put in from outside
@@ -62,7 +62,7 @@ inline constexpr std::array<SourceRow, source_count> source_table{{
     {Source::applied_forces, "applied_forces", "applied_load", 1, 0, 0, 0, 1},
     {Source::water, "water", "water_load", 1, 0, -1, 0, 0},  // one table on all faces: it has a potential
     {Source::water_pressure, "water_pressure", "water_load", 1, 0, 0, 0, 1},  // others: on some faces, or several
-    {Source::let_off, "let_off", "", 1, 0, 0, 0, 1},                          // relief loads of excavated rock
+    {Source::excavation_forces, "excavation_forces", "", 1, 0, 0, 0, 1},      // relief loads of excavated rock
     {Source::bolts, "bolts", "bolt_load", 1, 1, 0, 0, 0},
     {Source::lining, "lining", "lining_load", 1, 1, 0, 0, 0},  // its beams and its interface
     {Source::prescribed_motion, "prescribed_motion", "", 1, 0, 0, 0, 1},
@@ -93,9 +93,9 @@ struct BySource {
 // kick.
 using EnergyFlows = BySource<double, source_count>;
 
-enum class LedgerPhase { not_begun, model_changed, running };
+enum class BalancePhase { not_begun, model_changed, running };
 
-struct EnergyLedger {
+struct EnergyBalance {
   EnergyFlows flows;
   double kinetic = 0;  // ½ m v₋·v₊ and the same for spins (v₋, v₊: half a step before and after): negative at a turn
   double elastic = 0;                             // stored in the springs of touching contacts, of bolts and linings
@@ -103,7 +103,7 @@ struct EnergyLedger {
   double motion_error = 0, contact_error = 0;     // unaccounted for in each balance
   double worst_error = 0;                         // the largest |motion_error + contact_error| so far
   double largest_energy = 0;                      // the largest entry so far
-  LedgerPhase phase = LedgerPhase::not_begun;
+  BalancePhase phase = BalancePhase::not_begun;
 
   // the sum of the flows, each weighted by its row's entry in that column
   double sum(int SourceRow::*column) const;
@@ -120,6 +120,6 @@ struct EnergyLedger {
 };
 
 // Checks both balances at the time of the positions: `kinetic`, `elastic` and the flows must be those of this time.
-void balance(EnergyLedger& ledger);
+void balance(EnergyBalance& energy);
 
 }  // namespace voussoir

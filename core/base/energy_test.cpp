@@ -22,7 +22,7 @@ constexpr double rounding = 1e-12;
 constexpr double overlap_rounding = 1e-9;
 
 template <int Dim>
-EnergyLedger ledger_after(const Model<Dim>& model, const Settings& settings, int steps, State<Dim>& state) {
+EnergyBalance energy_after(const Model<Dim>& model, const Settings& settings, int steps, State<Dim>& state) {
   for (int i = 0; i < steps; ++i)
     step(model, settings, state);
   return state.ledger.energy;
@@ -39,7 +39,7 @@ void expect_exact_oscillation() {
   State<Dim> state = initial_state(model);
   const double deep = 3 * model.bodies[index_of(model, "block")].mass * gravity / 1e9;  // never lifts off
   state.bodies.motions[index_of(model, "block")].displacement[Dim - 1] = -0.5 * deep;
-  const EnergyLedger e = ledger_after(model, settings, 2000, state);
+  const EnergyBalance e = energy_after(model, settings, 2000, state);
   EXPECT_GT(e.largest_energy, 0);
   EXPECT_LT(std::abs(e.motion_error), rounding * e.largest_energy);
   EXPECT_LT(e.relative_error(), overlap_rounding);
@@ -66,7 +66,7 @@ void expect_sliding_balance() {
   state.bodies.motions[block].displacement = -density * 0.5 * gravity * std::cos(slope) / 1e9 * up;
   Settings settings;
   settings.damping.local = 0;
-  const EnergyLedger e = ledger_after(model, settings, 4000, state);
+  const EnergyBalance e = energy_after(model, settings, 4000, state);
   const double slid = state.bodies.motions[block].displacement.norm();
   const double resistance = std::tan(friction) * model.bodies[block].mass * gravity * std::cos(slope);
   EXPECT_NEAR(e.flows[Source::friction], resistance * slid,
@@ -87,7 +87,7 @@ TEST(EnergyBalance, InEquilibriumDampingHasTakenTheEnergyNotStoredInSprings) {
   Settings settings;
   settings.time.step = 1e-4;
   State<3> state = initial_state(model);
-  const EnergyLedger e = ledger_after(model, settings, 5000, state);
+  const EnergyBalance e = energy_after(model, settings, 5000, state);
   const double weight = density * 0.5 * gravity, settlement = weight / 1e9, half = 0.5 * weight * settlement;
   EXPECT_NEAR(e.elastic, half, 1e-6 * half);
   EXPECT_NEAR(e.potential(), -2 * half, 1e-6 * half);
@@ -103,10 +103,10 @@ TEST(EnergyBalance, GravityThatGrowsIsExternalWork) {
   model.properties[0].constant_stiffness = true;
   State<2> state = initial_state(model);
   state.schedule.gravity_factor = 0.5;
-  ledger_after<2>(model, {}, 3000, state);
+  energy_after<2>(model, {}, 3000, state);
   const double sunk = -state.bodies.motions[index_of(model, "block")].displacement[1];
   state.schedule.gravity_factor = 1;
-  const EnergyLedger e = ledger_after<2>(model, {}, 3000, state);
+  const EnergyBalance e = energy_after<2>(model, {}, 3000, state);
   EXPECT_NEAR(e.external(), -0.5 * density * 0.5 * gravity * sunk, 1e-9 * e.largest_energy);
   EXPECT_LT(e.relative_error(), 1e-9);
 }
@@ -120,11 +120,11 @@ TEST(EnergyBalance, AChangeOfTheModelIsExternalWork) {
   settings.time.step = 1e-3;
   settings.damping.local = 0;
   State<2> state = initial_state(model);
-  const EnergyLedger before = ledger_after(model, settings, 500, state);
+  const EnergyBalance before = energy_after(model, settings, 500, state);
   EXPECT_GT(before.kinetic, 0);
   state.bodies.motions[block].velocity.setZero();
-  state.ledger.energy.phase = LedgerPhase::model_changed;
-  const EnergyLedger after = ledger_after(model, settings, 1, state);
+  state.ledger.energy.phase = BalancePhase::model_changed;
+  const EnergyBalance after = energy_after(model, settings, 1, state);
   EXPECT_NEAR(after.external(), -before.kinetic, 0.01 * before.kinetic);
   EXPECT_LT(after.relative_error(), rounding);
 }
@@ -137,7 +137,7 @@ TEST(EnergyBalance, ClosesWhenAnAssemblyCollapses) {
     settings.damping.local = viscous ? 0 : 0.3;
     settings.damping.viscous_ratio = viscous ? 0.2 : 0;
     State<3> state = initial_state(model);
-    const EnergyLedger e = ledger_after(model, settings, 3000, state);
+    const EnergyBalance e = energy_after(model, settings, 3000, state);
     EXPECT_GT(e.flows[Source::friction], 0);
     EXPECT_GT(e.damping(), 0);
     EXPECT_LT(std::abs(e.motion_error), rounding * e.largest_energy);

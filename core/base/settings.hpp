@@ -59,20 +59,22 @@ struct ContactSettings {
 
 enum class Statics { adaptive, local, newton };
 
-struct DampingSettings {
+struct StaticsSettings {
   // method by which a run reaches equilibrium. adaptive: dynamic relaxation with scaled inertia, in which time,
-  // velocities and dashpots have no meaning; local: the true motion under the damping below, the thesis' method, ten
+  // velocities and dashpots have no meaning; local: the true motion under its damping, the thesis' method, ten
   // to a hundred times slower for many blocks, and right when the path to equilibrium is an event, like a fall. newton:
   // Newton-Raphson iteration on the joints' stiffness, whose result relaxation confirms
-  Statics statics = Statics::adaptive;
-
-  // Cundall's non-viscous damping: each force component is reduced by this fraction when it drives the motion; 0..<1.
-  // Reaches equilibrium, but delays failure; 0 for dynamics, and in a scene's stages of kind run unless it is stated
-  double local = 0.7;
+  Statics method = Statics::adaptive;
 
   // newton: increments in which a ramp of gravity, or a reduction of friction in a search, is applied; slip within one
   // is integrated in a single step. The cost grows with their number
   int increments = 1;
+};
+
+struct DampingSettings {
+  // Cundall's non-viscous damping: each force component is lessened by this fraction when it drives the motion; 0..<1.
+  // Reaches rest, but delays failure; 0 for dynamics, and in a scene's stages of kind run unless it is stated
+  double local = 0.7;
 
   // ratio to critical of the dashpot in every contact's normal direction; 0..; lowers the stable time step
   double viscous_ratio = 0;
@@ -98,6 +100,7 @@ struct EquilibriumSettings {
 
 struct Settings {
   ContactSettings contact;
+  StaticsSettings statics;
   DampingSettings damping;
   TimeSettings time;
   EquilibriumSettings equilibrium;
@@ -225,11 +228,11 @@ struct FrictionPlan {
   double friction = 0;  // rad
 };
 
-// How the relief loads, by which excavated rock supported the remaining rock, decrease: linearly from the share that
-// still acts to this one; they stay constant if no more than this share acts.
-struct LetOffPlan {
-  double share = 0;     // of the forces before the excavation
-  double duration = 0;  // s, from the begin of the stage on
+// The relief loads, by which excavated rock supported the remaining rock: they fall linearly from the share that still
+// acts to this one, or stay constant if no more than this share acts.
+struct ExcavationForcesPlan {
+  double remaining = 0;  // as a fraction of the forces before the excavation
+  double duration = 0;   // s, from the begin of the stage on
 };
 
 // changes of the model between two stages
@@ -249,15 +252,17 @@ struct Change {
 struct StagePlan {
   std::string name;
   std::variant<SettlePlan, RunPlan, ReducePlan> plan;
-  Change change;                           // applied before the stage begins
-  std::vector<WaterPlan> water{};          // of kind settle or run
-  std::optional<LetOffPlan> let_off{};     // likewise; without it there are no relief loads
-  std::optional<DampingSettings> damping;  // replaces the scene's within this stage
-  std::optional<double> time_fraction;     // the same of TimeSettings::fraction
+  Change change;                                            // applied before the stage begins
+  std::vector<WaterPlan> water{};                           // of kind settle or run
+  std::optional<ExcavationForcesPlan> excavation_forces{};  // likewise; without it they are removed at once
+  std::optional<StaticsSettings> statics;                   // replaces the scene's within this stage
+  std::optional<DampingSettings> damping;                   // likewise
+  std::optional<double> time_fraction;                      // the same of TimeSettings::fraction
 };
 
 // the settings within a stage
 inline Settings settings_of(const StagePlan& stage, Settings scene) {
+  scene.statics = stage.statics.value_or(scene.statics);
   scene.damping = stage.damping.value_or(scene.damping);
   scene.time.fraction = stage.time_fraction.value_or(scene.time.fraction);
   return scene;

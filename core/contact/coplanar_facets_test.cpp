@@ -168,7 +168,7 @@ TEST(CoplanarFacets, ActAsOneFaceOfASoftJoint) {
 // too.
 TEST(CoplanarFacets, ActAsOneFaceForTheStaticSolver) {
   Case c{.rest = 0.05};
-  c.settings.damping.statics = Statics::newton;
+  c.settings.statics.method = Statics::newton;
   expect_noise_to_be_harmless<3>(c, 75, some_noises);
   expect_noise_to_be_harmless<2>(c, 76, some_noises);
 }

@@ -275,7 +275,7 @@ TEST(BoundaryStress, WorkOnATurningBlockIsItsKineticEnergy) {
   settings.time.step = 1e-4;
   State<3> state = initial_state(model);
   run(model, settings, {.end_time = 0.2}, {.properties = {}}, state);
-  const EnergyLedger& e = state.ledger.energy;
+  const EnergyBalance& e = state.ledger.energy;
   EXPECT_GT(rotation_vector(state.bodies.motions[0].rotation).norm(), 1e-3);
   EXPECT_NEAR(e.kinetic, e.external(), 1e-3 * e.kinetic) << "the flow is half a step of 2,000 ahead";
   EXPECT_LT(std::abs(e.flows[Source::contacts]), 1e-12 * e.largest_energy);

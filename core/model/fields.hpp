@@ -183,7 +183,7 @@ void visit_fields(Just<EnergyFlows> auto& f, auto&& visit) {
   visit(Saved{}, values);
 }
 
-void visit_fields(Just<EnergyLedger> auto& e, auto&& visit) {
+void visit_fields(Just<EnergyBalance> auto& e, auto&& visit) {
   auto& [flows, kinetic, elastic, kinetic_origin, elastic_origin, motion_error, contact_error, worst_error,
          largest_energy, phase] = e;
   visit(Saved{}, flows, kinetic, elastic, kinetic_origin, elastic_origin, motion_error, contact_error, worst_error,

@@ -19,7 +19,7 @@ struct BondCount {
 };
 
 struct Ledger {
-  EnergyLedger energy;
+  EnergyBalance energy;
   BondTally bonds;
 };
 

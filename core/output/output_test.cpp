@@ -59,7 +59,7 @@ TEST(ResultsJson, ContainsTheResultsOfTheRun) {
   EXPECT_EQ(json["energy"]["potential"], -12);
   EXPECT_EQ(json["stages"][0]["relaxed"], true);
   EXPECT_EQ(json["energy"]["damping"], 3);
-  EXPECT_EQ(json["energy"]["closure"], 0.25);
+  EXPECT_EQ(json["energy"]["relative_energy_error"], 0.25);
   EXPECT_EQ(json["warnings"].back(), "late doubt");
   EXPECT_EQ(json["state_hash"], results.state_hash);
   EXPECT_EQ(json["timing"]["seconds"], 1.5);

@@ -128,8 +128,8 @@ struct Results {
   Counters counters;
   std::optional<BondCount> bonds;  // if a stage makes some
   std::vector<MovedBody> moved;    // by stage, the farthest first
-  double relief_left = 0;          // largest fraction of excavation forces that still acts at the end
-  EnergyLedger energy;
+  double forces_remaining = 0;     // largest fraction of excavation forces that still acts at the end
+  EnergyBalance energy;
   std::string state_hash;             // of the last state (core/model/state_hash.hpp)
   std::vector<std::string> warnings;  // one line each: doubtful results of the run
   double seconds = 0;                 // wall clock

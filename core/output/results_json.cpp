@@ -125,7 +125,7 @@ Json moved_json(const std::vector<MovedBody>& moved, NumberWriter& number) {
   return list;
 }
 
-Json energy_json(const EnergyLedger& energy, NumberWriter& number) {
+Json energy_json(const EnergyBalance& energy, NumberWriter& number) {
   const std::pair<const char*, double> entries[] = {
       {"kinetic", energy.kinetic},
       {"elastic", energy.elastic},
@@ -136,7 +136,7 @@ Json energy_json(const EnergyLedger& energy, NumberWriter& number) {
       {"lost_area", energy.flows[Source::lost_area]},
       {"stiffening", energy.flows[Source::stiffening]},
       {"unexplained", energy.unexplained()},
-      {"closure", energy.relative_error()},
+      {"relative_energy_error", energy.relative_error()},
   };
   Json json = {{"unit", "J"}};
   for (const auto& [name, value] : entries)
@@ -206,7 +206,7 @@ std::string results_json(const Results& results, const RunRecord& record) {
   if (!record.rounds.empty()) json["accuracy"] = rounds_json(record.rounds);
   if (results.bonds) json["bonds"] = bonds_json(*results.bonds);
   if (!results.moved.empty()) json["moved"] = moved;
-  if (results.relief_left > 0) json["let_off"] = {{"share_left", results.relief_left}};
+  if (results.forces_remaining > 0) json["excavation_forces"] = {{"remaining", results.forces_remaining}};
   json["state_hash"] = results.state_hash;
   json["timing"] = {{"seconds", std::isfinite(results.seconds) ? Json(results.seconds) : Json()},
                     {"threads", record.threads}};

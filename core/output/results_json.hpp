@@ -38,10 +38,11 @@ struct RunRecord {
 std::string outcome_name(Outcome outcome);
 
 // Energies in J (2-D: J per metre): now kinetic, elastic, potential; until now lost to friction and damping, put in by
-// external work, unexplained; `closure` is the largest unexplained of the run over its largest energy
-// (core/base/energy.hpp). Numbers have enough digits to be read back exactly. JSON has no NaN: a number that is not
-// finite becomes null and the message names it. Entries that depend on the machine are only under `timing` (seconds,
-// threads) and `program` (of `origins` the C library's functions): the rest is the same for the same input and origin.
+// external work, unexplained; `relative_energy_error` is the largest unexplained of the run over its largest
+// energy (core/base/energy.hpp). Numbers have enough digits to be read back exactly. JSON has no NaN: a number that is
+// not finite becomes null and the message names it. Entries that depend on the machine are only under `timing`
+// (seconds, threads) and `program` (of `origins` the C library's functions): the rest is the same for the same input
+// and origin.
 std::string results_json(const Results& results, const RunRecord& record);
 
 // throws OutputError

@@ -41,12 +41,12 @@ install = ["pin"]
 name = "dig"
 kind = "settle"
 excavate = ["gate"]
-let_off = { share = 0.3, duration_s = 0.1 }
+excavation_forces = { remaining = 0.3, duration_s = 0.1 }
 [[stage]]
 name = "fall"
 kind = "run"
 duration_s = 0.02
-let_off = { share = 0, duration_s = 0.02 }
+excavation_forces = { remaining = 0, duration_s = 0.02 }
 [[monitors]]
 name = "upper"
 quantities = ["displacement", "rotation"]

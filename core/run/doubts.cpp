@@ -26,7 +26,7 @@ const StagePlan* long_step(std::span<const StagePlan> stages, const Settings& sc
   return nullptr;
 }
 
-std::string open_balance(const EnergyLedger& e, std::span<const StagePlan> stages, const Settings& scene) {
+std::string open_balance(const EnergyBalance& e, std::span<const StagePlan> stages, const Settings& scene) {
   if (std::abs(e.motion_error) > std::abs(e.contact_error))
     return "the motion, which should close to rounding: is the time step unstable (time.step_s)?";
   std::string causes;
@@ -48,7 +48,7 @@ std::string open_balance(const EnergyLedger& e, std::span<const StagePlan> stage
 
 }  // namespace
 
-std::string doubts_of(const EnergyLedger& energy, std::span<const StagePlan> stages, const Settings& scene) {
+std::string doubts_of(const EnergyBalance& energy, std::span<const StagePlan> stages, const Settings& scene) {
   if (!(energy.relative_error() > energy_left_open)) return {};
   return fmt::format(
       "the energy balance does not close: {:.2g} J, {:.2g} of the largest energy of the run, is unexplained, in the "

@@ -14,7 +14,7 @@ namespace voussoir {
 
 // A warning that names the open one of the two balances and its causes; empty if both close.
 // `stages`: those that were begun, with the scene's settings.
-std::string doubts_of(const EnergyLedger& energy, std::span<const StagePlan> stages, const Settings& scene);
+std::string doubts_of(const EnergyBalance& energy, std::span<const StagePlan> stages, const Settings& scene);
 
 // A warning for each critical angle below the range of the accuracy level (empty: none).
 std::vector<std::string> doubts_of_level(std::string_view level, const Results& results);

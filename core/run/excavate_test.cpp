@@ -100,11 +100,11 @@ TEST(Excavation, SmallPiecesAreExcavated) {
 
 // A splinter that an outline cuts off and a body holds does not determine the steps of Newton's method.
 TEST(Excavation, SplintersThatAreHeldDoNotShortenNewtonSteps) {
-  const std::vector<std::string> newton{"damping.statics=newton"};
+  const std::vector<std::string> newton{"statics=newton"};
   const Progress<2> plain = whole_run(scene_of(wall + settle, newton));
-  const Progress<2> outlined = whole_run(
-      scene_of(wall + top + settle + dig("top", "settle", ""),
-               {"damping.statics=newton", "excavations.top.box.min=[-1, 2.9999]", "stage.dig.excavate=[\"top\"]"}));
+  const Progress<2> outlined =
+      whole_run(scene_of(wall + top + settle + dig("top", "settle", ""),
+                         {"statics=newton", "excavations.top.box.min=[-1, 2.9999]", "stage.dig.excavate=[\"top\"]"}));
   EXPECT_GT(plain.state.counters.static_iterations, 0);
   // the same number again after the splinter has been removed
   EXPECT_LE(outlined.state.counters.static_iterations, 2 * plain.state.counters.static_iterations + 2);
@@ -115,7 +115,7 @@ TEST(Excavation, SplintersThatAreHeldDoNotShortenNewtonSteps) {
 TEST(Excavation, RemainingRockIsUpdatedAndUnloaded) {
   for (const char* statics : {"adaptive", "newton", "local"}) {
     const Prepared<2> scene =
-        scene_of(wall + top + settle + dig("top", "settle", ""), {std::string("damping.statics=") + statics});
+        scene_of(wall + top + settle + dig("top", "settle", ""), {std::string("statics=") + statics});
     const Progress<2> end = whole_run(scene);
     const Model<2> dug = apply(scene.model, scene.stages.back().change);
     ASSERT_EQ(dug.bodies.size(), 3u);
@@ -129,12 +129,13 @@ TEST(Excavation, RemainingRockIsUpdatedAndUnloaded) {
 
 // What is let off acts in proportion: elastic beds rise by as much of the whole rise.
 TEST(TakeOut, AShareOfTheForcesGoesOnActing) {
-  const std::string later = "[[stage]]\nname = \"later\"\nkind = \"settle\"\nlet_off = { share = 0, duration_s = 1 }\n";
+  const std::string later =
+      "[[stage]]\nname = \"later\"\nkind = \"settle\"\nexcavation_forces = { remaining = 0, duration_s = 1 }\n";
   for (const char* statics : {"adaptive", "newton", "local"})
     for (const double share : {1.0, 0.4, 0.0}) {
       const std::string first =
-          dig("top", "settle", "let_off = { share = " + std::to_string(share) + ", duration_s = 1 }\n");
-      const std::vector<std::string> how{std::string("damping.statics=") + statics};
+          dig("top", "settle", "excavation_forces = { remaining = " + std::to_string(share) + ", duration_s = 1 }\n");
+      const std::vector<std::string> how{std::string("statics=") + statics};
       const Progress<2> held = whole_run(scene_of(wall + top + settle + first, how));
       const double height = 0.5 + 0.5 * share;
       EXPECT_NEAR(sinks(held, 1), overlap_under(1 + height), 1e-6 * overlap_under(2)) << statics << share;
@@ -231,7 +232,7 @@ excavate = ["half"]
 // Neither an interruption nor threads have an effect, in any stage.
 TEST(Excavation, SurvivesAnInterruption) {
   const std::string text = wall + gate + top + settle +
-                           dig("gate", "run", "duration_s = 0.02\nlet_off = { share = 0.3 }\n") +
+                           dig("gate", "run", "duration_s = 0.02\nexcavation_forces = { remaining = 0.3 }\n") +
                            "[[stage]]\nname = \"rest\"\nkind = \"settle\"\nexcavate = [\"top\"]\n";
   Prepared<2> scene = scene_of(text);
   const Progress<2> whole = whole_run(scene);

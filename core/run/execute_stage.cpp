@@ -62,7 +62,8 @@ template <int Dim>
 std::optional<StageOutcome> run_to(const StageInForce<Dim>& stage, const RunGoal& goal, const GravityPlan& gravity,
                                    StopReason wanted, const Watcher<Dim>& watcher, Progress<Dim>& progress) {
   const StagePlan& plan = stage.plan();
-  const RunSchedule schedule{.gravity = gravity, .properties = {}, .water = plan.water, .let_off = plan.let_off};
+  const RunSchedule schedule{
+      .gravity = gravity, .properties = {}, .water = plan.water, .excavation_forces = plan.excavation_forces};
   const RunReport report = run(stage.model, stage.settings, goal, schedule, progress.state, progress.run,
                                record_run(stage, goal.end_time, watcher, progress));
   if (report.reason == StopReason::interrupted) return {};

@@ -138,9 +138,9 @@ void visit_fields(Just<MovedBody> auto& m, auto&& visit) {
 
 void visit_fields(Just<Results> auto& r, auto&& visit) {
   auto& [outcome, message, values, stages, at_last_stable_state, history, bolts_carried, linings_carried, counters,
-         bonds, moved, relief_left, energy, state_hash, warnings, seconds, budget_evaluations] = r;
+         bonds, moved, forces_remaining, energy, state_hash, warnings, seconds, budget_evaluations] = r;
   visit(Saved{}, outcome, message, values, stages, at_last_stable_state, history, bolts_carried, linings_carried,
-        counters, bonds, moved, relief_left, energy, state_hash, warnings, seconds);
+        counters, bonds, moved, forces_remaining, energy, state_hash, warnings, seconds);
   visit(Found{}, budget_evaluations);
 }
 

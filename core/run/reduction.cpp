@@ -127,7 +127,7 @@ struct Search {
   }
 
   // relaxation and true motion alternate
-  bool relaxes_first(const Attempt& attempt) const { return relaxes(!attempt.falls, settings.damping); }
+  bool relaxes_first(const Attempt& attempt) const { return relaxes(!attempt.falls, settings.statics); }
   long long round() const {
     return std::max(1LL, plan.step_limit / (progress.true_motion ? motion_round : relaxation_round));
   }
@@ -156,7 +156,7 @@ struct Search {
                                .strength_to = progress.target,
                                .properties = properties};
     Settings own = settings;
-    if (progress.true_motion) own.damping.statics = Statics::local;
+    if (progress.true_motion) own.statics.method = Statics::local;
     report.last = run(model, own, goal, schedule, state, progress.run, hooks);
     report.unbalanced = report.last.unbalanced;
     return trial_of(report.last.reason);
@@ -281,11 +281,11 @@ struct Search {
   }
   // errors outside the error bar, which is a bracket
   std::string newton_rule() const {
-    if (settings.damping.statics != Statics::newton) return "";
+    if (settings.statics.method != Statics::newton) return "";
     return fmt::format(
         "; by Newton's method in {} increment{} per trial: the error due to slip integrated in large increments is not "
         "in the error bar",
-        settings.damping.increments, settings.damping.increments == 1 ? "" : "s");
+        settings.statics.increments, settings.statics.increments == 1 ? "" : "s");
   }
 
   std::string stable_and_failed_rule() const {

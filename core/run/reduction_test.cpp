@@ -322,7 +322,7 @@ TEST(Reduction, ALooseBlockDoesNotEndASearchByFraction) {
   plan.failure_displacement = 0.01;
   for (const Statics statics : {Statics::adaptive, Statics::local, Statics::newton}) {
     Settings settings;
-    settings.damping.statics = statics;
+    settings.statics.method = statics;
     for (const auto& [fraction, critical] : {std::pair(0.0, 40.0), {0.03, 40.0}, {0.1, 20.0}, {1.0, 20.0}}) {
       plan.failure_fraction = fraction;
       State<2> state = initial_state(model);

@@ -59,10 +59,11 @@ bool follow(const Model<Dim>& model, const RunSchedule& plan, Schedule& schedule
       numbers[k] = fraction < 1 ? water.from[k] + (water.to[k] - water.from[k]) * fraction : water.to[k];
     changing = changing || fraction < 1;
   }
-  if (plan.let_off && !relief.empty()) {
-    const double fraction = schedule.time >= began + plan.let_off->duration ? 1 : elapsed / plan.let_off->duration;
+  if (plan.excavation_forces && !relief.empty()) {
+    const double fraction =
+        schedule.time >= began + plan.excavation_forces->duration ? 1 : elapsed / plan.excavation_forces->duration;
     for (ReliefLoad<Dim>& held : relief)
-      held.share = held.begun + (std::min(held.begun, plan.let_off->share) - held.begun) * fraction;
+      held.share = held.begun + (std::min(held.begun, plan.excavation_forces->remaining) - held.begun) * fraction;
     changing = changing || fraction < 1;
   }
   return changing;
@@ -94,7 +95,7 @@ double ramp_of(const RunSchedule& plan) {
   double ramp = std::max(plan.gravity.ramp, fall);
   for (const WaterPlan& water : plan.water)
     ramp = std::max(ramp, water.ramp);
-  if (plan.let_off) ramp = std::max(ramp, plan.let_off->duration);
+  if (plan.excavation_forces) ramp = std::max(ramp, plan.excavation_forces->duration);
   return ramp;
 }
 
@@ -112,7 +113,8 @@ std::string unreached(const Model<Dim>& model, const Settings& settings, const R
     add("the reduction of strength", std::abs(plan.strength_from - plan.strength_to) / plan.strength_rate);
   for (const WaterPlan& water : plan.water)
     add(fmt::format("the water '{}'", model.waters[water.water].name), water.ramp);
-  if (plan.let_off && !state.loads.relief.empty()) add("what excavated rock still holds", plan.let_off->duration);
+  if (plan.excavation_forces && !state.loads.relief.empty())
+    add("what excavated rock still holds", plan.excavation_forces->duration);
   if (ramps.empty() && state.increment.under_way) ramps.emplace_back("the increments of Newton's method");
   if (ramps.empty() && unbalanced <= settings.equilibrium.unbalanced)
     ramps.push_back(fmt::format("equilibrium in {} consecutive steps (equilibrium.window), it lasted for {}",
@@ -218,7 +220,7 @@ bool begins_newton(const Model<Dim>& model, const Settings& settings, const RunP
                    const State<Dim>& state) {
   const bool lingers = progress.steps > 0 && progress.steps % steps_until_newton == 0 && progress.at_rest == 0 &&
                        !changing && !state.increment.under_way;
-  return (lingers || (progress.steps == 0 && settings.damping.statics == Statics::newton)) && newton_applies(model);
+  return (lingers || (progress.steps == 0 && settings.statics.method == Statics::newton)) && newton_applies(model);
 }
 
 template <int Dim>
@@ -271,7 +273,7 @@ std::string label_of(const Model<Dim>& model, int body) {
 template <int Dim>
 RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& goal, const RunSchedule& schedule,
               State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks) {
-  const bool relaxing = relaxes(goal.rest, settings.damping);
+  const bool relaxing = relaxes(goal.rest, settings.statics);
   if (!progress.under_way) {
     std::vector<Vector<Dim>> stated = std::move(progress.begin);
     progress = begin_run(goal, state.counters, state.bodies, state.schedule);

@@ -44,7 +44,7 @@ struct RunSchedule {
   double strength_from = 0, strength_to = 0;  // rad, or 1
   std::vector<int> properties{};
   std::vector<WaterPlan> water{};
-  std::optional<LetOffPlan> let_off{};
+  std::optional<ExcavationForcesPlan> excavation_forces{};
 };
 
 struct RunReport {

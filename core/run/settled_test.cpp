@@ -24,7 +24,7 @@ double between(Engine& engine, double low, double high) {
 }
 
 std::string head(const std::string& gravity = "[0, -10]") {
-  return "dimension = 2\ndensity = 2000\ndamping = { statics = \"local\" }\ngravity = " + gravity +
+  return "dimension = 2\ndensity = 2000\nstatics = \"local\"\ngravity = " + gravity +
          "\njoint_properties = [{ name = \"rock\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 20 "
          "}]\n";
 }

@@ -145,7 +145,7 @@ TEST(Simulate, PlasticSlipIsSetToZeroOnRequest) {
 TEST(Simulate, AStageIsMarkedRelaxedIfItEndsByRelaxation) {
   const auto relaxed = [](const std::variant<SettlePlan, RunPlan, ReducePlan>& plan, Statics statics) {
     Prepared<2> scene = block_on_slope({stage_of("only", plan)});
-    scene.settings.damping.statics = statics;
+    scene.settings.statics.method = statics;
     return results_of(scene).stages.at(0).relaxed;
   };
   EXPECT_TRUE(relaxed(SettlePlan{}, Statics::adaptive));
@@ -210,9 +210,9 @@ TEST(Simulate, TheMeasureOfEquilibriumIsThatOfTheFinalState) {
 constexpr double weight = shapes::density * 0.5 * shapes::gravity;
 
 Prepared<2> bonded_block(double slope, double tension, double cohesion, const std::vector<StagePlan>& stages,
-                         Statics statics = Settings{}.damping.statics) {
+                         Statics statics = Settings{}.statics.method) {
   Prepared<2> scene;
-  scene.settings.damping.statics = statics;
+  scene.settings.statics.method = statics;
   scene.model = block_on_plate<2>(slope, 30 * degree);
   // a block that leans on its lower edge is bonded only there
   scene.model.bodies[shapes::index_of(scene.model, "block")].free_rotation.fill(false);
@@ -395,7 +395,7 @@ TEST(Simulate, WithoutEquilibriumTheBlockThatMovesMostIsNamed) {
 TEST(Simulate, AFreelyFallingBlockEndsTheSearchForEquilibrium) {
   for (const Statics statics : {Statics::adaptive, Statics::local}) {
     Prepared<2> scene = block_on_slope({stage_of("settle", SettlePlan{})});
-    scene.settings.damping.statics = statics;
+    scene.settings.statics.method = statics;
     for (double& friction : scene.state.schedule.friction)
       friction = 5 * degree;
     const Results results = results_of(scene);

@@ -77,7 +77,7 @@ struct Columns {
     text += "[[restrain]]\nall = true\nrotation = true\n";
     text += "[[stage]]\nname = \"settle\"\nkind = \"settle\"\ngravity_ramp_s = 0.1\nbond = true\n";
     text += "[[stage]]\nname = \"pull\"\nkind = \"run\"\nduration_s = 0.02\n" + forces;
-    text += "[[stage]]\nname = \"rest\"\nkind = \"settle\"\ndamping = { statics = \"local\" }\n";
+    text += "[[stage]]\nname = \"rest\"\nkind = \"settle\"\nstatics = \"local\"\n";
     return text + "[output]\nframes = false\n";
   }
 };
@@ -166,7 +166,7 @@ std::string slab(bool pulled_off, const std::string& search) {
     text +=
         "[[stage]]\nname = \"pull\"\nkind = \"run\"\nduration_s = 0.02\nforce = [{ name = \"pull\", inside = [0, 1], "
         "force = [0, 2e6], times_s = [0, 0.01, 0.02], factors = [0, 1, 0] }]\n"
-        "[[stage]]\nname = \"rest\"\nkind = \"settle\"\ndamping = { statics = \"local\" }\n";
+        "[[stage]]\nname = \"rest\"\nkind = \"settle\"\nstatics = \"local\"\n";
   return text + "[[stage]]\nname = \"safety\"\nkind = \"reduce\"\nfailure_displacement = 0.002\n" + search +
          "[output]\nframes = false\n";
 }

@@ -48,7 +48,7 @@ void renew_for_stage(const Model<Dim>& model, State<Dim>& state) {
     load.begun = load.share;
   std::erase_if(relief,
                 [&](const ReliefLoad<Dim>& load) { return load.share == 0 || !model.bodies[load.body].present; });
-  if (state.ledger.energy.phase == LedgerPhase::running) state.ledger.energy.phase = LedgerPhase::model_changed;
+  if (state.ledger.energy.phase == BalancePhase::running) state.ledger.energy.phase = BalancePhase::model_changed;
 }
 
 // bodies in equilibrium at another position: a later search would examine another slope than the scene's
@@ -78,7 +78,7 @@ StageResult result_of(const StageInForce<Dim>& stage, const StageOutcome& done, 
   r.name = stage.plan().name;
   r.kind = kind_of(stage.plan());
   r.ended = done.ended;
-  r.relaxed = ends_relaxed(stage.plan(), stage.settings.damping);
+  r.relaxed = ends_relaxed(stage.plan(), stage.settings.statics);
   r.steps = state.counters.steps - progress.steps_before;
   r.time = state.schedule.time - progress.stage_began;
   r.time_step = state.time_step.length;
@@ -105,7 +105,7 @@ void enter_stage(const Prepared<Dim>& scene, Model<Dim>& model, Settings& settin
   settings = settings_of(plan, scene.settings);
   if (!progress.stage_under_way && !plan.change.excavate.empty()) {
     const Excavated<Dim> moved =
-        excavate(plan.change.excavate, settings, plan.let_off.has_value(), model, progress.state);
+        excavate(plan.change.excavate, settings, plan.excavation_forces.has_value(), model, progress.state);
     for (StageEnd<Dim>& end : progress.ends)
       carry(moved, end);
     carry(moved, progress.bonded);

@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"empty_domain_table", "box = { min = [-2, -2, -2], max = [2, 2, 2] }", "", "domain.box is missing",
                  "a box, planes or both"},
         BadInput{"rate_by_newton", "to_deg = 5\ntolerance_deg = 0.01",
-                 "to_deg = 5\nmethod = \"rate\" #!\nrate_deg_per_s = 1\ndamping = { statics = \"newton\" }",
+                 "to_deg = 5\nmethod = \"rate\" #!\nrate_deg_per_s = 1\nstatics = \"newton\"",
                  "stage.reduce.method = \"rate\"", "method = \"bisection\""},
         BadInput{"open_domain", "[domain]\nbox = { min = [-2, -2, -2], max = [2, 2, 2] }",
                  "[domain] #!\nplanes = [{ dip = 0, point = [0, 0, 0], keep = \"below\" }]", "domain = {",

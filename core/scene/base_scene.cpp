@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/scene/renamed_keys.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/scene/toml_text.hpp"
 
@@ -66,6 +67,7 @@ namespace fs = std::filesystem;
 
 // `chain` holds the bases that led here
 Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain, FilesRead& read) {
+  take_present_names(scene, "", "", read.renamed);
   // tables from files of joints and blocks have lower precedence than the scene that names them, like a base
   Node files = tables_of_files(scene, folder, read);
   lay_over(files, scene);

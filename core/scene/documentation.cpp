@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/scene/keys.hpp"
+#include "core/scene/renamed_keys.hpp"
 #include "core/scene/scene.hpp"
 
 namespace voussoir {
@@ -170,6 +171,11 @@ std::string scene_documentation() {
     }
     text += row_text(row);
   }
+  text +=
+      "\n## Earlier names\n\nA key may be written by its earlier name; `voussoir check` names the present one.\n\n"
+      "| earlier | present |\n|---|---|\n";
+  for (const RenamedKey& row : renamed_keys)
+    text += "| `" + std::string(row.earlier) + "` | `" + std::string(row.present) + "` |\n";
   return text;
 }
 

@@ -31,7 +31,7 @@ std::vector<Cut<Dim>> cuts_of(const Scene& scene, const Model<Dim>& model) {
     // a joint without a set is a set of its own
     cut.set = joint.set.empty() ? number : sets.try_emplace(joint.set, number).first->second;
     cut.kind = joint.kind;
-    cut.whole = joint.whole;
+    cut.fixed_side = joint.fixed_side;
     cuts.push_back(std::move(cut));
   }
   put_in_order(cuts, scene.slicing.order);

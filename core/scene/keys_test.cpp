@@ -53,8 +53,9 @@ void add_stage(Values& values, const StagePlan& stage) {
     add(values, "stage", reduce->factor);
   }
   if (stage.damping) add(values, "damping", *stage.damping);
+  if (stage.statics) add(values, "stage", *stage.statics);
   add(values, "stage", stage.change);
-  if (stage.let_off) add(values, "let_off", *stage.let_off);
+  if (stage.excavation_forces) add(values, "excavation_forces", *stage.excavation_forces);
   for (const FrictionPlan& friction : stage.change.friction_of)
     add(values, "friction", friction);
   for (const MovePlan& move : stage.change.move) {
@@ -75,6 +76,7 @@ void add_stage(Values& values, const StagePlan& stage) {
 Values values_of(const Scene& s) {
   Values values;
   add(values, "", s);
+  add(values, "", s.settings.statics);
   add(values, "contact", s.settings.contact);
   add(values, "damping", s.settings.damping);
   add(values, "time", s.settings.time);

@@ -179,7 +179,7 @@ Vector<Dim> stated_normal(const PlaneSpec& plane) {
 
 // if a joint is turned upside down, the side below it becomes the side above
 void swap_sides(Node& joint) {
-  if (Node* whole = joint.find("whole")) whole->text = whole->text == "below" ? "above" : "below";
+  if (Node* fixed = joint.find("fixed_side")) fixed->text = fixed->text == "below" ? "above" : "below";
 }
 
 // ---- bolts

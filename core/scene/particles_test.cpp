@@ -143,7 +143,7 @@ TEST(Particles, NewtonFindsTheEquilibriumOfAStack) {
         "box = {{ min = [{}, -0.09, {}], max = [{}, 0.09, {}] }}\n",
         i, -0.09 + 0.01 * i, 0.2 * i + 0.01, 0.09 + 0.01 * i, 0.2 * i + 0.19);
   text += "[[stage]]\nname = \"settle\"\nkind = \"settle\"\n";
-  const Ran<3> relaxed = whole_run<3>(text), by_newton = whole_run<3>(text, {"damping.statics=\"newton\""});
+  const Ran<3> relaxed = whole_run<3>(text), by_newton = whole_run<3>(text, {"statics=\"newton\""});
   EXPECT_GT(by_newton.progress.state.counters.static_iterations, 0);
   EXPECT_EQ(by_newton.progress.state.counters.static_fallbacks, 0);
   for (const char* name : {"cube0", "cube1", "cube2"})

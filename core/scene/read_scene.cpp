@@ -155,21 +155,22 @@ std::vector<InitialVelocitySpec> read_initial_velocity(const Subject& scene) {
 }
 
 // Overrides of [[repeat]] come first, since they determine the copies, and those of copies once these are made.
-void override_and_repeat(Node& tree, const std::vector<std::string>& overrides, const std::string& source) {
+void override_and_repeat(Node& tree, const std::vector<std::string>& overrides, const std::string& source,
+                         std::vector<std::string>& renamed) {
   std::vector<std::string> of_tables, of_copies;
   for (const std::string& text : overrides)
     if (text.starts_with("repeat"))
-      apply_override(tree, text, source);
+      apply_override(tree, text, source, renamed);
     else
       of_tables.push_back(text);
   for (const std::string& text : of_tables)
     if (addresses_copy(tree, text))
       of_copies.push_back(text);
     else
-      apply_override(tree, text, source);
+      apply_override(tree, text, source, renamed);
   repeat_tables(tree);
   for (const std::string& text : of_copies)
-    apply_override(tree, text, source);
+    apply_override(tree, text, source, renamed);
 }
 
 }  // namespace
@@ -181,7 +182,7 @@ Scene read_tree(Node stated, const std::string& name, const std::vector<std::str
   FilesRead read;
   const auto tree =
       std::make_shared<Node>(with_base(std::move(stated), std::filesystem::path(name).parent_path(), read));
-  override_and_repeat(*tree, overrides, file);
+  override_and_repeat(*tree, overrides, file, read.renamed);
   const std::vector<std::string> from_level = apply_accuracy_level(*tree);
   check_keys(*tree);
   accuracy_target(*tree);
@@ -190,6 +191,7 @@ Scene read_tree(Node stated, const std::string& name, const std::vector<std::str
   scene.file = file;
   scene.files = std::move(read.files);
   scene.remarks = std::move(read.remarks);
+  scene.renamed = std::move(read.renamed);
   scene.tree = tree;
   scene.from_level = from_level;
   const Subject top{tree.get(), ""};
@@ -206,7 +208,7 @@ Scene read_tree(Node stated, const std::string& name, const std::vector<std::str
   check_face(top, scene.settings.contact, scene.properties);
   scene.excavations = read_excavations(top, scene.dimension);
   const double rock_weight = scene.density && scene.gravity ? *scene.density * std::abs(scene.gravity->back()) : 0;
-  scene.stages = read_stages(top, scene.dimension, scene.settings.damping, rock_weight);
+  scene.stages = read_stages(top, scene.dimension, scene.settings, rock_weight);
   check_divided_strength(scene.properties, scene.stages);
   scene.waters = read_waters(top, scene.dimension);
   read_water_changes(scene.waters, scene.stages, scene.dimension);

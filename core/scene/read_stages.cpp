@@ -201,17 +201,17 @@ ForcePlan read_force(const Subject& table, const Selector& bodies, const RunPlan
   return plan;
 }
 
-LetOffPlan read_let_off(const Subject& table, const std::variant<SettlePlan, RunPlan, ReducePlan>& stage) {
-  LetOffPlan plan;
-  read_keys(*table.node, "let_off", plan);
+ExcavationForcesPlan read_excavation_forces(const Subject& table,
+                                            const std::variant<SettlePlan, RunPlan, ReducePlan>& stage) {
+  ExcavationForcesPlan plan;
+  read_keys(*table.node, "excavation_forces", plan);
   if (const auto* run = std::get_if<RunPlan>(&stage)) {
     if (!table.node->find("duration_s")) plan.duration = run->duration;
     if (plan.duration > run->duration)
-      refuse(
-          table, "duration_s",
-          fmt::format("must be at most the stage's duration_s ({:g}): the stage would end before its share is reached; "
-                      "shorten it, or leave it out for the whole stage",
-                      run->duration));
+      refuse(table, "duration_s",
+             fmt::format("must be at most the stage's duration_s ({:g}): the stage would end before they have fallen; "
+                         "shorten it, or leave it out for the whole stage",
+                         run->duration));
   } else if (!table.node->find("duration_s")) {
     refuse(table, "duration_s",
            "is needed in a stage of kind settle, whose time is not known before; write for example duration_s = 1, as "
@@ -219,31 +219,36 @@ LetOffPlan read_let_off(const Subject& table, const std::variant<SettlePlan, Run
   } else if (const auto* settle = std::get_if<SettlePlan>(&stage); settle && plan.duration >= settle->time_limit) {
     refuse(table, "duration_s",
            fmt::format(
-               "must be less than time_limit_s ({:g}): rest needs the share to be reached; shorten it or raise the "
+               "must be less than time_limit_s ({:g}): equilibrium needs them to have fallen; shorten it or raise the "
                "limit",
                settle->time_limit));
   }
   return plan;
 }
 
-StageSpec read_stage(const Subject& table, const DampingSettings& damping, int dimension, double rock_weight) {
+StageSpec read_stage(const Subject& table, const Settings& settings, int dimension, double rock_weight) {
   StageSpec stage;
   stage.subject = table;
   read_keys(*table.node, "stage", stage.plan);
   read_keys(*table.node, "stage", stage.plan.change);
   std::visit([&](auto& plan) { read_plan(table, plan); }, stage.plan.plan);
   if (const auto own = child(table, "damping")) {
-    stage.plan.damping = damping;
+    stage.plan.damping = settings.damping;
     read_keys(*own->node, "damping", *stage.plan.damping);
   }
+  if (table.node->find("statics") || table.node->find("static_increments")) {
+    stage.plan.statics = settings.statics;
+    read_keys(*table.node, "stage", *stage.plan.statics);
+  }
   if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan.plan);
-      reduce && stage.plan.damping.value_or(damping).statics == Statics::newton &&
+      reduce && stage.plan.statics.value_or(settings.statics).method == Statics::newton &&
       (reduce->method == ReductionMethod::rate || reduce->method == ReductionMethod::two_rates))
     refuse(table, "method",
            "a reduction at a rate is a motion, which Newton's method does not compute; write method = \"bisection\" or "
            "\"steps\", or "
-           "damping = { statics = \"adaptive\" } in this stage");
-  if (const auto item = child(table, "let_off")) stage.plan.let_off = read_let_off(*item, stage.plan.plan);
+           "statics = \"adaptive\" in this stage");
+  if (const auto item = child(table, "excavation_forces"))
+    stage.plan.excavation_forces = read_excavation_forces(*item, stage.plan.plan);
   Change& change = stage.plan.change;
   const auto read_chosen = [&](const char* key, const auto& add) {
     for (const SelectorSpec& spec : stage.chosen[key] = read_selectors(table, key))
@@ -369,6 +374,7 @@ MotionSpec read_motion(const Subject& table) {
 Settings read_settings(const Subject& scene) {
   Settings settings;
   read_keys(*scene.node, "", settings);
+  read_keys(*scene.node, "", settings.statics);
   const ContactSettings& contact = settings.contact;
   if (settings.time.step && states(scene, "time", "fraction"))
     refuse(
@@ -382,13 +388,12 @@ Settings read_settings(const Subject& scene) {
   return settings;
 }
 
-std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const DampingSettings& damping,
-                                   double rock_weight) {
+std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const Settings& settings, double rock_weight) {
   std::vector<StageSpec> stages;
   for (const Subject& item : children(scene, "stage"))
-    stages.push_back(read_stage(item, damping, dimension, rock_weight));
+    stages.push_back(read_stage(item, settings, dimension, rock_weight));
   chain_gravity(stages);
-  free_runs(scene, damping, stages);
+  free_runs(scene, settings.damping, stages);
   return stages;
 }
 

@@ -11,8 +11,7 @@ SelectorSpec read_selector(const Subject& table);
 std::vector<SelectorSpec> read_selectors(const Subject& table, std::string_view key);
 MotionSpec read_motion(const Subject& table);
 Settings read_settings(const Subject& scene);
-std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const DampingSettings& damping,
-                                   double rock_weight);
+std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const Settings& settings, double rock_weight);
 // refuses a scene without stages: such a scene can only be sliced
 void require_stages(const Scene& scene);
 std::vector<MonitorSpec> read_monitors(const Subject& scene);

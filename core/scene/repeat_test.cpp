@@ -150,10 +150,11 @@ width = 2
   // turned upside down: the side below becomes the side above
   const std::string boundary =
       "[domain]\nbox = { min = [-1, -1], max = [1, 1] }\n[[joints]]\nname = \"A\"\ndip = 30\ndip_direction = 90\n"
-      "point = [0, 0.5]\nkind = \"boundary\"\nwhole = \"above\"\n[[repeat]]\njoints = [\"A\"]\ncount = 2\nturn_deg = "
+      "point = [0, 0.5]\nkind = \"boundary\"\nfixed_side = \"above\"\n[[repeat]]\njoints = [\"A\"]\ncount = "
+      "2\nturn_deg = "
       "180\nabout = [0, 0]\n";
   const Scene flat = parse(2, boundary);
-  EXPECT_EQ(flat.joints[1].whole, JointSide::below);
+  EXPECT_EQ(flat.joints[1].fixed_side, JointSide::below);
   EXPECT_NEAR(flat.joints[1].plane.point[1], -0.5, rounding);
   int fixed = 0;
   for (const Body<2>& b : prepare<2>(flat).model.bodies)

@@ -28,7 +28,8 @@ template <int Dim>
 Prepared<Dim> prepare(const Scene& scene);
 
 // The effective scene as canonical text, to be hashed: independent of comments, layout, the order of keys, how numbers
-// are written, and of whether a value came from the file or an override. Unstated defaults do not appear.
+// are written, of earlier or present names of keys, and of whether a value came from the file or an override. Unstated
+// defaults do not appear.
 std::string canonical_text(const Scene& scene);
 std::string canonical_text(const Node& part);
 

@@ -14,6 +14,7 @@ namespace voussoir {
 struct FilesRead {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> remarks;
+  std::vector<std::string> renamed{};  // keys that were stated under an earlier name (core/scene/renamed_keys.hpp)
 };
 
 // The file that a scene names under a key: a regular file in its folder, links resolved. SceneError otherwise.

@@ -76,7 +76,7 @@ struct JointSpec {
   OutlineSpec outline;
   std::string set;  // joints with the same name form a set; or empty
   JointKind kind = JointKind::rock;
-  JointSide whole = JointSide::none;
+  JointSide fixed_side = JointSide::none;
   std::optional<RegionSpec> within;  // the subdomain to which it is confined
   std::vector<std::string> ends_at;  // joints stated before it, and excavations
 };
@@ -274,6 +274,7 @@ struct Scene {
   std::vector<MonitorSpec> monitors;
   OutputPlan output;
   std::vector<std::string> from_level;  // what accuracy.level set: "key = value"
+  std::vector<std::string> renamed;     // keys under an earlier name: "scene.toml:7: … is now …"
   std::vector<std::filesystem::path>
       files;                         // that were read: the scene's own, if it is a file, and those that it names
   std::vector<std::string> remarks;  // remarks on these files for the user, one line each

@@ -71,7 +71,7 @@ TEST(SlicingScene, KindsJoinAndFixBlocks) {
   // below
   for (const auto& [order, expected] : {std::pair("size", 1), std::pair("given", 2)}) {
     const Prepared<2> prepared = square(
-        trace, {"joints.trace.kind=boundary", "joints.trace.whole=below", std::string("slicing.order=") + order});
+        trace, {"joints.trace.kind=boundary", "joints.trace.fixed_side=below", std::string("slicing.order=") + order});
     int fixed = 0;
     for (const Body<2>& body : prepared.model.bodies)
       fixed += body.fixed;
@@ -296,7 +296,7 @@ duration_s = 1
   refused({"joints.wall.corners=[[0, -1, 0], [0, 1, 0], [0, 0, 0.1], [0, 0, 1]]"}, "convex polygon");
   refused({"joints.floor.shape=trace", "joints.floor.length=1"}, "dimension = 3");
   refused({"joints.floor.shape=rectangle"}, "length");
-  refused({"joints.floor.kind=boundary"}, "whole");
+  refused({"joints.floor.kind=boundary"}, "fixed_side");
   refused({"slicing.most_blocks=2"}, "slicing.most_blocks");
 }
 

@@ -112,7 +112,7 @@ TEST(WaterOfAScene, IsPartOfTheHash) {
 TEST(WaterOfAScene, IsSolvedByNewtonsMethod) {
   const std::string up = settle + "[[stage]]\nname = \"up\"\nkind = \"settle\"\n" + rise;
   const Progress<2> relaxed = simulated(prepared(up));
-  const Progress<2> newton = simulated(prepared(up, {"damping.statics=newton", "damping.increments=3"}));
+  const Progress<2> newton = simulated(prepared(up, {"statics=newton", "static_increments=3"}));
   ASSERT_EQ(newton.results.outcome, Outcome::done) << newton.results.message;
   EXPECT_GT(newton.state.counters.static_iterations, 0);
   EXPECT_EQ(newton.state.counters.static_fallbacks, 0);

@@ -36,7 +36,7 @@ struct Cut {
   Extent<Dim> extent{};
   int set = 0;  // of the same joint set
   JointKind kind = JointKind::rock;
-  JointSide whole = JointSide::none;  // boundary: the side that stays in one piece
+  JointSide fixed_side = JointSide::none;  // boundary: the side that stays in one piece
 };
 
 // Outlines about a point of the plane, from coordinates along its axes (m). A polygon has at least three corners, in

@@ -329,7 +329,7 @@ TEST(Kinds, ABoundaryJointLeavesItsSideWhole) {
   std::vector<Cut<3>> cuts{{{z, -0.5}, 7}, {{x, 0}, 1}, {{y, 0}, 2}};
   cuts[0].kind = JointKind::boundary;
   for (const JointSide side : {JointSide::below, JointSide::above}) {
-    cuts[0].whole = side;
+    cuts[0].fixed_side = side;
     const auto parts = sliced<3>(cube(), cuts);
     ASSERT_EQ(parts.size(), 5u);
     const std::vector<int> whole = boundary_parts<3>(parts, cuts);

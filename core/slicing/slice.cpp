@@ -140,9 +140,9 @@ std::optional<Pair<Dim>> split(const Piece<Dim>& piece, const Cuts<Dim>& cuts, c
       continue;
     }
     ++counters.cuts;
-    if (cut.whole != JointSide::below)
+    if (cut.fixed_side != JointSide::below)
       below.joints = handed_on(piece.joints, k + 1, cuts, below.block, limits, counters);
-    if (cut.whole != JointSide::above)
+    if (cut.fixed_side != JointSide::above)
       above.joints = handed_on(piece.joints, k + 1, cuts, above.block, limits, counters);
     return children;
   }
@@ -251,14 +251,14 @@ std::vector<int> boundary_parts(const std::vector<Polytope<Dim>>& parts, const s
   // a side that such a joint leaves in one piece is never cut again, and keeps its face
   std::map<int, const Cut<Dim>*> boundaries;
   for (const Cut<Dim>& cut : cuts)
-    if (cut.whole != JointSide::none) boundaries[cut.joint] = &cut;
+    if (cut.fixed_side != JointSide::none) boundaries[cut.joint] = &cut;
   std::vector<int> whole;
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (std::size_t f = 0; f < parts[p].faces.size(); ++f) {
       const auto at = boundaries.find(parts[p].joints[f]);
       if (at == boundaries.end()) continue;
       const bool below = parts[p].faces[f].normal.dot(at->second->plane.normal) > 0;
-      if (below != (at->second->whole == JointSide::below)) continue;
+      if (below != (at->second->fixed_side == JointSide::below)) continue;
       whole.push_back(static_cast<int>(p));
       break;
     }

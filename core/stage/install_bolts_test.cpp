@@ -75,7 +75,7 @@ repeat = [{ step = [2, 0, 0], count = 2 }, { step = [0, 1, 0], count = 2 }]
   // inclined bolts, by relaxation and by Newton's method
   const std::string leaning = "bolts.roof.to=[1.7, 0.9, 2]";
   const Progress<3> relaxed = simulated(scene_of<3>(text, {leaning}));
-  const Progress<3> newton = simulated(scene_of<3>(text, {leaning, "damping.statics=\"newton\""}));
+  const Progress<3> newton = simulated(scene_of<3>(text, {leaning, "statics=\"newton\""}));
   ASSERT_EQ(relaxed.results.outcome, Outcome::done) << relaxed.results.message;
   ASSERT_EQ(newton.results.outcome, Outcome::done) << newton.results.message;
   EXPECT_GT(newton.results.counters.static_iterations, 0);
@@ -117,7 +117,7 @@ TEST(Bolts, AreTheSameByNewtonsMethod) {
   const std::string text = slab + bolts(row) + bolts("from = [0.5, 0.5]\nto = [2, 2]\n", "inclined") +
                            stage("gravity_ramp_s = 1\ninstall = [\"roof\", \"inclined\"]");
   const std::vector<double> relaxed = forces(simulated(scene_of(text)));
-  const Progress<2> done = simulated(scene_of(text, {"damping.statics=\"newton\""}));
+  const Progress<2> done = simulated(scene_of(text, {"statics=\"newton\""}));
   ASSERT_EQ(done.results.outcome, Outcome::done) << done.results.message;
   EXPECT_GT(done.results.counters.static_iterations, 0);
   EXPECT_EQ(done.results.counters.static_fallbacks, 0);
@@ -196,7 +196,7 @@ TEST(Bolts, KeepTheEnergyBalanceOfAMotion) {
       slab + bolts(row + "yield = 50e3\ndowel_stiffness = 1e7\ndowel_strength = 1e3\n") +
       "[[stage]]\nname = \"run\"\nkind = \"run\"\nduration_s = 0.3\ninstall = [\"roof\"]\ndamping = { local = 0 }\n");
   const Progress<2> done = simulated(scene);
-  const EnergyLedger& energy = done.results.energy;
+  const EnergyBalance& energy = done.results.energy;
   EXPECT_GT(energy.flows[Source::bolt_yield], 0.1 * energy.largest_energy);
   EXPECT_LT(std::abs(energy.motion_error), 1e-10 * energy.largest_energy);
   EXPECT_LT(energy.relative_error(), 0.01);

@@ -39,7 +39,7 @@ TEST(GroutedBolts, ShareTheWeightThatHangsFromThem) {
   for (const char* statics : {"adaptive", "newton"})
     for (const double spacing : {1.0, 2.5}) {
       const Progress<2> done = simulated(scene_of(slab + bolts(row + "spacing = " + std::to_string(spacing)) + hang,
-                                                  {std::string("damping.statics=\"") + statics + "\""}));
+                                                  {std::string("statics=\"") + statics + "\""}));
       ASSERT_EQ(done.results.outcome, Outcome::done) << done.results.message;
       ASSERT_EQ(done.results.bolts.size(), 3u);
       for (const BoltRow& bolt : done.results.bolts) {
@@ -294,13 +294,13 @@ TEST(GroutedBolts, StayInTheRemainingPartsOfTheirBlocks) {
 }
 
 // What the rock that goes held by bolts is held by its let-off, and nothing moves as long as none is let off.
-TEST(GroutedBolts, AreLetOffWithTheRockThatGoes) {
-  const std::string hold = "let_off = { share = 1, duration_s = 0.1 }";
+TEST(GroutedBolts, AreRelievedWithTheRockThatGoes) {
+  const std::string hold = "excavation_forces = { remaining = 1, duration_s = 0.1 }";
   const std::string plain = "[[bolts]]\nname = \"roof\"\nstiffness = 1e8\n" + through;
   for (const std::string& roof : {plain, bolts(through)}) {
     const Progress<2> done =
         simulated(scene_of(beds + lowest + roof + hang + stage("excavate = [\"dug\"]\n" + hold, "dig") +
-                           stage("let_off = { share = 0, duration_s = 1 }", "off")));
+                           stage("excavation_forces = { remaining = 0, duration_s = 1 }", "off")));
     ASSERT_EQ(done.results.outcome, Outcome::done) << done.results.message;
     std::vector<double> opened[3];  // of the joints that are left
     for (const BoltRow& r : done.results.bolts)
@@ -373,7 +373,7 @@ void expect_same_bits(const std::string& statics) {
 TEST(GroutedBolts, SurviveInterruptionsThreadsAndTheOrderOfTheFile) {
   for (const char* statics : {"adaptive", "local", "newton"}) {
     SCOPED_TRACE(statics);
-    expect_same_bits(std::string("damping.statics=\"") + statics + "\"");
+    expect_same_bits(std::string("statics=\"") + statics + "\"");
   }
 }
 
@@ -384,7 +384,7 @@ TEST(GroutedBolts, KeepTheEnergyBalanceOfAMotion) {
         slab + bolts(row + strength) +
         "[[stage]]\nname = \"run\"\nkind = \"run\"\nduration_s = 0.3\ninstall = [\"roof\"]\ndamping = { local = 0 }\n");
     const Progress<2> done = simulated(scene);
-    const EnergyLedger& energy = done.results.energy;
+    const EnergyBalance& energy = done.results.energy;
     EXPECT_GT(energy.flows[Source::bolt_yield], 0.1 * energy.largest_energy) << strength;
     EXPECT_LT(std::abs(energy.motion_error), 1e-10 * energy.largest_energy);
     EXPECT_LT(energy.relative_error(), 0.01);

@@ -91,10 +91,11 @@ TEST(Linings, AreInstalledTogetherWithBolts) {
   const std::string roof = "[[bolts]]\nname = \"roof\"\nstiffness = 1e8\n",
                     left = roof + "from = [-0.2, 3]\nto = [-5, 7.8]\n",
                     right = "[[bolts]]\nname = \"right\"\nstiffness = 1e8\nfrom = [0.5, 3]\nto = [4, 6.5]\n";
-  const std::string dug = stage("weight", "gravity_ramp_s = 1") +
-                          stage("dig", "excavate = [\"tunnel\"]\nlet_off = { share = 0.5, duration_s = 1 }");
+  const std::string dug =
+      stage("weight", "gravity_ramp_s = 1") +
+      stage("dig", "excavate = [\"tunnel\"]\nexcavation_forces = { remaining = 0.5, duration_s = 1 }");
   const auto last = [](const std::string& names) {
-    return stage("line", "install = [" + names + "]\nlet_off = { share = 0, duration_s = 1 }");
+    return stage("line", "install = [" + names + "]\nexcavation_forces = { remaining = 0, duration_s = 1 }");
   };
   const std::string support = held + shell + left + right;
   const Progress<2> together = whole_run(scene_of(rock + support + dug + last(R"("roof", "shell", "right")")));

@@ -191,7 +191,7 @@ TEST(IntegratedFaces, KeepTheirStressWhenTheyLoseASide) {
 
 // the error of the energy balance as a block rocks and twists on its face
 template <int Dim>
-double closure_of_rocking(const Spin<Dim>& spin, double fraction) {
+double energy_error_of_rocking(const Spin<Dim>& spin, double fraction) {
   Pressed<Dim> p(1e-4);
   p.settings.time.fraction = fraction;
   Motion<Dim>& motion = p.state.bodies.motions[p.block];
@@ -205,9 +205,9 @@ double closure_of_rocking(const Spin<Dim>& spin, double fraction) {
 }
 
 TEST(IntegratedFaces, ConserveEnergyAsTheyRockAndTwist) {
-  EXPECT_LT(closure_of_rocking<2>(Spin<2>(0.01), 0.02), 1e-6);
-  EXPECT_LT(closure_of_rocking<3>(Spin<3>(0, 0.01, 0), 0.02), 1e-6);
-  EXPECT_LT(closure_of_rocking<3>(Spin<3>(0.005, 0.01, 0.02), 0.02), 1e-5);
+  EXPECT_LT(energy_error_of_rocking<2>(Spin<2>(0.01), 0.02), 1e-6);
+  EXPECT_LT(energy_error_of_rocking<3>(Spin<3>(0, 0.01, 0), 0.02), 1e-6);
+  EXPECT_LT(energy_error_of_rocking<3>(Spin<3>(0.005, 0.01, 0.02), 0.02), 1e-5);
 }
 
 // a block that comes to equilibrium on a face does not keep rotating on it

@@ -35,7 +35,7 @@ bool all_directions_free(const Body<Dim>& body) {
 // loads that act on a body at any position
 constexpr bool follows_body(Source source) {
   return source == Source::gravity || source == Source::boundary_stress || source == Source::applied_forces ||
-         source == Source::let_off;
+         source == Source::excavation_forces;
 }
 
 // N, by body: of the loads that follow it, if nothing else exerts a force on it and it is free in all directions; else

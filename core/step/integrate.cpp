@@ -176,7 +176,7 @@ double force_at_rest(const Model<Dim>& model, int threads, const State<Dim>& sta
   }
   for (const StepSupport<Dim>& row : step_supports<Dim>)
     if (row.add_forces) row.add_forces(state.supports, sums);
-  return std::max({sums.all.mean(), sums.supports.mean(), mean_load(model, state, {Source::let_off}),
+  return std::max({sums.all.mean(), sums.supports.mean(), mean_load(model, state, {Source::excavation_forces}),
                    mean_load(model, state, {Source::applied_forces}),
                    mean_load(model, state, {Source::water, Source::water_pressure})});
 }

@@ -111,7 +111,7 @@ TEST(NewContacts, CountTheSlipOfTheirFirstStep) {
 constexpr double conserved = 1e-6, not_conserved = 1e-3;
 
 template <int Dim>
-double closure_of_rocking(int along) {
+double energy_error_of_rocking(int along) {
   Pressed<Dim> pressed(along, 1e-4, 0);
   Settings& settings = pressed.settings;
   settings.damping.local = 0;
@@ -131,10 +131,10 @@ double closure_of_rocking(int along) {
 }
 
 TEST(SubContacts, RockingConservesEnergy) {
-  EXPECT_GT(closure_of_rocking<2>(1), not_conserved);
+  EXPECT_GT(energy_error_of_rocking<2>(1), not_conserved);
   for (const int along : {2, 8}) {
-    EXPECT_LT(closure_of_rocking<2>(along), conserved) << along;
-    EXPECT_LT(closure_of_rocking<3>(along), conserved) << along;
+    EXPECT_LT(energy_error_of_rocking<2>(along), conserved) << along;
+    EXPECT_LT(energy_error_of_rocking<3>(along), conserved) << along;
   }
 }
 

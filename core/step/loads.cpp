@@ -150,7 +150,7 @@ constexpr LoadRow<Dim> load_table[] = {
      applied_loads<Dim>, applied_stiffness<Dim>, applied_tangent<Dim>},
     {Source::water, has_water_by_volume<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
     {Source::water_pressure, has_water_by_faces<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
-    {Source::let_off, [](const Model<Dim>&, const LoadInputs<Dim>& now) { return !now.relief.empty(); },
+    {Source::excavation_forces, [](const Model<Dim>&, const LoadInputs<Dim>& now) { return !now.relief.empty(); },
      held_loads<Dim>},
 };
 

@@ -24,10 +24,10 @@ double next_step(const Schedule& schedule, const TimeStep& time_step) {
 
 template <int Dim>
 void add_gravity_ramp(const Model<Dim>& model, const BodiesState<Dim>& bodies, Schedule& schedule,
-                      EnergyLedger& energy) {
+                      EnergyBalance& energy) {
   const double growth = schedule.gravity_factor - schedule.last_gravity_factor;
   schedule.last_gravity_factor = schedule.gravity_factor;
-  if (growth == 0 || energy.phase == LedgerPhase::not_begun) return;
+  if (growth == 0 || energy.phase == BalancePhase::not_begun) return;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (!model.bodies[b].immobile())
       energy.flows[Source::gravity_ramp] -=
@@ -38,7 +38,7 @@ void add_gravity_ramp(const Model<Dim>& model, const BodiesState<Dim>& bodies, S
 // its work on the bodies' motion counts, as for gravity itself.
 template <int Dim>
 void add_water_change(const Model<Dim>& model, int threads, const BodiesState<Dim>& bodies,
-                      const LoadsBySource<Dim>& by_source, Schedule& schedule, EnergyLedger& energy,
+                      const LoadsBySource<Dim>& by_source, Schedule& schedule, EnergyBalance& energy,
                       Relaxation<Dim>& relaxation) {
   std::vector<Load<Dim>>& imposed = relaxation.imposed;
   imposed.clear();
@@ -58,7 +58,7 @@ void add_water_change(const Model<Dim>& model, int threads, const BodiesState<Di
   const double growth = schedule.gravity_factor - schedule.last_gravity_factor;
   find_surfaces(model, schedule.water, growth, grown);
   schedule.last_water = schedule.water;
-  if (!model.water_by_volume || energy.phase == LedgerPhase::not_begun) return;
+  if (!model.water_by_volume || energy.phase == BalancePhase::not_begun) return;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].immobile() || !model.bodies[b].present) continue;
     const int body = static_cast<int>(b);
@@ -73,7 +73,7 @@ void add_water_change(const Model<Dim>& model, int threads, const BodiesState<Di
 
 template <int Dim>
 void add_ramps(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
-               const LoadsState<Dim>& loads, Schedule& schedule, EnergyLedger& energy, Relaxation<Dim>& relaxation) {
+               const LoadsState<Dim>& loads, Schedule& schedule, EnergyBalance& energy, Relaxation<Dim>& relaxation) {
   if (!model.waters.empty())
     add_water_change(model, settings.threads, bodies, loads.by_source, schedule, energy, relaxation);
   add_gravity_ramp(model, bodies, schedule, energy);
@@ -121,7 +121,7 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, const Counte
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                   \
   template void add_ramps<Dim>(const Model<Dim>&, const Settings&, const BodiesState<Dim>&, const LoadsState<Dim>&, \
-                               Schedule&, EnergyLedger&, Relaxation<Dim>&);                                         \
+                               Schedule&, EnergyBalance&, Relaxation<Dim>&);                                        \
   template void move_bodies<Dim>(const Model<Dim>&, const Settings&, const Counters&, BodiesState<Dim>&,            \
                                  ContactsState<Dim>&, LoadsState<Dim>&, Schedule&, Ledger&, TimeStep&,              \
                                  Relaxation<Dim>&);

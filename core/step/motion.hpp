@@ -11,7 +11,7 @@ namespace voussoir {
 // in their present position. Relaxation receives the change of loads that the water has imposed.
 template <int Dim>
 void add_ramps(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
-               const LoadsState<Dim>& loads, Schedule& schedule, EnergyLedger& energy, Relaxation<Dim>& relaxation);
+               const LoadsState<Dim>& loads, Schedule& schedule, EnergyBalance& energy, Relaxation<Dim>& relaxation);
 
 // A time step that the present contacts allow, then velocities, then positions; or a step of relaxation. Of contacts
 // only the rated area changes.

@@ -31,10 +31,10 @@ constexpr double least_damping = 1e-3;
 constexpr int steps_between_renewals = 10;
 
 // differences of relaxation and motion: the time step, and the energy removed by stopping
-void change_ways(EnergyLedger& energy, TimeStep& time_step) {
+void change_ways(EnergyBalance& energy, TimeStep& time_step) {
   time_step.frequency.clear();
   time_step.allowed = 0;
-  if (energy.phase == LedgerPhase::running) energy.phase = LedgerPhase::model_changed;
+  if (energy.phase == BalancePhase::running) energy.phase = BalancePhase::model_changed;
 }
 
 template <int Dim>
@@ -80,7 +80,7 @@ double critical_damping(const Model<Dim>& model, const Schedule& schedule, const
     const Motion<Dim>& m = bodies.motions[b];
     const Spin<Dim> spin = angular_velocity(model.bodies[b], m);
     Load<Dim> now{loads.total[b].force - weight(model, schedule, b), loads.total[b].moment};
-    if (const std::vector<Load<Dim>>& held = loads.by_source[Source::let_off]; !held.empty()) {
+    if (const std::vector<Load<Dim>>& held = loads.by_source[Source::excavation_forces]; !held.empty()) {
       now.force -= held[b].force;
       now.moment -= held[b].moment;
     }
@@ -113,12 +113,12 @@ bool at_constant_rate(const StagePlan& stage) {
 
 }  // namespace
 
-bool begins_relaxing(const StagePlan& stage, const DampingSettings& damping) {
-  return relaxes(!std::holds_alternative<RunPlan>(stage.plan), damping);
+bool begins_relaxing(const StagePlan& stage, const StaticsSettings& statics) {
+  return relaxes(!std::holds_alternative<RunPlan>(stage.plan), statics);
 }
 
-bool ends_relaxed(const StagePlan& stage, const DampingSettings& damping) {
-  return begins_relaxing(stage, damping) && !at_constant_rate(stage);
+bool ends_relaxed(const StagePlan& stage, const StaticsSettings& statics) {
+  return begins_relaxing(stage, statics) && !at_constant_rate(stage);
 }
 
 template <int Dim>

@@ -19,17 +19,17 @@
 namespace voussoir {
 
 // Whether a run relaxes: one to equilibrium, unless by true motion.
-inline bool relaxes(bool seeks_rest, const DampingSettings& damping) {
-  return seeks_rest && damping.statics != Statics::local;
+inline bool relaxes(bool seeks_rest, const StaticsSettings& statics) {
+  return seeks_rest && statics.method != Statics::local;
 }
 
-// Whether a stage with this damping begins by relaxation, which stops every body; every reduction begins in
+// Whether a stage with these settings begins by relaxation, which stops every body; every reduction begins in
 // equilibrium.
-bool begins_relaxing(const StagePlan& stage, const DampingSettings& damping);
+bool begins_relaxing(const StagePlan& stage, const StaticsSettings& statics);
 
 // Whether it ends by relaxation, so that its time and its velocities are fictitious; a reduction at constant rate ends
 // in true motion.
-bool ends_relaxed(const StagePlan& stage, const DampingSettings& damping);
+bool ends_relaxed(const StagePlan& stage, const StaticsSettings& statics);
 
 // Stops all bodies; from here on the steps relax. Changes all but contacts, supports, schedule and counters.
 template <int Dim>

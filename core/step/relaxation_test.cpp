@@ -39,7 +39,7 @@ struct Rest {
 
 Rest rest_of(const Model<2>& model, Statics statics, int threads = 1) {
   Settings settings;
-  settings.damping.statics = statics;
+  settings.statics.method = statics;
   settings.damping.local = 0.8;
   settings.threads = threads;
   Rest rest{{}, initial_state(model)};
@@ -103,7 +103,7 @@ TEST(Relaxation, ABlockThatMayRotateComesToTheSameEquilibrium) {
   const Model<3> model = block_on_plate<3>(20 * degree, 35 * degree);
   const auto rest = [&](Statics statics) {
     Settings settings;
-    settings.damping.statics = statics;
+    settings.statics.method = statics;
     State<3> state = initial_state(model);
     const RunReport report = run<3>(model, settings, {.rest = true, .step_limit = 200'000},
                                     {.gravity = {.ramp = 0.2}, .properties = {}}, state);
@@ -126,7 +126,7 @@ TEST(Relaxation, DoesNotDependOnTimeAndThreads) {
 // the work of weight is in the springs or removed; there is no kinetic energy
 TEST(Relaxation, TheEnergyBalanceIsThatOfSprings) {
   const Rest rest = rest_of(column(10), Statics::adaptive);
-  const EnergyLedger& e = rest.state.ledger.energy;
+  const EnergyBalance& e = rest.state.ledger.energy;
   EXPECT_EQ(e.kinetic, 0);
   EXPECT_EQ(e.flows[Source::local_damping], 0);
   EXPECT_LT(e.flows[Source::friction],

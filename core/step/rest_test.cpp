@@ -66,7 +66,8 @@ void expect_largest_mean(Engine& engine) {
     supports.add(spring.force);
   }
   means = {contacts_and_supports.value(), supports.value()};
-  for (const Source source : {Source::let_off, Source::applied_forces, Source::water_pressure, Source::gravity}) {
+  for (const Source source :
+       {Source::excavation_forces, Source::applied_forces, Source::water_pressure, Source::gravity}) {
     if (chance(0.5)) continue;
     state.loads.by_source[source].resize(count);
     Mean mean;
@@ -126,12 +127,12 @@ name = "dig"
 kind = "settle"
 excavate = ["hole"]
 install = ["b"]
-let_off = { share = 1, duration_s = 1 }
+excavation_forces = { remaining = 1, duration_s = 1 }
 step_limit = 100000
 [[stage]]
 name = "off"
 kind = "settle"
-let_off = { share = 0.4, duration_s = 1 }
+excavation_forces = { remaining = 0.4, duration_s = 1 }
 )";
 
 // A share of 1 changes nothing. What is let off then comes on the bolts: (1 - share) of the slab's weight, 2 m by 1 m.
@@ -139,8 +140,8 @@ TEST(Rest, OfRockThatReliefLoadsHoldComesAtOnce) {
   const double weight = 2600 * 9.81 * 2;
   for (const std::string statics : {"local", "adaptive", "newton"})
     for (const double share : {0.4, 0.9}) {
-      const Progress<2> progress =
-          run_of<2>(hung_slab, {"damping.statics=" + statics, "stage.off.let_off.share=" + std::to_string(share)});
+      const Progress<2> progress = run_of<2>(
+          hung_slab, {"statics=" + statics, "stage.off.excavation_forces.remaining=" + std::to_string(share)});
       const Results& results = progress.results;
       ASSERT_EQ(results.outcome, Outcome::done) << results.message;
       for (const BoltRow& bolt : results.bolts) {
@@ -149,7 +150,7 @@ TEST(Rest, OfRockThatReliefLoadsHoldComesAtOnce) {
       }
       // the stage takes its ramp, 1 s, and the few steps of the equilibrium window
       EXPECT_LT(results.stages[1].time, 1.05) << statics;
-      EXPECT_EQ(results.relief_left, share);
+      EXPECT_EQ(results.forces_remaining, share);
     }
 }
 
@@ -170,7 +171,7 @@ domain = {{ box = {{ min = [0, 0], max = [4, 3] }} }}
 joints = [{{ name = "bed", dip = 0, point = [0, 1] }}]
 joint_properties = [{{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 40 }}]
 fix = [{{ below = "bed" }}]
-damping = {{ statics = "{}" }}
+statics = "{}"
 water = [{{ name = "seep", pressure = 0, faces = ["bed"] }}]
 monitors = [{{ name = "bed", joint = "bed", quantities = ["contact_force"] }}]
 [[stage]]

@@ -385,8 +385,8 @@ void begin_newton(const Model<Dim>& model, const Settings& settings, double ramp
   Newton<Dim>(model, settings, state).take_base();
   if (!(ramp > 0)) return;
   n.trial = StaticIncrement<Dim>::Trial::waiting;
-  n.increments_left = settings.damping.increments - 1;
-  n.increment_time = ramp / settings.damping.increments;
+  n.increments_left = settings.statics.increments - 1;
+  n.increment_time = ramp / settings.statics.increments;
   n.ends = state.schedule.time + ramp;
 }
 

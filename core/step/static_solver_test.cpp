@@ -36,8 +36,8 @@ template <int Dim>
 std::pair<RunReport, State<Dim>> rest_of(const Model<Dim>& model, Statics statics, int threads = 1,
                                          const RunSchedule& schedule = {}, int increments = 1) {
   Settings settings;
-  settings.damping.statics = statics;
-  settings.damping.increments = increments;
+  settings.statics.method = statics;
+  settings.statics.increments = increments;
   settings.threads = threads;
   State<Dim> state = initial_state(model);
   const RunReport report = run<Dim>(model, settings, {.rest = true, .step_limit = 1'000'000}, schedule, state);
@@ -157,7 +157,7 @@ TEST(Newton, EverySubContactHasItsStiffness) {
 TEST(Newton, ASlideIsFollowed) {
   const Model<2> model = block_on_plate<2>(30 * degree, 20 * degree);
   Settings settings;
-  settings.damping.statics = Statics::newton;
+  settings.statics.method = Statics::newton;
   State<2> state = initial_state(model);
   const RunReport report =
       run<2>(model, settings, {.rest = true, .step_limit = 100'000, .moved_away = 0.05}, {}, state);
@@ -234,7 +234,7 @@ TEST(Newton, ForcesAtALeverHaveTheEquilibriumOfRelaxation) {
 template <int Dim>
 RunReport no_rest_of(const Model<Dim>& model) {
   Settings settings;
-  settings.damping.statics = Statics::newton;
+  settings.statics.method = Statics::newton;
   State<Dim> state = initial_state(model);
   return run<Dim>(model, settings, {.rest = true, .step_limit = 20'000}, {}, state);
 }
@@ -394,8 +394,8 @@ TEST(Newton, MayBeInterruptedAfterEveryEvaluation) {
   Prepared<2> scene;
   scene.model = block_on_plate<2>(20 * degree, 35 * degree);
   scene.state = initial_state(scene.model);
-  scene.settings.damping.statics = Statics::newton;
-  scene.settings.damping.increments = 3;
+  scene.settings.statics.method = Statics::newton;
+  scene.settings.statics.increments = 3;
   StagePlan settle;
   settle.name = "settle";
   settle.plan = SettlePlan{.gravity = {.ramp = 1}};

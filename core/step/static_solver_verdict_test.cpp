@@ -119,7 +119,7 @@ struct Verdict {
 template <int Dim>
 Verdict verdict(const Model<Dim>& model, double tangent, Statics statics) {
   Settings settings;
-  settings.damping.statics = statics;
+  settings.statics.method = statics;
   State<Dim> state = initial_state(model);
   RunGoal goal{.rest = true, .step_limit = 1'000'000};
   const RunReport settled = run<Dim>(model, settings, goal, {}, state);

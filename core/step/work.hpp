@@ -14,6 +14,6 @@ namespace voussoir {
 // kinetic energy.
 template <int Dim>
 void add_work(const Model<Dim>& model, int threads, const std::vector<Kick<Dim>>& kicks, const LoadsState<Dim>& loads,
-              const Relaxation<Dim>& relaxation, EnergyLedger& energy);
+              const Relaxation<Dim>& relaxation, EnergyBalance& energy);
 
 }  // namespace voussoir

@@ -51,7 +51,7 @@ name = "boundary"
 dip = 0
 point = [0, 0, -0.8]
 kind = "boundary"
-whole = "below"
+fixed_side = "below"
 properties = "rock"
 [[excavations]]
 name = "tunnel"
@@ -195,12 +195,14 @@ velocity = [1, 0, 0]
 [[stage]]
 name = "settle"
 kind = "settle"
+statics = "adaptive"
+static_increments = 4
 damping = {}
 fix = [{ bodies = ["by planes"] }]
 water = [{ name = "lake", level = 0.1, duration_s = 5 }]
 excavate = ["tunnel"]
 install = ["roof", "anchor", "dowel", "bar", "plain bar"]
-let_off = { share = 0.5, duration_s = 1 }
+excavation_forces = { remaining = 0.5, duration_s = 1 }
 [[stage]]
 name = "run"
 kind = "run"

@@ -152,7 +152,8 @@ duration_s = 1.4
 name = "rest"
 kind = "settle"
 time_limit_s = 60
-damping = {{ statics = "local", local = 0.1 }}
+statics = "local"
+damping = {{ local = 0.1 }}
 
 [output]
 frame_interval_s = 0.2

@@ -267,7 +267,7 @@ std::vector<Face> wall(const std::vector<Block>& blocks, const Polygon& outline,
   return sorted;
 }
 
-void let_off(std::vector<Block>& blocks, const std::vector<Face>& wall, const InSitu& stress, double share) {
+void relieve(std::vector<Block>& blocks, const std::vector<Face>& wall, const InSitu& stress, double share) {
   // two points of Gauss: the moment of a stress linear along the face is of second degree
   const double from_middle = 0.5 / std::numbers::sqrt3;
   for (const Face& face : wall)

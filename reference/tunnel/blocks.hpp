@@ -64,7 +64,7 @@ struct InSitu {
 
 // Loads the blocks by the reversed forces of the removed rock on them, times `share`: towards the opening under
 // compression. Exact in force and moment.
-void let_off(std::vector<Block>& blocks, const std::vector<Face>& wall, const InSitu& stress, double share = 1);
+void relieve(std::vector<Block>& blocks, const std::vector<Face>& wall, const InSitu& stress, double share = 1);
 
 // A spring at each face that the line from collar to toe crosses, its anchors `offset` (m) to both sides, but not
 // further than the middle of the bolt's segment in that block; infinite: midway. The first block is nearer to the

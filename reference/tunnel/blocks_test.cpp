@@ -131,7 +131,7 @@ TEST(NetworkBlocks, ReliefLoadsAreTheWeightOfTheRemovedRock) {
     corner = {corner[0] + 0.7, corner[1] - 1.2};
   std::vector<Block> blocks =
       take_out(cut(box(-8, -8, 8, 8), persistent_sets({0.2, 1.3}, {0.1, 0.4}, 1.1, 12), 1e-9), outline, 1e-9);
-  let_off(blocks, wall(blocks, outline, 1e-8), {25, 26e3, 0.6, 1e5}, 0.5);
+  relieve(blocks, wall(blocks, outline, 1e-8), {25, 26e3, 0.6, 1e5}, 0.5);
   double up = 0, right = 0, moment = 0, largest = 0;
   for (const Block& block : blocks) {
     const Point at = centroid(block);
@@ -147,7 +147,7 @@ TEST(NetworkBlocks, ReliefLoadsAreTheWeightOfTheRemovedRock) {
   EXPECT_NEAR(moment, up * centroid(gone)[0], 1e-1);
 
   std::vector<Block> pair{{{box(-2, -1, -1, 1)}}, {{box(1, -1, 2, 1)}}};
-  let_off(pair, wall(pair, box(-1, -1, 1, 1), 1e-9), {0, 0, 1, 1e5});
+  relieve(pair, wall(pair, box(-1, -1, 1, 1), 1e-9), {0, 0, 1, 1e5});
   EXPECT_NEAR(pair[0].load[0], 2e5, 1e-6);  // into the opening
   EXPECT_NEAR(pair[1].load[0], -2e5, 1e-6);
 }

@@ -169,7 +169,7 @@ Ratios ratios(double relative_spacing, int offset) {
   const IsotropicOpening stated = opening(relative_spacing, offset);
   const IsotropicModuli& rock = stated.moduli;
   OpeningNetwork built = build(stated);
-  let_off(built.network.blocks, built.wall, {0, 0, 1, pressure});
+  relieve(built.network.blocks, built.wall, {0, 0, 1, pressure});
   Ratios ratio{};
   for (std::size_t i = 0; i < interfaces.size(); ++i) {
     OpeningNetwork lined = built;
@@ -235,13 +235,13 @@ TEST(IsotropicOpeningLong, ExtrapolatesToTheSmearedForms) {
 TEST(IsotropicOpening, RelaxationBeforeSupport) {
   OpeningNetwork built = build(opening(0.4, 1));
   OpeningNetwork whole = built;
-  let_off(whole.network.blocks, whole.wall, {0, 0, 1, pressure});
+  relieve(whole.network.blocks, whole.wall, {0, 0, 1, pressure});
   add_fan(whole, bolts, bolt_length, bolt_stretch * mean_crossings(2), anchor);
   add_ring(whole, axial, bending, interfaces[2]);
   const Solution at_once = solve(whole.network);
   for (const double before : {0.3, 0.6}) {
     OpeningNetwork unsupported = built;
-    let_off(unsupported.network.blocks, unsupported.wall, {0, 0, 1, pressure}, before);
+    relieve(unsupported.network.blocks, unsupported.wall, {0, 0, 1, pressure}, before);
     OpeningNetwork late = whole;
     install(late.network, solve(unsupported.network));
     const Solution supported = solve(late.network);
@@ -259,7 +259,7 @@ TEST(IsotropicOpening, RelaxationBeforeSupport) {
 TEST(IsotropicOpening, UnsupportedConvergence) {
   const IsotropicOpening stated = opening(0.2, 2);
   OpeningNetwork built = build(stated);
-  let_off(built.network.blocks, built.wall, {0, 0, 1, pressure});
+  relieve(built.network.blocks, built.wall, {0, 0, 1, pressure});
   const Solution solution = solve(built.network);
   const double due = pressure * radius / 2 /
                      modulus_of_held_rock(stated.moduli.shear_modulus, stated.moduli.poisson_ratio, radius, 7 * radius);

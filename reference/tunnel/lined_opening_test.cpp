@@ -77,7 +77,7 @@ RingLiningForces by_network(const LinedOpening& o, double relative_spacing) {
   OpeningNetwork built =
       build({o.radius, o.fixed_radius, 96, relative_spacing * o.radius, 0.1, {0.13, 0.55, 0.77}, o.rock, 2});
   constexpr double deep = 1e7;  // m: stress that is uniform to 1e-6
-  let_off(built.network.blocks, built.wall, {deep, o.vertical / deep, o.k0, 0});
+  relieve(built.network.blocks, built.wall, {deep, o.vertical / deep, o.k0, 0});
   add_ring(built, o.axial, o.bending, o.interface);
   const Solution solution = solve(built.network);
   RingLiningForces forces;

@@ -31,7 +31,7 @@ KeyTable joint_keys() {
      .example = "\"construction\"",
      .meaning = "boundary: one side is not cut further and is fixed; construction: the two sides are one body; fictitious: a cut through "
          "intact rock"},
-    {.key = "whole", .members = {one_of(&JointSpec::whole,
+    {.key = "fixed_side", .members = {one_of(&JointSpec::fixed_side,
          {{"below", JointSide::below}, {"above", JointSide::above}})},
      .example = "\"below\"", .required = true, .when = {"kind", "boundary"},
      .meaning = "the side that later joints do not cut and that never moves"},

@@ -40,13 +40,14 @@ KeyTable stage_change_keys() {
   }};
 }
 
-KeyTable let_off_keys() {
-  return {"let_off", {
-    {.key = "share", .members = {in(&LetOffPlan::share)}, .unit = "1", .range = {0, 1},
+KeyTable excavation_forces_keys() {
+  return {"excavation_forces", {
+    {.key = "remaining", .members = {in(&ExcavationForcesPlan::remaining)}, .unit = "1", .range = {0, 1},
      .plausible = {.low = 0.01, .high = 1, .or_zero = true}, .example = "0.4", .required = true,
-     .meaning = "of these forces that still acts when the stage has ended, and goes on acting until a later stage lets off "
-         "more; at most what acts before, 0: all is let off", .mistake = "was it given in percent?"},
-    {.key = "duration_s", .members = {in(&LetOffPlan::duration)}, .unit = "s", .range = {0, 1e9, true},
+     .meaning = "fraction of these forces that still acts when the stage has ended, and until a later stage states a smaller "
+         "one; at most the fraction before, 0: none acts; the convergence-confinement method's relaxation is "
+         "λ = 1 - remaining", .mistake = "was it given in percent?"},
+    {.key = "duration_s", .members = {in(&ExcavationForcesPlan::duration)}, .unit = "s", .range = {0, 1e9, true},
      .plausible = plausible_ramp, .example = "1", .no_default = true,
      .meaning = "time within which they fall to it, linearly, from the begin of the stage on. In a stage of kind run at "
          "most its duration_s, which it is where it is not stated; in one of kind settle it must be stated and is a ramp, "

@@ -19,9 +19,9 @@ KeyTable stage_run_keys() {
          "gravity"},
     {.key = "water", .type = tables, .when = {"kind", "settle|run"}, .holds = {"water_change", "water_surface"},
      .meaning = "waters that rise, fall or change within the stage, and then keep their last value"},
-    {.key = "let_off", .type = table, .when = {"kind", "settle|run"}, .holds = {"let_off"},
-     .meaning = "excavated rock is not gone at once: the forces by which it held the rest, in this stage and in stages "
-         "before that let off a part, stay as loads and fall within the stage"},
+    {.key = "excavation_forces", .type = table, .when = {"kind", "settle|run"}, .holds = {"excavation_forces"},
+     .meaning = "the forces by which excavated rock supported the rest, in this stage and in stages before that state "
+         "them, are not removed at once: they stay as loads and fall within the stage"},
     {.key = "time_limit_s", .members = {in(&SettlePlan::time_limit)}, .unit = "s", .range = {0, 1e9, true},
      .plausible = {0.1, 1e4}, .example = "60", .when = {"kind", "settle"},
      .meaning = "the stage gives up if equilibrium is not reached by then", .mistake = "was it given in ms?"},

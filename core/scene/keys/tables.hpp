@@ -33,6 +33,7 @@ KeyTable motion_keys();
 KeyTable accuracy_keys();
 KeyTable contact_keys();
 KeyTable copies_keys();
+std::vector<KeyRow> statics_rows();  // of a scene
 KeyTable damping_keys();
 KeyTable time_keys();
 KeyTable equilibrium_keys();
@@ -41,7 +42,8 @@ KeyTable stage_keys();
 KeyTable stage_run_keys();
 KeyTable stage_reduce_keys();
 KeyTable stage_change_keys();
-KeyTable let_off_keys();
+KeyTable stage_statics_keys();
+KeyTable excavation_forces_keys();
 KeyTable stage_friction_keys();
 KeyTable move_keys();
 std::vector<KeyTable> stage_load_keys();

@@ -24,7 +24,7 @@ KeyTable equilibrium_keys() {
     {.key = "unbalanced", .members = {in(&EquilibriumSettings::unbalanced)}, .unit = "1", .range = {0, 1, true},
      .plausible = {1e-9, 5e-3}, .example = "1e-7",
      .meaning = "equilibrium: for every free block the unbalanced force and moment stay below this fraction of the mean "
-         "force of contacts and supports, or of relief loads (let_off), applied forces or water where these are larger",
+         "force of contacts and supports, or of relief loads (excavation_forces), applied forces or water where these are larger",
      .breaks = "too large: slow sliding is taken for equilibrium"},
     {.key = "window", .members = {in(&EquilibriumSettings::window)}, .unit = "steps", .range = {1, 1e6},
      .plausible = {2, 1000}, .example = "50",

@@ -54,6 +54,8 @@ KeyTable top_keys() {
   }};
   for (KeyRow& row : support_rows())
     top.rows.push_back(std::move(row));
+  for (KeyRow& row : statics_rows())
+    top.rows.push_back(std::move(row));
   const std::vector<KeyRow> others{
     {.key = "fix", .type = tables, .holds = {"label", "selector"}, .meaning = "blocks that never move"},
     {.key = "restrain", .type = tables, .holds = {"label", "restrain", "selector"},
