@@ -223,8 +223,8 @@ std::string points_table(const std::vector<CaseStudy>& studies) {
          rows + "\n";
 }
 
-// sweeps over the static solution method: "way to rest: local damping"
-constexpr std::string_view way_to_rest = "way to rest: ";
+// sweeps over the static solution method: "static solution: local damping"
+constexpr std::string_view way_to_rest = "static solution: ";
 
 // a column for each method, a row for each case; first the error, then the cost
 std::string ways_table(const std::vector<CaseStudy>& studies) {

@@ -65,8 +65,8 @@ TEST(Trade, ListsThePointsAlongAFace) {
 TEST(Trade, ComparesTheStaticSolutionMethods) {
   const std::string lines =
       "default,,,,angle,30,0,deg,ok,100,10,1\n"
-      "way to rest: true motion,damping.viscous_ratio,0.3,,angle,,,deg,incomplete: step limit,100,10,1\n"
-      "way to rest: Newton,static_increments,4,,angle,30.3,0,deg,ok,7,11,1.5\n";
+      "static solution: true motion,damping.viscous_ratio,0.3,,angle,,,deg,incomplete: step limit,100,10,1\n"
+      "static solution: Newton,static_increments,4,,angle,30.3,0,deg,ok,7,11,1.5\n";
   const std::string page = trade_markdown({made("slope", lines), made("flight", flight)});
   EXPECT_NE(page.find("| error with error bar | true motion | Newton, 4 |\n|---|--:|--:|\n"
                       "| [slope](../slope/README.md) | **incomplete** | 1 % |\n\n"
