@@ -27,7 +27,7 @@ std::string joints_title(const Model<Dim>& model, const Body<Dim>& body) {
     for (const int joint : part.joints)
       if (joint >= 0 && joint < static_cast<int>(model.joints.size())) joints.push_back(joint);
   std::ranges::sort(joints);
-  joints.erase(std::ranges::unique(joints).begin(), joints.end());
+  joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
   if (joints.empty()) return "";
   std::string text = joints.size() == 1 ? "of joint " : "of joints ";
   for (std::size_t k = 0; k < std::min(joints.size(), most_joints_named); ++k)
